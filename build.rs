@@ -1,0 +1,23 @@
+//! Renders every committed graph to Rust; stops where a graph is not its layout's.
+
+#[path = "src/diagnostic/mod.rs"]
+#[allow(dead_code, unused_imports, reason = "the scenario reader's half is not used here")]
+mod diagnostic;
+#[path = "src/layout.rs"]
+#[allow(dead_code, reason = "only the content hash is wanted here")]
+mod layout;
+#[path = "codegen/render.rs"]
+mod render;
+#[path = "codegen/stage.rs"]
+mod stage;
+
+fn main() {
+    for folder in ["graphs", "layouts", "templates"] {
+        println!("cargo::rerun-if-changed=codegen/{folder}");
+    }
+    let out = std::env::var_os("OUT_DIR").unwrap_or_default();
+    if let Err(problem) = stage::render_all("codegen".as_ref(), out.as_ref()) {
+        eprintln!("{problem}");
+        std::process::exit(1);
+    }
+}

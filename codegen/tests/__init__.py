@@ -1,0 +1,1 @@
+"""Tests of the derivation; run with `cargo test` or `python -m codegen --test`."""

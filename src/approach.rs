@@ -1,0 +1,108 @@
+//! The approach phase of a scenario: trajectory and tracking put together.
+
+use crate::control::{ExactTracking, ProportionalDerivative};
+use crate::dynamics::Model;
+use crate::scenario::{Scenario, Tracking, TrajectoryKind};
+use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Trajectory};
+
+/// The approach of one scenario.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<'a> {
+    scenario: &'a Scenario,
+    timing: Timing,
+}
+
+impl<'a> Approach<'a> {
+    /// The approach that a scenario describes, sampled every `sample` seconds.
+    #[must_use]
+    pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
+        let timing = Timing { duration: scenario.approach.duration, step: scenario.approach.step, sample };
+        Self { scenario, timing }
+    }
+
+    /// Number of steps.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.timing.steps()
+    }
+
+    /// Runs it as the scenario says, with these end rates (rad/s; a cycloidal trajectory has none).
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+        match &self.scenario.approach.tracking {
+            Tracking::Exact => self.track_exactly(model, rates, tick),
+            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
+                let trajectory = self.trajectory(rates);
+                let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
+                let initial = &self.scenario.initial;
+                let initial = Motion {
+                    base_pose: initial.base_pose,
+                    joint_angles: initial.joint_angles.clone(),
+                    base_twist: initial.base_twist,
+                    joint_rates: initial.joint_rates.clone(),
+                };
+                simulate(model, &mut law, &initial, &self.timing, tick)
+            }
+        }
+    }
+
+    /// Runs it with torques from inverse dynamics, from zero joint rates.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_exactly(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let joints = model.joints();
+        let mut law = ExactTracking {
+            trajectory: self.trajectory(rates),
+            generalized_inertia: &mut vec![0.0; joints * joints],
+            generalized_bias: &mut vec![0.0; joints],
+            generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+        };
+        let initial = Motion {
+            base_pose: self.scenario.initial.base_pose,
+            joint_angles: self.scenario.initial.joint_angles.clone(),
+            base_twist: self.scenario.initial.base_twist,
+            joint_rates: vec![0.0; joints],
+        };
+        simulate(model, &mut law, &initial, &self.timing, tick)
+    }
+
+    fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {
+        let ends = Ends {
+            initial_angles: &self.scenario.initial.joint_angles,
+            final_angles: &self.scenario.approach.final_joint_angles,
+            duration: self.timing.duration,
+        };
+        match self.scenario.approach.trajectory {
+            TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),
+            TrajectoryKind::QuarticAsPrinted => AnyTrajectory::QuarticAsPrinted(QuarticAsPrinted { ends, final_rates }),
+            TrajectoryKind::Cycloidal => AnyTrajectory::Cycloidal(Cycloidal { ends }),
+        }
+    }
+}
+
+/// One of the trajectories that a scenario can name.
+#[derive(Clone, Copy, Debug)]
+enum AnyTrajectory<'a> {
+    Quartic(Quartic<'a, f64>),
+    QuarticAsPrinted(QuarticAsPrinted<'a, f64>),
+    Cycloidal(Cycloidal<'a, f64>),
+}
+
+impl Trajectory<f64> for AnyTrajectory<'_> {
+    fn joint(&self, joint: usize, time: f64) -> Option<Desired<f64>> {
+        match self {
+            Self::Quartic(t) => t.joint(joint, time),
+            Self::QuarticAsPrinted(t) => t.joint(joint, time),
+            Self::Cycloidal(t) => t.joint(joint, time),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What must not change while the robot moves, watched in every run.
+
+use crate::dynamics::{Model, Momentum};
+use crate::error::Error;
+use crate::state::State;
+
+/// How far a phase strayed from the conservation laws, relative to what moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drift {
+    /// Largest change of momentum over the largest Σ m|v|, or the same for the angular momentum about the inertial
+    /// origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing moves.
+    pub momentum_drift: f64,
+    /// Largest |E(t) − E(0) − work of the joint torques| over the largest kinetic energy; 0 where nothing moves.
+    pub energy_error: f64,
+}
+
+/// Watches one phase.
+pub struct Audit<'a> {
+    model: &'a dyn Model<f64>,
+    inertias: Vec<[f64; 2]>,
+    poses: Vec<[f64; 3]>,
+    twists: Vec<[f64; 3]>,
+    start: Momentum<f64>,
+    linear: Ratio,
+    angular: Ratio,
+    energy: Ratio,
+}
+
+/// The largest deviation over the largest scale.
+#[derive(Clone, Copy, Debug, Default)]
+struct Ratio {
+    deviation: f64,
+    scale: f64,
+}
+
+impl Ratio {
+    fn record(&mut self, deviation: f64, scale: f64) {
+        self.deviation = self.deviation.max(deviation.abs());
+        self.scale = self.scale.max(scale);
+    }
+
+    fn value(self) -> f64 {
+        if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }
+    }
+}
+
+impl<'a> Audit<'a> {
+    /// Starts watching at a state; work is counted from here.
+    ///
+    /// # Errors
+    /// What the model says of the state.
+    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>) -> Result<Self, Error> {
+        let bodies = model.joints() + 1;
+        let mut inertias = vec![[0.0; 2]; bodies];
+        model.body_inertias(&mut inertias)?;
+        let start = model.momentum(state)?;
+        let none = Ratio::default();
+        let (poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
+        let mut audit = Self { model, inertias, poses, twists, start, linear: none, angular: none, energy: none };
+        audit.record(state, 0.0)?;
+        Ok(audit)
+    }
+
+    /// Looks at one state, `work` (J) having been done on the robot since the start.
+    ///
+    /// # Errors
+    /// What the model says of the state.
+    pub fn record(&mut self, state: &State<'_, f64>, work: f64) -> Result<Momentum<f64>, Error> {
+        let now = self.model.momentum(state)?;
+        self.model.body_poses(&state.base_pose, state.joint_angles, &mut self.poses)?;
+        self.model.body_twists(state, &mut self.twists)?;
+        let (mut linear, mut angular) = (0.0, 0.0);
+        for ([mass, inertia], ([_, x, y], [omega, vx, vy])) in
+            self.inertias.iter().zip(self.poses.iter().zip(&self.twists))
+        {
+            linear += mass * vx.hypot(*vy);
+            angular += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
+        }
+        let change = [0, 1].map(|axis: usize| now.linear_momentum[axis] - self.start.linear_momentum[axis]);
+        self.linear.record(change[0].hypot(change[1]), linear);
+        self.angular.record(now.angular_momentum - self.start.angular_momentum, angular);
+        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - work, now.kinetic_energy);
+        Ok(now)
+    }
+
+    /// The phase so far.
+    #[must_use]
+    pub fn drift(&self) -> Drift {
+        Drift {
+            momentum_drift: self.linear.value().max(self.angular.value()),
+            energy_error: self.energy.value(),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Checks at the border between slices and straight-line code.
+
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// A slice as an array, or what is wrong with its length.
+pub(crate) fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
+    slice.first_chunk().filter(|_| slice.len() == N).ok_or(Error::Length { quantity, expected: N, found: slice.len() })
+}
+
+/// Copies a result out, after the length and the numbers were found good.
+pub(crate) fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
+    if into.len() != values.len() {
+        return Err(Error::Length { quantity, expected: values.len(), found: into.len() });
+    }
+    finite(quantity, values)?;
+    into.copy_from_slice(values);
+    Ok(())
+}
+
+/// As [`store`], for lists of rows.
+pub(crate) fn store_rows<T: Real, const C: usize>(
+    quantity: &'static str,
+    rows: &[[T; C]],
+    into: &mut [[T; C]],
+) -> Result<(), Error> {
+    if into.len() != rows.len() {
+        return Err(Error::Length { quantity, expected: rows.len(), found: into.len() });
+    }
+    finite(quantity, rows.as_flattened())?;
+    into.copy_from_slice(rows);
+    Ok(())
+}
+
+/// The first number that is NaN or infinite is an error.
+pub(crate) fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
+    match values.iter().position(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(Error::NotFinite { quantity, index, value: values.get(index).map_or(f64::NAN, |v| v.to_f64()) }),
+    }
+}
+
+/// All numbers of a state.
+pub(crate) fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
+    finite_configuration(&state.base_pose, state.joint_angles)?;
+    finite("base_twist", &state.base_twist)?;
+    finite("joint_rates", state.joint_rates)
+}
+
+/// All numbers of a configuration.
+pub(crate) fn finite_configuration<T: Real>(base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
+    finite("base_pose", base_pose)?;
+    finite("joint_angles", joint_angles)
+}
+
+/// A relative pivot has to exceed a few rounding units.
+pub(crate) fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
+    let limit = T::EPSILON.to_f64() * 8.0;
+    let pivot = smallest.to_f64();
+    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
+}

@@ -1,0 +1,120 @@
+//! End rates of the approach, designed from the tip twists that are wanted at contact.
+
+use crate::approach::Approach;
+use crate::dynamics::Model;
+use crate::simulate::{Motion, Phase, Sample, Stopped};
+use nalgebra::{DMatrix, DVector};
+
+/// Fixed-point iterations before giving up; each gains several digits.
+const MOST_ITERATIONS: usize = 60;
+/// Two iterations agree when no joint rate differs by more than this part of the largest.
+const AGREEMENT: f64 = 1e-13;
+/// What of the wanted twist may be missed where the generalized Jacobian cannot give it.
+const MISS: f64 = 1e-9;
+
+/// Why no end rates were found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DesignError {
+    /// The approach could not be tracked.
+    #[error("while the end rates were designed, {0}")]
+    Stopped(#[from] Stopped),
+    /// The wanted twist is out of reach at the final pose.
+    #[error(
+        "the wanted tip twists are out of reach at the final pose: the generalized Jacobian ({rows} × {columns}, singular \
+         values {largest:.3e} to {smallest:.3e}) misses them by {miss:.3e} (m/s or rad/s). Choose other \
+         final_joint_angles, or final_end_effector_twists that the arms can give"
+    )]
+    Unreachable {
+        /// 3 per arm.
+        rows: usize,
+        /// Joints.
+        columns: usize,
+        /// Largest singular value.
+        largest: f64,
+        /// Smallest singular value.
+        smallest: f64,
+        /// Largest component of the twist that is missed.
+        miss: f64,
+    },
+    /// The iteration goes on and on.
+    #[error("the end rates did not settle: after {iterations} iterations they still change by {change:.3e} rad/s")]
+    Unsettled {
+        /// How many were made.
+        iterations: usize,
+        /// Largest change in the last one, rad/s.
+        change: f64,
+    },
+}
+
+/// End rates θ̇(T) such that `J(q(T)) θ̇(T)` is the wanted tip twist, and what the design saw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Design {
+    /// rad/s, to be put into the trajectory.
+    pub joint_rates: Vec<f64>,
+    /// Smallest singular value of the generalized Jacobian at the final pose over its largest.
+    pub singularity_margin: f64,
+    /// How many approaches were tracked.
+    pub iterations: usize,
+}
+
+/// The fixed point of: track the approach exactly → final base pose → J⁻¹ → end rates → track.
+///
+/// The base turns with the path (the robot is non-holonomic), so the final pose depends on the end rates,
+/// weakly: the iteration contracts.
+///
+/// # Errors
+/// [`DesignError`], with the numbers.
+pub fn end_rates(
+    model: &dyn Model<f64>,
+    approach: &Approach<'_>,
+    wanted: &[[f64; 3]],
+    tick: &mut dyn FnMut(),
+) -> Result<Design, DesignError> {
+    let mut rates = vec![0.0; model.joints()];
+    let mut change = f64::INFINITY;
+    for iteration in 1..=MOST_ITERATIONS {
+        let phase = approach.track_exactly(model, &rates, tick)?;
+        let (next, margin) = rates_for(model, &phase, wanted)?;
+        change = next.iter().zip(&rates).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        let size = next.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        rates = next;
+        if change <= AGREEMENT * size {
+            return Ok(Design { joint_rates: rates, singularity_margin: margin, iterations: iteration });
+        }
+    }
+    Err(DesignError::Unsettled { iterations: MOST_ITERATIONS, change })
+}
+
+/// Joint rates that give the wanted twists at the end of a phase, and the singularity margin there.
+fn rates_for(model: &dyn Model<f64>, phase: &Phase, wanted: &[[f64; 3]]) -> Result<(Vec<f64>, f64), DesignError> {
+    let (joints, rows) = (model.joints(), 3 * model.arms());
+    let Some(Sample { motion, end_effector_twists, time, .. }) = phase.end() else {
+        return Ok((vec![0.0; joints], 0.0));
+    };
+    let jacobian = generalized_jacobian(model, motion).map_err(|source| Stopped { time: *time, source })?;
+    // t_e = J joint_rates + what the robot's momentum alone gives (zero for a robot at rest)
+    let momentum_part = DVector::from_column_slice(end_effector_twists.as_flattened())
+        - &jacobian * DVector::from_column_slice(&motion.joint_rates);
+    let right = DVector::from_column_slice(wanted.as_flattened()) - momentum_part;
+    let svd = jacobian.clone().svd(true, true);
+    let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
+    let unreachable = |miss| DesignError::Unreachable { rows, columns: joints, largest, smallest, miss };
+    let Ok(rates) = svd.solve(&right, largest * 1e-12) else {
+        return Err(unreachable(right.amax()));
+    };
+    let miss = (&jacobian * &rates - &right).amax();
+    if miss > MISS * right.amax() {
+        return Err(unreachable(miss));
+    }
+    let margin = if largest > 0.0 { smallest / largest } else { 0.0 };
+    Ok((rates.iter().copied().collect(), margin))
+}
+
+fn generalized_jacobian(model: &dyn Model<f64>, motion: &Motion) -> Result<DMatrix<f64>, crate::error::Error> {
+    let (joints, rows) = (model.joints(), 3 * model.arms());
+    let mut inertia = vec![0.0; joints * joints];
+    let mut bias = vec![0.0; joints];
+    let mut jacobian = vec![0.0; rows * joints];
+    model.reduced_dynamics(&motion.state(), &mut inertia, &mut bias, &mut jacobian)?;
+    Ok(DMatrix::from_row_slice(rows, joints, &jacobian))
+}

@@ -1,0 +1,87 @@
+//! Reading the text of an input file.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+use super::{Problem, Report, nearest, printable};
+
+/// No layout or scenario comes near this size, in bytes; a device or a data file may.
+const LARGEST: u64 = 16 << 20;
+
+/// Reads a UTF-8 text file of at most 16 MiB.
+///
+/// # Errors
+/// A report of what is wrong with the path: no such file (with the nearest name beside it), a
+/// directory, unreadable, too large, or not UTF-8 (with the line and column of the first bad byte).
+pub fn read_text(path: &Path) -> Result<String, Report> {
+    let bytes = read_bytes(path).map_err(|error| unreadable(path, &error))?;
+    let name = shown(path);
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("`{name}` is larger than 16 MiB");
+        return Err(Problem::with_file(message, "expected a small TOML file".to_owned()).into());
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(error.as_bytes().get(..good).unwrap_or_default());
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let byte = error.as_bytes().get(good).copied().unwrap_or_default();
+        let message = format!("{name}:{line}:{column}: byte 0x{byte:02x} is not UTF-8 text");
+        Problem::with_file(message, "save the file with the encoding UTF-8".to_owned()).into()
+    })
+}
+
+fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Report {
+    let name = shown(path);
+    match error.kind() {
+        ErrorKind::NotFound => {
+            Problem::with_file(format!("there is no file `{name}`"), elsewhere(path))
+        }
+        ErrorKind::IsADirectory => Problem::with_file(
+            format!("`{name}` is a directory, expected a TOML file"),
+            names_in(path)
+                .into_iter()
+                .find(|entry| is_toml(entry))
+                .map(|entry| format!("name a file in it, such as `{}`", shown(&path.join(entry)))),
+        ),
+        _ => Problem::with_file(format!("cannot read `{name}`: {error}"), None),
+    }
+    .into()
+}
+
+/// Where a missing file may be instead.
+fn elsewhere(path: &Path) -> Option<String> {
+    let parent = path.parent()?;
+    let folder = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+    if !folder.is_dir() {
+        return Some(format!("there is no directory `{}` either", shown(folder)));
+    }
+    let names = names_in(folder);
+    let name = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
+    Some(format!("did you mean `{}`?", shown(&parent.join(name))))
+}
+
+/// The names in a folder, sorted; none where it cannot be read.
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<_> =
+        entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    names.sort_unstable();
+    names
+}
+
+fn is_toml(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension == "toml")
+}
+
+/// A path as shown to the user: whole, but without characters that a terminal would act on.
+fn shown(path: &Path) -> String {
+    printable(&path.display().to_string())
+}

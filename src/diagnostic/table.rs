@@ -1,0 +1,180 @@
+//! Tables of a TOML document: looking up keys, and noting those missing or unknown.
+
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+use super::document::Document;
+use super::quantity::form;
+use super::value::{Value, did_you_mean};
+use super::{Quantity, listing, nearest};
+
+/// A table in a document, with the keys it may hold.
+#[derive(Clone, Debug)]
+pub struct Table<'a> {
+    document: &'a Document,
+    entries: &'a DeTable<'a>,
+    span: Range<usize>,
+    path: String,
+    keys: Vec<&'a str>,
+}
+
+impl<'a> Table<'a> {
+    /// The table, after noting the keys that it may not hold.
+    pub(super) fn new(
+        document: &'a Document,
+        entries: &'a DeTable<'a>,
+        span: Range<usize>,
+        path: String,
+        keys: &[&'a str],
+    ) -> Self {
+        document.open(&path, keys);
+        let table = Self { document, entries, span, path, keys: keys.to_vec() };
+        table.report_unknown_keys();
+        table
+    }
+
+    /// The value of a key, if given.
+    #[must_use]
+    pub fn get(&self, key: &str) -> Option<Value<'a>> {
+        self.entries.get(key).map(|value| Value::new(self.document, value, self.path_of(key)))
+    }
+
+    /// The value of a key; notes that it is missing, unless it is there misspelt.
+    #[must_use]
+    pub fn require(&self, key: &str, wanted: &str) -> Option<Value<'a>> {
+        let value = self.get(key);
+        if value.is_none() && !self.is_misspelt(key) {
+            let message = format!("missing key `{}`, expected {wanted}", self.path_of(key));
+            let label = Some(format!("`{key}` is missing here"));
+            self.document.report(&self.span, message, label, None);
+        }
+        value
+    }
+
+    /// A number that must be given.
+    #[must_use]
+    pub fn number(&self, key: &str, quantity: &Quantity) -> Option<f64> {
+        self.require(key, &quantity.to_string())?.number(quantity)
+    }
+
+    /// A number, or the default where the key is not given.
+    #[must_use]
+    pub fn number_or(&self, key: &str, quantity: &Quantity, default: f64) -> Option<f64> {
+        self.get(key).map_or(Some(default), |value| value.number(quantity))
+    }
+
+    /// A string that must be given; `wanted` says of what.
+    #[must_use]
+    pub fn text(&self, key: &str, wanted: &str) -> Option<&'a str> {
+        self.require(key, wanted)?.text(wanted)
+    }
+
+    /// A vector that must be given.
+    #[must_use]
+    pub fn vector<const N: usize>(
+        &self,
+        key: &str,
+        components: &[Quantity; N],
+    ) -> Option<[f64; N]> {
+        self.require(key, &form(components))?.vector(components)
+    }
+
+    /// A vector, or the default where the key is not given.
+    #[must_use]
+    pub fn vector_or<const N: usize>(
+        &self,
+        key: &str,
+        components: &[Quantity; N],
+        default: [f64; N],
+    ) -> Option<[f64; N]> {
+        self.get(key).map_or(Some(default), |value| value.vector(components))
+    }
+
+    /// A table that must be given, with the keys that it may hold.
+    #[must_use]
+    pub fn table(&self, key: &str, keys: &[&'a str]) -> Option<Table<'a>> {
+        self.require(key, &table_of(keys))?.table(keys)
+    }
+
+    /// An array of tables, `[[key]]`, with the keys that each may hold; empty where not given.
+    #[must_use]
+    pub fn tables(&self, key: &str, keys: &[&'a str]) -> Option<Vec<Table<'a>>> {
+        self.get(key).map_or(Some(Vec::new()), |value| value.tables(keys))
+    }
+
+    /// Notes a problem of the table as a whole.
+    pub fn reject(&self, message: String, label: &str) {
+        self.document.report(&self.span, message, Some(label.to_owned()), None);
+    }
+
+    /// Notes every string under `key` that an earlier table has already.
+    pub fn reject_repeats(tables: &[Self], key: &str, why: &str) {
+        let values: Vec<_> = tables.iter().filter_map(|table| table.get(key)).collect();
+        for (index, value) in values.iter().enumerate() {
+            let same =
+                |other: &&Value<'_>| value.as_str().is_some() && other.as_str() == value.as_str();
+            if let Some(first) = values.iter().take(index).find(same) {
+                value.reject(&format!("the same as `{}`, but {why}", first.path()));
+            }
+        }
+    }
+
+    /// Whether an unknown key, noted already, was probably meant to be this one.
+    #[must_use]
+    pub fn is_misspelt(&self, key: &str) -> bool {
+        let mut unknown = self.unknown_keys();
+        unknown.any(|unknown| self.meant_by(unknown) == Some(key))
+    }
+
+    fn unknown_keys(&self) -> impl Iterator<Item = &'a str> {
+        let keys = self.entries.keys().map(|key| key.get_ref().as_ref());
+        keys.filter(|key| !self.keys.contains(key))
+    }
+
+    /// The key that an unknown one stands for: first among those not given.
+    fn meant_by(&self, unknown: &str) -> Option<&'a str> {
+        let missing = self.keys.iter().copied().filter(|key| !self.entries.contains_key(*key));
+        nearest(unknown, missing).or_else(|| nearest(unknown, self.keys.iter().copied()))
+    }
+
+    fn report_unknown_keys(&self) {
+        for (key, value) in self.entries {
+            let name = key.get_ref().as_ref();
+            if self.keys.contains(&name) {
+                continue;
+            }
+            let value = Value::new(self.document, value, self.path_of(name));
+            let message = format!("unknown key `{}` ({})", value.path(), value.shown());
+            let owner = self.document.owner_of(name, &self.path);
+            let label = match owner {
+                Some(owner) => Some(format!("this is a key of {owner}: write it further up")),
+                None => self.meant_by(name).map(did_you_mean),
+            };
+            let help = format!("keys of {}: {}", place(&self.path), listing(&self.keys, "and"));
+            self.document.report(&key.span(), message, label, Some(help));
+        }
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        let bare =
+            !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+        let key = if bare { key.to_owned() } else { format!("{key:?}") };
+        if self.path.is_empty() { key } else { format!("{}.{key}", self.path) }
+    }
+}
+
+/// All results, or `None` if one is `None`; unlike `collect`, it computes each of them first.
+pub fn every<T>(results: impl IntoIterator<Item = Option<T>>) -> Option<Vec<T>> {
+    results.into_iter().collect::<Vec<_>>().into_iter().collect()
+}
+
+/// A table as named in a sentence.
+pub(super) fn place(path: &str) -> String {
+    if path.is_empty() { "the top level".to_owned() } else { format!("`{path}`") }
+}
+
+/// What a table must hold, as named in a sentence.
+pub(super) fn table_of(keys: &[&str]) -> String {
+    format!("a table with {}", listing(keys, "and"))
+}

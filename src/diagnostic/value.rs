@@ -1,0 +1,188 @@
+//! Walking the tree of a TOML document: every accessor notes what is wrong and returns `None`.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::document::Document;
+use super::quantity::form;
+use super::table::{Table, every, table_of};
+use super::{Quantity, Report, excerpt, listing, nearest};
+
+/// A value in a document, with its path from the root: `arm[1].link[0].mass`.
+#[derive(Clone, Debug)]
+pub struct Value<'a> {
+    document: &'a Document,
+    tree: &'a DeValue<'a>,
+    span: Range<usize>,
+    path: String,
+}
+
+impl<'a> Value<'a> {
+    pub(super) fn new(
+        document: &'a Document,
+        value: &'a Spanned<DeValue<'a>>,
+        path: String,
+    ) -> Self {
+        Self { document, tree: value.get_ref(), span: value.span(), path }
+    }
+
+    /// The path from the root of the document.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// The text, if this is a string; notes nothing.
+    #[must_use]
+    pub fn as_str(&self) -> Option<&'a str> {
+        self.tree.as_str()
+    }
+
+    /// Whether this is an array; notes nothing.
+    #[must_use]
+    pub fn is_array(&self) -> bool {
+        self.tree.is_array()
+    }
+
+    /// Notes that the value is not what is wanted.
+    pub fn expected(&self, wanted: &str, help: Option<String>) {
+        let message = format!("`{}` is {}, expected {wanted}", self.path, self.shown());
+        self.document.report(&self.span, message, None, help);
+    }
+
+    /// Notes that the value is none of the names, with the nearest one.
+    pub fn expected_one_of(&self, names: &[&str], help: Option<&str>) {
+        let (path, shown, wanted) = (&self.path, self.shown(), listing(names, "or"));
+        let message = format!("`{path}` is {shown}, expected {wanted}");
+        let near = self.as_str().and_then(|text| nearest(text, names.iter().copied()));
+        let (label, help) = (near.map(did_you_mean), help.map(str::to_owned));
+        self.document.report(&self.span, message, label, help);
+    }
+
+    /// Notes why the value cannot be accepted.
+    pub fn reject(&self, why: &str) {
+        let message = format!("`{}` is {}: {why}", self.path, self.shown());
+        self.document.report(&self.span, message, None, None);
+    }
+
+    /// Notes the problems of a file that this value names.
+    pub fn adopt(&self, report: Report) {
+        let value = format!("`{}` is {}", self.path, self.shown());
+        self.document.adopt(&self.span, &value, report);
+    }
+
+    /// The value as in the source, where it is not the header of a table.
+    pub(super) fn shown(&self) -> String {
+        match (self.tree, self.document.text(&self.span)) {
+            (DeValue::Table(_), text) if !text.starts_with('{') => "a table".to_owned(),
+            (DeValue::Array(items), _)
+                if items.first().is_some_and(|item| item.span() == self.span) =>
+            {
+                "a list of tables".to_owned()
+            }
+            (_, text) => excerpt(text),
+        }
+    }
+
+    /// A number, integer or not, that makes sense as this quantity.
+    #[must_use]
+    pub fn number(&self, quantity: &Quantity) -> Option<f64> {
+        let number = match self.tree {
+            DeValue::Float(float) => float.as_str().parse().ok(),
+            DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+            DeValue::Integer(integer) => {
+                u32::from_str_radix(integer.as_str(), integer.radix()).ok().map(f64::from)
+            }
+            _ => None,
+        };
+        let outcome = match number {
+            Some(number) => quantity.check(number).map(|()| number),
+            None => Err(self.as_str().map(|_| "write the number without quotes".to_owned())),
+        };
+        outcome.map_err(|help| self.expected(&quantity.to_string(), help)).ok()
+    }
+
+    /// The elements of an array; `wanted` says of what.
+    #[must_use]
+    pub fn items(&self, wanted: &str) -> Option<Vec<Self>> {
+        let DeValue::Array(items) = self.tree else {
+            self.expected(wanted, None);
+            return None;
+        };
+        let item =
+            |(index, value)| Self::new(self.document, value, format!("{}[{index}]", self.path));
+        Some(items.iter().enumerate().map(item).collect())
+    }
+
+    /// An array with one number for each component, `[x, y]`; notes the first that is wrong.
+    #[must_use]
+    pub fn vector<const N: usize>(&self, components: &[Quantity; N]) -> Option<[f64; N]> {
+        let items = self.items(&form(components))?;
+        if items.len() != N {
+            self.expected(&form(components), None);
+            return None;
+        }
+        let pairs = items.iter().zip(components);
+        let numbers: Option<Vec<_>> =
+            pairs.map(|(item, component)| item.number(component)).collect();
+        numbers?.try_into().ok()
+    }
+
+    /// A string that shows on one line.
+    #[must_use]
+    pub fn text(&self, wanted: &str) -> Option<&'a str> {
+        let text = self
+            .as_str()
+            .filter(|text| !text.trim().is_empty() && !text.contains(char::is_control));
+        if text.is_none() {
+            let wanted = format!("{wanted}: text in quotes, on one line, not blank");
+            self.expected(&wanted, None);
+        }
+        text
+    }
+
+    /// The choice that a string names.
+    #[must_use]
+    pub fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+        let chosen = choices.iter().find(|(name, _)| self.as_str() == Some(name));
+        if chosen.is_none() {
+            let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+            self.expected_one_of(&names, None);
+        }
+        chosen.map(|(_, choice)| *choice)
+    }
+
+    /// A table that may hold these keys and no others; unknown ones are noted.
+    #[must_use]
+    pub fn table(&self, keys: &[&'a str]) -> Option<Table<'a>> {
+        let DeValue::Table(entries) = self.tree else {
+            let header = (!self.path.contains('[')).then(|| format!("write `[{}]`", self.path));
+            self.expected(&table_of(keys), header);
+            return None;
+        };
+        let (path, span) = (self.path.clone(), self.span.clone());
+        Some(Table::new(self.document, entries, span, path, keys))
+    }
+
+    /// An array of tables, `[[path]]`, each of which may hold these keys and no others.
+    #[must_use]
+    pub fn tables(&self, keys: &[&'a str]) -> Option<Vec<Table<'a>>> {
+        if self.tree.is_table() {
+            let header = self.document.text(&self.span).trim_matches(['[', ']']);
+            let path = &self.path;
+            let message = format!("`{path}` is a single table, expected a list of tables");
+            let label = Some(format!("write `[[{header}]]`"));
+            self.document.report(&self.span, message, label, None);
+            return None;
+        }
+        let items = self.items(&format!("a list of tables with {}", listing(keys, "and")))?;
+        every(items.iter().map(|item| item.table(keys)))
+    }
+}
+
+/// A label for something misspelt.
+pub(super) fn did_you_mean(name: &str) -> String {
+    format!("did you mean `{name}`?")
+}

@@ -1,0 +1,36 @@
+//! What can be wrong with numbers; every variant carries them.
+
+/// Why a computation of the core has no result.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A slice of the wrong length.
+    #[error("{quantity} has {found} values, the model has {expected}")]
+    Length {
+        /// What the slice holds.
+        quantity: &'static str,
+        /// The model's number.
+        expected: usize,
+        /// The slice's number.
+        found: usize,
+    },
+    /// A number that is NaN or infinite.
+    #[error("{quantity}[{index}] = {value} is not a finite number")]
+    NotFinite {
+        /// What the number belongs to.
+        quantity: &'static str,
+        /// Position in row-major order.
+        index: usize,
+        /// The number.
+        value: f64,
+    },
+    /// A pivot at or below its limit: the system of equations has no reliable solution.
+    #[error("{what} is singular: smallest relative pivot {pivot:e}, wanted more than {limit:e}")]
+    Singular {
+        /// The matrix that was factored.
+        what: &'static str,
+        /// Smallest pivot relative to its scale.
+        pivot: f64,
+        /// What it had to exceed.
+        limit: f64,
+    },
+}

@@ -1,0 +1,45 @@
+//! SIMD lanes as scalars: one instance of the robot per lane (feature `lanes`).
+//!
+//! `wide` picks its width when it is compiled: `-C target-cpu=…` decides what a lane costs.
+
+use crate::scalar::Scalar;
+use wide::{f32x8, f64x4, f64x8};
+
+macro_rules! lanes {
+    ($lanes:ident, $float:ident) => {
+        impl Scalar for $lanes {
+            const ZERO: Self = $lanes::ZERO;
+            const ONE: Self = $lanes::ONE;
+
+            #[inline]
+            #[allow(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "rounding to the lane is what is asked for")]
+            fn constant(value: f64) -> Self {
+                $lanes::splat(value as $float)
+            }
+
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                $lanes::sin_cos(self)
+            }
+
+            #[inline]
+            fn sqrt(self) -> Self {
+                $lanes::sqrt(self)
+            }
+
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                $lanes::atan2(self, x)
+            }
+
+            #[inline]
+            fn minimum(self, other: Self) -> Self {
+                self.fast_min(other)
+            }
+        }
+    };
+}
+
+lanes!(f64x4, f64);
+lanes!(f64x8, f64);
+lanes!(f32x8, f32);

@@ -1,0 +1,188 @@
+//! The `[approach]` table: how the arms move to the targets.
+
+use super::joints::{Joints, check_length};
+use super::{JOINT_ANGLE, JOINT_RATE, TWIST, duration_and_step};
+use crate::diagnostic::{Quantity, Table, Value, every};
+
+const PROPORTIONAL_GAIN: Quantity =
+    Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
+const DERIVATIVE_GAIN: Quantity =
+    Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+
+/// A joint trajectory and how it is followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Approach {
+    /// Length in s, greater than 0.
+    pub duration: f64,
+    /// Time step in s, at most the duration; default 0.005.
+    pub step: f64,
+    /// The shape of the joint trajectories.
+    pub trajectory: TrajectoryKind,
+    /// Joint angles wanted at the end, arm by arm, in rad.
+    pub final_joint_angles: Vec<f64>,
+    /// Rates wanted at the end.
+    pub end: EndRates,
+    /// How the trajectory is followed.
+    pub tracking: Tracking,
+}
+
+/// The shape of the joint trajectories.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrajectoryKind {
+    /// Joint rates quartic in time, equation (7) corrected: reaches the rates wanted at the end.
+    Quartic,
+    /// Equation (7) as printed: the rates at the end are too small by the duration in s.
+    QuarticAsPrinted,
+    /// From rest to rest along a cycloid.
+    Cycloidal,
+}
+
+/// The rates wanted at the end of an approach.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EndRates {
+    /// Rest: always and only for the cycloidal trajectory.
+    Rest,
+    /// Joint rates arm by arm, in rad/s.
+    JointRates(Vec<f64>),
+    /// Twists [ω, vx, vy] of the end effectors, one per arm, from which the generalized Jacobian
+    /// gives the joint rates.
+    EndEffectorTwists(Vec<[f64; 3]>),
+}
+
+/// How a trajectory is followed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tracking {
+    /// Without error, with torques from inverse dynamics; the arms start at rest.
+    Exact,
+    /// τ = Kp (θd − θ) + Kd (θ̇d − θ̇), the default.
+    ProportionalDerivative {
+        /// Kp for each joint in N m/rad, 0 or more; default 49.
+        proportional_gain: Vec<f64>,
+        /// Kd for each joint in N m s/rad, 0 or more; default 14.
+        derivative_gain: Vec<f64>,
+    },
+}
+
+impl Approach {
+    pub(super) const KEYS: [&'static str; 9] = [
+        "duration",
+        "step",
+        "trajectory",
+        "final_joint_angles",
+        "final_joint_rates",
+        "final_end_effector_twists",
+        "tracking",
+        "proportional_gain",
+        "derivative_gain",
+    ];
+
+    pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
+        let times = duration_and_step(table);
+        let trajectory = table
+            .require("trajectory", "`quartic`, `quartic_as_printed` or `cycloidal`")
+            .and_then(|value| value.choice(&TrajectoryKind::CHOICES));
+        let final_joint_angles = table
+            .require("final_joint_angles", &joints.one_each())
+            .and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+        let end = EndRates::from_table(table, trajectory, joints);
+        let tracking = Tracking::from_table(table, joints);
+        let (duration, step) = times?;
+        Some(Self {
+            duration,
+            step,
+            trajectory: trajectory?,
+            final_joint_angles: final_joint_angles?,
+            end: end?,
+            tracking: tracking?,
+        })
+    }
+}
+
+impl TrajectoryKind {
+    const CHOICES: [(&'static str, Self); 3] = [
+        ("quartic", Self::Quartic),
+        ("quartic_as_printed", Self::QuarticAsPrinted),
+        ("cycloidal", Self::Cycloidal),
+    ];
+}
+
+impl EndRates {
+    fn from_table(
+        table: &Table<'_>,
+        trajectory: Option<TrajectoryKind>,
+        joints: &Joints<'_>,
+    ) -> Option<Self> {
+        const NAMES: [&str; 2] = ["final_joint_rates", "final_end_effector_twists"];
+        let [rates, twists] = NAMES.map(|key| table.get(key));
+        let end = match (&rates, &twists) {
+            (Some(rates), _) => joints.numbers(rates, &JOINT_RATE).map(Self::JointRates),
+            (None, Some(twists)) => end_effector_twists(twists, joints),
+            (None, None) => None,
+        };
+        match (trajectory?, rates, twists) {
+            (TrajectoryKind::Cycloidal, None, None) => return Some(Self::Rest),
+            (TrajectoryKind::Cycloidal, rates, twists) => {
+                for value in [rates, twists].into_iter().flatten() {
+                    value.reject("the cycloidal trajectory ends at rest, expected no such key");
+                }
+                return None;
+            }
+            (_, Some(_), Some(twists)) => {
+                twists.reject("`final_joint_rates` is there too, expected only one of them");
+                return None;
+            }
+            (_, None, None) if !NAMES.iter().any(|key| table.is_misspelt(key)) => table.reject(
+                "missing key `approach.final_end_effector_twists`, expected one [ω, vx, vy] per arm \
+                 (or `approach.final_joint_rates`, one rate per joint)"
+                    .to_owned(),
+                "the quartic trajectories need rates at their end",
+            ),
+            _ => {}
+        }
+        end
+    }
+}
+
+fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<EndRates> {
+    let arms = joints.layout.map(|layout| &layout.arms);
+    let wanted = match arms {
+        Some(arms) => {
+            let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
+            format!("{} twists [ω, vx, vy], one per arm ({})", arms.len(), names.join(", "))
+        }
+        None => "one twist [ω, vx, vy] per arm".to_owned(),
+    };
+    let items = value.items(&wanted)?;
+    check_length(value, items.len(), arms.map(Vec::len), &wanted)?;
+    every(items.iter().map(|item| item.vector(&TWIST))).map(EndRates::EndEffectorTwists)
+}
+
+impl Tracking {
+    fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
+        let exact = match table.get("tracking") {
+            Some(value) => value.choice(&[("pd", false), ("exact", true)])?,
+            None => false,
+        };
+        if exact {
+            for key in ["proportional_gain", "derivative_gain"] {
+                if let Some(value) = table.get(key) {
+                    value.reject(
+                        "exact tracking has no gains, expected `tracking = \"pd\"` with them",
+                    );
+                }
+            }
+            return Some(Self::Exact);
+        }
+        let gain = |key, quantity: &Quantity, default| match table.get(key) {
+            Some(value) if value.is_array() => joints.numbers(&value, quantity),
+            Some(value) => value.number(quantity).map(|gain| joints.repeat(gain)),
+            None => Some(joints.repeat(default)),
+        };
+        let proportional_gain = gain("proportional_gain", &PROPORTIONAL_GAIN, 49.0);
+        let derivative_gain = gain("derivative_gain", &DERIVATIVE_GAIN, 14.0);
+        Some(Self::ProportionalDerivative {
+            proportional_gain: proportional_gain?,
+            derivative_gain: derivative_gain?,
+        })
+    }
+}

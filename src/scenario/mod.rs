@@ -1,0 +1,208 @@
+//! Scenarios: what a run simulates, read from TOML.
+
+mod approach;
+mod capture;
+mod joints;
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+pub use approach::{Approach, EndRates, Tracking, TrajectoryKind};
+pub use capture::{Case, PostImpact, Target};
+
+use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
+use crate::layout::Layout;
+use joints::Joints;
+
+/// The time step where a scenario gives none, in s.
+pub const DEFAULT_STEP: f64 = 0.005;
+
+/// The most steps that one phase may take; more would run for days and fill the disk.
+pub const MOST_STEPS: f64 = 1e8;
+
+const DURATION: Quantity = Quantity::positive("a duration", "s");
+const STEP: Quantity = Quantity::positive("a time step", "s");
+const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(4.0 * PI);
+const JOINT_RATE: Quantity = Quantity::any("a joint rate", "rad/s");
+const POSITION: [Quantity; 2] = [Quantity::any("x", "m"), Quantity::any("y", "m")];
+const POSE: [Quantity; 3] =
+    [Quantity::any("yaw", "rad"), Quantity::any("x", "m"), Quantity::any("y", "m")];
+const TWIST: [Quantity; 3] =
+    [Quantity::any("ω", "rad/s"), Quantity::any("vx", "m/s"), Quantity::any("vy", "m/s")];
+
+const FILE_NAME: &str =
+    "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
+const LAYOUT: &str = "a shipped layout's name or the path of a layout file";
+
+/// An approach and, where there are targets, their capture and the motion after it.
+///
+/// SI units, radians, inertial axes; twists are [ω, vx, vy], poses [yaw, x, y].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// Names the results; usable as a file name.
+    pub name: String,
+    /// The robot.
+    pub layout: Layout,
+    /// The state at the start of the approach.
+    pub initial: Initial,
+    /// The motion of the arms towards the targets.
+    pub approach: Approach,
+    /// What the arms capture, at most one target per arm; empty for an approach alone.
+    pub targets: Vec<Target>,
+    /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
+    pub cases: Vec<Case>,
+    /// The motion after the impact; given if and only if there are targets.
+    pub post_impact: Option<PostImpact>,
+}
+
+/// A state of the robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Initial {
+    /// Joint angles arm by arm, relative, in rad.
+    pub joint_angles: Vec<f64>,
+    /// Pose of the base COM [yaw, x, y] in rad, m, m; default zero.
+    pub base_pose: [f64; 3],
+    /// Twist of the base COM [ω, vx, vy] in rad/s, m/s, m/s; default zero.
+    pub base_twist: [f64; 3],
+    /// Joint rates arm by arm, in rad/s; default zero.
+    pub joint_rates: Vec<f64>,
+}
+
+impl Scenario {
+    /// Reads a scenario file and the layout that it names.
+    ///
+    /// A layout that ends in `.toml` or contains a `/` is a path relative to the scenario file;
+    /// any other is the name of a `shipped` one, given as pairs of name and TOML text.
+    ///
+    /// # Errors
+    /// All that is wrong with the scenario and with the layout file.
+    pub fn read(path: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        let text = read_text(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&text, &path.display().to_string(), folder, shipped)
+    }
+
+    /// Reads a scenario from TOML text; `file` is the name that problems are reported under, and
+    /// a path to a layout is relative to `folder`.
+    ///
+    /// # Errors
+    /// All that is wrong with the content and with the layout file.
+    pub fn parse(
+        text: &str,
+        file: &str,
+        folder: &Path,
+        shipped: &[(&str, &str)],
+    ) -> Result<Self, Report> {
+        const KEYS: [&str; 7] =
+            ["name", "layout", "initial", "approach", "target", "case", "post_impact"];
+        read_document(text, file, &KEYS, |root| {
+            let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
+            let layout =
+                root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped));
+            let joints = Joints { layout: layout.as_ref() };
+
+            let initial_table =
+                root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
+            let initial =
+                initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
+            let approach = root
+                .table("approach", &Approach::KEYS)
+                .and_then(|table| Approach::from_table(&table, &joints));
+            if let (Some(table), Some(Approach { tracking: Tracking::Exact, .. })) =
+                (&initial_table, &approach)
+            {
+                require_rest(table, initial.as_ref());
+            }
+            let capture = capture::read(root, layout.as_ref(), name.as_deref());
+
+            let (targets, cases, post_impact) = capture?;
+            Some(Self {
+                name: name?,
+                layout: layout?,
+                initial: initial?,
+                approach: approach?,
+                targets,
+                cases,
+                post_impact,
+            })
+        })
+    }
+}
+
+impl Initial {
+    fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
+        let joint_angles = table
+            .require("joint_angles", &joints.one_each())
+            .and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+        let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
+        let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
+        let joint_rates = match table.get("joint_rates") {
+            Some(value) => joints.numbers(&value, &JOINT_RATE),
+            None => Some(joints.repeat(0.0)),
+        };
+        Some(Self {
+            joint_angles: joint_angles?,
+            base_pose: base_pose?,
+            base_twist: base_twist?,
+            joint_rates: joint_rates?,
+        })
+    }
+}
+
+/// The exactly tracked trajectories start at rest, so the arms must too.
+fn require_rest(table: &Table<'_>, initial: Option<&Initial>) {
+    let moving = initial.is_some_and(|initial| initial.joint_rates.iter().any(|rate| *rate != 0.0));
+    if let (true, Some(value)) = (moving, table.get("joint_rates")) {
+        value.reject("exact tracking starts from rest, expected zeros or `tracking = \"pd\"`");
+    }
+}
+
+/// `duration` and `step` of a phase, with a number of steps that can be simulated.
+fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
+    let duration = table.number("duration", &DURATION);
+    let step = table.number_or("step", &STEP, DEFAULT_STEP);
+    let (duration, step) = (duration?, step?);
+    let steps = duration / step;
+    let why = if steps < 1.0 {
+        format!("the step, {step} s, must not be longer than the duration, {duration} s")
+    } else if steps > MOST_STEPS {
+        let least = duration / MOST_STEPS;
+        format!(
+            "{duration} s would take {steps:.0} steps, expected at most 1e8 (step >= {least} s)"
+        )
+    } else {
+        return Some((duration, step));
+    };
+    if let Some(value) = table.get("step").or_else(|| table.get("duration")) {
+        value.reject(&why);
+    }
+    None
+}
+
+/// A name that can be part of a file's name on any system.
+fn file_name(value: &Value<'_>) -> Option<String> {
+    let name = value.text(FILE_NAME)?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
+        value.expected(&format!("{FILE_NAME}, at most 100 of them"), None);
+        return None;
+    }
+    Some(name.to_owned())
+}
+
+/// The layout that a scenario names.
+fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<Layout> {
+    let name = value.text(LAYOUT)?;
+    let is_toml = Path::new(name).extension().is_some_and(|extension| extension == "toml");
+    let layout = if is_toml || name.contains('/') {
+        // Collected from its components, a path loses its `./`.
+        Layout::read(&folder.join(name).components().collect::<PathBuf>())
+    } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
+        Layout::parse(text, &format!("{name}.toml (shipped)"))
+    } else {
+        let names: Vec<_> = shipped.iter().map(|(name, _)| *name).collect();
+        value.expected_one_of(&names, Some("or a path, which ends in `.toml` or contains a `/`"));
+        return None;
+    };
+    layout.map_err(|report| value.adopt(report)).ok()
+}

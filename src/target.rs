@@ -1,0 +1,100 @@
+//! A captured object: contact Jacobian, impulse, and how it merges with the link that holds it.
+
+use crate::scalar::Scalar;
+
+/// A free-floating rigid body that a tip takes hold of at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target<T> {
+    /// kg.
+    pub mass: T,
+    /// About its COM, kg m².
+    pub inertia: T,
+    /// [rx, ry] from its COM to the contact point, inertial axes at the impact, m.
+    pub contact: [T; 2],
+    /// [ω, vx, vy] of its COM before the impact, inertial axes; rad/s, m/s.
+    pub twist: [T; 3],
+}
+
+impl<T: Scalar> Target<T> {
+    /// No target: zero mass and inertia change nothing.
+    #[must_use]
+    pub fn none() -> Self {
+        Self { mass: T::ZERO, inertia: T::ZERO, contact: [T::ZERO; 2], twist: [T::ZERO; 3] }
+    }
+
+    /// `J_t` of eq. (5), with the sign that v + ω × r asks for (the print has the other one):
+    /// contact twist = `J_t` · twist of the COM.
+    #[must_use]
+    pub fn contact_jacobian(&self) -> [[T; 3]; 3] {
+        let [rx, ry] = self.contact;
+        let (zero, one) = (T::ZERO, T::ONE);
+        [[one, zero, zero], [-ry, one, zero], [rx, zero, one]]
+    }
+
+    /// Twist of the COM from that of the contact point: eq. (14), `t_t = J_t⁻¹ t_e`.
+    #[must_use]
+    pub fn twist_from_contact(&self, contact_twist: &[T; 3]) -> [T; 3] {
+        let [omega, vx, vy] = *contact_twist;
+        let [rx, ry] = self.contact;
+        [omega, vx + ry * omega, vy - rx * omega]
+    }
+
+    /// Impulse [n, fx, fy] on the robot at the contact point: `F̄ = −J_t⁻ᵀ I_t (t_tf − t_ti)`, from eq. (3).
+    ///
+    /// The same as eq. (12), and never singular. N m s, N s, N s; inertial axes.
+    #[must_use]
+    pub fn impulse(&self, twist_after: &[T; 3]) -> [T; 3] {
+        let [rx, ry] = self.contact;
+        let fx = self.mass * (self.twist[1] - twist_after[1]);
+        let fy = self.mass * (self.twist[2] - twist_after[2]);
+        let spin = self.inertia * (self.twist[0] - twist_after[0]);
+        [spin + ry * fx - rx * fy, fx, fy]
+    }
+
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy, with its COM at `position` moving by `twist`.
+    #[must_use]
+    pub fn momentum(&self, position: &[T; 2], twist: &[T; 3]) -> ([T; 3], T) {
+        let [omega, vx, vy] = *twist;
+        let (px, py) = (self.mass * vx, self.mass * vy);
+        let angular = self.inertia * omega + (position[0] * py - position[1] * px);
+        let twice = self.inertia * omega * omega + (px * vx + py * vy);
+        ([angular, px, py], T::constant(0.5) * twice)
+    }
+
+    /// Position of its COM when the contact point is at the tip.
+    #[must_use]
+    pub fn position(&self, tip: &[T; 3]) -> [T; 2] {
+        [tip[1] - self.contact[0], tip[2] - self.contact[1]]
+    }
+
+    /// The link that results when a link, whose tip at `[length, 0]` of its frame holds the target, becomes one with it.
+    ///
+    /// `yaw` is the absolute direction of the link, rad.
+    #[must_use]
+    pub fn merged_link(&self, link: &LinkInertia<T>, length: T, yaw: T) -> LinkInertia<T> {
+        let (sin, cos) = yaw.sin_cos();
+        let [rx, ry] = self.contact;
+        // the target's COM in the link's frame: tip − R(−yaw) r
+        let com = [length - (cos * rx + sin * ry), sin * rx - cos * ry];
+        let mass = link.mass + self.mass;
+        let offset = [com[0] - link.com[0], com[1] - link.com[1]];
+        let share = self.mass / mass;
+        let reduced = link.mass * share;
+        LinkInertia {
+            mass,
+            inertia: link.inertia + self.inertia + reduced * (offset[0] * offset[0] + offset[1] * offset[1]),
+            com: [link.com[0] + share * offset[0], link.com[1] + share * offset[1]],
+        }
+    }
+}
+
+/// Inertial properties of one link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkInertia<T> {
+    /// kg.
+    pub mass: T,
+    /// About the COM, kg m².
+    pub inertia: T,
+    /// In the link's frame, m.
+    pub com: [T; 2],
+}
