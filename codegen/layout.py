@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 # Rust's keywords, strict and reserved, up to edition 2024.
-KEYWORDS = frozenset(
-    """abstract as async await become box break const continue crate do dyn else enum extern false
-    final fn for gen if impl in let loop macro match mod move mut override priv pub ref return self
-    static struct super trait true try type typeof unsafe unsized use virtual where while
-    yield""".split()
+KEYWORDS = re.compile(
+    "abstract|as|async|await|become|box|break|const|continue|crate|do|dyn|else|enum|extern|false|"
+    "final|fn|for|gen|if|impl|in|let|loop|macro|match|mod|move|mut|override|priv|pub|ref|return|"
+    "self|static|struct|super|trait|true|try|type|typeof|unsafe|unsized|use|virtual|where|while|"
+    "yield"
 )
 
 
@@ -128,11 +128,12 @@ class _Table:
             if key not in keys:
                 close = difflib.get_close_matches(key, keys, 1)
                 hint = f"did you mean `{close[0]}`?" if close else f"expected {', '.join(keys)}"
-                raise LayoutError(f"{file}: unknown key `{self._full(key)}`: {hint}")
+                found = f"{file}: unknown key `{self._full(key)}` ({value[key]!r})"
+                raise LayoutError(f"{found}, {hint}")
 
     def layout(self) -> Layout:
         name = self._text("name")
-        if not re.fullmatch("[a-z][a-z0-9_]{0,63}", name) or name in KEYWORDS:
+        if not re.fullmatch("[a-z][a-z0-9_]{0,63}", name) or KEYWORDS.fullmatch(name):
             self._fail("name", "lower-case letters, digits and _, a letter first, no Rust keyword")
         base = _Table(self.file, "base", self._get("base", "a table"), ("mass", "inertia"))
         body = Base(base._positive("mass", "kg"), base._positive("inertia", "kg m^2"))

@@ -167,12 +167,17 @@ pub trait Model<T: Real>:
     + Impact<T>
     + Merge<T>
 {
+    /// A copy on the heap, with its numbers as they are now.
+    #[cfg(feature = "std")]
+    fn clone_box(&self) -> std::boxed::Box<dyn Model<T>>;
 }
 
 impl<T, M> Model<T> for M
 where
     T: Real,
-    M: Robot<T>
+    M: Clone
+        + 'static
+        + Robot<T>
         + Kinematics<T>
         + EquationsOfMotion<T>
         + ReducedDynamics<T>
@@ -181,4 +186,8 @@ where
         + Impact<T>
         + Merge<T>,
 {
+    #[cfg(feature = "std")]
+    fn clone_box(&self) -> std::boxed::Box<dyn Model<T>> {
+        std::boxed::Box::new(self.clone())
+    }
 }

@@ -1,5 +1,6 @@
 //! x
 #![cfg_attr(not(feature = "std"), no_std)]
+
 mod check;
 pub mod control;
 pub mod dynamics;
@@ -15,3 +16,32 @@ pub mod scalar;
 pub mod state;
 pub mod target;
 pub mod trajectory;
+
+#[cfg(feature = "std")]
+pub mod approach;
+#[cfg(feature = "std")]
+pub mod audit;
+#[cfg(feature = "std")]
+pub mod capture;
+#[cfg(feature = "std")]
+pub mod design;
+#[cfg(feature = "std")]
+pub mod diagnostic;
+#[cfg(feature = "std")]
+pub mod layout;
+#[cfg(feature = "std")]
+pub mod models;
+#[cfg(feature = "std")]
+pub mod output;
+#[cfg(feature = "std")]
+pub mod record;
+#[cfg(feature = "std")]
+pub mod scenario;
+#[cfg(feature = "std")]
+pub mod simulate;
+#[cfg(feature = "std")]
+pub mod study;
+#[cfg(feature = "std")]
+pub mod summary;
+#[cfg(feature = "std")]
+pub mod table;

@@ -7,6 +7,7 @@ use crate::layout::Layout;
 
 const MASS: Quantity = Quantity::positive("a mass", "kg");
 const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
+const IMPULSE: Quantity = Quantity::non_negative("an impulse magnitude", "N s");
 const RADIUS: Quantity = Quantity::positive("a radius", "m");
 const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m")];
 
@@ -38,6 +39,9 @@ pub struct Case {
     pub name: String,
     /// Twist of each target before the impact, in the targets' order; default the target's own.
     pub target_twists: Vec<[f64; 3]>,
+    /// Impulse magnitude at each target's contact as somebody else reports it, N s, in the targets' order;
+    /// shown beside what is computed, and used for nothing else.
+    pub printed_impulses: Vec<Option<f64>>,
 }
 
 /// The free motion of robot and targets after the capture.
@@ -67,7 +71,7 @@ pub(super) fn read(
     let target_names: Vec<_> =
         tables.iter().filter_map(|table| table.get("name")?.as_str()).collect();
     let default_twists: Vec<_> = targets.iter().flatten().map(|target| target.twist).collect();
-    let tables = root.tables("case", &["name", "target_twists"]);
+    let tables = root.tables("case", &["name", "target_twists", "printed_impulses"]);
     let cases = tables.and_then(|tables| {
         if let (true, Some(table)) = (alone, tables.first()) {
             let message = "`case[0]` is a table, expected no `[[case]]` without a `[[target]]`";
@@ -91,7 +95,8 @@ pub(super) fn read(
 
     let mut cases = cases?;
     if cases.is_empty() {
-        cases.push(Case { name: name?.to_owned(), target_twists: default_twists });
+        let printed_impulses = vec![None; default_twists.len()];
+        cases.push(Case { name: name?.to_owned(), target_twists: default_twists, printed_impulses });
     }
     let post_impact = match post_impact {
         Some(post_impact) => Some(post_impact?),
@@ -154,6 +159,15 @@ impl Case {
             }),
             None => Some(default_twists.to_vec()),
         };
-        Some(Self { name: name?, target_twists: target_twists? })
+        let printed_impulses = match table.get("printed_impulses") {
+            Some(value) => value.table(targets).and_then(|printed| {
+                every(targets.iter().map(|name| match printed.get(name) {
+                    Some(value) => value.number(&IMPULSE).map(Some),
+                    None => Some(None),
+                }))
+            }),
+            None => Some(vec![None; targets.len()]),
+        };
+        Some(Self { name: name?, target_twists: target_twists?, printed_impulses: printed_impulses? })
     }
 }

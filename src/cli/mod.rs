@@ -1,0 +1,75 @@
+//! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
+
+mod progress;
+mod run;
+
+use clap::{Parser, Subcommand};
+use planar_capture::diagnostic::Report;
+use planar_capture::models::NoModel;
+use planar_capture::output::OutputError;
+use planar_capture::study::StudyError;
+use std::io::IsTerminal;
+use std::process::ExitCode;
+
+/// Planar dynamics of free-floating multi-arm space robots: approach, impact, post-impact.
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute a scenario: the approach, and for every case the impact and what follows.
+    Run(run::Arguments),
+}
+
+/// Why there is no result.
+#[derive(Debug, thiserror::Error)]
+enum Problem {
+    /// An input file is wrong.
+    #[error("{}", .0.render(color()))]
+    Input(#[from] Report),
+    /// No generated code fits.
+    #[error("error: {0}")]
+    Model(#[from] NoModel),
+    /// A computation has no answer.
+    #[error("error: {file}: {source}")]
+    Study { file: String, source: StudyError },
+    /// A result cannot be written.
+    #[error("error: {0}")]
+    Output(#[from] OutputError),
+    /// The standard output is gone.
+    #[error("error: cannot write to standard output: {0}")]
+    Print(#[from] std::io::Error),
+}
+
+impl Problem {
+    /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way.
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Study { source: StudyError::Approach(_) | StudyError::PostImpact { .. }, .. } => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// Whether problems are shown in colour.
+fn color() -> bool {
+    std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// Runs the command line.
+pub fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+    };
+    match result {
+        Ok(code) => code,
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::from(problem.exit_code())
+        }
+    }
+}

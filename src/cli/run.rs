@@ -1,0 +1,83 @@
+//! `planar-capture run SCENARIO.toml`.
+
+use super::Problem;
+use super::progress::Progress;
+use planar_capture::models;
+use planar_capture::output::{make_folder, write_whole};
+use planar_capture::record::write_csv;
+use planar_capture::scenario::Scenario;
+use planar_capture::study::{Study, study};
+use planar_capture::summary::summary;
+use planar_capture::table::table;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The scenario file.
+    scenario: PathBuf,
+    /// Folder for summary.json and the CSV time series [default: results/NAME, NAME the scenario's].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Which implementation of the dynamics computes it.
+    #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
+    dynamics: Dynamics,
+    /// Time between two rows of the CSV time series, s.
+    #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
+    sample: f64,
+}
+
+/// Implementations of the dynamics.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Dynamics {
+    /// Closed-form code, generated for the layout's structure.
+    Generated,
+}
+
+impl Dynamics {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Generated => "generated",
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "a number of seconds is wanted".to_owned())?;
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err("a time in s, greater than 0, is wanted".to_owned()) }
+}
+
+/// Reads, computes, prints, writes; exit code 1 where the audit objects.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
+    let model = models::generated(&scenario.layout)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
+    make_folder(&folder)?; // before the work, so that a wrong folder costs no time
+    let mut progress = Progress::new();
+    let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
+    progress.finish();
+    let file = arguments.scenario.display().to_string();
+    let study = result.map_err(|source| Problem::Study { file, source })?;
+    write_results(&folder, &scenario, arguments.dynamics, &study)?;
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{}\nResults in {}", table(&scenario, &study), folder.display())?;
+    let objections = study.objections();
+    for objection in &objections {
+        eprintln!("audit: {objection}");
+    }
+    Ok(if objections.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+}
+
+/// The time series first, the summary last: where it stands, all stands.
+fn write_results(folder: &Path, scenario: &Scenario, dynamics: Dynamics, study: &Study) -> Result<(), Problem> {
+    for case in &study.cases {
+        write_whole(&folder.join(format!("{}.csv", case.name)), |to| write_csv(&scenario.layout, study, case, to))?;
+    }
+    let summary = summary(&scenario.name, &scenario.layout, dynamics.name(), study);
+    write_whole(&folder.join("summary.json"), |to| {
+        serde_json::to_writer_pretty(&mut *to, &summary)?;
+        writeln!(to)
+    })?;
+    Ok(())
+}

@@ -1,0 +1,62 @@
+//! `summary.json`: the numbers of a study, by the contract in README.md.
+
+use crate::capture::ImpactResult;
+use crate::layout::Layout;
+use crate::simulate::Phase;
+use crate::study::{CaseResult, Study};
+use serde_json::{Value, json};
+
+/// The whole summary; every number is finite and reads back as the same number.
+#[must_use]
+pub fn summary(scenario: &str, layout: &Layout, dynamics: &str, study: &Study) -> Value {
+    json!({
+        "scenario": scenario,
+        "layout": {"name": layout.name, "sha256": layout.sha256()},
+        "dynamics": dynamics,
+        "cases": study.cases.iter().map(|case| case_value(study, case)).collect::<Vec<_>>(),
+    })
+}
+
+fn case_value(study: &Study, case: &CaseResult) -> Value {
+    let mut value = json!({"name": case.name, "approach": phase(&study.approach, true)});
+    if let Some(captured) = &case.capture {
+        value["impact"] = json!({
+            "exact": impact(&captured.impact.exact),
+            "paper": impact(&captured.impact.paper),
+        });
+        value["post_impact"] = phase(&captured.post_impact, false);
+    }
+    value
+}
+
+/// The end of a phase and its audit.
+fn phase(phase: &Phase, tips: bool) -> Value {
+    let Some(end) = phase.end() else { return Value::Null };
+    let mut value = json!({
+        "duration": phase.duration,
+        "base_pose": end.motion.base_pose,
+        "base_twist": end.motion.base_twist,
+        "joint_angles": end.motion.joint_angles,
+        "joint_rates": end.motion.joint_rates,
+    });
+    if tips {
+        value["end_effector_poses"] = json!(end.end_effector_poses);
+        value["end_effector_twists"] = json!(end.end_effector_twists);
+    }
+    value["momentum_drift"] = json!(phase.drift.momentum_drift);
+    value["energy_error"] = json!(phase.drift.energy_error);
+    value
+}
+
+fn impact(result: &ImpactResult) -> Value {
+    json!({
+        "joint_rates_after": result.joint_rates_after,
+        "base_twist_after": result.base_twist_after,
+        "target_twists_after": result.target_twists_after,
+        "impulses": result.impulses,
+        "impulse_magnitudes": result.impulse_magnitudes(),
+        "momentum_jump": result.momentum_jump,
+        "kinetic_energy_before": result.kinetic_energy_before,
+        "kinetic_energy_after": result.kinetic_energy_after,
+    })
+}

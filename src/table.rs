@@ -1,0 +1,122 @@
+//! The table that a run prints: what happened in each case, on one screen.
+
+use crate::capture::ImpactResult;
+use crate::scenario::Scenario;
+use crate::study::{CaseResult, Captured, Study};
+use std::fmt::Write;
+
+/// The numbers of a study in words and columns.
+#[must_use]
+pub fn table(scenario: &Scenario, study: &Study) -> String {
+    let mut text = String::new();
+    // writing to a String does not fail
+    let _ = write_table(&mut text, scenario, study);
+    text
+}
+
+fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+    approach(out, scenario, study)?;
+    if study.cases.iter().any(|case| case.capture.is_some()) {
+        impulses(out, scenario, study)?;
+        balances(out, study)?;
+    }
+    Ok(())
+}
+
+fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+    let phase = &study.approach;
+    let Some(end) = phase.end() else { return Ok(()) };
+    writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
+    if let Some(design) = &study.design {
+        writeln!(
+            out,
+            "  end rates designed in {} rounds [rad/s]: {}\n  (generalized Jacobian at the final pose: smallest/largest singular value {:.3})",
+            design.iterations,
+            list(&design.joint_rates, 6),
+            design.singularity_margin
+        )?;
+    }
+    let [yaw, x, y] = end.motion.base_pose;
+    writeln!(out, "\nAfter the approach of {} s", phase.duration)?;
+    writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
+    for (i, (arm, (pose, twist))) in
+        scenario.layout.arms.iter().zip(end.end_effector_poses.iter().zip(&end.end_effector_twists)).enumerate()
+    {
+        write!(
+            out,
+            "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
+            arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
+        )?;
+        let target = scenario.targets.iter().find(|target| target.arm == i);
+        if let Some((target, [x, y])) = target.and_then(|t| Some((t, t.position?))) {
+            let miss = (pose[1] - target.contact[0] - x).hypot(pose[2] - target.contact[1] - y);
+            write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
+        }
+        writeln!(out)?;
+    }
+    writeln!(
+        out,
+        "  momentum drift {:.1e}, energy error {:.1e}",
+        phase.drift.momentum_drift, phase.drift.energy_error
+    )
+}
+
+fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+    writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
+    let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
+    let column = if printed { " as printed" } else { "" };
+    writeln!(out, "  {:<16} {:<10} {:>10} {:>10} {column:>11}", "case", "arm", "exact", "paper eqs.")?;
+    for (case, result) in scenario.cases.iter().zip(&study.cases) {
+        let Some(Captured { impact, .. }) = &result.capture else { continue };
+        let (exact, paper) = (impact.exact.impulse_magnitudes(), impact.paper.impulse_magnitudes());
+        for (target, printed) in scenario.targets.iter().zip(&case.printed_impulses) {
+            let of = |values: &[Option<f64>]| values.get(target.arm).copied().flatten();
+            let (Some(exact), Some(paper), Some(arm)) = (of(&exact), of(&paper), scenario.layout.arms.get(target.arm))
+            else {
+                continue;
+            };
+            let printed = printed.map_or_else(String::new, |value| format!("{value:.4}"));
+            writeln!(out, "  {:<16} {:<10} {exact:>10.5} {paper:>10.5} {printed:>11}", case.name, arm.name)?;
+        }
+    }
+    Ok(())
+}
+
+fn balances(out: &mut String, study: &Study) -> std::fmt::Result {
+    writeln!(out, "\nRobot and targets together, before and after the impact")?;
+    writeln!(
+        out,
+        "  {:<16} {:<6} {:>14} {:>14} {:>26}",
+        "case", "model", "energy before", "energy after", "momentum jump [l, px, py]"
+    )?;
+    for case in &study.cases {
+        let Some(captured) = &case.capture else { continue };
+        for (model, result) in [("exact", &captured.impact.exact), ("paper", &captured.impact.paper)] {
+            balance(out, case, model, result)?;
+        }
+    }
+    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, robot and targets as one, no torques")?;
+    writeln!(out, "  {:<16} {:>10} {:>15} {:>13}", "case", "time [s]", "momentum drift", "energy error")?;
+    for case in &study.cases {
+        let Some(Captured { post_impact, .. }) = &case.capture else { continue };
+        writeln!(
+            out,
+            "  {:<16} {:>10} {:>15.1e} {:>13.1e}",
+            case.name, post_impact.duration, post_impact.drift.momentum_drift, post_impact.drift.energy_error
+        )?;
+    }
+    Ok(())
+}
+
+fn balance(out: &mut String, case: &CaseResult, model: &str, result: &ImpactResult) -> std::fmt::Result {
+    let [l, px, py] = result.momentum_jump;
+    writeln!(
+        out,
+        "  {:<16} {:<6} {:>14.6} {:>14.6}   {:>9.1e} {:>9.1e} {:>9.1e}",
+        case.name, model, result.kinetic_energy_before, result.kinetic_energy_after, l, px, py
+    )
+}
+
+fn list(values: &[f64], digits: usize) -> String {
+    values.iter().map(|value| format!("{value:.digits$}")).collect::<Vec<_>>().join(", ")
+}
