@@ -20,7 +20,9 @@ def arguments() -> argparse.Namespace:
         description="Derives codegen/layouts/NAME.toml and writes codegen/graphs/NAME.json.",
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts)")
-    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a graph is not what its layout gives")
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; exit 1 if a graph is not what its layout gives"
+    )
     parser.add_argument("--test", action="store_true", help="run the derivation's tests instead")
     return parser.parse_args()
 
@@ -49,7 +51,10 @@ def derive(options: argparse.Namespace) -> int:
     shipped = layout_names()
     unknown = [name for name in options.names if name not in shipped]
     if unknown:
-        print(f"error: no layout {', '.join(unknown)} in codegen/layouts; there are: {', '.join(shipped)}", file=sys.stderr)
+        print(
+            f"error: no layout {', '.join(unknown)} in codegen/layouts; there are: {', '.join(shipped)}",
+            file=sys.stderr,
+        )
         return 2
     stale = []
     for name in options.names or shipped:

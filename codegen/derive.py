@@ -49,9 +49,11 @@ def dump(value, indent: int = 0) -> str:
 def is_line(value: dict | list) -> bool:
     """Whether a value stands on one line: no object inside, and no list of statements."""
     items = value.values() if isinstance(value, dict) else value
-    return not any(isinstance(item, dict) for item in items) and not any(
-        isinstance(item, list) and any(isinstance(inner, list) for inner in item) for item in items
-    ) and not (isinstance(value, list) and len(value) > 0 and all(isinstance(item, list) for item in value))
+    return (
+        not any(isinstance(item, dict) for item in items)
+        and not any(isinstance(item, list) and any(isinstance(inner, list) for inner in item) for item in items)
+        and not (isinstance(value, list) and len(value) > 0 and all(isinstance(item, list) for item in value))
+    )
 
 
 def write_whole(path: Path, text: str) -> None:

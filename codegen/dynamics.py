@@ -29,12 +29,19 @@ class Composite:
             link, name = links[k], f"{label}_link{k + 1}"
             last = k == len(links) - 1
             sigma = (
-                symbols.constant(f"{name}_augmented_moment_x", link.mass * link.com_x + beyond * link.length, "kg m", "m c_x + (mass beyond) l"),
+                symbols.constant(
+                    f"{name}_augmented_moment_x",
+                    link.mass * link.com_x + beyond * link.length,
+                    "kg m",
+                    "m c_x + (mass beyond) l",
+                ),
                 symbols.constant(f"{name}_augmented_moment_y", link.mass * link.com_y, "kg m", "m c_y"),
             )
             own = symbols.constant(
                 f"{name}_augmented_inertia",
-                link.inertia + link.mass * (link.com_x * link.com_x + link.com_y * link.com_y) + beyond * (link.length * link.length),
+                link.inertia
+                + link.mass * (link.com_x * link.com_x + link.com_y * link.com_y)
+                + beyond * (link.length * link.length),
                 "kg m^2",
                 "I + m |c|^2 + (mass beyond) l^2, about the joint",
             )
@@ -47,7 +54,9 @@ class Composite:
                 self.entry[k][k + 1] = self.inertia[k + 1] + lever
                 self.inertia[k] = (own + lever) + self.entry[k][k + 1]
             self.entry[k][k] = self.inertia[k]
-            beyond = symbols.constant(f"{name}_mass_from", link.mass + beyond, "kg", "mass of this link and of all beyond")
+            beyond = symbols.constant(
+                f"{name}_mass_from", link.mass + beyond, "kg", "mass of this link and of all beyond"
+            )
             self.mass_from[k] = beyond
         for j in reversed(range(len(links) - 1)):
             for k in range(j + 2, len(links)):
@@ -74,14 +83,12 @@ class Composite:
             accelerations.append(a)
             a = subtract(a, scale(squares[k], arm.vector[k]))
         bias: list[ca.SX] = [None] * arm.links
+        total = (ca.SX(0), ca.SX(0))  # t_(k+1)
         for k in reversed(range(arm.links)):
             moment = cross(self.augmented[k], accelerations[k])
-            pull = scale(squares[k], self.augmented[k])
             if k < arm.links - 1:
                 moment = bias[k + 1] + moment - cross(arm.vector[k], total)
-                total = add(total, pull)
-            else:
-                total = pull
+            total = add(total, scale(squares[k], self.augmented[k]))
             bias[k] = moment
         force = subtract(scale(self.mass, mount_acceleration), total)
         return bias, force, bias[0] - cross(arm.mount, total)
@@ -105,14 +112,24 @@ class EquationsOfMotion:
             own = arm.arm.symbols
             base_inertia = base_inertia + arm.mass * (own.mount_x * own.mount_x + own.mount_y * own.mount_y)
             sigma = tuple(
-                symbols.constant(f"arm{i}_mount_moment_{axis}", arm.mass * value, "kg m", f"(mass of arm {i}) mount, base frame, {axis}")
+                symbols.constant(
+                    f"arm{i}_mount_moment_{axis}",
+                    arm.mass * value,
+                    "kg m",
+                    f"(mass of arm {i}) mount, base frame, {axis}",
+                )
                 for axis, value in zip("xy", (own.mount_x, own.mount_y), strict=True)
             )
             mounted = add(arm.moment[0], rotate(geometry.base_rotation, sigma))
             self.first_moment = add(self.first_moment, mounted)
             lever = dot(mount, arm.moment[0])
             inertia = inertia + (arm.inertia[0] + (lever + lever))
-        named = symbols.constant("base_augmented_inertia", base_inertia, "kg m^2", "inertia of the base with the arms' masses at their mounts")
+        named = symbols.constant(
+            "base_augmented_inertia",
+            base_inertia,
+            "kg m^2",
+            "inertia of the base with the arms' masses at their mounts",
+        )
         self.inertia = named + inertia  # M[0][0], about the base COM
 
     def mass_matrix(self) -> ca.SX:
@@ -157,7 +174,9 @@ class ReducedDynamics:
 
     def __init__(self, symbols: Symbols, equations: EquationsOfMotion) -> None:
         self.symbols, self.equations = symbols, equations
-        self.inverse_mass = symbols.inverse_constant("inverse_total_mass", equations.total_mass, "1/kg", "1 / (mass of the robot)")
+        self.inverse_mass = symbols.inverse_constant(
+            "inverse_total_mass", equations.total_mass, "1/kg", "1 / (mass of the robot)"
+        )
         self.com = scale(self.inverse_mass, equations.first_moment)  # from the base COM
         self.inertia = equations.inertia - dot(self.com, equations.first_moment)  # about the robot's COM
         inverse_inertia = symbols.reciprocal(self.inertia)
@@ -219,4 +238,3 @@ class ReducedDynamics:
 def symmetric(lower: ca.SX) -> ca.SX:
     """The full symmetric matrix of its lower triangle."""
     return ca.tril2symm(lower)
-

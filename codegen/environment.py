@@ -51,20 +51,36 @@ def interpreter(environment: Path) -> Path:
 def ensure(dev: bool = False) -> Path:
     """The interpreter of the locked environment, made if it is not there."""
     if sys.version_info < OLDEST:
-        raise EnvironmentProblem(f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})")
+        raise EnvironmentProblem(
+            f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
+        )
     files = requirements(dev)
     place = home() / fingerprint(files)
     if interpreter(place).exists():
         return interpreter(place)
     for module in ("venv", "ensurepip"):
         if importlib.util.find_spec(module) is None:
-            raise EnvironmentProblem(f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`")
+            raise EnvironmentProblem(
+                f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
+            )
     say(f"making a Python environment with {files[-1].name} in {place} (once; some 100 MB)")
     place.parent.mkdir(parents=True, exist_ok=True)
     building = Path(tempfile.mkdtemp(prefix="making-", dir=place.parent))
     try:
         run([sys.executable, "-m", "venv", str(building)])
-        run([str(interpreter(building)), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--only-binary=:all:", "-r", str(files[-1])])
+        run(
+            [
+                str(interpreter(building)),
+                "-m",
+                "pip",
+                "install",
+                "--quiet",
+                "--disable-pip-version-check",
+                "--only-binary=:all:",
+                "-r",
+                str(files[-1]),
+            ]
+        )
         try:
             building.rename(place)  # moved last: what has the final name is whole
         except OSError:

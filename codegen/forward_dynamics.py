@@ -63,13 +63,25 @@ class Child:
 class Body:
     """One body between its first joint and its children: elimination of its angular acceleration."""
 
-    def __init__(self, symbols: Symbols, label: str, mass: ca.SX, inertia: ca.SX, com: Vector, children: list[Child], general: bool = False) -> None:
+    def __init__(
+        self,
+        symbols: Symbols,
+        label: str,
+        mass: ca.SX,
+        inertia: ca.SX,
+        com: Vector,
+        children: list[Child],
+        general: bool = False,
+    ) -> None:
         self.symbols, self.label, self.mass, self.com, self.children = symbols, label, mass, com, children
         in_line = len(children) == 1 and com[1].is_zero() and children[0].offset[1].is_zero()
         self.scaled = in_line and not general and not children[0].offset[0].is_zero()
         constant = symbols.constant
         self.pivot_inertia = constant(
-            f"{label}_pivot_inertia", inertia + mass * (com[0] * com[0] + com[1] * com[1]), "kg m^2", "I + m |c|^2, about the first joint"
+            f"{label}_pivot_inertia",
+            inertia + mass * (com[0] * com[0] + com[1] * com[1]),
+            "kg m^2",
+            "I + m |c|^2, about the first joint",
         )
         if self.scaled:
             self._eliminate_scaled()
@@ -79,15 +91,23 @@ class Body:
     def _eliminate_scaled(self) -> None:
         symbols, label, child = self.symbols, self.label, self.children[0].mass
         length = self.children[0].offset[0]
-        self.inverse_length = symbols.inverse_constant(f"{label}_inverse_length", length, "1/m", "1 / l, l to the next joint")
+        self.inverse_length = symbols.inverse_constant(
+            f"{label}_inverse_length", length, "1/m", "1 / l, l to the next joint"
+        )
         square = self.inverse_length * self.inverse_length
         near = symbols.constant(f"{label}_near_mass", self.pivot_inertia * square, "kg", "J = (I + m c^2) / l^2")
-        self.first = symbols.constant(f"{label}_first_mass", self.mass * self.com[0] * self.inverse_length, "kg", "mu = m c / l")
+        self.first = symbols.constant(
+            f"{label}_first_mass", self.mass * self.com[0] * self.inverse_length, "kg", "mu = m c / l"
+        )
         coupling = symbols.constant(f"{label}_coupling_mass", near - self.first, "kg", "J - mu")
         # I + m (l - c)^2 is the inertia about the next joint: a sum of positive terms
         far = symbols.constant(
             f"{label}_far_mass",
-            ((self.pivot_inertia - self.mass * (self.com[0] * self.com[0])) + self.mass * ((length - self.com[0]) * (length - self.com[0]))) * square,
+            (
+                (self.pivot_inertia - self.mass * (self.com[0] * self.com[0]))
+                + self.mass * ((length - self.com[0]) * (length - self.com[0]))
+            )
+            * square,
             "kg",
             "(I + m (l - c)^2) / l^2",
         )
@@ -95,7 +115,9 @@ class Body:
         self.row = child.xy * self.inverse
         self.ratio = coupling * self.inverse
         self.child = child
-        self.articulated = PlaneMass(self.mass + child.xx - child.xy * self.row, child.xy * self.ratio, far - coupling * self.ratio)
+        self.articulated = PlaneMass(
+            self.mass + child.xx - child.xy * self.row, child.xy * self.ratio, far - coupling * self.ratio
+        )
 
     def _eliminate(self) -> None:
         first = (
@@ -115,7 +137,9 @@ class Body:
         r = self.coupling
         constant = not self.children
         if constant:
-            self.inverse = self.symbols.inverse_constant(f"{self.label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)")
+            self.inverse = self.symbols.inverse_constant(
+                f"{self.label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)"
+            )
         else:
             self.inverse = self.symbols.reciprocal(pivot)
         self.gain = scale(self.inverse, r)
@@ -152,7 +176,11 @@ class Body:
             self.free = self.turn * self.inverse
             return x + self.child.xy * self.free, torque - self.ratio * self.turn
         self.rate_squared = rate_squared
-        total = scale(-rate_squared, self.first_moment) if self.children else scale(rate_squared, tuple(-m for m in self.first_moment))
+        total = (
+            scale(-rate_squared, self.first_moment)
+            if self.children
+            else scale(rate_squared, tuple(-m for m in self.first_moment))
+        )
         for child, force in zip(self.children, child_forces, strict=True):
             force = subtract(force, scale(rate_squared, child.mass.times(child.offset)))
             moment = moment - cross(child.offset, force)
@@ -208,10 +236,24 @@ class Arm:
 
     def _turn_to_com(self, symbols: Symbols, last: LinkSymbols) -> tuple[ca.SX, Vector, Vector]:
         name = f"{self.label}_com"
-        angle = symbols.constant(f"{name}_angle", ca.atan2(last.com_y, last.com_x), "rad", "direction of the last link's COM in its frame")
-        distance = symbols.constant(f"{name}_distance", ca.sqrt(last.com_x * last.com_x + last.com_y * last.com_y), "m", "|c| of the last link")
-        tip_x = symbols.constant(f"{self.label}_tip_x", last.length * ca.cos(angle), "m", "tip along the last link's COM")
-        tip_y = symbols.constant(f"{self.label}_tip_y", -last.length * ca.sin(angle), "m", "tip across the last link's COM")
+        angle = symbols.constant(
+            f"{name}_angle",
+            ca.atan2(last.com_y, last.com_x),
+            "rad",
+            "direction of the last link's COM in its frame",
+        )
+        distance = symbols.constant(
+            f"{name}_distance",
+            ca.sqrt(last.com_x * last.com_x + last.com_y * last.com_y),
+            "m",
+            "|c| of the last link",
+        )
+        tip_x = symbols.constant(
+            f"{self.label}_tip_x", last.length * ca.cos(angle), "m", "tip along the last link's COM"
+        )
+        tip_y = symbols.constant(
+            f"{self.label}_tip_y", -last.length * ca.sin(angle), "m", "tip across the last link's COM"
+        )
         return angle, (distance, ZERO), (tip_x, tip_y)
 
     def force(self, inputs: Inputs, base_rate: ca.SX, base_rotation: Vector, with_wrench: bool) -> Vector:
@@ -264,12 +306,25 @@ class ForwardDynamics:
         for i, arm in enumerate(self.arms[1:], start=2):
             offset = subtract(arm.child.offset, first)
             named = tuple(
-                symbols.constant(f"arm{i}_mount_offset_{axis}", value, "m", f"mount of arm {i} from that of arm 1, base frame, {axis}")
+                symbols.constant(
+                    f"arm{i}_mount_offset_{axis}",
+                    value,
+                    "m",
+                    f"mount of arm {i} from that of arm 1, base frame, {axis}",
+                )
                 for axis, value in zip("xy", offset, strict=True)
             )
             children.append(Child(named, arm.child.mass))
         self.com = com
-        self.base = Body(symbols, "base", symbols.base_mass, symbols.base_inertia, com, children, general=mounts_coincide(symbols.layout))
+        self.base = Body(
+            symbols,
+            "base",
+            symbols.base_mass,
+            symbols.base_inertia,
+            com,
+            children,
+            general=mounts_coincide(symbols.layout),
+        )
         self.needs_distinct_mounts = self.base.scaled
         total = self.base.articulated.plus(self.arms[0].child.mass)
         # L D L^T of the 2 x 2 that is left

@@ -133,7 +133,9 @@ class Reader:
 
     def read(self, expressions: list[ca.SX]) -> list[int]:
         """Nodes of scalar expressions."""
-        function = ca.Function("f", [symbol for symbol, _ in self.leaves], [ca.vertcat(*expressions)], {"allow_free": False})
+        function = ca.Function(
+            "f", [symbol for symbol, _ in self.leaves], [ca.vertcat(*expressions)], {"allow_free": False}
+        )
         work: dict[int, int] = {}
         results: list[int] = [0] * len(expressions)
         for i in range(function.n_instructions()):
@@ -222,7 +224,10 @@ class Statements:
         number = len(self.lines)
         if node.op in ("sin", "cos"):
             pair = [self.nodes._index.get((op, node.args[0])) for op in ("sin", "cos")]
-            targets = [f"{op}_{self.prefix}{number}" if p is not None else "_" for op, p in zip(("sin", "cos"), pair, strict=True)]
+            targets = [
+                f"{op}_{self.prefix}{number}" if p is not None else "_"
+                for op, p in zip(("sin", "cos"), pair, strict=True)
+            ]
             for p, target in zip(pair, targets, strict=True):
                 if p is not None:
                     self.names[p] = target
@@ -239,7 +244,7 @@ def is_leaf(node: Node) -> bool:
 
 def count(lines: list[list]) -> dict[str, int]:
     """Operations by kind; a sine and a cosine of one angle are one pair; flops are mul + add + sub + div."""
-    counts = {op: 0 for op in COUNTED}
+    counts = dict.fromkeys(COUNTED, 0)
     counts["sin_cos"] = 0
     for line in lines:
         if line[1] != "copy":
@@ -257,13 +262,19 @@ def family_graph(reader: Reader, family: Family) -> dict:
         for root in roots:
             for i in reachable(nodes, root, SETUP):
                 setup.keep(i)
-    functions = [function_graph(nodes, setup, function, roots) for function, roots in zip(family.functions, results, strict=True)]
+    functions = [
+        function_graph(nodes, setup, function, roots) for function, roots in zip(family.functions, results, strict=True)
+    ]
     used = {name for function in functions for name in used_names(function)}
     names = [name for line in setup.lines for name in (line[0] if line[1] == "sin_cos" else [line[0]])]
     return {
         "name": family.name,
         "description": family.description,
-        "configuration": {"statements": setup.lines, "values": [name for name in names if name in used], "operations": count(setup.lines)},
+        "configuration": {
+            "statements": setup.lines,
+            "values": [name for name in names if name in used],
+            "operations": count(setup.lines),
+        },
         "functions": functions,
     }
 
@@ -293,7 +304,13 @@ def function_graph(nodes: Nodes, setup: Statements, function: Function, roots: l
         operands = [call.operand(root) for root in roots[start : start + len(output.flat)]]
         start += len(output.flat)
         results.append(
-            {"name": output.name, "shape": output.shape, "unit": output.units, "description": output.description, "elements": operands}
+            {
+                "name": output.name,
+                "shape": output.shape,
+                "unit": output.units,
+                "description": output.description,
+                "elements": operands,
+            }
         )
     alone = Statements(nodes, "x", {})  # what this function costs when nothing is shared
     for root in roots:
@@ -339,7 +356,12 @@ def build(model: Model) -> dict:
             "needs_distinct_mounts": model.needs_distinct_mounts,
         },
         "inputs": [
-            {"name": name, "shape": shape, "unit": ", ".join(INPUT_TEXT[name][0]), "description": INPUT_TEXT[name][1]}
+            {
+                "name": name,
+                "shape": shape,
+                "unit": ", ".join(INPUT_TEXT[name][0]),
+                "description": INPUT_TEXT[name][1],
+            }
             for name, shape in model.input_shapes.items()
         ],
         "parameters": [
@@ -363,9 +385,14 @@ def required_constants(reader: Reader, families: list[dict]) -> set[str]:
     """Constants that a later stage or another needed constant uses."""
     used: set[str] = set()
     for family in families:
-        lines = [*family["configuration"]["statements"], *(line for f in family["functions"] for line in f["statements"])]
+        lines = [
+            *family["configuration"]["statements"],
+            *(line for f in family["functions"] for line in f["statements"]),
+        ]
         used.update(a for line in lines for a in line[2:] if a in reader.constants)
-        used.update(a for f in family["functions"] for o in f["outputs"] for a in o["elements"] if a in reader.constants)
+        used.update(
+            a for f in family["functions"] for o in f["outputs"] for a in o["elements"] if a in reader.constants
+        )
     pending = list(used)
     while pending:
         for name in constants_below(reader, reader.constants[pending.pop()]):

@@ -44,7 +44,12 @@ def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) 
     Structural zeros cost nothing: joints first, base last keeps the arms apart until the base.
     """
     size = len(order)
-    work = {(i, j): matrix[order[i], order[j]] for i in range(size) for j in range(i + 1) if matrix.sparsity().has_nz(order[i], order[j])}
+    work = {
+        (i, j): matrix[order[i], order[j]]
+        for i in range(size)
+        for j in range(i + 1)
+        if matrix.sparsity().has_nz(order[i], order[j])
+    }
     diagonal = [work[i, i] for i in range(size)]
     x = [right[order[i]] for i in range(size)]
     inverse, smallest = [], None
@@ -83,4 +88,3 @@ def matrix_times(matrix: ca.SX, vector: ca.SX) -> ca.SX:
                 total = total + matrix[i, j] * vector[j]
         result.append(total)
     return ca.vertcat(*result)
-

@@ -130,7 +130,7 @@ class Geometry:
     def end_effector_twists(self) -> ca.SX:
         """Per arm [omega, vx, vy] of the tip: J_be t_b + J_me joint rates, by a sweep along the arm."""
         columns = []
-        for arm, motion in zip(self.arms, self.arm_motions(), strict=True):
+        for motion in self.arm_motions():
             columns.append(ca.vertcat(motion.rate[-1], *motion.velocity[-1]))
         return ca.horzcat(*columns)
 

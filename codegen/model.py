@@ -28,7 +28,10 @@ INPUT_TEXT = {
     "target_masses": (["kg"], "mass of each arm's target; 0 (with inertia 0) where the arm captures nothing"),
     "target_inertias": (["kg m^2"], "inertia of each arm's target about its COM"),
     "contacts": (["m"], "[rx, ry] from the target's COM to the contact point, inertial axes"),
-    "target_twists": (["rad/s", "m/s", "m/s"], "[omega, vx, vy] of each target's COM before the impact, inertial axes"),
+    "target_twists": (
+        ["rad/s", "m/s", "m/s"],
+        "[omega, vx, vy] of each target's COM before the impact, inertial axes",
+    ),
 }
 
 
@@ -82,7 +85,12 @@ def scalar(name: str, units: str, description: str, expression: ca.SX) -> Output
 
 
 def pivot(expression: ca.SX) -> Output:
-    return scalar("smallest_pivot", "1", "smallest pivot relative to its scale; small, zero or NaN: singular", expression)
+    return scalar(
+        "smallest_pivot",
+        "1",
+        "smallest pivot relative to its scale; small, zero or NaN: singular",
+        expression,
+    )
 
 
 class Model:
@@ -139,7 +147,12 @@ class Model:
                     "Raina & Shah (2017), eq. (1)",
                     inputs,
                     [
-                        vector("base_acceleration", "rad/s^2, m/s^2, m/s^2", "[alpha, ax, ay] of the base COM, inertial axes", base),
+                        vector(
+                            "base_acceleration",
+                            "rad/s^2, m/s^2, m/s^2",
+                            "[alpha, ax, ay] of the base COM, inertial axes",
+                            base,
+                        ),
                         vector("joint_accelerations", "rad/s^2", "arm by arm", joints),
                         pivot(dynamics.smallest_pivot()),
                     ],
@@ -219,7 +232,14 @@ class Model:
                     "p_e = p_b + R(yaw) mount + sum of R(phi_k) [l_k, 0]",
                     source,
                     list(CONFIGURATION),
-                    [per_item("end_effector_poses", "rad, m, m", "[yaw, x, y] per arm, inertial frame", geometry.end_effector_poses())],
+                    [
+                        per_item(
+                            "end_effector_poses",
+                            "rad, m, m",
+                            "[yaw, x, y] per arm, inertial frame",
+                            geometry.end_effector_poses(),
+                        )
+                    ],
                 ),
                 Function(
                     "end_effector_jacobian",
@@ -242,7 +262,14 @@ class Model:
                     "t_e = J_be t_b + J_me joint rates",
                     source,
                     [*CONFIGURATION, "base_twist", "joint_rates"],
-                    [per_item("end_effector_twists", "rad/s, m/s, m/s", "[omega, vx, vy] per arm, inertial axes", geometry.end_effector_twists())],
+                    [
+                        per_item(
+                            "end_effector_twists",
+                            "rad/s, m/s, m/s",
+                            "[omega, vx, vy] per arm, inertial axes",
+                            geometry.end_effector_twists(),
+                        )
+                    ],
                 ),
             ],
         )
@@ -259,7 +286,14 @@ class Model:
                     "[phi_k, p_k + R(phi_k) c_k]",
                     "rigid-body kinematics",
                     list(CONFIGURATION),
-                    [per_item("body_poses", "rad, m, m", "[yaw, x, y] per body, inertial frame", geometry.body_poses())],
+                    [
+                        per_item(
+                            "body_poses",
+                            "rad, m, m",
+                            "[yaw, x, y] per body, inertial frame",
+                            geometry.body_poses(),
+                        )
+                    ],
                 ),
                 Function(
                     "body_twists",
@@ -267,7 +301,14 @@ class Model:
                     "v_c = v_b + sum of omega x arm",
                     "rigid-body kinematics",
                     [*CONFIGURATION, "base_twist", "joint_rates"],
-                    [per_item("body_twists", "rad/s, m/s, m/s", "[omega, vx, vy] per body, inertial axes", geometry.body_twists())],
+                    [
+                        per_item(
+                            "body_twists",
+                            "rad/s, m/s, m/s",
+                            "[omega, vx, vy] per body, inertial axes",
+                            geometry.body_twists(),
+                        )
+                    ],
                 ),
             ],
         )
@@ -305,7 +346,9 @@ class Model:
         rates, smallest = ldlt_solve(self.symbols, g, h, joints)
         mass = equations.mass_matrix()
         velocity = ca.vertcat(self.inputs.base_twist, self.inputs.joint_rates)
-        full_g, full_h = impact_matrix(geometry.end_effector_jacobian(), mass, matrix_times(mass, velocity), self.inputs)
+        full_g, full_h = impact_matrix(
+            geometry.end_effector_jacobian(), mass, matrix_times(mass, velocity), self.inputs
+        )
         order = [*range(3, 3 + self.joints), 1, 2, 0]
         after, full_smallest = ldlt_solve(self.symbols, full_g, full_h, order)
         return Family(
@@ -314,8 +357,8 @@ class Model:
             [
                 Function(
                     "reduced_impact",
-                    "The paper's impact, literally: reduced coordinates, exact only for a robot without momentum after it.",
-                    "G = J^T J_t^-T I_t J_t^-1 J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  joint_rates_after = G^-1 H",
+                    "The paper's impact, literally; exact only for a robot without momentum after it.",
+                    "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  after = G^-1 H,  N = J_t^-T I_t J_t^-1",
                     "Raina & Shah (2017), eqs. (15), (16), with J_t's sign corrected",
                     [*CONFIGURATION, "joint_rates", *targets],
                     [
@@ -327,14 +370,24 @@ class Model:
                 ),
                 Function(
                     "full_impact",
-                    "The exact impact: the same G and H in the full coordinates, base twist and joint rates together.",
-                    "G = M + J_e^T J_t^-T I_t J_t^-1 J_e,  H = M v + J_e^T J_t^-T I_t t_ti,  v_after = G^-1 H",
+                    "The exact impact: the same G and H in the full coordinates.",
+                    "G = M + J_e^T N J_e,  H = M v + J_e^T J_t^-T I_t t_ti,  N = J_t^-T I_t J_t^-1,  v_after = G^-1 H",
                     "Raina & Shah (2017), eqs. (1), (3), (13), without the reduction",
                     [*CONFIGURATION, "base_twist", "joint_rates", *targets],
                     [
-                        matrix("impact_matrix", "kg m^2, kg m, kg", "G, symmetric, row-major: mass matrix of the merged robot", full_g),
+                        matrix(
+                            "impact_matrix",
+                            "kg m^2, kg m, kg",
+                            "G, symmetric, row-major: mass matrix of the merged robot",
+                            full_g,
+                        ),
                         vector("impact_momentum", "N m s, N s, N s, then N m s", "H, base then joints", full_h),
-                        vector("base_twist_after", "rad/s, m/s, m/s", "[omega, vx, vy] of the base COM, inertial axes", after[:3]),
+                        vector(
+                            "base_twist_after",
+                            "rad/s, m/s, m/s",
+                            "[omega, vx, vy] of the base COM, inertial axes",
+                            after[:3],
+                        ),
                         vector("joint_rates_after", "rad/s", "arm by arm", after[3:]),
                         pivot(full_smallest),
                     ],

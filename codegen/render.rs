@@ -45,7 +45,8 @@ fn template(name: &str, source: &str, context: &Context) -> Result<String, Strin
 }
 
 fn context(graph: &Value) -> Result<Value, String> {
-    let links: Vec<u64> = list(&graph["layout"]["arms"])?.iter().map(|arm| arm["links"].as_u64().unwrap_or(0)).collect();
+    let links: Vec<u64> =
+        list(&graph["layout"]["arms"])?.iter().map(|arm| arm["links"].as_u64().unwrap_or(0)).collect();
     let joints: u64 = links.iter().sum();
     let parameters: BTreeSet<&str> = names(&graph["parameters"])?.collect();
     let constants: BTreeSet<&str> = names(&graph["constants"]["values"])?.collect();
@@ -120,7 +121,8 @@ fn statements(lines: &Value, scope: &Scope, used: &BTreeSet<String>) -> Result<V
             let arguments = line[2..].iter().map(|a| scope.operand(a)).collect::<Result<Vec<_>, _>>()?;
             let target = match &line[0] {
                 Value::Array(pair) => {
-                    let bound = |v: &Value| text(v).map(|n| if used.contains(n) { n.to_owned() } else { "_".to_owned() });
+                    let bound =
+                        |v: &Value| text(v).map(|n| if used.contains(n) { n.to_owned() } else { "_".to_owned() });
                     format!("({}, {})", bound(&pair[0])?, bound(&pair[1])?)
                 }
                 single => text(single)?.to_owned(),
@@ -150,7 +152,8 @@ fn render_family(graph: &Value, family: &Value, known: &Known) -> Result<Value, 
     let name = text(&family["name"])?;
     let configuration = &family["configuration"];
     let functions = list(&family["functions"])?;
-    let staged: BTreeSet<String> = list(&configuration["values"])?.iter().filter_map(|v| v.as_str().map(str::to_owned)).collect();
+    let staged: BTreeSet<String> =
+        list(&configuration["values"])?.iter().filter_map(|v| v.as_str().map(str::to_owned)).collect();
     let mut used = staged.clone();
     collect_uses(&configuration["statements"], &mut used)?;
     let scope = Scope { known, staged: BTreeSet::new(), parameters: "parameters.", constants: "constants." };
@@ -196,7 +199,11 @@ fn render_function(graph: &Value, function: &Value, scope: &Scope) -> Result<Val
     let result = if single {
         values[0].clone()
     } else {
-        let fields: Vec<String> = outputs.iter().zip(&values).map(|(o, v)| Ok(format!("{}: {v}", text(&o["name"])?))).collect::<Result<_, String>>()?;
+        let fields: Vec<String> = outputs
+            .iter()
+            .zip(&values)
+            .map(|(o, v)| Ok(format!("{}: {v}", text(&o["name"])?)))
+            .collect::<Result<_, String>>()?;
         format!("{} {{ {} }}", camel(name), fields.join(", "))
     };
     lines.push(result);
@@ -243,7 +250,11 @@ fn docs(function: &Value, outputs: &[Value]) -> Result<String, String> {
     if let [only] = outputs {
         lines.push(format!("Returns {}.", documented(only)?));
     }
-    lines.push(format!("Source: {}. Operations: {}.", text(&function["source"])?, operations(&function["operations"])?));
+    lines.push(format!(
+        "Source: {}. Operations: {}.",
+        text(&function["source"])?,
+        operations(&function["operations"])?
+    ));
     lines.push(String::new());
     Ok(lines.iter().map(|l| format!("/// {l}").trim_end().to_owned()).collect::<Vec<_>>().join("\n"))
 }
@@ -252,11 +263,18 @@ fn docs(function: &Value, outputs: &[Value]) -> Result<String, String> {
 fn documented(item: &Value) -> Result<String, String> {
     let shape: Vec<String> = list(&item["shape"])?.iter().map(Value::to_string).collect();
     let shape = if shape.is_empty() { "scalar".to_owned() } else { shape.join(" × ") };
-    Ok(format!("{} ({shape}; {})", text(&item["description"])?.replace('[', "\\[").replace(']', "\\]"), text(&item["unit"])?))
+    Ok(format!(
+        "{} ({shape}; {})",
+        text(&item["description"])?.replace('[', "\\[").replace(']', "\\]"),
+        text(&item["unit"])?
+    ))
 }
 
 fn input<'a>(graph: &'a Value, name: &str) -> Result<&'a Value, String> {
-    list(&graph["inputs"])?.iter().find(|i| i["name"] == json!(name)).ok_or_else(|| format!("input `{name}` is not declared"))
+    list(&graph["inputs"])?
+        .iter()
+        .find(|i| i["name"] == json!(name))
+        .ok_or_else(|| format!("input `{name}` is not declared"))
 }
 
 fn input_text(graph: &Value, name: &str) -> Result<String, String> {
@@ -272,7 +290,8 @@ fn array(output: &Value, scope: &Scope) -> Result<String, String> {
         1 => format!("[{}]", elements.join(", ")),
         _ => {
             let columns = shape[1].as_u64().and_then(|c| usize::try_from(c).ok()).ok_or("a shape is not a number")?;
-            let rows: Vec<String> = elements.chunks(columns.max(1)).map(|row| format!("[{}]", row.join(", "))).collect();
+            let rows: Vec<String> =
+                elements.chunks(columns.max(1)).map(|row| format!("[{}]", row.join(", "))).collect();
             format!("[{}]", rows.join(", "))
         }
     })
@@ -313,12 +332,19 @@ fn collect_uses(lines: &Value, used: &mut BTreeSet<String>) -> Result<(), String
 fn operations(counts: &Value) -> Result<String, String> {
     let counts = counts.as_object().ok_or("operation counts are missing")?;
     let of = |op: &str| counts.get(op).and_then(Value::as_u64).unwrap_or(0);
-    let parts: Vec<String> = ["mul", "add", "sub", "div"].iter().filter(|op| of(op) > 0).map(|op| format!("{} {op}", of(op))).collect();
+    let parts: Vec<String> =
+        ["mul", "add", "sub", "div"].iter().filter(|op| of(op) > 0).map(|op| format!("{} {op}", of(op))).collect();
     let mut phrase = format!("{} flops", of("flops"));
     if !parts.is_empty() {
         phrase = format!("{phrase} ({})", parts.join(", "));
     }
-    for (op, words) in [("sin_cos", "sin/cos pairs"), ("neg", "sign changes"), ("min", "minima"), ("sqrt", "square roots"), ("atan2", "arctangents")] {
+    for (op, words) in [
+        ("sin_cos", "sin/cos pairs"),
+        ("neg", "sign changes"),
+        ("min", "minima"),
+        ("sqrt", "square roots"),
+        ("atan2", "arctangents"),
+    ] {
         if of(op) > 0 {
             phrase = format!("{phrase}, {} {words}", of(op));
         }
@@ -328,7 +354,8 @@ fn operations(counts: &Value) -> Result<String, String> {
 
 /// One line per function for the header.
 fn table(graph: &Value) -> Result<Vec<String>, String> {
-    let mut lines = vec![format!("    {:34} {}", "parameters, once per model", operations(&graph["constants"]["operations"])?)];
+    let mut lines =
+        vec![format!("    {:34} {}", "parameters, once per model", operations(&graph["constants"]["operations"])?)];
     for family in list(&graph["families"])? {
         for function in list(&family["functions"])? {
             lines.push(format!("    {:34} {}", text(&function["name"])?, operations(&function["operations"])?));
@@ -357,4 +384,3 @@ fn list(value: &Value) -> Result<&Vec<Value>, String> {
 fn text(value: &Value) -> Result<&str, String> {
     value.as_str().ok_or_else(|| format!("a string was expected, not {value}"))
 }
-

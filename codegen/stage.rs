@@ -11,15 +11,17 @@ use std::path::Path;
 /// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
 pub fn render_all(codegen: &Path, out: &Path) -> Result<(), String> {
     let names = names(&codegen.join("layouts"), "toml")?;
-    for orphan in self::names(&codegen.join("graphs"), "json")?.iter().filter(|name| !names.contains(name)) {
-        return Err(format!("codegen/graphs/{orphan}.json has no layout codegen/layouts/{orphan}.toml: put it back, or delete the graph"));
+    let graphs = self::names(&codegen.join("graphs"), "json")?;
+    if let Some(orphan) = graphs.iter().find(|name| !names.contains(name)) {
+        return Err(format!(
+            "codegen/graphs/{orphan}.json has no layout codegen/layouts/{orphan}.toml: put it back, or delete the graph"
+        ));
     }
     for name in &names {
         let code = render_one(codegen, name)?;
         write(&out.join(format!("{name}.rs")), &code)?;
     }
-    let index: String = names.iter().map(|name| format!("generated!({name});\n")).collect();
-    write(&out.join("index.rs"), &index)?;
+    write(&out.join("index.rs"), &format!("generated!({});\n", names.join(", ")))?;
     write(&out.join("registry.rs"), &format!("registry!({});\n", names.join(", ")))
 }
 

@@ -70,9 +70,17 @@ class Symbols:
         self.layout = layout
         self.parameters: list[Parameter] = []
         self.cuts: list[Cut] = []
-        self.base_mass = self._parameter("base_mass", "base_mass", None, None, "kg", layout.base.mass, "mass of the base")
+        self.base_mass = self._parameter(
+            "base_mass", "base_mass", None, None, "kg", layout.base.mass, "mass of the base"
+        )
         self.base_inertia = self._parameter(
-            "base_inertia", "base_inertia", None, None, "kg m^2", layout.base.inertia, "inertia of the base about its COM"
+            "base_inertia",
+            "base_inertia",
+            None,
+            None,
+            "kg m^2",
+            layout.base.inertia,
+            "inertia of the base about its COM",
         )
         self.arms = [self._arm(i) for i in range(len(layout.arms))]
         self.joints = sum(len(arm.links) for arm in self.arms)
@@ -89,11 +97,25 @@ class Symbols:
         def number(quantity, value, unit, description, structural):
             if structural and value == 0.0:
                 return ca.SX(0)
-            return self._parameter(f"{label}_{quantity}", quantity, i, None, unit, value, f"{description} of arm {i + 1} ({arm.name})")
+            return self._parameter(
+                f"{label}_{quantity}",
+                quantity,
+                i,
+                None,
+                unit,
+                value,
+                f"{description} of arm {i + 1} ({arm.name})",
+            )
 
         mount_x = number("mount_x", arm.mount[0], "m", "first joint, base frame, x,", structural=False)
         mount_y = number("mount_y", arm.mount[1], "m", "first joint, base frame, y,", structural=True)
-        mount_angle = number("mount_angle", arm.mount_angle, "rad", "direction of joint 1 = 0 in the base frame", structural=True)
+        mount_angle = number(
+            "mount_angle",
+            arm.mount_angle,
+            "rad",
+            "direction of joint 1 = 0 in the base frame",
+            structural=True,
+        )
         return ArmSymbols(mount_x, mount_y, mount_angle, [self._link(i, k) for k in range(len(arm.links))])
 
     def _link(self, i: int, k: int) -> LinkSymbols:
@@ -104,10 +126,18 @@ class Symbols:
             if structural and value == 0.0:
                 return ca.SX(0)
             name = f"arm{i + 1}_link{k + 1}_{quantity}"
-            return self._parameter(name, f"link_{quantity}", i, k, unit, value, f"{description} of link {k + 1} of arm {i + 1}")
+            return self._parameter(
+                name, f"link_{quantity}", i, k, unit, value, f"{description} of link {k + 1} of arm {i + 1}"
+            )
 
         return LinkSymbols(
-            length=number("length", link.length, "m", "joint to next joint (or to the end effector)", structural=not last),
+            length=number(
+                "length",
+                link.length,
+                "m",
+                "joint to next joint (or to the end effector)",
+                structural=not last,
+            ),
             mass=number("mass", link.mass, "kg", "mass"),
             inertia=number("inertia", link.inertia, "kg m^2", "inertia about the COM"),
             com_x=number("com_x", link.com[0], "m", "COM, link frame, x,"),

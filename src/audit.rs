@@ -86,9 +86,6 @@ impl<'a> Audit<'a> {
     /// The phase so far.
     #[must_use]
     pub fn drift(&self) -> Drift {
-        Drift {
-            momentum_drift: self.linear.value().max(self.angular.value()),
-            energy_error: self.energy.value(),
-        }
+        Drift { momentum_drift: self.linear.value().max(self.angular.value()), energy_error: self.energy.value() }
     }
 }

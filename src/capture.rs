@@ -56,11 +56,8 @@ pub fn capture(model: &dyn Model<f64>, before: &Motion, targets: &[Option<Target
         let mut joint_rates = vec![0.0; joints];
         let mut target_twists = vec![[0.0; 3]; arms];
         let mut impulses = vec![[0.0; 3]; arms];
-        let mut after = After {
-            joint_rates: &mut joint_rates,
-            target_twists: &mut target_twists,
-            impulses: &mut impulses,
-        };
+        let mut after =
+            After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
         let base_twist = if literal {
             let mut workspace = Workspace {
                 impact_matrix: &mut vec![0.0; joints * joints],

@@ -37,7 +37,9 @@ pub(crate) fn store_rows<T: Real, const C: usize>(
 pub(crate) fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(()),
-        Some(index) => Err(Error::NotFinite { quantity, index, value: values.get(index).map_or(f64::NAN, |v| v.to_f64()) }),
+        Some(index) => {
+            Err(Error::NotFinite { quantity, index, value: values.get(index).map_or(f64::NAN, |v| v.to_f64()) })
+        }
     }
 }
 

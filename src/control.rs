@@ -35,7 +35,7 @@ impl<T: Real> Control<T> for Free {
 /// Eq. (18): `τ = K_p (θ_d − θ) + K_v (θ̇_d − θ̇)`, gains per joint.
 #[derive(Clone, Copy, Debug)]
 pub struct ProportionalDerivative<'a, T, R> {
-    /// θ_d and θ̇_d.
+    /// Desired angles and rates.
     pub trajectory: R,
     /// Diagonal of `K_p`, N m/rad.
     pub proportional_gain: &'a [T],
@@ -69,7 +69,7 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ProportionalDerivative<'_, T, R> 
 /// For a robot that starts on the trajectory. The slices are working space: joints², joints, 3 arms × joints.
 #[derive(Debug)]
 pub struct ExactTracking<'a, T, R> {
-    /// θ̈_d.
+    /// Desired accelerations.
     pub trajectory: R,
     /// joints².
     pub generalized_inertia: &'a mut [T],
@@ -89,12 +89,7 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ExactTracking<'_, T, R> {
     ) -> Result<(), Error> {
         let joints = model.joints();
         same_length("joint_torques", torques, joints)?;
-        model.reduced_dynamics(
-            state,
-            self.generalized_inertia,
-            self.generalized_bias,
-            self.generalized_jacobian,
-        )?;
+        model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
         torques.copy_from_slice(self.generalized_bias);
         for (joint, column) in self.generalized_inertia.chunks_exact(joints).enumerate() {
             // I is symmetric: its rows are its columns

@@ -4,7 +4,7 @@
 
 /// Joins one rendered module with the traits that generated and generic models share.
 macro_rules! generated {
-    ($name:ident) => {
+    ($($name:ident),* $(,)?) => {$(
         #[doc = concat!("Generated from the layout `", stringify!($name), "`; the operation counts stand in the functions' docs.")]
         pub mod $name {
             use crate::manifest::{Manifest, Parameter, Quantity};
@@ -15,6 +15,7 @@ macro_rules! generated {
                 clippy::needless_arbitrary_self_type,
                 clippy::many_single_char_names,
                 clippy::similar_names,
+                clippy::too_many_arguments,
                 clippy::too_many_lines,
                 clippy::unreadable_literal,
                 clippy::trivially_copy_pass_by_ref,
@@ -43,7 +44,7 @@ macro_rules! generated {
                 crate::generated::implement!();
             }
         }
-    };
+    )*};
 }
 
 /// The traits of [`crate::dynamics`] for the `Model` in scope.
@@ -118,12 +119,7 @@ macro_rules! implement {
         }
 
         impl<T: Real> EquationsOfMotion<T> for Model<T> {
-            fn mass_matrix(
-                &self,
-                base_pose: &[T; 3],
-                joint_angles: &[T],
-                mass_matrix: &mut [T],
-            ) -> Result<(), Error> {
+            fn mass_matrix(&self, base_pose: &[T; 3], joint_angles: &[T], mass_matrix: &mut [T]) -> Result<(), Error> {
                 finite_configuration(base_pose, joint_angles)?;
                 let result = Model::mass_matrix(self, base_pose, array("joint_angles", joint_angles)?);
                 store("mass_matrix", result.as_flattened(), mass_matrix)

@@ -55,7 +55,7 @@ pub struct Workspace<'a, T> {
 /// robot's momentum before the impact, for the base twist that is returned.
 ///
 /// Not momentum-conserving: J maps joint rates to tip twists only without robot momentum, which the impact gives.
-/// (17) is read with the base twist [ω; v], so with [l − c_o × p; p].
+/// (17) is read with the base twist `[ω; v]`, so with `[l − c_o × p; p]`.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -67,13 +67,7 @@ pub fn paper<T: Real>(
     after: &mut After<'_, T>,
 ) -> Result<[T; 3], Error> {
     let joints = model.joints();
-    model.reduced_impact(
-        state,
-        targets,
-        workspace.impact_matrix,
-        workspace.impact_momentum,
-        after.joint_rates,
-    )?;
+    model.reduced_impact(state, targets, workspace.impact_matrix, workspace.impact_momentum, after.joint_rates)?;
     // (14): t_t = J_t⁻¹ J joint_rates, with the generalized Jacobian
     model.reduced_dynamics(state, workspace.impact_matrix, workspace.impact_momentum, workspace.jacobian)?;
     let rows = workspace.jacobian.chunks_exact(joints.max(1));
@@ -118,7 +112,8 @@ fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut After<'_, T>) -> 
             return Err(Error::Length { quantity: "targets", expected: found, found: expected });
         }
     }
-    for ((target, twist), impulse) in targets.iter().zip(after.target_twists.iter_mut()).zip(after.impulses.iter_mut()) {
+    for ((target, twist), impulse) in targets.iter().zip(after.target_twists.iter_mut()).zip(after.impulses.iter_mut())
+    {
         *twist = target.map_or([T::ZERO; 3], |t| t.twist_from_contact(twist));
         *impulse = target.map_or([T::ZERO; 3], |t| t.impulse(twist));
     }

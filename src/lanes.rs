@@ -12,7 +12,11 @@ macro_rules! lanes {
             const ONE: Self = $lanes::ONE;
 
             #[inline]
-            #[allow(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "rounding to the lane is what is asked for")]
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_lossless,
+                reason = "rounding to the lane is what is asked for"
+            )]
             fn constant(value: f64) -> Self {
                 $lanes::splat(value as $float)
             }

@@ -81,8 +81,7 @@ impl Layout {
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
         read_document(text, file, &["name", "base", "arm"], |root| {
             let name = root.require("name", MODULE_NAME).and_then(|value| module_name(&value));
-            let base =
-                root.table("base", &["mass", "inertia"]).and_then(|base| Base::from_table(&base));
+            let base = root.table("base", &["mass", "inertia"]).and_then(|base| Base::from_table(&base));
             let arms = root.require("arm", "at least one `[[arm]]`").and_then(|value| {
                 let arms = value.tables(&["name", "mount", "mount_angle", "link"])?;
                 if arms.is_empty() {
@@ -137,9 +136,7 @@ impl Layout {
                     ("com[0]", link.com[0]),
                     ("com[1]", link.com[1]),
                 ];
-                lines.extend(
-                    entries.map(|(key, value)| number(&format!("arm[{i}].link[{j}].{key}"), value)),
-                );
+                lines.extend(entries.map(|(key, value)| number(&format!("arm[{i}].link[{j}].{key}"), value)));
             }
         }
         lines.concat()
@@ -166,12 +163,7 @@ impl Arm {
             }
             every(links.iter().map(Link::from_table))
         });
-        Some(Self {
-            name: name?.to_owned(),
-            mount: mount?,
-            mount_angle: mount_angle?,
-            links: links?,
-        })
+        Some(Self { name: name?.to_owned(), mount: mount?, mount_angle: mount_angle?, links: links? })
     }
 }
 
@@ -188,8 +180,7 @@ impl Link {
     }
 }
 
-const MODULE_NAME: &str =
-    "a name for a Rust module (lower-case letters, digits and `_`, a letter first)";
+const MODULE_NAME: &str = "a name for a Rust module (lower-case letters, digits and `_`, a letter first)";
 
 /// A name that can be a Rust module and a file.
 fn module_name(value: &Value<'_>) -> Option<String> {
@@ -201,10 +192,7 @@ fn module_name(value: &Value<'_>) -> Option<String> {
         return None;
     }
     if KEYWORDS.split_whitespace().any(|keyword| keyword == name) {
-        value.expected(
-            MODULE_NAME,
-            Some(format!("`{name}` is a Rust keyword; `{name}_robot` would do")),
-        );
+        value.expected(MODULE_NAME, Some(format!("`{name}` is a Rust keyword; `{name}_robot` would do")));
         return None;
     }
     Some(name.to_owned())

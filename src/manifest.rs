@@ -61,9 +61,7 @@ impl Manifest {
     /// Position of a parameter, `None` for a structural zero.
     #[must_use]
     pub fn position(&self, quantity: Quantity, arm: usize, link: usize) -> Option<usize> {
-        self.parameters
-            .iter()
-            .position(|p| p.quantity == quantity && p.arm == arm && p.link == link)
+        self.parameters.iter().position(|p| p.quantity == quantity && p.arm == arm && p.link == link)
     }
 
     /// Number of links of all arms.

@@ -85,16 +85,15 @@ fn parameters(manifest: &Manifest, layout: &Layout) -> Option<Vec<f64>> {
     Some(values)
 }
 
+#[allow(clippy::float_cmp, reason = "a structural zero is an exact one")]
 fn first_mounts_coincide(layout: &Layout) -> bool {
     matches!(layout.arms.as_slice(), [first, second, ..] if first.mount == second.mount)
 }
 
 /// Every number of a layout and what it is.
 fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
-    let mut all = vec![
-        (Quantity::BaseMass, 0, 0, layout.base.mass),
-        (Quantity::BaseInertia, 0, 0, layout.base.inertia),
-    ];
+    let mut all =
+        vec![(Quantity::BaseMass, 0, 0, layout.base.mass), (Quantity::BaseInertia, 0, 0, layout.base.inertia)];
     for (i, arm) in layout.arms.iter().enumerate() {
         all.push((Quantity::MountX, i, 0, arm.mount[0]));
         all.push((Quantity::MountY, i, 0, arm.mount[1]));

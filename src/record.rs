@@ -29,9 +29,7 @@ fn header(layout: &Layout) -> Vec<String> {
     let pose = [("yaw", "rad"), ("x", "m"), ("y", "m")];
     let twist = [("omega", "rad/s"), ("vx", "m/s"), ("vy", "m/s")];
     add("base_", &pose);
-    for (quantity, unit) in [("angle", "rad")] {
-        each_joint(layout, |joint| add(&format!("{joint}_"), &[(quantity, unit)]));
-    }
+    each_joint(layout, |joint| add(&format!("{joint}_"), &[("angle", "rad")]));
     add("base_", &twist);
     for part in [("rate", "rad/s"), ("torque", "N m")] {
         each_joint(layout, |joint| add(&format!("{joint}_"), &[part]));

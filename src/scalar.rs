@@ -6,12 +6,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// Straight-line code needs no comparison but [`Scalar::minimum`], so lanes do.
 pub trait Scalar:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// 0, in every lane.
     const ZERO: Self;
@@ -25,12 +20,15 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
 
     /// Square root.
+    #[must_use]
     fn sqrt(self) -> Self;
 
     /// The angle of the vector (`x`, `self`), in rad, −π to π; 0 for the null vector.
+    #[must_use]
     fn atan2(self, x: Self) -> Self;
 
     /// The smaller of two values. Which of them where one is NaN is open.
+    #[must_use]
     fn minimum(self, other: Self) -> Self;
 }
 

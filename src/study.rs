@@ -190,6 +190,9 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
     ];
     // a NaN is not within its bound
-    let out_of_bound = checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(|o| o.is_gt()));
-    out_of_bound.map(|(what, value, bound)| format!("{name}: {what} {value:.2e} is over its bound {bound:.0e}")).collect()
+    let out_of_bound =
+        checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
+    out_of_bound
+        .map(|(what, value, bound)| format!("{name}: {what} {value:.2e} is over its bound {bound:.0e}"))
+        .collect()
 }

@@ -2,7 +2,7 @@
 
 use crate::capture::ImpactResult;
 use crate::scenario::Scenario;
-use crate::study::{CaseResult, Captured, Study};
+use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
 /// The numbers of a study in words and columns.
@@ -54,11 +54,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
         writeln!(out)?;
     }
-    writeln!(
-        out,
-        "  momentum drift {:.1e}, energy error {:.1e}",
-        phase.drift.momentum_drift, phase.drift.energy_error
-    )
+    writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
 }
 
 fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {

@@ -119,4 +119,3 @@ impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
         })
     }
 }
-

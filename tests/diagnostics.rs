@@ -6,9 +6,9 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-use parse::diagnostic::{Report, nearest};
-use parse::layout::Layout;
-use parse::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use planar_capture::diagnostic::{Report, nearest};
+use planar_capture::layout::Layout;
+use planar_capture::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
 
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 
@@ -110,18 +110,8 @@ const LAYOUT_EDITS: &[Edit] = &[
     ("mount =", "mount_angle = 90\nmount =", 7, &["`arm[0].mount_angle` is 90", "degrees"]),
     ("length = 1.0", "length = -1", 9, &["`arm[0].link[0].length` is -1", "in m of 0 or more"]),
     ("length = 1.0", "length = 25000", 9, &["is 25000", "25000 millimetres = 25 m"]),
-    (
-        "length = 1.0",
-        "length = 1\nmount_angle = 1",
-        10,
-        &["`arm[0].link[0].mount_angle` (1)", "a key of `arm[0]`"],
-    ),
-    (
-        "inertia = 1.05\n[",
-        "inertia = 1\ncom = [1,\n 2, 3]\n[",
-        12,
-        &["com` is [1, 2, 3]", "[x, y]"],
-    ),
+    ("length = 1.0", "length = 1\nmount_angle = 1", 10, &["`arm[0].link[0].mount_angle` (1)", "a key of `arm[0]`"]),
+    ("inertia = 1.05\n[", "inertia = 1\ncom = [1,\n 2, 3]\n[", 12, &["com` is [1, 2, 3]", "[x, y]"]),
     ("length = 1\nmass = 10\n", "length = 1\n", 12, &["missing key `arm[0].link[1].mass`"]),
     ("[[arm.link]]\nlength = 1\n", "[[arm.lnik]]\nlength = 1\n", 12, &["`arm[0].lnik`", "`link`"]),
     ("mass = 500.0", "mass = 5 kg", 3, &["`mass = 5 kg` is not valid TOML", "without units"]),
@@ -142,33 +132,16 @@ fn arms_are_lists_with_distinct_names() {
     let arms = |arms: &str| format!("name = \"a\"\nbase = {{ mass = 1, inertia = 1 }}\n{arms}");
     let arm = format!("[[arm]]\nname = \"left\"\nmount = [0, 0]\n{one_link}");
     let cases = [
-        (
-            format!("{arm}{arm}"),
-            "one.toml:11:8",
-            "`arm[1].name` is \"left\": the same as `arm[0].name`",
-        ),
+        (format!("{arm}{arm}"), "one.toml:11:8", "`arm[1].name` is \"left\": the same as `arm[0].name`"),
         ("arm = []".to_owned(), "one.toml:3:7", "`arm` is [], expected at least one `[[arm]]`"),
         (String::new(), "one.toml:1:1", "missing key `arm`, expected at least one `[[arm]]`"),
         ("[arm]\nname = \"x\"".to_owned(), "one.toml:3:1", "`arm` is a single table"),
-        (
-            "[[arm]]\nname='x'\nmount=[0,0]\n[arm.link]".to_owned(),
-            "one.toml:6:1",
-            "write `[[arm.link]]`",
-        ),
-        (
-            "[[arm]]\nname='x'\nmount=[0,0]".to_owned(),
-            "one.toml:3:1",
-            "at least one `[[arm.link]]`",
-        ),
-        (
-            "[[arm]]\nname='x'\nmount=[0,0]\nlink=[]".to_owned(),
-            "one.toml:6:6",
-            "`arm[0].link` is []",
-        ),
+        ("[[arm]]\nname='x'\nmount=[0,0]\n[arm.link]".to_owned(), "one.toml:6:1", "write `[[arm.link]]`"),
+        ("[[arm]]\nname='x'\nmount=[0,0]".to_owned(), "one.toml:3:1", "at least one `[[arm.link]]`"),
+        ("[[arm]]\nname='x'\nmount=[0,0]\nlink=[]".to_owned(), "one.toml:6:6", "`arm[0].link` is []"),
     ];
     for (text, place, message) in cases {
-        let shown =
-            Layout::parse(&arms(&text), "one.toml").err().map(|r| (r.count(), r.to_string()));
+        let shown = Layout::parse(&arms(&text), "one.toml").err().map(|r| (r.count(), r.to_string()));
         let Some((1, shown)) = shown else {
             unreachable!("expected one problem with {text}, found {shown:?}");
         };
@@ -178,56 +151,16 @@ fn arms_are_lists_with_distinct_names() {
 
 const SCENARIO_EDITS: &[Edit] = &[
     ("\"demo\"", "\"a demo/1\"", 1, &["`name` is \"a demo/1\"", "ASCII letters"]),
-    (
-        "\"one_arm\"",
-        "\"one_arms\"",
-        2,
-        &["`layout` is \"one_arms\"", "did you mean `one_arm`?", ".toml"],
-    ),
-    (
-        "\"one_arm\"",
-        "\"nowhere/x.toml\"",
-        2,
-        &["`layout` is \"nowhere/x.toml\"", "there is no file"],
-    ),
+    ("\"one_arm\"", "\"one_arms\"", 2, &["`layout` is \"one_arms\"", "did you mean `one_arm`?", ".toml"]),
+    ("\"one_arm\"", "\"nowhere/x.toml\"", 2, &["`layout` is \"nowhere/x.toml\"", "there is no file"]),
     ("layout = \"one_arm\"\n", "", 1, &["missing key `layout`", "shipped layout's name"]),
-    (
-        "[0.1, 0.2]",
-        "[0.1]",
-        4,
-        &["`initial.joint_angles` is [0.1]", "2 numbers", "left: 2", "found 1"],
-    ),
+    ("[0.1, 0.2]", "[0.1]", 4, &["`initial.joint_angles` is [0.1]", "2 numbers", "left: 2", "found 1"]),
     ("[0.1, 0.2]", "[40, -90]", 4, &["`initial.joint_angles[0]` is 40", "0.698", "degrees"]),
-    (
-        "[0.1, 0.2]",
-        "[0.1, 0.2]\nbase_pose = [1, 2]",
-        5,
-        &["`initial.base_pose` is [1, 2]", "[yaw, x, y] in rad, m, m"],
-    ),
-    (
-        "[0.1, 0.2]",
-        "[0.1, 0.2]\nbase_twist = 0",
-        5,
-        &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"],
-    ),
-    (
-        "[0.1, 0.2]",
-        "[0.1, 0.2]\njoint_rate = [0, 0]",
-        5,
-        &["unknown key `initial.joint_rate`", "`joint_rates`"],
-    ),
-    (
-        "duration = 20.0",
-        "duration = 0",
-        6,
-        &["`approach.duration` is 0", "a duration in s greater than 0"],
-    ),
-    (
-        "duration = 20.0",
-        "duration = 20.0\nstep = 30",
-        7,
-        &["`approach.step` is 30", "longer than the duration, 20 s"],
-    ),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_pose = [1, 2]", 5, &["`initial.base_pose` is [1, 2]", "[yaw, x, y] in rad, m, m"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\njoint_rate = [0, 0]", 5, &["unknown key `initial.joint_rate`", "`joint_rates`"]),
+    ("duration = 20.0", "duration = 0", 6, &["`approach.duration` is 0", "a duration in s greater than 0"]),
+    ("duration = 20.0", "duration = 20.0\nstep = 30", 7, &["`approach.step` is 30", "longer than the duration, 20 s"]),
     (
         "duration = 20.0",
         "duration = 20.0\nstep = 1e-9",
@@ -235,37 +168,12 @@ const SCENARIO_EDITS: &[Edit] = &[
         &["`approach.step` is 1e-9", "20000000000 steps", "at most 1e8"],
     ),
     ("duration = 20.0", "duration = 1e-3", 6, &["`approach.duration` is 1e-3", "0.005 s"]),
-    (
-        "\"quartic\"",
-        "\"quartik\"",
-        7,
-        &["`approach.trajectory` is \"quartik\"", "did you mean `quartic`?"],
-    ),
-    (
-        "\"quartic\"",
-        "\"spline\"",
-        7,
-        &["\"spline\", expected `quartic`, `quartic_as_printed` or `cycloidal`"],
-    ),
+    ("\"quartic\"", "\"quartik\"", 7, &["`approach.trajectory` is \"quartik\"", "did you mean `quartic`?"]),
+    ("\"quartic\"", "\"spline\"", 7, &["\"spline\", expected `quartic`, `quartic_as_printed` or `cycloidal`"]),
     ("\"quartic\"", "4", 7, &["`approach.trajectory` is 4, expected `quartic`"]),
-    (
-        "\"quartic\"",
-        "\"cycloidal\"",
-        9,
-        &["`approach.final_end_effector_twists` is [[0, -0.1, 0]]", "ends at rest"],
-    ),
-    (
-        "[[0, -0.1, 0]]",
-        "[[0, -0.1]]",
-        9,
-        &["`approach.final_end_effector_twists[0]` is [0, -0.1]", "[ω, vx, vy]"],
-    ),
-    (
-        "[[0, -0.1, 0]]",
-        "[0, -0.1, 0]",
-        9,
-        &["is [0, -0.1, 0], expected 1 twists [ω, vx, vy], one per arm (left)"],
-    ),
+    ("\"quartic\"", "\"cycloidal\"", 9, &["`approach.final_end_effector_twists` is [[0, -0.1, 0]]", "ends at rest"]),
+    ("[[0, -0.1, 0]]", "[[0, -0.1]]", 9, &["`approach.final_end_effector_twists[0]` is [0, -0.1]", "[ω, vx, vy]"]),
+    ("[[0, -0.1, 0]]", "[0, -0.1, 0]", 9, &["is [0, -0.1, 0], expected 1 twists [ω, vx, vy], one per arm (left)"]),
     (
         "final_end_effector_twists = [[0, -0.1, 0]]\n",
         "",
@@ -276,23 +184,10 @@ const SCENARIO_EDITS: &[Edit] = &[
         "final_end_effector_twists",
         "final_effector_twists",
         9,
-        &[
-            "unknown key `approach.final_effector_twists`",
-            "did you mean `final_end_effector_twists`?",
-        ],
+        &["unknown key `approach.final_effector_twists`", "did you mean `final_end_effector_twists`?"],
     ),
-    (
-        "[[0, -0.1, 0]]",
-        "[[0, 0, 0]]\nfinal_joint_rates = [0, 0]",
-        9,
-        &["`final_joint_rates` is there too"],
-    ),
-    (
-        "\"quartic\"",
-        "\"quartic\"\ntracking = \"p\"",
-        8,
-        &["`approach.tracking` is \"p\", expected `pd` or `exact`"],
-    ),
+    ("[[0, -0.1, 0]]", "[[0, 0, 0]]\nfinal_joint_rates = [0, 0]", 9, &["`final_joint_rates` is there too"]),
+    ("\"quartic\"", "\"quartic\"\ntracking = \"p\"", 8, &["`approach.tracking` is \"p\", expected `pd` or `exact`"]),
     (
         "\"quartic\"",
         "\"quartic\"\ntracking = \"exact\"\nderivative_gain = 3",
@@ -305,12 +200,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         8,
         &["`approach.proportional_gain` is -1", "N m/rad of 0 or more"],
     ),
-    (
-        "\"quartic\"",
-        "\"quartic\"\nproportional_gain = [1]",
-        8,
-        &["`approach.proportional_gain` is [1]", "2 numbers"],
-    ),
+    ("\"quartic\"", "\"quartic\"\nproportional_gain = [1]", 8, &["`approach.proportional_gain` is [1]", "2 numbers"]),
     (
         "[0.1, 0.2]\n[approach]",
         "[0.1, 0.2]\njoint_rates = [0, 1]\n[approach]\ntracking = \"exact\"",
@@ -323,57 +213,17 @@ const SCENARIO_EDITS: &[Edit] = &[
         12,
         &["`target[0].arm` is \"lefty\"", "did you mean `left`?", "layout `one_arm`"],
     ),
-    (
-        "radius = 0.5",
-        "radius = 0",
-        16,
-        &["`target[0].radius` is 0", "a radius in m greater than 0"],
-    ),
+    ("radius = 0.5", "radius = 0", 16, &["`target[0].radius` is 0", "a radius in m greater than 0"]),
     ("contact = [0.0, 0.5]\n", "", 10, &["missing key `target[0].contact`", "[rx, ry] in m"]),
-    (
-        "radius = 0.5",
-        "radius = 0.5\nposition = [1]",
-        17,
-        &["`target[0].position` is [1]", "[x, y] in m"],
-    ),
+    ("radius = 0.5", "radius = 0.5\nposition = [1]", 17, &["`target[0].position` is [1]", "[x, y] in m"]),
     ("\"still\"", "\"spin\"", 21, &["`case[1].name` is \"spin\": the same as `case[0].name`"]),
     ("\"still\"", "\".still\"", 21, &["`case[1].name` is \".still\"", "not `.` first"]),
-    (
-        "{ ball =",
-        "{ bal =",
-        22,
-        &["`case[1].target_twists.bal` ([0, 0, 0])", "did you mean `ball`?"],
-    ),
-    (
-        "{ ball = [0, 0, 0] }",
-        "{ ball = [0, 0] }",
-        22,
-        &["`case[1].target_twists.ball` is [0, 0]", "[ω, vx, vy]"],
-    ),
-    (
-        "{ ball = [0, 0, 0] }",
-        "[0, 0, 0]",
-        22,
-        &["`case[1].target_twists` is [0, 0, 0], expected a table with `ball`"],
-    ),
-    (
-        "[post_impact]\nduration = 50.0\n",
-        "",
-        1,
-        &["missing key `post_impact`", "`duration` and `step`"],
-    ),
-    (
-        "duration = 50.0",
-        "duration = 50.0\nstep = 0",
-        25,
-        &["`post_impact.step` is 0", "greater than 0"],
-    ),
-    (
-        "[post_impact]",
-        "[post_imapct]",
-        23,
-        &["unknown key `post_imapct` (a table)", "did you mean `post_impact`?"],
-    ),
+    ("{ ball =", "{ bal =", 22, &["`case[1].target_twists.bal` ([0, 0, 0])", "did you mean `ball`?"]),
+    ("{ ball = [0, 0, 0] }", "{ ball = [0, 0] }", 22, &["`case[1].target_twists.ball` is [0, 0]", "[ω, vx, vy]"]),
+    ("{ ball = [0, 0, 0] }", "[0, 0, 0]", 22, &["`case[1].target_twists` is [0, 0, 0], expected a table with `ball`"]),
+    ("[post_impact]\nduration = 50.0\n", "", 1, &["missing key `post_impact`", "`duration` and `step`"]),
+    ("duration = 50.0", "duration = 50.0\nstep = 0", 25, &["`post_impact.step` is 0", "greater than 0"]),
+    ("[post_impact]", "[post_imapct]", 23, &["unknown key `post_imapct` (a table)", "did you mean `post_impact`?"]),
 ];
 
 #[test]
@@ -399,29 +249,20 @@ fn without_targets_there_is_nothing_to_capture() {
     let alone = &SCENARIO[..end];
     let text = format!("{alone}[[case]]\nname = \"a\"\n[post_impact]\nduration = 1\n");
     let shown = scenario(&text).err().map(|report| report.to_string()).unwrap_or_default();
-    assert!(
-        shown.contains("demo.toml:10:1") && shown.contains("without a `[[target]]`"),
-        "{shown}"
-    );
-    assert!(
-        shown.contains("demo.toml:12:1") && shown.contains("`post_impact` is a table"),
-        "{shown}"
-    );
+    assert!(shown.contains("demo.toml:10:1") && shown.contains("without a `[[target]]`"), "{shown}");
+    assert!(shown.contains("demo.toml:12:1") && shown.contains("`post_impact` is a table"), "{shown}");
     let alone = scenario(alone);
-    assert!(
-        matches!(&alone, Ok(s) if s.cases.len() == 1 && s.cases[0].name == "demo"),
-        "{alone:?}"
-    );
+    assert!(matches!(&alone, Ok(s) if s.cases.len() == 1 && s.cases[0].name == "demo"), "{alone:?}");
     assert!(matches!(&alone, Ok(s) if s.post_impact.is_none() && s.targets.is_empty()));
 }
 
 #[test]
 fn problems_are_reported_together_in_order() {
-    let text = LAYOUT
-        .replacen("500.0", "-1", 1)
-        .replacen("83.61", "inf", 1)
-        .replacen("\"left\"", "7", 1)
-        .replacen("length = 1.0", "lenght = 1.0", 1);
+    let text = LAYOUT.replacen("500.0", "-1", 1).replacen("83.61", "inf", 1).replacen("\"left\"", "7", 1).replacen(
+        "length = 1.0",
+        "lenght = 1.0",
+        1,
+    );
     let report = Layout::parse(&text, "one.toml").err();
     assert_eq!(report.as_ref().map(Report::count), Some(4));
     let shown = report.map(|report| report.to_string()).unwrap_or_default();
@@ -443,8 +284,7 @@ fn long_reports_are_cut_to_a_screen() {
 fn syntax_errors_are_shown_once_per_line() {
     let text = "name = \"a\nmass = [1, 2\ninertia == 3\nb = 1 kg\n";
     let shown = Layout::parse(text, "s.toml").err().map(|r| r.to_string()).unwrap_or_default();
-    let places: Vec<_> =
-        shown.lines().filter_map(|line| line.trim().strip_prefix("--> s.toml:")).collect();
+    let places: Vec<_> = shown.lines().filter_map(|line| line.trim().strip_prefix("--> s.toml:")).collect();
     let lines: HashSet<_> = places.iter().filter_map(|place| place.split(':').next()).collect();
     assert!(places.len() > 1 && places.len() == lines.len(), "{shown}");
 }
@@ -523,10 +363,8 @@ fn valid_files() -> Outcome {
     assert_eq!(demo.approach.end, EndRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0]]));
     assert_eq!((demo.approach.duration, demo.approach.step), (20.0, 0.005));
     let gains = (vec![49.0, 49.0], vec![14.0, 14.0]);
-    let tracking = |(proportional_gain, derivative_gain)| Tracking::ProportionalDerivative {
-        proportional_gain,
-        derivative_gain,
-    };
+    let tracking =
+        |(proportional_gain, derivative_gain)| Tracking::ProportionalDerivative { proportional_gain, derivative_gain };
     assert_eq!(demo.approach.tracking, tracking(gains));
     assert_eq!(demo.initial.joint_rates, [0.0, 0.0]);
     let cases: Vec<_> = demo.cases.iter().map(|c| (c.name.as_str(), c.target_twists[0])).collect();
@@ -535,7 +373,11 @@ fn valid_files() -> Outcome {
     let text = SCENARIO
         .replacen("\"quartic\"", "\"cycloidal\"\nproportional_gain = [1, 2]\nderivative_gain = 0", 1)
         .replacen("final_end_effector_twists = [[0, -0.1, 0]]\n", "", 1)
-        .replacen("[[case]]\nname = \"spin\"\n[[case]]\nname = \"still\"\ntarget_twists = { ball = [0, 0, 0] }\n", "", 1);
+        .replacen(
+            "[[case]]\nname = \"spin\"\n[[case]]\nname = \"still\"\ntarget_twists = { ball = [0, 0, 0] }\n",
+            "",
+            1,
+        );
     let demo = scenario(&text)?;
     assert_eq!(demo.approach.end, EndRates::Rest);
     assert_eq!(demo.approach.tracking, tracking((vec![1.0, 2.0], vec![0.0, 0.0])));
@@ -546,7 +388,7 @@ fn valid_files() -> Outcome {
 
 #[test]
 fn the_hash_is_of_the_content() -> Outcome {
-    let text = include_str!("/work/shared/layouts/dual_arm_3r.toml");
+    let text = include_str!("../codegen/layouts/dual_arm_3r.toml");
     let hash = Layout::parse(text, "dual_arm_3r.toml")?.sha256();
     // Computed in Python, from the format's description, with struct and hashlib.
     assert_eq!(hash, "a6de99dfde7250247e3fa7445a3d9dac7f06c957d7e3dcdf03a478002ed876bf");
@@ -575,8 +417,7 @@ fn any_edit_is_read_or_reported() {
     for text in [LAYOUT, SCENARIO] {
         for at in 0..text.len() {
             check(&text[..at]);
-            for edit in ["", "[", "]", "\"", "{", "=", "-", "\n", "é", "\t", "\0", "\r", "\u{202e}"]
-            {
+            for edit in ["", "[", "]", "\"", "{", "=", "-", "\n", "é", "\t", "\0", "\r", "\u{202e}"] {
                 check(&format!("{}{edit}{}", &text[..at], &text[at + 1..]));
             }
         }

@@ -25,13 +25,7 @@ impl Document {
     }
 
     /// Notes a problem at a span.
-    pub(super) fn report(
-        &self,
-        span: &Range<usize>,
-        message: String,
-        label: Option<String>,
-        help: Option<String>,
-    ) {
+    pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
         let place = Some((Arc::clone(&self.source), span.clone()));
         self.problems.borrow_mut().push(Problem { place, message, label, help });
     }
@@ -60,11 +54,9 @@ impl Document {
         let here = (Arc::clone(&self.source), span.clone());
         let adopted = report.problems.into_iter().map(|problem| match problem.place {
             Some(_) => problem,
-            None => Problem {
-                place: Some(here.clone()),
-                message: format!("{value}, but {}", problem.message),
-                ..problem
-            },
+            None => {
+                Problem { place: Some(here.clone()), message: format!("{value}, but {}", problem.message), ..problem }
+            }
         });
         self.problems.borrow_mut().extend(adopted);
     }
@@ -73,8 +65,7 @@ impl Document {
     fn report_syntax(&self, errors: &[toml::de::Error]) {
         let text = &self.source.text;
         let mut last_line = None;
-        let mut errors: Vec<_> =
-            errors.iter().map(|e| (e.span().unwrap_or_default(), e.message())).collect();
+        let mut errors: Vec<_> = errors.iter().map(|e| (e.span().unwrap_or_default(), e.message())).collect();
         errors.sort_by_key(|(span, _)| span.start);
         for (span, message) in errors {
             let before = text.get(..span.start).unwrap_or_default();
@@ -135,11 +126,7 @@ pub fn read_document<T>(
 ) -> Result<T, Report> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let source = Source { file: printable(file), text: text.to_owned() };
-    let document = Document {
-        source: Arc::new(source),
-        problems: RefCell::default(),
-        tables: RefCell::default(),
-    };
+    let document = Document { source: Arc::new(source), problems: RefCell::default(), tables: RefCell::default() };
     let (tree, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
         document.report_syntax(&errors);

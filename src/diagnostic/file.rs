@@ -41,9 +41,7 @@ fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
 fn unreadable(path: &Path, error: &io::Error) -> Report {
     let name = shown(path);
     match error.kind() {
-        ErrorKind::NotFound => {
-            Problem::with_file(format!("there is no file `{name}`"), elsewhere(path))
-        }
+        ErrorKind::NotFound => Problem::with_file(format!("there is no file `{name}`"), elsewhere(path)),
         ErrorKind::IsADirectory => Problem::with_file(
             format!("`{name}` is a directory, expected a TOML file"),
             names_in(path)
@@ -71,8 +69,7 @@ fn elsewhere(path: &Path) -> Option<String> {
 /// The names in a folder, sorted; none where it cannot be read.
 fn names_in(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<_> =
-        entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    let mut names: Vec<_> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     names.sort_unstable();
     names
 }

@@ -80,8 +80,7 @@ impl Report {
     #[must_use]
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
-        let mut parts: Vec<_> =
-            self.problems.iter().take(SHOWN).map(|problem| problem.render(&renderer)).collect();
+        let mut parts: Vec<_> = self.problems.iter().take(SHOWN).map(|problem| problem.render(&renderer)).collect();
         match self.problems.len().saturating_sub(SHOWN) {
             0 => {}
             1 => parts.push("... and 1 more problem".to_owned()),

@@ -72,11 +72,7 @@ impl<'a> Table<'a> {
 
     /// A vector that must be given.
     #[must_use]
-    pub fn vector<const N: usize>(
-        &self,
-        key: &str,
-        components: &[Quantity; N],
-    ) -> Option<[f64; N]> {
+    pub fn vector<const N: usize>(&self, key: &str, components: &[Quantity; N]) -> Option<[f64; N]> {
         self.require(key, &form(components))?.vector(components)
     }
 
@@ -112,8 +108,7 @@ impl<'a> Table<'a> {
     pub fn reject_repeats(tables: &[Self], key: &str, why: &str) {
         let values: Vec<_> = tables.iter().filter_map(|table| table.get(key)).collect();
         for (index, value) in values.iter().enumerate() {
-            let same =
-                |other: &&Value<'_>| value.as_str().is_some() && other.as_str() == value.as_str();
+            let same = |other: &&Value<'_>| value.as_str().is_some() && other.as_str() == value.as_str();
             if let Some(first) = values.iter().take(index).find(same) {
                 value.reject(&format!("the same as `{}`, but {why}", first.path()));
             }
@@ -157,8 +152,7 @@ impl<'a> Table<'a> {
     }
 
     fn path_of(&self, key: &str) -> String {
-        let bare =
-            !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+        let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
         let key = if bare { key.to_owned() } else { format!("{key:?}") };
         if self.path.is_empty() { key } else { format!("{}.{key}", self.path) }
     }

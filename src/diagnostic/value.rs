@@ -20,11 +20,7 @@ pub struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    pub(super) fn new(
-        document: &'a Document,
-        value: &'a Spanned<DeValue<'a>>,
-        path: String,
-    ) -> Self {
+    pub(super) fn new(document: &'a Document, value: &'a Spanned<DeValue<'a>>, path: String) -> Self {
         Self { document, tree: value.get_ref(), span: value.span(), path }
     }
 
@@ -77,9 +73,7 @@ impl<'a> Value<'a> {
     pub(super) fn shown(&self) -> String {
         match (self.tree, self.document.text(&self.span)) {
             (DeValue::Table(_), text) if !text.starts_with('{') => "a table".to_owned(),
-            (DeValue::Array(items), _)
-                if items.first().is_some_and(|item| item.span() == self.span) =>
-            {
+            (DeValue::Array(items), _) if items.first().is_some_and(|item| item.span() == self.span) => {
                 "a list of tables".to_owned()
             }
             (_, text) => excerpt(text),
@@ -92,9 +86,7 @@ impl<'a> Value<'a> {
         let number = match self.tree {
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
-            DeValue::Integer(integer) => {
-                u32::from_str_radix(integer.as_str(), integer.radix()).ok().map(f64::from)
-            }
+            DeValue::Integer(integer) => u32::from_str_radix(integer.as_str(), integer.radix()).ok().map(f64::from),
             _ => None,
         };
         let outcome = match number {
@@ -111,8 +103,7 @@ impl<'a> Value<'a> {
             self.expected(wanted, None);
             return None;
         };
-        let item =
-            |(index, value)| Self::new(self.document, value, format!("{}[{index}]", self.path));
+        let item = |(index, value)| Self::new(self.document, value, format!("{}[{index}]", self.path));
         Some(items.iter().enumerate().map(item).collect())
     }
 
@@ -125,17 +116,14 @@ impl<'a> Value<'a> {
             return None;
         }
         let pairs = items.iter().zip(components);
-        let numbers: Option<Vec<_>> =
-            pairs.map(|(item, component)| item.number(component)).collect();
+        let numbers: Option<Vec<_>> = pairs.map(|(item, component)| item.number(component)).collect();
         numbers?.try_into().ok()
     }
 
     /// A string that shows on one line.
     #[must_use]
     pub fn text(&self, wanted: &str) -> Option<&'a str> {
-        let text = self
-            .as_str()
-            .filter(|text| !text.trim().is_empty() && !text.contains(char::is_control));
+        let text = self.as_str().filter(|text| !text.trim().is_empty() && !text.contains(char::is_control));
         if text.is_none() {
             let wanted = format!("{wanted}: text in quotes, on one line, not blank");
             self.expected(&wanted, None);

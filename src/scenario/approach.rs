@@ -4,10 +4,8 @@ use super::joints::{Joints, check_length};
 use super::{JOINT_ANGLE, JOINT_RATE, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
-const PROPORTIONAL_GAIN: Quantity =
-    Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
-const DERIVATIVE_GAIN: Quantity =
-    Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
+const DERIVATIVE_GAIN: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
 
 /// A joint trajectory and how it is followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,19 +97,12 @@ impl Approach {
 }
 
 impl TrajectoryKind {
-    const CHOICES: [(&'static str, Self); 3] = [
-        ("quartic", Self::Quartic),
-        ("quartic_as_printed", Self::QuarticAsPrinted),
-        ("cycloidal", Self::Cycloidal),
-    ];
+    const CHOICES: [(&'static str, Self); 3] =
+        [("quartic", Self::Quartic), ("quartic_as_printed", Self::QuarticAsPrinted), ("cycloidal", Self::Cycloidal)];
 }
 
 impl EndRates {
-    fn from_table(
-        table: &Table<'_>,
-        trajectory: Option<TrajectoryKind>,
-        joints: &Joints<'_>,
-    ) -> Option<Self> {
+    fn from_table(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &Joints<'_>) -> Option<Self> {
         const NAMES: [&str; 2] = ["final_joint_rates", "final_end_effector_twists"];
         let [rates, twists] = NAMES.map(|key| table.get(key));
         let end = match (&rates, &twists) {
@@ -166,9 +157,7 @@ impl Tracking {
         if exact {
             for key in ["proportional_gain", "derivative_gain"] {
                 if let Some(value) = table.get(key) {
-                    value.reject(
-                        "exact tracking has no gains, expected `tracking = \"pd\"` with them",
-                    );
+                    value.reject("exact tracking has no gains, expected `tracking = \"pd\"` with them");
                 }
             }
             return Some(Self::Exact);
@@ -180,9 +169,6 @@ impl Tracking {
         };
         let proportional_gain = gain("proportional_gain", &PROPORTIONAL_GAIN, 49.0);
         let derivative_gain = gain("derivative_gain", &DERIVATIVE_GAIN, 14.0);
-        Some(Self::ProportionalDerivative {
-            proportional_gain: proportional_gain?,
-            derivative_gain: derivative_gain?,
-        })
+        Some(Self::ProportionalDerivative { proportional_gain: proportional_gain?, derivative_gain: derivative_gain? })
     }
 }

@@ -56,11 +56,7 @@ pub struct PostImpact {
 type Capture = (Vec<Target>, Vec<Case>, Option<PostImpact>);
 
 /// Reads the three tables; `name` is the scenario's.
-pub(super) fn read(
-    root: &Table<'_>,
-    layout: Option<&Layout>,
-    name: Option<&str>,
-) -> Option<Capture> {
+pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>) -> Option<Capture> {
     let target_keys = ["name", "arm", "mass", "inertia", "contact", "radius", "twist", "position"];
     let tables = root.tables("target", &target_keys)?;
     let alone = tables.is_empty();
@@ -68,8 +64,7 @@ pub(super) fn read(
     Table::reject_repeats(&tables, "arm", "an arm captures at most one target");
     let targets = every(tables.iter().map(|table| Target::from_table(table, layout)));
 
-    let target_names: Vec<_> =
-        tables.iter().filter_map(|table| table.get("name")?.as_str()).collect();
+    let target_names: Vec<_> = tables.iter().filter_map(|table| table.get("name")?.as_str()).collect();
     let default_twists: Vec<_> = targets.iter().flatten().map(|target| target.twist).collect();
     let tables = root.tables("case", &["name", "target_twists", "printed_impulses"]);
     let cases = tables.and_then(|tables| {
@@ -108,9 +103,7 @@ pub(super) fn read(
 impl Target {
     fn from_table(table: &Table<'_>, layout: Option<&Layout>) -> Option<Self> {
         let name = table.text("name", "a name");
-        let arm = table
-            .require("arm", "the name of an arm of the layout")
-            .and_then(|value| arm_index(&value, layout?));
+        let arm = table.require("arm", "the name of an arm of the layout").and_then(|value| arm_index(&value, layout?));
         let mass = table.number("mass", &MASS);
         let inertia = table.number("inertia", &INERTIA);
         let contact = table.vector("contact", &CONTACT);
@@ -145,11 +138,7 @@ fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
 }
 
 impl Case {
-    fn from_table<'a>(
-        table: &Table<'a>,
-        targets: &[&'a str],
-        default_twists: &[[f64; 3]],
-    ) -> Option<Self> {
+    fn from_table<'a>(table: &Table<'a>, targets: &[&'a str], default_twists: &[[f64; 3]]) -> Option<Self> {
         let name = table.require("name", FILE_NAME).and_then(|value| file_name(&value));
         let target_twists = match table.get("target_twists") {
             Some(value) => value.table(targets).and_then(|twists| {

@@ -14,8 +14,7 @@ impl Joints<'_> {
         let Some(layout) = self.layout else {
             return "one number per joint".to_owned();
         };
-        let arms: Vec<_> =
-            layout.arms.iter().map(|arm| format!("{}: {}", arm.name, arm.links.len())).collect();
+        let arms: Vec<_> = layout.arms.iter().map(|arm| format!("{}: {}", arm.name, arm.links.len())).collect();
         format!("{} numbers, one per joint ({})", layout.joints(), arms.join(", "))
     }
 
@@ -33,12 +32,7 @@ impl Joints<'_> {
 }
 
 /// `None`, with a note, where a list has another length than the layout asks for.
-pub(super) fn check_length(
-    value: &Value<'_>,
-    found: usize,
-    right: Option<usize>,
-    wanted: &str,
-) -> Option<()> {
+pub(super) fn check_length(value: &Value<'_>, found: usize, right: Option<usize>, wanted: &str) -> Option<()> {
     if right.is_some_and(|right| right != found) {
         value.expected(&format!("{wanted}, found {found}"), None);
         return None;

@@ -25,13 +25,10 @@ const STEP: Quantity = Quantity::positive("a time step", "s");
 const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(4.0 * PI);
 const JOINT_RATE: Quantity = Quantity::any("a joint rate", "rad/s");
 const POSITION: [Quantity; 2] = [Quantity::any("x", "m"), Quantity::any("y", "m")];
-const POSE: [Quantity; 3] =
-    [Quantity::any("yaw", "rad"), Quantity::any("x", "m"), Quantity::any("y", "m")];
-const TWIST: [Quantity; 3] =
-    [Quantity::any("ω", "rad/s"), Quantity::any("vx", "m/s"), Quantity::any("vy", "m/s")];
+const POSE: [Quantity; 3] = [Quantity::any("yaw", "rad"), Quantity::any("x", "m"), Quantity::any("y", "m")];
+const TWIST: [Quantity; 3] = [Quantity::any("ω", "rad/s"), Quantity::any("vx", "m/s"), Quantity::any("vy", "m/s")];
 
-const FILE_NAME: &str =
-    "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
+const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
 const LAYOUT: &str = "a shipped layout's name or the path of a layout file";
 
 /// An approach and, where there are targets, their capture and the motion after it.
@@ -87,30 +84,18 @@ impl Scenario {
     ///
     /// # Errors
     /// All that is wrong with the content and with the layout file.
-    pub fn parse(
-        text: &str,
-        file: &str,
-        folder: &Path,
-        shipped: &[(&str, &str)],
-    ) -> Result<Self, Report> {
-        const KEYS: [&str; 7] =
-            ["name", "layout", "initial", "approach", "target", "case", "post_impact"];
+    pub fn parse(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        const KEYS: [&str; 7] = ["name", "layout", "initial", "approach", "target", "case", "post_impact"];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
-            let layout =
-                root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped));
+            let layout = root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped));
             let joints = Joints { layout: layout.as_ref() };
 
-            let initial_table =
-                root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
-            let initial =
-                initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
-            let approach = root
-                .table("approach", &Approach::KEYS)
-                .and_then(|table| Approach::from_table(&table, &joints));
-            if let (Some(table), Some(Approach { tracking: Tracking::Exact, .. })) =
-                (&initial_table, &approach)
-            {
+            let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
+            let initial = initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
+            let approach =
+                root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints));
+            if let (Some(table), Some(Approach { tracking: Tracking::Exact, .. })) = (&initial_table, &approach) {
                 require_rest(table, initial.as_ref());
             }
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
@@ -131,9 +116,8 @@ impl Scenario {
 
 impl Initial {
     fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
-        let joint_angles = table
-            .require("joint_angles", &joints.one_each())
-            .and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+        let joint_angles =
+            table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
         let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
         let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
         let joint_rates = match table.get("joint_rates") {
@@ -167,9 +151,7 @@ fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
         format!("the step, {step} s, must not be longer than the duration, {duration} s")
     } else if steps > MOST_STEPS {
         let least = duration / MOST_STEPS;
-        format!(
-            "{duration} s would take {steps:.0} steps, expected at most 1e8 (step >= {least} s)"
-        )
+        format!("{duration} s would take {steps:.0} steps, expected at most 1e8 (step >= {least} s)")
     } else {
         return Some((duration, step));
     };

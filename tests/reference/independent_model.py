@@ -47,7 +47,7 @@ class Robot:
         self.parents, self.offsets = [None], [np.zeros(2)]  # of each link's joint
         self.bodies = [(0, np.zeros(2), *base)]  # link, COM in the link's frame, mass, inertia
         self.tips = []
-        for mount, arm in zip(mounts, links):
+        for mount, arm in zip(mounts, links, strict=False):
             parent, offset = 0, np.array(mount)
             for length, mass, inertia in arm:
                 self.parents.append(parent)
@@ -65,7 +65,7 @@ class Robot:
         other = Robot((0.0, 0.0), [], [])
         vars(other).update(vars(self), bodies=list(self.bodies))
         angles, origins = self.frames(q)
-        for (link, _), point in zip(self.tips, com):
+        for (link, _), point in zip(self.tips, com, strict=False):
             cos, sin = np.cos(angles[link]), np.sin(angles[link])
             local = np.array([[cos, sin], [-sin, cos]]) @ (point - origins[link])
             other.bodies.append((link, local, TARGET_MASS, TARGET_INERTIA))
@@ -76,7 +76,7 @@ class Robot:
         angles = self.moves @ np.concatenate([q[:1], q[3:]])
         cos, sin = np.cos(angles), np.sin(angles)
         origins = [q[1:3]]
-        for parent, (x, y) in zip(self.parents[1:], self.offsets[1:]):
+        for parent, (x, y) in zip(self.parents[1:], self.offsets[1:], strict=False):
             c, s = cos[parent], sin[parent]
             origins.append(origins[parent] + [c * x - s * y, s * x + c * y])
         return angles, np.array(origins)
@@ -87,8 +87,13 @@ class Robot:
         links = np.array([item[0] for item in fixed])
         local = np.array([item[1] for item in fixed])
         cos, sin = np.cos(angles[links]), np.sin(angles[links])
-        position = origins[links] + np.stack([cos * local[:, 0] - sin * local[:, 1],
-                                              sin * local[:, 0] + cos * local[:, 1]], axis=-1)
+        position = origins[links] + np.stack(
+            [
+                cos * local[:, 0] - sin * local[:, 1],
+                sin * local[:, 0] + cos * local[:, 1],
+            ],
+            axis=-1,
+        )
         rates = np.concatenate([v[:1], v[3:]])
 
         def levers(at, moved_by):  # velocity per unit rate of each joint: point, joint, axis
@@ -142,45 +147,62 @@ def momentum_of(poses, twists, inertia):
     """[l, px, py] about the inertial origin and kinetic energy of free bodies."""
     spin, px, py = (inertia.reshape(-1, 3) * twists).T
     angular = spin + poses[:, 1] * py - poses[:, 2] * px
-    return (np.array([angular.sum(), px.sum(), py.sum()]),
-            0.5 * np.sum(inertia * twists.ravel() ** 2))
+    return (
+        np.array([angular.sum(), px.sum(), py.sum()]),
+        0.5 * np.sum(inertia * twists.ravel() ** 2),
+    )
 
 
 def integrate(rate, start, times):
     """States at `times` (from time 0); the error of a step is kept near round-off."""
-    result = solve_ivp(rate, (0.0, times[-1]), start, method="DOP853", t_eval=times,
-                       rtol=1e-13, atol=1e-14)
+    result = solve_ivp(
+        rate,
+        (0.0, times[-1]),
+        start,
+        method="DOP853",
+        t_eval=times,
+        rtol=1e-13,
+        atol=1e-14,
+    )
     assert result.success, result.message
     return result.y.T
 
 
 def quartic(initial, final, duration, end_rate):
     """Eqs. (6)-(7) with a dimensionless s: t -> (angles, rates), reaching `end_rate`."""
+
     def at(t):
         x = t / duration
-        angle = initial + ((final - initial) * (10 * x**3 - 15 * x**4 + 6 * x**5)
-                           + end_rate * duration * (-4 * x**3 + 7 * x**4 - 3 * x**5))
-        rate = ((final - initial) / duration * (30 * x**2 - 60 * x**3 + 30 * x**4)
-                + end_rate * (-12 * x**2 + 28 * x**3 - 15 * x**4))
+        angle = initial + (
+            (final - initial) * (10 * x**3 - 15 * x**4 + 6 * x**5)
+            + end_rate * duration * (-4 * x**3 + 7 * x**4 - 3 * x**5)
+        )
+        rate = (final - initial) / duration * (30 * x**2 - 60 * x**3 + 30 * x**4) + end_rate * (
+            -12 * x**2 + 28 * x**3 - 15 * x**4
+        )
         return angle, rate
+
     return at
 
 
 def cycloidal(initial, final, duration):
     """ReDySim's trajectory: t -> (angles, rates)."""
+
     def at(t):
         phase = 2 * np.pi * t / duration
         mean = (final - initial) / duration
-        return initial + mean * (t - np.sin(phase) * duration / (2 * np.pi)), \
-            mean * (1 - np.cos(phase))
+        return initial + mean * (t - np.sin(phase) * duration / (2 * np.pi)), mean * (1 - np.cos(phase))
+
     return at
 
 
 def track_exactly(robot, trajectory, duration):
     """From rest at the origin, joints exactly on the trajectory: zero momentum moves the base."""
+
     def rate(t, pose):
         angles, rates = trajectory(t)
         return robot.reduced(np.concatenate([pose, angles]))[2] @ rates
+
     angles, rates = trajectory(duration)
     q = np.concatenate([integrate(rate, np.zeros(3), [duration])[-1], angles])
     return q, np.concatenate([robot.reduced(q)[2] @ rates, rates])
@@ -188,19 +210,23 @@ def track_exactly(robot, trajectory, duration):
 
 def forward(robot, torques):
     """The state's time derivative under joint torques(t, angles, rates)."""
+
     def rate(t, state):
         q, v = np.split(state, 2)
         mass, bias = robot.dynamics(q, v)
         force = np.concatenate([np.zeros(3), torques(t, q[3:], v[3:])])
         return np.concatenate([v, solve(mass, force - bias)])
+
     return rate
 
 
 def track_pd(robot, trajectory, times):
     """From rest at the origin under PD control without feed-forward: states at `times`."""
+
     def torques(t, angles, rates):
         wanted, wanted_rates = trajectory(t)
         return PROPORTIONAL * (wanted - angles) + DERIVATIVE * (wanted_rates - rates)
+
     angles = trajectory(0.0)[0]
     start = np.concatenate([np.zeros(3), angles, np.zeros(3 + len(angles))])
     return integrate(forward(robot, torques), start, times)
@@ -230,8 +256,10 @@ def exact_capture(robot, q, v, contact, inertia, before):
     mass, _ = robot.dynamics(q, v)
     _, tips = robot.tip_motion(q, v)
     to_target = solve(contact, tips)
-    after = solve(mass + to_target.T * inertia @ to_target,
-                  mass @ v + to_target.T @ (inertia * before))
+    after = solve(
+        mass + to_target.T * inertia @ to_target,
+        mass @ v + to_target.T @ (inertia * before),
+    )
     return after, to_target @ after
 
 
@@ -239,8 +267,10 @@ def paper_capture(robot, q, v, contact, inertia, before):
     """Eqs. (14)-(17) as they stand; (17) gets the robot's momentum before the impact."""
     gim, gjm, _ = robot.reduced(q)
     to_target = solve(contact, gjm)
-    rates = solve(gim + to_target.T * inertia @ to_target,
-                  gim @ v[3:] + to_target.T @ (inertia * before))
+    rates = solve(
+        gim + to_target.T * inertia @ to_target,
+        gim @ v[3:] + to_target.T @ (inertia * before),
+    )
     (angular, px, py), _ = robot.momentum(q, v)
     mass, _ = robot.dynamics(q, v)
     about_base = np.array([angular - (q[1] * py - q[2] * px), px, py])
@@ -258,9 +288,17 @@ def impact(capture, robot, q, v, spins):
     impulses = -solve(contact.T, inertia * (targets - before)).reshape(-1, 3)
     poses = robot.tip_motion(q, v)[0]
     poses[:, 1:] -= CONTACTS
-    old, new = ([np.add(robot_part, target_part) for robot_part, target_part in zip(
-        robot.momentum(q, speed), momentum_of(poses, twists.reshape(-1, 3), inertia))]
-        for speed, twists in ((v, before), (after, targets)))
+    old, new = (
+        [
+            np.add(robot_part, target_part)
+            for robot_part, target_part in zip(
+                robot.momentum(q, speed),
+                momentum_of(poses, twists.reshape(-1, 3), inertia),
+                strict=False,
+            )
+        ]
+        for speed, twists in ((v, before), (after, targets))
+    )
     return after, {
         "joint_rates_after": after[3:],
         "base_twist_after": after[:3],
@@ -275,7 +313,12 @@ def impact(capture, robot, q, v, spins):
 
 def record(q, v):
     """The contract's names for a state."""
-    return {"base_pose": q[:3], "base_twist": v[:3], "joint_angles": q[3:], "joint_rates": v[3:]}
+    return {
+        "base_pose": q[:3],
+        "base_twist": v[:3],
+        "joint_angles": q[3:],
+        "joint_rates": v[3:],
+    }
 
 
 def scenario(robot, name):
@@ -287,8 +330,12 @@ def scenario(robot, name):
     else:
         q, v = np.split(track_pd(robot, trajectory, [APPROACH])[-1], 2)
     poses, tips = robot.tip_motion(q, v)
-    approach = {"duration": APPROACH, **record(q, v), "end_effector_poses": poses,
-                "end_effector_twists": (tips @ v).reshape(-1, 3)}
+    approach = {
+        "duration": APPROACH,
+        **record(q, v),
+        "end_effector_poses": poses,
+        "end_effector_twists": (tips @ v).reshape(-1, 3),
+    }
     combined = robot.merged(q, poses[:, 1:] - CONTACTS)
     free = forward(combined, lambda t, angles, rates: np.zeros(6))
     cases = []
@@ -296,35 +343,51 @@ def scenario(robot, name):
         after, exact = impact(exact_capture, robot, q, v, spins)
         _, paper = impact(paper_capture, robot, q, v, spins)
         last = integrate(free, np.concatenate([q, after]), [POST_IMPACT])[-1]
-        cases.append({"name": case, "approach": approach,
-                      "impact": {"exact": exact, "paper": paper},
-                      "post_impact": {"duration": POST_IMPACT, **record(*np.split(last, 2))}})
+        cases.append(
+            {
+                "name": case,
+                "approach": approach,
+                "impact": {"exact": exact, "paper": paper},
+                "post_impact": {"duration": POST_IMPACT, **record(*np.split(last, 2))},
+            }
+        )
     return {"scenario": name, "designed_joint_rates": rates, "cases": cases}
 
 
 def paper_robot(arms=2):
     """Table 1; joint 1 of either arm is measured from the base x axis."""
-    return Robot((500.0, 83.61), [(0.5, 0.0), (-0.5, 0.0)][:arms], [[(1.0, 10.0, 1.05)] * 3] * arms)
+    return Robot(
+        (500.0, 83.61),
+        [(0.5, 0.0), (-0.5, 0.0)][:arms],
+        [[(1.0, 10.0, 1.05)] * 3] * arms,
+    )
 
 
 def redysim():
     """The runs whose output ReDySim ships: one arm over 20 s, both arms over 30 s."""
     one = np.array([0.3803, -0.6198, 1.2867]), np.full(3, -np.pi / 2)
-    two = (np.array([0.3803, -0.6198, 1.2867, 2.4411, 1.7062, -1.0058]),
-           np.array([-0.2530, -1.8050, -0.0364, 3.3946, 1.8050, 0.0364]))
+    two = (
+        np.array([0.3803, -0.6198, 1.2867, 2.4411, 1.7062, -1.0058]),
+        np.array([-0.2530, -1.8050, -0.0364, 3.3946, 1.8050, 0.0364]),
+    )
     out = {}
-    for name, arms, (initial, final), times in (("one_arm", 1, one, [5.0, 10.0, 15.0, 20.0]),
-                                                ("both_arms", 2, two, [10.0, 20.0, 30.0])):
+    for name, arms, (initial, final), times in (
+        ("one_arm", 1, one, [5.0, 10.0, 15.0, 20.0]),
+        ("both_arms", 2, two, [10.0, 20.0, 30.0]),
+    ):
         states = track_pd(paper_robot(arms), cycloidal(initial, final, times[-1]), times)
-        out[name] = [{"time": t, **record(*np.split(y, 2))} for t, y in zip(times, states)]
+        out[name] = [{"time": t, **record(*np.split(y, 2))} for t, y in zip(times, states, strict=False)]
     return out
 
 
 def main():
     """Write raina_shah_2017.json."""
     robot = paper_robot()
-    result = {"source": "tests/reference/independent_model.py",
-              "scenarios": [scenario(robot, name) for name in SCENARIOS], "redysim": redysim()}
+    result = {
+        "source": "tests/reference/independent_model.py",
+        "scenarios": [scenario(robot, name) for name in SCENARIOS],
+        "redysim": redysim(),
+    }
     text = json.dumps(result, indent=1, default=lambda array: array.tolist())
     Path(__file__).with_name("raina_shah_2017.json").write_text(text + "\n", encoding="utf-8")
 
