@@ -358,7 +358,7 @@ class Model:
                 Function(
                     "reduced_impact",
                     "The paper's impact, literally; exact only for a robot without momentum after it.",
-                    "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  after = G^-1 H,  N = J_t^-T I_t J_t^-1",
+                    "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  G x = H,  N = J_t^-T I_t J_t^-1",
                     "Raina & Shah (2017), eqs. (15), (16), with J_t's sign corrected",
                     [*CONFIGURATION, "joint_rates", *targets],
                     [
