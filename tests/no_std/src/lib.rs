@@ -76,8 +76,7 @@ pub fn capture(
         found: 0,
     })?;
     let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
-    let mut after =
-        After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = impact::exact(model, &state, targets, &mut after)?;
     model.merge(&state.base_pose, state.joint_angles, targets)?;
     State { base_twist, joint_rates: &joint_rates, ..state }.write(x);
@@ -101,8 +100,7 @@ pub fn paper(
         jacobian: &mut [0.0; 3 * ARMS * JOINTS],
         mass_matrix: &mut [0.0; SIZE * SIZE],
     };
-    let mut after =
-        After { joint_rates, target_twists: &mut [[0.0; 3]; ARMS], impulses: &mut [[0.0; 3]; ARMS] };
+    let mut after = After { joint_rates, target_twists: &mut [[0.0; 3]; ARMS], impulses: &mut [[0.0; 3]; ARMS] };
     impact::paper(model, state, targets, &mut workspace, &mut after)
 }
 
@@ -120,11 +118,7 @@ pub fn coast(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(),
 /// # Errors
 /// What the core says of the numbers.
 #[inline(never)]
-pub fn look(
-    model: &Model<f32>,
-    state: &State<'_, f32>,
-    tips: &mut [[f32; 3]; ARMS],
-) -> Result<Momentum<f32>, Error> {
+pub fn look(model: &Model<f32>, state: &State<'_, f32>, tips: &mut [[f32; 3]; ARMS]) -> Result<Momentum<f32>, Error> {
     Kinematics::end_effector_poses(model, &state.base_pose, state.joint_angles, tips)?;
     Conserved::momentum(model, state)
 }
