@@ -28,8 +28,8 @@ fn choices() -> [Vec<Option<Target<f64>>>; 4] {
     ]
 }
 
-/// (M + J_eᵀ N J_e) is the mass matrix of the merged robot, so v_f is its forward dynamics at zero velocity with
-/// M v_i + J_eᵀ J_t⁻ᵀ I_t t_ti in place of the forces.
+/// `M + J_eᵀ N J_e` is the mass matrix of the merged robot, so `v_f` is its forward dynamics at zero velocity with
+/// `M v_i + J_eᵀ J_t⁻ᵀ I_t t_ti` in place of the forces.
 #[test]
 fn impact_is_forward_dynamics_of_the_merged_robot() {
     let state = state();
@@ -106,7 +106,7 @@ fn the_merged_robot_carries_the_momentum_of_robot_and_targets() {
     }
 }
 
-/// v + ω × r at the contact, and J_t⁻¹ back: with R in place of −R both fail.
+/// v + ω × r at the contact, and `J_t⁻¹` back: with R in place of −R both fail.
 #[test]
 fn contact_jacobian_is_rigid_body_motion() {
     let target = target(1.0);

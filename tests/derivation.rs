@@ -4,6 +4,7 @@
 
 mod support;
 
+use std::io::Write;
 use std::process::{Command, Output};
 
 /// Interpreters to look for, best first.
@@ -26,7 +27,12 @@ fn python() -> Result<&'static str, String> {
 /// Runs `python -m codegen` with these arguments from the repository's root; `None` where Python is not wanted.
 fn codegen(arguments: &[&str]) -> Option<Output> {
     if std::env::var("PLANAR_CAPTURE_NO_PYTHON").is_ok_and(|value| value == "1") {
-        eprintln!("skipped, for PLANAR_CAPTURE_NO_PYTHON=1: python -m codegen {}", arguments.join(" "));
+        // straight to the stream: what the macros print is shown for failing tests only
+        let _ = writeln!(
+            std::io::stderr(),
+            "skipped, for PLANAR_CAPTURE_NO_PYTHON=1: python -m codegen {}",
+            arguments.join(" ")
+        );
         return None;
     }
     let python = python().unwrap_or_else(|message| panic!("{message}"));

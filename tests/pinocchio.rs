@@ -1,4 +1,4 @@
-//! The generated paper robot against states computed by Pinocchio (tests/reference/pinocchio_dual_arm_3r.json).
+//! The generated paper robot against states computed by Pinocchio (`tests/reference/pinocchio_dual_arm_3r.json`).
 
 mod support;
 

@@ -184,5 +184,5 @@ fn singular_robots_are_errors() {
     let found =
         ReducedDynamics::reduced_dynamics(&model, &state(&ANGLES, &RATES), &mut inertia, &mut bias, &mut jacobian);
     assert!(matches!(found, Err(Error::Singular { .. })), "{found:?}");
-    assert_eq!(out, [0.0; 6], "nothing is written where there is no result");
+    assert!(out.iter().all(|x| x.to_bits() == 0), "nothing is written where there is no result");
 }
