@@ -127,38 +127,41 @@ class Body:
         self.first_moment = first
         self.coupling = turn_left(first)
         pivot = self.pivot_inertia
+        # what is carried at the joint itself (behind a wheel) leaves the elimination to parameters alone
+        self.constant = all(child.offset[0].is_zero() and child.offset[1].is_zero() for child in self.children)
         total = PlaneMass(self.mass, ZERO, self.mass)
         for child in self.children:
+            total = total.plus(child.mass)
             lever = turn_left(child.offset)
             reaction = child.mass.times(lever)
             self.coupling = add(self.coupling, reaction)
             pivot = pivot + (lever[0] * reaction[0] + lever[1] * reaction[1])
-            total = total.plus(child.mass)
         r = self.coupling
-        constant = not self.children
-        if constant:
-            self.inverse = self.symbols.inverse_constant(
-                f"{self.label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)"
-            )
-        else:
-            self.inverse = self.symbols.reciprocal(pivot)
+        if self.constant:
+            self._eliminate_constant(r, pivot)
+            return
+        self.inverse = self.symbols.reciprocal(pivot)
         self.gain = scale(self.inverse, r)
-        if constant:
-            named = self.symbols.constant
-            self.gain = (
-                named(f"{self.label}_gain_x", self.gain[0], "1/m", "-m c_y / (I + m |c|^2)"),
-                named(f"{self.label}_gain_y", self.gain[1], "1/m", "m c_x / (I + m |c|^2)"),
-            )
-        xx = total.xx - r[0] * self.gain[0]
-        xy = total.xy - r[0] * self.gain[1]
-        yy = total.yy - r[1] * self.gain[1]
-        difference = None
-        if constant:
-            xx = named(f"{self.label}_articulated_mass_xx", xx, "kg", "articulated mass at the first joint")
-            xy = named(f"{self.label}_articulated_mass_xy", xy, "kg", "articulated mass at the first joint")
-            yy = named(f"{self.label}_articulated_mass_yy", yy, "kg", "articulated mass at the first joint")
-            difference = named(f"{self.label}_articulated_mass_difference", xx - yy, "kg", "xx - yy of it")
+        self.articulated = PlaneMass(
+            total.xx - r[0] * self.gain[0], total.xy - r[0] * self.gain[1], total.yy - r[1] * self.gain[1]
+        )
+
+    def _eliminate_constant(self, r: Vector, pivot: ca.SX) -> None:
+        named, label = self.symbols.constant, self.label
+        self.inverse = self.symbols.inverse_constant(f"{label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)")
+        gain = scale(self.inverse, r)
+        self.gain = gain = (
+            named(f"{label}_gain_x", gain[0], "1/m", "-m c_y / (I + m |c|^2)"),
+            named(f"{label}_gain_y", gain[1], "1/m", "m c_x / (I + m |c|^2)"),
+        )
+        what = "articulated mass at the first joint"
+        xx = named(f"{label}_articulated_mass_xx", self.mass - r[0] * gain[0], "kg", what)
+        xy = named(f"{label}_articulated_mass_xy", -r[0] * gain[1], "kg", what)
+        yy = named(f"{label}_articulated_mass_yy", self.mass - r[1] * gain[1], "kg", what)
+        difference = named(f"{label}_articulated_mass_difference", xx - yy, "kg", "xx - yy of it")
         self.articulated = PlaneMass(xx, xy, yy, difference)
+        for child in self.children:
+            self.articulated = self.articulated.plus(child.mass)
 
     def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         """b of the force F = A a + b that the body needs, all in its frame.
@@ -186,9 +189,9 @@ class Body:
             moment = moment - cross(child.offset, force)
             total = add(total, force)
         self.free = moment * self.inverse
-        if self.children:
-            return add(total, scale(self.free, self.coupling))
-        return add(total, scale(moment, self.gain))
+        if self.constant:
+            return add(total, scale(moment, self.gain))
+        return add(total, scale(self.free, self.coupling))
 
     def accelerate(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
         """(angular acceleration, accelerations of the children's joint points) from the first joint's."""
