@@ -73,7 +73,8 @@ class Body:
         children: list[Child],
         general: bool = False,
     ) -> None:
-        self.symbols, self.label, self.mass, self.com, self.children = symbols, label, mass, com, children
+        self.symbols, self.label, self.children = symbols, label, children
+        self.mass, self.inertia, self.com = mass, inertia, com
         in_line = len(children) == 1 and com[1].is_zero() and children[0].offset[1].is_zero()
         self.scaled = in_line and not general and not children[0].offset[0].is_zero()
         constant = symbols.constant
@@ -103,11 +104,7 @@ class Body:
         # I + m (l - c)^2 is the inertia about the next joint: a sum of positive terms
         far = symbols.constant(
             f"{label}_far_mass",
-            (
-                (self.pivot_inertia - self.mass * (self.com[0] * self.com[0]))
-                + self.mass * ((length - self.com[0]) * (length - self.com[0]))
-            )
-            * square,
+            (self.inertia + self.mass * ((length - self.com[0]) * (length - self.com[0]))) * square,
             "kg",
             "(I + m (l - c)^2) / l^2",
         )
