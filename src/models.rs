@@ -1,6 +1,7 @@
 //! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters.
 
 use crate::dynamics::Model;
+#[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
 use crate::layout::Layout;
 use crate::manifest::{Manifest, Quantity};
@@ -12,12 +13,12 @@ struct Candidate {
 }
 
 macro_rules! registry {
-    ($($name:ident),* $(,)?) => {
-        /// (name, TOML text) of every layout that is shipped with generated code.
-        pub const SHIPPED: &[(&str, &str)] = &[$((
-            stringify!($name),
-            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/layouts/", stringify!($name), ".toml")),
-        )),*];
+    (enabled: [$($name:ident),*], disabled: [$($other:ident),*]) => {
+        /// (name, TOML text) of every layout that is shipped.
+        pub const SHIPPED: &[(&str, &str)] = &[$(shipped!($name),)* $(shipped!($other),)*];
+
+        /// Shipped layouts whose generated code this build was made without: cargo features to be switched on.
+        const DISABLED: &[&str] = &[$(stringify!($other)),*];
 
         const CANDIDATES: &[Candidate] = &[$(Candidate {
             manifest: &generated::$name::MANIFEST,
@@ -29,13 +30,21 @@ macro_rules! registry {
     };
 }
 
+macro_rules! shipped {
+    ($name:ident) => {
+        (
+            stringify!($name),
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/layouts/", stringify!($name), ".toml")),
+        )
+    };
+}
+
 include!(concat!(env!("OUT_DIR"), "/registry.rs"));
 
 /// No generated code has the structure of a layout.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no generated code has the structure of layout `{layout}` ({structure}); there is: {available}. \
-     To add it, put the layout into codegen/layouts/, run `python -m codegen {layout}` and build again"
+    "no generated code in this build has the structure of layout `{layout}` ({structure}); there is: {available}. {mend}"
 )]
 pub struct NoModel {
     /// The layout's name.
@@ -44,6 +53,8 @@ pub struct NoModel {
     pub structure: String,
     /// The structures that there are.
     pub available: String,
+    /// How to get it.
+    pub mend: String,
 }
 
 /// The generated model of the layout's structure (arms, links, structural zeros), with the layout's numbers.
@@ -58,7 +69,20 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
             layout: layout.name.clone(),
             structure: structure(layout),
             available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
+            mend: mend(&layout.name),
         }),
+    }
+}
+
+/// The way to generated code of a layout.
+fn mend(layout: &str) -> String {
+    if DISABLED.contains(&layout) {
+        format!("It is shipped, but left out of this build: build again with `--features {layout}`")
+    } else {
+        format!(
+            "To add it, put the layout into codegen/layouts/{layout}.toml, run `python -m codegen {layout}` and build \
+             again with `--features {layout}`"
+        )
     }
 }
 
