@@ -7,7 +7,7 @@ use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{MANIFEST, Model, Parameters};
 use planar_capture::scalar::Scalar;
 use planar_capture::state::{Forces, State};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use support::dual::Dual;
 use support::{assert_close, tolerance};
 
 const POSE: [f64; 3] = [0.4, 1.0, -2.0];
@@ -50,63 +50,6 @@ fn every_lane_agrees_with_the_scalar() {
     for lane in 0..8 {
         let lanes: Vec<f64> = accelerations(f64x8::splat).into_iter().map(|x| x.to_array()[lane]).collect();
         assert_close("f64x8", &lanes, &double, tolerance::LANE * size);
-    }
-}
-
-/// Value and derivative.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Dual(f64, f64);
-
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        Self(self.0 + b.0, self.1 + b.1)
-    }
-}
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        Self(self.0 - b.0, self.1 - b.1)
-    }
-}
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, b: Self) -> Self {
-        Self(self.0 * b.0, self.1 * b.0 + self.0 * b.1)
-    }
-}
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, b: Self) -> Self {
-        Self(self.0 / b.0, (self.1 - self.0 / b.0 * b.1) / b.0)
-    }
-}
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self(-self.0, -self.1)
-    }
-}
-impl Scalar for Dual {
-    const ZERO: Self = Self(0.0, 0.0);
-    const ONE: Self = Self(1.0, 0.0);
-    fn constant(value: f64) -> Self {
-        Self(value, 0.0)
-    }
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = self.0.sin_cos();
-        (Self(sin, cos * self.1), Self(cos, -sin * self.1))
-    }
-    fn sqrt(self) -> Self {
-        let root = self.0.sqrt();
-        Self(root, 0.5 * self.1 / root)
-    }
-    fn atan2(self, x: Self) -> Self {
-        let square = self.0 * self.0 + x.0 * x.0;
-        Self(self.0.atan2(x.0), (x.0 * self.1 - self.0 * x.1) / square)
-    }
-    fn minimum(self, other: Self) -> Self {
-        if other.0 < self.0 { other } else { self }
     }
 }
 

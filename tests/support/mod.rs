@@ -1,6 +1,8 @@
 //! What several tests share. Every bound of a comparison stands in [`tolerance`], with its reason.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod dual;
+pub mod sample;
 pub mod tolerance;
 
 use planar_capture::models;

@@ -26,3 +26,10 @@ pub const DUAL: f64 = 1e-11;
 pub const DIFFERENCE_QUOTIENT: f64 = 1e-8;
 /// Values of a polynomial at its ends: rounding.
 pub const POLYNOMIAL: f64 = 1e-14;
+/// Identities of mechanics between generated functions, relative to the sum of the terms' magnitudes: rounding of some
+/// hundred operations, 1e-14 measured.
+pub const IDENTITY: f64 = 1e-12;
+/// The same where a system of equations was solved on the way: rounding times its condition, below 1e4 for these robots.
+pub const SOLVED_IDENTITY: f64 = 1e-10;
+/// A quarter of a second of free motion by Runge–Kutta steps of 0.25 ms, relative: its error is O(step⁴).
+pub const INTEGRATED: f64 = 1e-8;
