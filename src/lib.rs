@@ -28,6 +28,8 @@ pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
+pub mod generic;
+#[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
 pub mod models;

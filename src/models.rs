@@ -1,7 +1,9 @@
-//! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters.
+//! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters, or the
+//! generic implementation.
 
 use crate::dynamics::Model;
 use crate::generated;
+use crate::generic::Generic;
 use crate::layout::Layout;
 use crate::manifest::{Manifest, Quantity};
 
@@ -35,7 +37,8 @@ include!(concat!(env!("OUT_DIR"), "/registry.rs"));
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no generated code has the structure of layout `{layout}` ({structure}); there is: {available}. \
-     To add it, put the layout into codegen/layouts/, run `python -m codegen {layout}` and build again"
+     To add it, put the layout into codegen/layouts/, run `python -m codegen {layout}` and build again; \
+     `--dynamics generic` computes any layout as it is, slowly"
 )]
 pub struct NoModel {
     /// The layout's name.
@@ -60,6 +63,12 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
             available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
         }),
     }
+}
+
+/// The generic model of any layout.
+#[must_use]
+pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
+    Box::new(Generic::new(layout))
 }
 
 /// The layout's numbers in the order of a manifest; `None` unless the structures are the same.

@@ -1,5 +1,6 @@
 //! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
 
+mod dynamics;
 mod progress;
 mod run;
 
