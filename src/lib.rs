@@ -28,6 +28,8 @@ pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
+pub mod evaluation;
+#[cfg(feature = "std")]
 pub mod generic;
 #[cfg(feature = "std")]
 pub mod layout;
@@ -41,6 +43,8 @@ pub mod record;
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod simulate;
+#[cfg(feature = "std")]
+pub mod states;
 #[cfg(feature = "std")]
 pub mod study;
 #[cfg(feature = "std")]
