@@ -24,6 +24,8 @@ pub mod audit;
 #[cfg(feature = "std")]
 pub mod capture;
 #[cfg(feature = "std")]
+pub mod compare;
+#[cfg(feature = "std")]
 pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;

@@ -1,5 +1,6 @@
 //! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
 
+mod compare;
 mod dynamics;
 mod eval;
 mod layout;
@@ -28,6 +29,7 @@ enum Command {
     /// Compute a scenario: the approach, and for every case the impact and what follows.
     Run(run::Arguments),
     Eval(eval::Arguments),
+    Compare(compare::Arguments),
 }
 
 /// Why there is no result.
@@ -81,6 +83,7 @@ pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     match result {
         Ok(code) => code,
