@@ -16,7 +16,8 @@ fn main() {
         println!("cargo::rerun-if-changed=codegen/{folder}");
     }
     let out = std::env::var_os("OUT_DIR").unwrap_or_default();
-    if let Err(problem) = stage::render_all("codegen".as_ref(), out.as_ref()) {
+    let enabled = |layout: &str| std::env::var_os(format!("CARGO_FEATURE_{}", layout.to_uppercase())).is_some();
+    if let Err(problem) = stage::render_all("codegen".as_ref(), out.as_ref(), &enabled) {
         eprintln!("{problem}");
         std::process::exit(1);
     }

@@ -4,10 +4,10 @@ import argparse
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
-from . import environment
-from .layout import LayoutError
+from . import environment  # nothing else yet: an old Python must get as far as its refusal
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -36,9 +36,6 @@ def main() -> int:
     except environment.EnvironmentProblem as problem:
         environment.say(f"error: {problem}")
         return 2
-    except LayoutError as problem:
-        print(f"error: {problem}", file=sys.stderr)
-        return 2
     command = ["pytest", "-q", str(HERE / "tests")] if options.test else ["codegen", *sys.argv[1:]]
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     inside = {**os.environ, INSIDE: "1", "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
@@ -46,38 +43,52 @@ def main() -> int:
 
 
 def derive(options: argparse.Namespace) -> int:
-    from .derive import derive_text, graph_path, layout_names, layout_path, write_whole
+    from .derive import graph_names, graph_path, layout_names
+    from .features import FeatureError
+    from .layout import LayoutError
 
     shipped = layout_names()
     unknown = [name for name in options.names if name not in shipped]
     if unknown:
-        print(
-            f"error: no layout {', '.join(unknown)} in codegen/layouts; there are: {', '.join(shipped)}",
-            file=sys.stderr,
-        )
+        there_are = f"there are: {', '.join(shipped)}"
+        print(f"error: no layout {', '.join(unknown)} in codegen/layouts; {there_are}", file=sys.stderr)
         return 2
-    stale = []
-    for name in options.names or shipped:
-        text = derive_text(layout_path(name))
-        graph = graph_path(name)
-        fresh = graph.exists() and graph.read_text(encoding="utf-8") == text
-        if options.check:
-            print(f"{graph.relative_to(ROOT)}: {'fresh' if fresh else 'STALE'}")
-            stale += [] if fresh else [name]
-        else:
-            if not fresh:
-                write_whole(graph, text)
-            print(f"{graph.relative_to(ROOT)}: {'unchanged' if fresh else 'written'}")
-    if options.check and not options.names:
-        orphans = sorted(p.stem for p in (HERE / "graphs").glob("*.json") if p.stem not in shipped)
-        for name in orphans:
-            print(f"codegen/graphs/{name}.json: has no layout; delete it, or put codegen/layouts/{name}.toml back")
-        if orphans:
-            return 1
+    try:
+        stale = [
+            path for path, text in artefacts(options.names or shipped, shipped) if not settle(path, text, options.check)
+        ]
+    except (LayoutError, FeatureError) as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 2
+    orphans = [graph_path(name) for name in graph_names() if name not in shipped]
+    for path in orphans:
+        print(f"{path.relative_to(ROOT)}: has no layout; delete it, or put codegen/layouts/{path.stem}.toml back")
     if stale:
-        print(f"to mend: python -m codegen {' '.join(stale)}", file=sys.stderr)
-        return 1
-    return 0
+        print(f"to mend: python -m codegen {' '.join(options.names)}".rstrip(), file=sys.stderr)
+    return 1 if stale or orphans else 0
+
+
+def artefacts(names: list[str], shipped: list[str]) -> Iterator[tuple[Path, str]]:
+    """What the layouts give: (file, text)."""
+    from .derive import derive_text, graph_path, layout_path
+    from .features import CARGO_TOML, with_block
+
+    for name in names:
+        yield graph_path(name), derive_text(layout_path(name))
+    if CARGO_TOML.exists():
+        yield CARGO_TOML, with_block(CARGO_TOML.read_text(encoding="utf-8"), shipped)
+
+
+def settle(path: Path, text: str, check: bool) -> bool:
+    """Whether a file is as it should be, after writing it unless this is only a check."""
+    from .derive import write_whole
+
+    fresh = path.exists() and path.read_text(encoding="utf-8") == text
+    if not fresh and not check:
+        write_whole(path, text)
+    words = ("fresh", "STALE") if check else ("unchanged", "written")
+    print(f"{path.relative_to(ROOT)}: {words[0] if fresh else words[1]}")
+    return fresh or not check
 
 
 if __name__ == "__main__":

@@ -16,6 +16,10 @@ def layout_names() -> list[str]:
     return sorted(path.stem for path in (HERE / "layouts").glob("*.toml"))
 
 
+def graph_names() -> list[str]:
+    return sorted(path.stem for path in (HERE / "graphs").glob("*.json"))
+
+
 def layout_path(name: str) -> Path:
     return HERE / "layouts" / f"{name}.toml"
 

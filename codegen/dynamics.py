@@ -53,6 +53,13 @@ class Composite:
                 self.moment[k] = add(self.moment[k + 1], self.augmented[k])
                 self.entry[k][k + 1] = self.inertia[k + 1] + lever
                 self.inertia[k] = (own + lever) + self.entry[k][k + 1]
+                if lever.is_zero() and self.inertia[k + 1].is_symbolic():  # wheels alone, up to the tip
+                    self.inertia[k] = symbols.constant(
+                        f"{name}_composite_inertia",
+                        self.inertia[k],
+                        "kg m^2",
+                        "inertia of this link and of all beyond, about the joint",
+                    )
             self.entry[k][k] = self.inertia[k]
             beyond = symbols.constant(
                 f"{name}_mass_from", link.mass + beyond, "kg", "mass of this link and of all beyond"

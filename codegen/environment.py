@@ -54,10 +54,12 @@ def ensure(dev: bool = False) -> Path:
         raise EnvironmentProblem(
             f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
         )
+    for good_enough in (requirements(dev), requirements(dev=True)):  # the larger one serves both
+        place = home() / fingerprint(good_enough)
+        if interpreter(place).exists():
+            return interpreter(place)
     files = requirements(dev)
     place = home() / fingerprint(files)
-    if interpreter(place).exists():
-        return interpreter(place)
     for module in ("venv", "ensurepip"):
         if importlib.util.find_spec(module) is None:
             raise EnvironmentProblem(

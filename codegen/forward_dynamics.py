@@ -1,206 +1,16 @@
-"""Forward dynamics: articulated plane masses, one division per link, 2 x 2 at the base.
+"""Forward dynamics: articulated plane masses from the tips to the base, one division per link, 2 x 2 at the base.
 
-A revolute joint passes no moment but its torque. What lies beyond joint k therefore acts on the body
-before it as a symmetric 2 x 2 articulated mass A and a force b: the force that it needs is F = A a + b,
-with a the acceleration of the joint point. All of it is written in link frames. For a link with first
-joint P, COM at c, next joint at d = (l, 0), angular acceleration alpha and rate omega,
-
-    F = m a_com + F',     a_com = a + alpha z x c - omega^2 c,    F' = A' (a + alpha z x d - omega^2 d) + b'
-    tau - tau' = I_P alpha + m c x a + d x F',                    I_P = I + m |c|^2.
-
-Eliminating alpha with l alpha as the unknown (J = I_P / l^2, mu = m c_x / l, D = J + A'_yy) leaves
-
-    A = [[m + A'_xx - A'_xy^2 / D,  A'_xy e], [.,  J_next - (J - mu) e]],    e = (J - mu) / D,
-
-where J_next = J + m - 2 mu is the inertia about the next joint over l^2: no term cancels. A structurally
-off-axis COM, a link of length zero and a base with its mounts anywhere take the general form with r and D.
+`articulated.py` has the step from body to body. The arms meet at the base, which is treated as one more
+body, held at the first arm's mount: what is left is the 2 x 2 balance of forces there.
 """
-
-from dataclasses import dataclass
 
 import casadi as ca
 
+from .articulated import ZERO, Body, Child, Inertia, InLine, body
 from .kinematics import Inputs
 from .layout import Layout
 from .planar import Vector, add, cross, rotate, rotate_back, rotation, scale, subtract, turn_left
 from .symbols import ArmSymbols, LinkSymbols, Symbols
-
-ZERO = ca.SX(0)
-
-
-@dataclass(frozen=True)
-class PlaneMass:
-    """A symmetric 2 x 2 articulated mass, and xx - yy where that is known beforehand."""
-
-    xx: ca.SX
-    xy: ca.SX
-    yy: ca.SX
-    difference: ca.SX | None = None
-
-    def rotate(self, rotation: Vector) -> "PlaneMass":
-        """R A R^T in 10 operations, 5 where xy is zero; the trace stays."""
-        c, s = rotation
-        difference = self.xx - self.yy if self.difference is None else self.difference
-        v = c * (self.xy + self.xy) + s * difference
-        sv = s * v
-        return PlaneMass(self.xx - sv, c * v - self.xy, self.yy + sv)
-
-    def times(self, a: Vector) -> Vector:
-        return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
-
-    def plus(self, other: "PlaneMass") -> "PlaneMass":
-        return PlaneMass(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
-
-
-@dataclass(frozen=True)
-class Child:
-    """What a body carries: an articulated mass at an offset, both in the body's frame."""
-
-    offset: Vector
-    mass: PlaneMass
-
-
-class Body:
-    """One body between its first joint and its children: elimination of its angular acceleration."""
-
-    def __init__(
-        self,
-        symbols: Symbols,
-        label: str,
-        mass: ca.SX,
-        inertia: ca.SX,
-        com: Vector,
-        children: list[Child],
-        general: bool = False,
-    ) -> None:
-        self.symbols, self.label, self.mass, self.com, self.children = symbols, label, mass, com, children
-        in_line = len(children) == 1 and com[1].is_zero() and children[0].offset[1].is_zero()
-        self.scaled = in_line and not general and not children[0].offset[0].is_zero()
-        constant = symbols.constant
-        self.pivot_inertia = constant(
-            f"{label}_pivot_inertia",
-            inertia + mass * (com[0] * com[0] + com[1] * com[1]),
-            "kg m^2",
-            "I + m |c|^2, about the first joint",
-        )
-        if self.scaled:
-            self._eliminate_scaled()
-        else:
-            self._eliminate()
-
-    def _eliminate_scaled(self) -> None:
-        symbols, label, child = self.symbols, self.label, self.children[0].mass
-        length = self.children[0].offset[0]
-        self.inverse_length = symbols.inverse_constant(
-            f"{label}_inverse_length", length, "1/m", "1 / l, l to the next joint"
-        )
-        square = self.inverse_length * self.inverse_length
-        near = symbols.constant(f"{label}_near_mass", self.pivot_inertia * square, "kg", "J = (I + m c^2) / l^2")
-        self.first = symbols.constant(
-            f"{label}_first_mass", self.mass * self.com[0] * self.inverse_length, "kg", "mu = m c / l"
-        )
-        coupling = symbols.constant(f"{label}_coupling_mass", near - self.first, "kg", "J - mu")
-        # I + m (l - c)^2 is the inertia about the next joint: a sum of positive terms
-        far = symbols.constant(
-            f"{label}_far_mass",
-            (
-                (self.pivot_inertia - self.mass * (self.com[0] * self.com[0]))
-                + self.mass * ((length - self.com[0]) * (length - self.com[0]))
-            )
-            * square,
-            "kg",
-            "(I + m (l - c)^2) / l^2",
-        )
-        self.inverse = symbols.reciprocal(near + child.yy)
-        self.row = child.xy * self.inverse
-        self.ratio = coupling * self.inverse
-        self.child = child
-        self.articulated = PlaneMass(
-            self.mass + child.xx - child.xy * self.row, child.xy * self.ratio, far - coupling * self.ratio
-        )
-
-    def _eliminate(self) -> None:
-        first = (
-            self.symbols.constant(f"{self.label}_first_moment_x", self.mass * self.com[0], "kg m", "m c_x"),
-            self.symbols.constant(f"{self.label}_first_moment_y", self.mass * self.com[1], "kg m", "m c_y"),
-        )
-        self.first_moment = first
-        self.coupling = turn_left(first)
-        pivot = self.pivot_inertia
-        total = PlaneMass(self.mass, ZERO, self.mass)
-        for child in self.children:
-            lever = turn_left(child.offset)
-            reaction = child.mass.times(lever)
-            self.coupling = add(self.coupling, reaction)
-            pivot = pivot + (lever[0] * reaction[0] + lever[1] * reaction[1])
-            total = total.plus(child.mass)
-        r = self.coupling
-        constant = not self.children
-        if constant:
-            self.inverse = self.symbols.inverse_constant(
-                f"{self.label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)"
-            )
-        else:
-            self.inverse = self.symbols.reciprocal(pivot)
-        self.gain = scale(self.inverse, r)
-        if constant:
-            named = self.symbols.constant
-            self.gain = (
-                named(f"{self.label}_gain_x", self.gain[0], "1/m", "-m c_y / (I + m |c|^2)"),
-                named(f"{self.label}_gain_y", self.gain[1], "1/m", "m c_x / (I + m |c|^2)"),
-            )
-        xx = total.xx - r[0] * self.gain[0]
-        xy = total.xy - r[0] * self.gain[1]
-        yy = total.yy - r[1] * self.gain[1]
-        difference = None
-        if constant:
-            xx = named(f"{self.label}_articulated_mass_xx", xx, "kg", "articulated mass at the first joint")
-            xy = named(f"{self.label}_articulated_mass_xy", xy, "kg", "articulated mass at the first joint")
-            yy = named(f"{self.label}_articulated_mass_yy", yy, "kg", "articulated mass at the first joint")
-            difference = named(f"{self.label}_articulated_mass_difference", xx - yy, "kg", "xx - yy of it")
-        self.articulated = PlaneMass(xx, xy, yy, difference)
-
-    def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
-        """b of the force F = A a + b that the body needs, all in its frame.
-
-        ``moment`` is what acts on the body besides the forces of its children: its own joint's torque
-        less its children's, and the external moments about its first joint.
-        """
-        if self.scaled:
-            x, y = child_forces[0]
-            self.centripetal = rate_squared * self.children[0].offset[0]
-            x = x - self.centripetal * (self.child.xx + self.first)
-            y = y - self.centripetal * self.child.xy
-            torque = moment * self.inverse_length
-            self.turn = torque - y
-            self.free = self.turn * self.inverse
-            return x + self.child.xy * self.free, torque - self.ratio * self.turn
-        self.rate_squared = rate_squared
-        total = (
-            scale(-rate_squared, self.first_moment)
-            if self.children
-            else scale(rate_squared, tuple(-m for m in self.first_moment))
-        )
-        for child, force in zip(self.children, child_forces, strict=True):
-            force = subtract(force, scale(rate_squared, child.mass.times(child.offset)))
-            moment = moment - cross(child.offset, force)
-            total = add(total, force)
-        self.free = moment * self.inverse
-        if self.children:
-            return add(total, scale(self.free, self.coupling))
-        return add(total, scale(moment, self.gain))
-
-    def accelerate(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        """(angular acceleration, accelerations of the children's joint points) from the first joint's."""
-        if self.scaled:
-            y = self.free - self.row * a[0] + self.ratio * a[1]
-            return (y - a[1]) * self.inverse_length, [(a[0] - self.centripetal, y)]
-        alpha = self.free - self.gain[0] * a[0] - self.gain[1] * a[1]
-        points = []
-        for child in self.children:
-            relative = subtract(scale(alpha, turn_left(child.offset)), scale(self.rate_squared, child.offset))
-            points.append(add(a, relative))
-        return alpha, points
 
 
 class Arm:
@@ -222,14 +32,15 @@ class Arm:
             link = self.symbols.links[k]
             is_last = k == self.links - 1
             link_com = com if is_last else (link.com_x, link.com_y)
-            self.bodies[k] = Body(symbols, f"{self.label}_link{k + 1}", link.mass, link.inertia, link_com, children)
+            own = Inertia(f"{self.label}_link{k + 1}", link.mass, link.inertia, link_com)
+            self.bodies[k] = body(symbols, own, children)
             angle = inputs.joint_angles[self.first_joint + k]
             if is_last:
                 angle = angle + self.turned
             if k == 0:
                 angle = angle + self.symbols.mount_angle
             self.rotations[k] = rotation(angle)
-            mass = self.bodies[k].articulated.rotate(self.rotations[k])
+            mass = self.bodies[k].mass.rotate(self.rotations[k])
             offset = (self.symbols.links[k - 1].length, ZERO) if k > 0 else (self.symbols.mount_x, self.symbols.mount_y)
             children = [Child(offset, mass)]
         self.child = children[0]
@@ -316,17 +127,10 @@ class ForwardDynamics:
             )
             children.append(Child(named, arm.child.mass))
         self.com = com
-        self.base = Body(
-            symbols,
-            "base",
-            symbols.base_mass,
-            symbols.base_inertia,
-            com,
-            children,
-            general=mounts_coincide(symbols.layout),
-        )
-        self.needs_distinct_mounts = self.base.scaled
-        total = self.base.articulated.plus(self.arms[0].child.mass)
+        own = Inertia("base", symbols.base_mass, symbols.base_inertia, com)
+        self.base = body(symbols, own, children, general=mounts_coincide(symbols.layout))
+        self.needs_distinct_mounts = isinstance(self.base, InLine)
+        total = self.base.mass.plus(self.arms[0].child.mass)
         # L D L^T of the 2 x 2 that is left
         self.total = total
         self.inverse_xx = symbols.reciprocal(total.xx)

@@ -5,11 +5,11 @@ use crate::render;
 use std::fs;
 use std::path::Path;
 
-/// Renders `codegen/graphs/*.json` to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them.
+/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them.
 ///
 /// # Errors
 /// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
-pub fn render_all(codegen: &Path, out: &Path) -> Result<(), String> {
+pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) -> Result<(), String> {
     let names = names(&codegen.join("layouts"), "toml")?;
     let graphs = self::names(&codegen.join("graphs"), "json")?;
     if let Some(orphan) = graphs.iter().find(|name| !names.contains(name)) {
@@ -17,12 +17,14 @@ pub fn render_all(codegen: &Path, out: &Path) -> Result<(), String> {
             "codegen/graphs/{orphan}.json has no layout codegen/layouts/{orphan}.toml: put it back, or delete the graph"
         ));
     }
-    for name in &names {
+    let (enabled, disabled): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| enabled(name));
+    for name in &enabled {
         let code = render_one(codegen, name)?;
         write(&out.join(format!("{name}.rs")), &code)?;
     }
-    write(&out.join("index.rs"), &format!("generated!({});\n", names.join(", ")))?;
-    write(&out.join("registry.rs"), &format!("registry!({});\n", names.join(", ")))
+    let (enabled, disabled) = (enabled.join(", "), disabled.join(", "));
+    write(&out.join("index.rs"), &format!("generated!({enabled});\n"))?;
+    write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.

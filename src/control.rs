@@ -90,8 +90,10 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ExactTracking<'_, T, R> {
         let joints = model.joints();
         same_length("joint_torques", torques, joints)?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
-        torques.copy_from_slice(self.generalized_bias);
-        for (joint, column) in self.generalized_inertia.chunks_exact(joints).enumerate() {
+        for (torque, bias) in torques.iter_mut().zip(self.generalized_bias.iter()) {
+            *torque = *bias;
+        }
+        for (joint, column) in self.generalized_inertia.chunks_exact(joints.max(1)).enumerate() {
             // I is symmetric: its rows are its columns
             let acceleration = desired(&self.trajectory, joint, time, joints)?.acceleration;
             for (torque, entry) in torques.iter_mut().zip(column) {

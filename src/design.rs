@@ -18,6 +18,23 @@ pub enum DesignError {
     /// The approach could not be tracked.
     #[error("while the end rates were designed, {0}")]
     Stopped(#[from] Stopped),
+    /// The end rates grew until their approach could not be tracked.
+    #[error(
+        "the end rates that the wanted tip twists ask for grow without bound, to {largest_rate:.3e} rad/s in round \
+         {iteration}: the final pose is close to singular (generalized Jacobian: smallest/largest singular value \
+         {singularity_margin:.1e}). Choose other final_joint_angles, or final_end_effector_twists that the arms can \
+         give ({source})"
+    )]
+    Diverged {
+        /// The round that failed.
+        iteration: usize,
+        /// rad/s.
+        largest_rate: f64,
+        /// Of the round before.
+        singularity_margin: f64,
+        /// How it failed.
+        source: Stopped,
+    },
     /// The wanted twist is out of reach at the final pose.
     #[error(
         "the wanted tip twists are out of reach at the final pose: the generalized Jacobian ({rows} × {columns}, singular \
@@ -71,15 +88,19 @@ pub fn end_rates(
     tick: &mut dyn FnMut(),
 ) -> Result<Design, DesignError> {
     let mut rates = vec![0.0; model.joints()];
-    let mut change = f64::INFINITY;
+    let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MOST_ITERATIONS {
-        let phase = approach.track_exactly(model, &rates, tick)?;
+        let phase = approach.track_exactly(model, &rates, tick).map_err(|source| match iteration {
+            1 => DesignError::Stopped(source),
+            _ => DesignError::Diverged { iteration, largest_rate: size, singularity_margin, source },
+        })?;
         let (next, margin) = rates_for(model, &phase, wanted)?;
-        change = next.iter().zip(&rates).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-        let size = next.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
-        rates = next;
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
+        change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));
+        size = largest(&mut next.iter().copied());
+        (rates, singularity_margin) = (next, margin);
         if change <= AGREEMENT * size {
-            return Ok(Design { joint_rates: rates, singularity_margin: margin, iterations: iteration });
+            return Ok(Design { joint_rates: rates, singularity_margin, iterations: iteration });
         }
     }
     Err(DesignError::Unsettled { iterations: MOST_ITERATIONS, change })

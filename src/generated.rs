@@ -48,6 +48,7 @@ macro_rules! generated {
 }
 
 /// The traits of [`crate::dynamics`] for the `Model` in scope.
+#[allow(unused_macros, reason = "a build may be without any layout")]
 macro_rules! implement {
     () => {
         impl<T: Real> Robot<T> for Model<T> {
@@ -313,6 +314,7 @@ macro_rules! implement {
         }
     };
 }
+#[allow(unused_imports, reason = "a build may be without any layout")]
 pub(crate) use implement;
 
 include!(concat!(env!("OUT_DIR"), "/index.rs"));

@@ -2,6 +2,7 @@
 //! generic implementation.
 
 use crate::dynamics::Model;
+#[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
 use crate::generic::Generic;
 use crate::layout::Layout;
@@ -14,12 +15,15 @@ struct Candidate {
 }
 
 macro_rules! registry {
-    ($($name:ident),* $(,)?) => {
-        /// (name, TOML text) of every layout that is shipped with generated code.
-        pub const SHIPPED: &[(&str, &str)] = &[$((
-            stringify!($name),
-            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/layouts/", stringify!($name), ".toml")),
-        )),*];
+    (enabled: [$($name:ident),*], disabled: [$($other:ident),*]) => {
+        /// (name, TOML text) of every layout that is shipped.
+        pub const SHIPPED: &[(&str, &str)] = &[$(shipped!($name),)* $(shipped!($other),)*];
+
+        /// Names of the shipped layouts whose generated code this build has.
+        pub const GENERATED: &[&str] = &[$(stringify!($name)),*];
+
+        /// Shipped layouts whose generated code this build was made without: cargo features to be switched on.
+        const DISABLED: &[&str] = &[$(stringify!($other)),*];
 
         const CANDIDATES: &[Candidate] = &[$(Candidate {
             manifest: &generated::$name::MANIFEST,
@@ -31,14 +35,21 @@ macro_rules! registry {
     };
 }
 
+macro_rules! shipped {
+    ($name:ident) => {
+        (
+            stringify!($name),
+            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/layouts/", stringify!($name), ".toml")),
+        )
+    };
+}
+
 include!(concat!(env!("OUT_DIR"), "/registry.rs"));
 
 /// No generated code has the structure of a layout.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no generated code has the structure of layout `{layout}` ({structure}); there is: {available}. \
-     To add it, put the layout into codegen/layouts/, run `python -m codegen {layout}` and build again; \
-     `--dynamics generic` computes any layout as it is, slowly"
+    "no generated code in this build has the structure of layout `{layout}` ({structure}); there is: {available}. {mend}"
 )]
 pub struct NoModel {
     /// The layout's name.
@@ -47,6 +58,8 @@ pub struct NoModel {
     pub structure: String,
     /// The structures that there are.
     pub available: String,
+    /// How to get it.
+    pub mend: String,
 }
 
 /// The generated model of the layout's structure (arms, links, structural zeros), with the layout's numbers.
@@ -61,6 +74,7 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
             layout: layout.name.clone(),
             structure: structure(layout),
             available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
+            mend: mend(&layout.name),
         }),
     }
 }
@@ -69,6 +83,21 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
 #[must_use]
 pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
     Box::new(Generic::new(layout))
+}
+
+/// The way to generated code of a layout.
+fn mend(layout: &str) -> String {
+    if DISABLED.contains(&layout) {
+        format!(
+            "It is shipped, but left out of this build: build again with `--features {layout}`, or compute it with \
+             `--dynamics generic`"
+        )
+    } else {
+        format!(
+            "To add it, put the layout into codegen/layouts/{layout}.toml, run `python -m codegen {layout}` and build \
+             again with `--features {layout}`; `--dynamics generic` computes any layout as it is"
+        )
+    }
 }
 
 /// The layout's numbers in the order of a manifest; `None` unless the structures are the same.

@@ -120,7 +120,7 @@ impl Phase {
 
 /// Why a phase stopped, and when.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at t = {time} s: {source}")]
+#[error("at t = {time} s: {source} (a shorter step may help)")]
 pub struct Stopped {
     /// s, since the start of the phase.
     pub time: f64,

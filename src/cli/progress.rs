@@ -29,16 +29,16 @@ impl Observer for Progress {
     fn begin(&mut self, part: &str, steps: u64) {
         let known = "{msg:>22} {bar:40} {percent:>3} % {eta}";
         let template = if steps > 0 { known } else { "{msg:>22} {spinner} {pos} steps" };
-        self.bar.reset();
         if let Ok(style) = ProgressStyle::with_template(template) {
             self.bar.set_style(style);
         }
+        self.bar.set_message(part.to_owned());
+        self.bar.reset();
         if steps > 0 {
             self.bar.set_length(steps);
         } else {
             self.bar.unset_length();
         }
-        self.bar.set_message(part.to_owned());
         self.bar.enable_steady_tick(Duration::from_millis(100));
         self.steps = 0;
     }

@@ -1,0 +1,28 @@
+"""The marked block of Cargo.toml that gives each layout a cargo feature, kept in step with codegen/layouts."""
+
+from pathlib import Path
+
+CARGO_TOML = Path(__file__).resolve().parent.parent / "Cargo.toml"
+BEGIN = "# layouts: one feature each, written by `python -m codegen`"
+END = "# end of layouts"
+
+
+class FeatureError(Exception):
+    """Cargo.toml has no marked block."""
+
+
+def block(names: list[str]) -> str:
+    """The text between the marks, marks included."""
+    listed = ", ".join(f'"{name}"' for name in names)
+    lines = [BEGIN, f"all_layouts = [{listed}]", *(f"{name} = []" for name in names), END]
+    return "\n".join(lines)
+
+
+def with_block(text: str, names: list[str]) -> str:
+    """Cargo.toml's text with the block as it should be."""
+    start, end = text.find(BEGIN), text.find(END)
+    if start < 0 or end < start:
+        raise FeatureError(
+            f"{CARGO_TOML} has no block between `{BEGIN}` and `{END}` in [features]: put both lines back"
+        )
+    return text[:start] + block(names) + text[end + len(END) :]

@@ -1,0 +1,217 @@
+//! The command line as its users meet it: results, messages, exit codes.
+
+mod support;
+
+use assert_cmd::Command;
+use std::fs;
+use std::path::Path;
+use support::file;
+use tempfile::TempDir;
+
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
+}
+
+/// Runs a scenario text from a folder of its own; (exit code, stdout, stderr, folder).
+fn run_text(text: &str) -> (i32, String, String, TempDir) {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let (code, out, err) = run_file(&path, &folder.path().join("results"));
+    (code, out, err, folder)
+}
+
+fn run_file(path: &Path, results: &Path) -> (i32, String, String) {
+    let output = command().arg("run").arg(path).arg("--out").arg(results).output().expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
+}
+
+fn paper() -> String {
+    fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("the scenario")
+}
+
+#[test]
+fn the_papers_study_prints_its_table_and_writes_its_files() {
+    let (code, out, err, folder) = run_text(&paper());
+    assert_eq!((code, err.as_str()), (0, ""), "{err}");
+    for expected in ["case1", "case2", "case3", "as printed", "0.0873", "0.0131", "exact", "momentum drift", "misses"] {
+        assert!(out.contains(expected), "no `{expected}` in\n{out}");
+    }
+    let results = folder.path().join("results");
+    let mut names: Vec<_> =
+        fs::read_dir(&results).expect("results").map(|e| e.expect("an entry").file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["case1.csv", "case2.csv", "case3.csv", "summary.json"]);
+
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(results.join("summary.json")).expect("a summary")).expect("JSON");
+    assert_eq!(summary["scenario"], "raina_shah_2017");
+    assert_eq!(summary["dynamics"], "generated");
+    assert_eq!(summary["layout"]["name"], "dual_arm_3r");
+    let keys =
+        |value: &serde_json::Value| -> Vec<String> { value.as_object().expect("an object").keys().cloned().collect() };
+    assert_eq!(keys(&summary), ["scenario", "layout", "dynamics", "cases"]);
+    assert_eq!(keys(&summary["cases"][0]), ["name", "approach", "impact", "post_impact"]);
+    assert_eq!(
+        keys(&summary["cases"][0]["impact"]["exact"]),
+        [
+            "joint_rates_after",
+            "base_twist_after",
+            "target_twists_after",
+            "impulses",
+            "impulse_magnitudes",
+            "momentum_jump",
+            "kinetic_energy_before",
+            "kinetic_energy_after"
+        ]
+    );
+
+    let mut csv = csv::Reader::from_path(results.join("case1.csv")).expect("CSV");
+    let header = csv.headers().expect("a header").clone();
+    assert!(header.iter().filter(|name| *name != "phase").all(|name| name.ends_with(']')), "units in {header:?}");
+    let rows: Vec<csv::StringRecord> = csv.records().map(|row| row.expect("a row")).collect();
+    // 20 s and 50 s, every 0.05 s, both ends of both phases
+    assert_eq!(rows.len(), 401 + 1001);
+    let value = |row: &csv::StringRecord, name: &str| -> f64 {
+        let place = header.iter().position(|h| h == name).unwrap_or_else(|| panic!("no column {name}"));
+        row[place].parse().expect("a number")
+    };
+    assert_eq!((value(&rows[400], "time [s]"), value(&rows[401], "time [s]")), (20.0, 20.0));
+    assert_eq!((&rows[400][1], &rows[401][1]), ("approach", "post_impact"));
+    let end = &summary["cases"][0]["post_impact"];
+    assert_eq!(
+        Some(value(&rows[1401], "base_yaw [rad]")),
+        end["base_pose"][0].as_f64(),
+        "the CSV ends where the summary does"
+    );
+}
+
+#[test]
+fn an_approach_alone_has_no_impact() {
+    let folder = TempDir::new().expect("a folder");
+    let (code, out, err) = run_file(&file("scenarios/redysim_single_arm_3r.toml"), folder.path());
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(!out.contains("impact"), "{out}");
+    let text = fs::read_to_string(folder.path().join("summary.json")).expect("a summary");
+    assert!(text.contains("\"approach\"") && !text.contains("impact"), "{text}");
+    assert!(folder.path().join("redysim_single_arm_3r.csv").exists());
+}
+
+/// A layout beside the scenario, with numbers of its own, runs on the generated code of its structure.
+#[test]
+fn numbers_of_a_users_layout_are_parameters() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    fs::write(folder.path().join("mine.toml"), layout.replace("500.0", "5.0e9").replace("83.61", "1.0e9"))
+        .expect("written");
+    let scenario = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, scenario.replace("\"single_arm_3r\"", "\"mine.toml\"")).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!((code, err.as_str()), (0, ""));
+    let text = fs::read_to_string(folder.path().join("results/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let yaw = summary["cases"][0]["approach"]["base_pose"][0].as_f64().expect("a yaw");
+    assert!(yaw.abs() < 1e-6, "a base of a million tons hardly turns, not by {yaw}");
+}
+
+/// (what is wrong, the change to the paper's scenario, what the message says besides file and line)
+const WRONG: &[(&str, &str, &str, &[&str])] = &[
+    ("broken TOML", "duration = 20.0", "duration = = 20.0", &["scenario.toml:15:"]),
+    (
+        "unknown key",
+        "derivative_gain",
+        "derivativ_gain",
+        &["`approach.derivativ_gain`", "did you mean `derivative_gain`"],
+    ),
+    ("negative mass", "mass = 10.0", "mass = -10.0", &["`target[0].mass`", "-10", "kg"]),
+    ("NaN", "duration = 20.0", "duration = nan", &["`approach.duration`", "nan", "finite"]),
+    ("unknown layout", "\"dual_arm_3r\"", "\"dual_arm_4r\"", &["dual_arm_4r", "dual_arm_3r", "single_arm_3r"]),
+    ("too few angles", "1.571, -1.047]", "1.571]", &["`initial.joint_angles`", "6"]),
+    ("unknown arm", "arm = \"arm2\"", "arm = \"arm3\"", &["`target[1].arm`", "arm3", "`arm2`"]),
+    ("degrees", "joint_angles = [0.698", "joint_angles = [40.0", &["joint_angles", "degrees"]),
+];
+
+#[test]
+fn bad_input_is_exit_code_2_and_a_message_that_helps() {
+    for (what, from, to, hints) in WRONG {
+        let text = paper();
+        assert!(text.contains(from), "{what}");
+        let (code, out, err, folder) = run_text(&text.replacen(from, to, 1));
+        assert_eq!((code, out.as_str()), (2, ""), "{what}: {err}");
+        assert!(err.contains("scenario.toml:"), "{what}: no file and line in\n{err}");
+        assert!(err.lines().count() <= 40, "{what}: more than a screen\n{err}");
+        for hint in *hints {
+            assert!(err.contains(hint), "{what}: no `{hint}` in\n{err}");
+        }
+        assert!(!folder.path().join("results").exists(), "{what}: something was written");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let folder = TempDir::new().expect("a folder");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2071.toml"), folder.path());
+    assert_eq!(code, 2);
+    assert!(err.contains("raina_shah_2071.toml") && err.contains("raina_shah_2017.toml"), "{err}");
+
+    let occupied = folder.path().join("occupied");
+    fs::write(&occupied, "a file, not a folder").expect("written");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2017.toml"), &occupied);
+    assert_eq!(code, 2);
+    assert!(err.contains("occupied"), "{err}");
+}
+
+/// Without generated code of its structure, a layout is refused, with the way to get it.
+#[test]
+fn a_structure_without_code_says_how_to_get_it() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let raised = layout.replace("\"dual_arm_3r\"", "\"raised\"").replacen("[0.5, 0.0]", "[0.5, 0.25]", 1);
+    fs::write(folder.path().join("raised.toml"), raised).expect("written");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"raised.toml\"")).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!(code, 2);
+    assert!(err.contains("raised") && err.contains("python -m codegen raised") && err.contains("mount off"), "{err}");
+}
+
+#[test]
+fn a_twist_out_of_reach_is_refused_with_its_numbers() {
+    // both elbows straight: the final pose is singular
+    let text =
+        paper().replace("[-0.524, -1.393, -0.035, 2.618, -1.393, -0.035]", "[-0.524, 0.0, 0.0, 2.618, 0.0, 0.0]");
+    let (code, _, err, _) = run_text(&text);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("close to singular") && err.contains("final_joint_angles"), "{err}");
+    // a straight arm cannot move its tip along itself
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let wanted = "trajectory = \"quartic\"\nfinal_end_effector_twists = [[0.0, 5.0, 0.0]]";
+    let straight = "final_joint_angles = [0.0, 0.0, 0.0]";
+    let text = text.replace("trajectory = \"cycloidal\"", wanted);
+    let start = text.find("final_joint_angles").expect("angles");
+    let end = start + text[start..].find('\n').expect("a line");
+    let (code, _, err, _) = run_text(&text.replace(&text[start..end], straight));
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("out of reach") && err.contains("singular values"), "{err}");
+}
+
+/// Steps that are far too long: the audit objects, and the exit code says so.
+#[test]
+fn the_audit_decides_the_exit_code() {
+    let (code, out, err, folder) = run_text(&paper().replace("step = 0.005", "step = 0.05"));
+    assert_eq!(code, 1, "{out}{err}");
+    assert!(err.contains("audit: approach: momentum drift"), "{err}");
+    assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");
+}
+
+#[test]
+fn usage_errors_are_exit_code_2() {
+    for arguments in
+        [&["run"][..], &["rum", "x.toml"], &["run", "x.toml", "--sample", "-1"], &["run", "x", "--dynamics", "magic"]]
+    {
+        let output = command().args(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+}

@@ -1,0 +1,133 @@
+//! A capture on a microcontroller, in `f32`: every part of the core instantiated, nothing of std, nothing allocated.
+//!
+//! Built for a Cortex-M4F with `build-std=core` alone. That it never panics is checked in its object code.
+#![no_std]
+#![forbid(unsafe_code)]
+
+use planar_capture::control::{Control, ExactTracking, Free, ProportionalDerivative};
+use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
+use planar_capture::error::Error;
+use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
+use planar_capture::impact::{self, After, Workspace};
+use planar_capture::integrate::RungeKutta4;
+use planar_capture::motion::derivative;
+use planar_capture::state::{State, vector_length};
+use planar_capture::target::Target;
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic};
+
+const LENGTH: usize = vector_length(JOINTS);
+const ARMS: usize = 2;
+
+/// The robot of the paper.
+#[inline(never)]
+pub fn model() -> Model<f32> {
+    Model::default()
+}
+
+/// One Runge–Kutta step of the approach under PD control.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn approach_step(
+    model: &Model<f32>,
+    ends: Ends<'_, f32>,
+    final_rates: &[f32; JOINTS],
+    time: f32,
+    x: &mut [f32; LENGTH],
+) -> Result<(), Error> {
+    let mut law = ProportionalDerivative {
+        trajectory: Quartic { ends, final_rates },
+        proportional_gain: &[49.0; JOINTS],
+        derivative_gain: &[14.0; JOINTS],
+    };
+    step(model, &mut law, time, x)
+}
+
+/// One step along a cycloidal trajectory with torques from inverse dynamics.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn exact_step(model: &Model<f32>, ends: Ends<'_, f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let mut law = ExactTracking {
+        trajectory: Cycloidal { ends },
+        generalized_inertia: &mut [0.0; JOINTS * JOINTS],
+        generalized_bias: &mut [0.0; JOINTS],
+        generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+    };
+    step(model, &mut law, time, x)
+}
+
+/// The exact capture; the model becomes the merged robot, and x holds the velocities after the impact.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn capture(
+    model: &mut Model<f32>,
+    targets: &[Option<Target<f32>>; ARMS],
+    x: &mut [f32; LENGTH],
+) -> Result<[[f32; 3]; ARMS], Error> {
+    let before = *x;
+    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
+        quantity: "state vector",
+        expected: LENGTH,
+        found: 0,
+    })?;
+    let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
+    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let base_twist = impact::exact(model, &state, targets, &mut after)?;
+    model.merge(&state.base_pose, state.joint_angles, targets)?;
+    State { base_twist, joint_rates: &joint_rates, ..state }.write(x);
+    Ok(impulses)
+}
+
+/// The paper's impact.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn paper(
+    model: &Model<f32>,
+    state: &State<'_, f32>,
+    targets: &[Option<Target<f32>>; ARMS],
+    joint_rates: &mut [f32; JOINTS],
+) -> Result<[f32; 3], Error> {
+    let mut workspace = Workspace {
+        impact_matrix: &mut [0.0; JOINTS * JOINTS],
+        impact_momentum: &mut [0.0; JOINTS],
+        jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+        mass_matrix: &mut [0.0; SIZE * SIZE],
+    };
+    let mut after = After { joint_rates, target_twists: &mut [[0.0; 3]; ARMS], impulses: &mut [[0.0; 3]; ARMS] };
+    impact::paper(model, state, targets, &mut workspace, &mut after)
+}
+
+/// One step without torques.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn coast(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    step(model, &mut Free, time, x)
+}
+
+/// Momentum, and the tips.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn look(model: &Model<f32>, state: &State<'_, f32>, tips: &mut [[f32; 3]; ARMS]) -> Result<Momentum<f32>, Error> {
+    Kinematics::end_effector_poses(model, &state.base_pose, state.joint_angles, tips)?;
+    Conserved::momentum(model, state)
+}
+
+fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let mut workspace = [0.0; 3 * LENGTH];
+    let mut torques = [0.0; JOINTS];
+    let Some(mut integrator) = RungeKutta4::new(&mut workspace) else {
+        return Err(Error::Length { quantity: "workspace", expected: 3 * LENGTH, found: 0 });
+    };
+    integrator.step(time, 0.005, x, |t, x, rate| derivative(model, law, t, x, rate, &mut torques))
+}

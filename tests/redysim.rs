@@ -1,0 +1,76 @@
+//! ReDySim's printed states of two approaches, as scenarios of the approach alone.
+
+mod support;
+
+use support::{assert_close, run, scenario, tolerance};
+
+/// Time, then base x, y, yaw, then the joint angles: the order of ReDySim's files.
+fn check(name: &str, rows: &[&[f64]]) {
+    let scenario = scenario(name);
+    assert!(scenario.targets.is_empty());
+    let study = run(&scenario);
+    for row in rows {
+        let sample = study.approach.samples.iter().find(|s| (s.time - row[0]).abs() < 1e-9).expect("a sample");
+        let [yaw, x, y] = sample.motion.base_pose;
+        let ours: Vec<f64> = [x, y, yaw].into_iter().chain(sample.motion.joint_angles.iter().copied()).collect();
+        assert_close(&format!("{name} at {} s", row[0]), &ours, &row[1..], tolerance::REDYSIM);
+    }
+}
+
+#[test]
+fn one_arm() {
+    check(
+        "redysim_single_arm_3r",
+        &[
+            &[5.0, -0.002_356_39, 0.004_845_26, 0.093_480_48, 0.237_914_3, -0.684_974_1, 1.033_464],
+            &[10.0, 0.016_198_42, 0.033_227_85, 0.632_681_3, -0.590_156_4, -1.076_253, -0.135_969_6],
+            &[15.0, 0.065_739_89, 0.039_700_55, 1.010_06, -1.4323, -1.514_63, -1.316_72],
+            &[20.0, 0.072_063_64, 0.037_950_83, 1.043_793, -1.577_186, -1.575_492, -1.571_369],
+        ],
+    );
+}
+
+#[test]
+fn both_arms() {
+    check(
+        "redysim_dual_arm_3r",
+        &[
+            &[
+                10.0,
+                -0.002_421_51,
+                0.028_614_05,
+                0.031_384_84,
+                0.266_803_5,
+                -0.844_479_1,
+                1.029_365,
+                2.619_288,
+                1.719,
+                -0.803_983_9,
+            ],
+            &[
+                20.0,
+                -0.001_093_3,
+                0.102_277_5,
+                0.131_610_1,
+                -0.141_251_9,
+                -1.579_487,
+                0.219_816_9,
+                3.217_49,
+                1.789_624,
+                -0.165_674_6,
+            ],
+            &[
+                30.0,
+                0.002_486_497,
+                0.108_412_2,
+                0.142_095_5,
+                -0.253_557,
+                -1.805_518,
+                -0.036_574_29,
+                3.395_057,
+                1.805_303,
+                0.036_504_64,
+            ],
+        ],
+    );
+}

@@ -1,0 +1,99 @@
+//! Trajectories do at their ends what they promise, and their rates are the derivatives of their angles.
+
+mod support;
+
+use planar_capture::integrate::RungeKutta4;
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Trajectory};
+use support::{assert_close, tolerance};
+
+const FROM: [f64; 3] = [0.698, -1.5, 0.3];
+const TO: [f64; 3] = [-0.524, -1.5, 2.0]; // the second joint does not move
+const RATES: [f64; 3] = [0.014, -0.12, 0.09];
+const DURATION: f64 = 20.0;
+
+fn ends() -> Ends<'static, f64> {
+    Ends { initial_angles: &FROM, final_angles: &TO, duration: DURATION }
+}
+
+/// Starts at rest, ends with these rates and without acceleration, and is differentiable in between.
+fn check(trajectory: &impl Trajectory<f64>, final_rates: &[f64; 3]) {
+    for joint in 0..3 {
+        let at = |time| trajectory.joint(joint, time).expect("a joint");
+        let (start, end) = (at(0.0), at(DURATION));
+        assert_close("start", &[start.angle, start.rate, start.acceleration], &[FROM[joint], 0.0, 0.0], 0.0);
+        let found = [end.angle, end.rate, end.acceleration];
+        assert_close("end", &found, &[TO[joint], final_rates[joint], 0.0], 10.0 * tolerance::POLYNOMIAL);
+        for i in 1..20 {
+            let (time, h) = (f64::from(i), 1e-5);
+            let (before, now, after) = (at(time - h), at(time), at(time + h));
+            let rate = (after.angle - before.angle) / (2.0 * h);
+            let acceleration = (after.rate - before.rate) / (2.0 * h);
+            let found = [now.rate, now.acceleration];
+            assert_close("derivatives", &found, &[rate, acceleration], tolerance::DIFFERENCE_QUOTIENT);
+        }
+        assert_eq!(at(-1.0), start, "before the start it stands");
+        assert_eq!(at(DURATION + 1.0), end, "after the end it stays there");
+    }
+    assert_eq!(trajectory.joint(3, 0.0), None);
+}
+
+#[test]
+fn quartic_reaches_its_end_rates() {
+    check(&Quartic { ends: ends(), final_rates: &RATES }, &RATES);
+}
+
+/// The printed eq. (7) reaches θ̇(T)/T.
+#[test]
+fn printed_quartic_reaches_a_twentieth() {
+    check(&QuarticAsPrinted { ends: ends(), final_rates: &RATES }, &RATES.map(|rate| rate / DURATION));
+}
+
+#[test]
+fn cycloidal_ends_at_rest() {
+    check(&Cycloidal { ends: ends() }, &[0.0; 3]);
+}
+
+/// Eqs. (6) and (7) letter by letter, with the dimensionless s and with the printed one.
+#[test]
+fn quartic_is_the_polynomial_of_eq_6() {
+    for joint in [0, 2] {
+        let change = TO[joint] - FROM[joint];
+        let literal = |s: f64, tau: f64| {
+            let (a, b, c) = (3.0 * (-4.0 * s + 10.0), 4.0 * (7.0 * s - 15.0), 5.0 * (-3.0 * s + 6.0));
+            change / DURATION * (a * tau.powi(2) + b * tau.powi(3) + c * tau.powi(4))
+        };
+        for i in 0..=10 {
+            let tau = f64::from(i) / 10.0;
+            let corrected = literal(DURATION * RATES[joint] / change, tau);
+            let printed = literal(RATES[joint] / change, tau);
+            let time = tau * DURATION;
+            let rate = |found: Option<planar_capture::trajectory::Desired<f64>>| found.expect("a joint").rate;
+            let quartic = rate(Quartic { ends: ends(), final_rates: &RATES }.joint(joint, time));
+            let as_printed = rate(QuarticAsPrinted { ends: ends(), final_rates: &RATES }.joint(joint, time));
+            assert_close("eq. (6)", &[quartic, as_printed], &[corrected, printed], 10.0 * tolerance::POLYNOMIAL);
+        }
+    }
+}
+
+/// Halving the step of a fourth-order method divides the error by sixteen.
+#[test]
+fn runge_kutta_has_order_four() {
+    let error = |steps: u32| {
+        let mut workspace = [0.0; 6];
+        let mut integrator = RungeKutta4::new(&mut workspace).expect("a workspace for two");
+        let mut x = [1.0_f64, 0.0];
+        let h = 2.0 / f64::from(steps);
+        for i in 0..steps {
+            let f = |t: f64, x: &[f64], rate: &mut [f64]| {
+                rate[0] = x[1];
+                rate[1] = -x[0] * (1.0 + 0.1 * t); // an Airy-like oscillator that depends on time
+                Ok(())
+            };
+            integrator.step(f64::from(i) * h, h, &mut x, f).expect("a step");
+        }
+        x[0]
+    };
+    let (coarse, fine, finest) = (error(20), error(40), error(80));
+    let order = ((coarse - fine) / (fine - finest)).abs().log2();
+    assert!((order - 4.0).abs() < 0.15, "observed order {order}");
+}
