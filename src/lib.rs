@@ -66,9 +66,15 @@ pub mod audit;
 #[cfg(feature = "std")]
 pub mod capture;
 #[cfg(feature = "std")]
+pub mod compare;
+#[cfg(feature = "std")]
 pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
+#[cfg(feature = "std")]
+pub mod evaluation;
+#[cfg(feature = "std")]
+pub mod generic;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
@@ -81,6 +87,8 @@ pub mod record;
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod simulate;
+#[cfg(feature = "std")]
+pub mod states;
 #[cfg(feature = "std")]
 pub mod study;
 #[cfg(feature = "std")]

@@ -1,8 +1,10 @@
-//! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters.
+//! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters, or the
+//! generic implementation.
 
 use crate::dynamics::Model;
 #[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
+use crate::generic::Generic;
 use crate::layout::Layout;
 use crate::manifest::{Manifest, Quantity};
 
@@ -16,6 +18,9 @@ macro_rules! registry {
     (enabled: [$($name:ident),*], disabled: [$($other:ident),*]) => {
         /// (name, TOML text) of every layout that is shipped.
         pub const SHIPPED: &[(&str, &str)] = &[$(shipped!($name),)* $(shipped!($other),)*];
+
+        /// Names of the shipped layouts whose generated code this build has.
+        pub const GENERATED: &[&str] = &[$(stringify!($name)),*];
 
         /// Shipped layouts whose generated code this build was made without: cargo features to be switched on.
         const DISABLED: &[&str] = &[$(stringify!($other)),*];
@@ -74,14 +79,23 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
     }
 }
 
+/// The generic model of any layout.
+#[must_use]
+pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
+    Box::new(Generic::new(layout))
+}
+
 /// The way to generated code of a layout.
 fn mend(layout: &str) -> String {
     if DISABLED.contains(&layout) {
-        format!("It is shipped, but left out of this build: build again with `--features {layout}`")
+        format!(
+            "It is shipped, but left out of this build: build again with `--features {layout}`, or compute it with \
+             `--dynamics generic`"
+        )
     } else {
         format!(
             "To add it, put the layout into codegen/layouts/{layout}.toml, run `python -m codegen {layout}` and build \
-             again with `--features {layout}`"
+             again with `--features {layout}`; `--dynamics generic` computes any layout as it is"
         )
     }
 }

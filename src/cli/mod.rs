@@ -1,5 +1,9 @@
 //! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
 
+mod compare;
+mod dynamics;
+mod eval;
+mod layout;
 mod progress;
 mod run;
 
@@ -7,6 +11,7 @@ use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
 use planar_capture::models::NoModel;
 use planar_capture::output::OutputError;
+use planar_capture::states::StateError;
 use planar_capture::study::StudyError;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -23,6 +28,8 @@ struct Arguments {
 enum Command {
     /// Compute a scenario: the approach, and for every case the impact and what follows.
     Run(run::Arguments),
+    Eval(eval::Arguments),
+    Compare(compare::Arguments),
 }
 
 /// Why there is no result.
@@ -34,6 +41,17 @@ enum Problem {
     /// No generated code fits.
     #[error("error: {0}")]
     Model(#[from] NoModel),
+    /// An argument names no layout.
+    #[error(
+        "error: there is no shipped layout `{name}`; {meant}shipped: {shipped}; a path ends in `.toml` or contains a `/`"
+    )]
+    NoLayout { name: String, meant: String, shipped: String },
+    /// The states cannot be read.
+    #[error("error: {file}: {source}")]
+    States { file: String, source: StateError },
+    /// A state has no answer.
+    #[error("error: {file}: state {index}: {source}")]
+    Evaluation { file: String, index: usize, source: planar_capture::error::Error },
     /// A computation has no answer.
     #[error("error: {file}: {source}")]
     Study { file: String, source: StudyError },
@@ -64,6 +82,8 @@ fn color() -> bool {
 pub fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Eval(arguments) => eval::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
     };
     match result {
         Ok(code) => code,

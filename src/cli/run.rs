@@ -1,6 +1,7 @@
 //! `planar-capture run SCENARIO.toml`.
 
 use super::Problem;
+use super::dynamics::Dynamics;
 use super::progress::Progress;
 use planar_capture::models;
 use planar_capture::output::{make_folder, write_whole};
@@ -28,21 +29,6 @@ pub struct Arguments {
     sample: f64,
 }
 
-/// Implementations of the dynamics.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
-enum Dynamics {
-    /// Closed-form code, generated for the layout's structure.
-    Generated,
-}
-
-impl Dynamics {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Generated => "generated",
-        }
-    }
-}
-
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "a number of seconds is wanted".to_owned())?;
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err("a time in s, greater than 0, is wanted".to_owned()) }
@@ -51,7 +37,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Reads, computes, prints, writes; exit code 1 where the audit objects.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
-    let model = models::generated(&scenario.layout)?;
+    let model = arguments.dynamics.model(&scenario.layout)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
     make_folder(&folder)?; // before the work, so that a wrong folder costs no time
     let mut progress = Progress::new();

@@ -126,7 +126,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 
 /// The names in backticks as an English list, such as `` `a`, `b` or `c` `` with the conjunction
 /// "or".
-fn listing(names: &[&str], conjunction: &str) -> String {
+pub(crate) fn listing(names: &[&str], conjunction: &str) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {
         Some((last, [])) => last.clone(),
@@ -136,7 +136,7 @@ fn listing(names: &[&str], conjunction: &str) -> String {
 }
 
 /// Text from an input as one short line that is safe to print.
-fn excerpt(text: &str) -> String {
+pub(crate) fn excerpt(text: &str) -> String {
     const LONGEST: usize = 48;
     let line = printable(&text.split_whitespace().collect::<Vec<_>>().join(" "));
     match line.char_indices().nth(LONGEST) {

@@ -1,0 +1,32 @@
+//! The choice between implementations of the dynamics.
+
+use planar_capture::dynamics::Model;
+use planar_capture::layout::Layout;
+use planar_capture::models::{self, NoModel};
+
+/// Implementations of the dynamics.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub enum Dynamics {
+    /// Closed-form code, generated for the layout's structure.
+    Generated,
+    /// Computed from the equations for any layout, slowly.
+    Generic,
+}
+
+impl Dynamics {
+    /// As in the summary.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Generated => "generated",
+            Self::Generic => "generic",
+        }
+    }
+
+    /// The model of a layout.
+    pub fn model(self, layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
+        match self {
+            Self::Generated => models::generated(layout),
+            Self::Generic => Ok(models::generic(layout)),
+        }
+    }
+}

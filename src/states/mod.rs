@@ -1,0 +1,69 @@
+//! States in JSON: an array of any length, read one at a time.
+//!
+//! `[{base_pose, joint_angles, base_twist, joint_rates, joint_torques?, base_wrench?, end_effector_wrenches?,
+//! targets?}, …]`; what may be left out may also be `null`.
+
+mod elements;
+mod places;
+mod reader;
+mod write;
+
+use crate::dynamics::Model;
+use crate::evaluation::Instant;
+use elements::Elements;
+use std::io::{self, BufRead};
+pub use write::to_json;
+
+/// Why a state cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum StateError {
+    /// The file breaks off.
+    #[error("cannot be read: {0}")]
+    Unreadable(#[from] io::Error),
+    /// The text is not an array of states.
+    #[error("line {line}: {message}")]
+    Text {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// One state is wrong; those before it are good.
+    #[error("line {line}: state {index}: {message}")]
+    State {
+        /// Where the wrong value stands, counted from 1.
+        line: usize,
+        /// Counted from 0.
+        index: usize,
+        /// Key, value and what would be right.
+        message: String,
+    },
+}
+
+/// The states of a JSON text, one after the other: memory for one of them, however many there are.
+pub struct States<R> {
+    elements: Elements<R>,
+    joints: usize,
+    arms: usize,
+}
+
+impl<R: BufRead> States<R> {
+    /// States of a robot, read from `input`.
+    pub fn new(input: R, model: &dyn Model<f64>) -> Self {
+        Self { elements: Elements::new(input), joints: model.joints(), arms: model.arms() }
+    }
+
+    /// The next state; `None` after the last.
+    ///
+    /// # Errors
+    /// [`StateError`]; there is no going on after it.
+    pub fn next_state(&mut self) -> Result<Option<Instant>, StateError> {
+        let Some(element) = self.elements.next_element()? else { return Ok(None) };
+        let read = reader::read(element.text, self.joints, self.arms);
+        read.map(Some).map_err(|(line, message)| StateError::State {
+            line: element.line + line,
+            index: element.index,
+            message,
+        })
+    }
+}

@@ -1,0 +1,239 @@
+//! One state from its JSON text.
+
+use super::places::places;
+use crate::diagnostic::{Quantity, excerpt, listing, nearest};
+use crate::evaluation::Instant;
+use crate::simulate::Motion;
+use crate::target::Target;
+use serde_json::{Map, Value};
+
+const STATE: [&str; 8] = [
+    "base_pose",
+    "joint_angles",
+    "base_twist",
+    "joint_rates",
+    "joint_torques",
+    "base_wrench",
+    "end_effector_wrenches",
+    "targets",
+];
+const TARGET: [&str; 4] = ["mass", "inertia", "contact", "twist"];
+
+const POSE: &str = "[yaw, x, y] in rad, m, m";
+const TWIST: &str = "[ω, vx, vy] in rad/s, m/s, m/s";
+const WRENCH: &str = "[n, fx, fy] in N m, N, N";
+const MASS: Quantity = Quantity::positive("a mass", "kg");
+const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
+
+/// What is wrong, and the path of the value.
+struct Wrong {
+    path: String,
+    message: String,
+}
+
+type Read<T> = Result<T, Wrong>;
+
+/// Reads a state of a robot.
+///
+/// # Errors
+/// Lines from the start of the text to what is wrong, and a message with key, value and what would be right.
+pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<Instant, (usize, String)> {
+    let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
+    repeated(text, &tree)
+        .map_or(Ok(()), Err)
+        .and_then(|()| instant(&tree, joints, arms))
+        .map_err(|wrong| (line_of(text, &wrong.path), wrong.message))
+}
+
+fn instant(tree: &Value, joints: usize, arms: usize) -> Read<Instant> {
+    let state = object(tree, "", "the state", &STATE)?;
+    let required = |key: &str, wanted: &str| {
+        state
+            .get(key)
+            .ok_or_else(|| Wrong { path: String::new(), message: format!("missing key `{key}`, expected {wanted}") })
+    };
+    let optional = |key: &str| state.get(key).filter(|value| !value.is_null());
+    let of_joints = |unit: &str| format!("{joints} numbers in {unit}, one per joint");
+    let vector = |key: &str, form: &str| triple(required(key, form)?, key, form);
+    let list = |key: &str, unit: &str| numbers(required(key, &of_joints(unit))?, key, joints, &of_joints(unit));
+    let torques = optional("joint_torques").map(|value| numbers(value, "joint_torques", joints, &of_joints("N m")));
+    let base_wrench = optional("base_wrench").map(|value| triple(value, "base_wrench", WRENCH));
+    let wrenches = optional("end_effector_wrenches").map(|value| {
+        let wanted = format!("{arms} wrenches {WRENCH}, one per arm");
+        items(value, "end_effector_wrenches", arms, &wanted)?
+            .map(|(path, value)| triple(value, &path, WRENCH))
+            .collect::<Read<Vec<_>>>()
+    });
+    let targets = optional("targets").map(|value| {
+        let wanted = format!("{arms} targets, one per arm, `null` for an arm that captures nothing");
+        items(value, "targets", arms, &wanted)?
+            .map(|(path, value)| if value.is_null() { Ok(None) } else { target(value, &path).map(Some) })
+            .collect::<Read<Vec<_>>>()
+    });
+    Ok(Instant {
+        motion: Motion {
+            base_pose: vector("base_pose", POSE)?,
+            joint_angles: list("joint_angles", "rad")?,
+            base_twist: vector("base_twist", TWIST)?,
+            joint_rates: list("joint_rates", "rad/s")?,
+        },
+        joint_torques: torques.transpose()?.unwrap_or_else(|| vec![0.0; joints]),
+        base_wrench: base_wrench.transpose()?,
+        end_effector_wrenches: wrenches.transpose()?,
+        targets: targets.transpose()?.unwrap_or_else(|| vec![None; arms]),
+    })
+}
+
+fn target(value: &Value, path: &str) -> Read<Target<f64>> {
+    let table = object(value, path, "a target", &TARGET)?;
+    let required = |key: &str, wanted: &str| {
+        table.get(key).ok_or_else(|| Wrong {
+            path: path.to_owned(),
+            message: format!("missing key `{path}.{key}`, expected {wanted}"),
+        })
+    };
+    let amount = |key: &str, quantity: &Quantity| {
+        let (value, path, wanted) = (required(key, &quantity.to_string())?, format!("{path}.{key}"), quantity);
+        let number = number(value, &path, &wanted.to_string())?;
+        if number > 0.0 { Ok(number) } else { Err(expected(&path, value, &wanted.to_string())) }
+    };
+    let form = "[rx, ry] in m";
+    let mut contact = [0.0; 2];
+    contact.copy_from_slice(&numbers(required("contact", form)?, &format!("{path}.contact"), 2, form)?);
+    Ok(Target {
+        mass: amount("mass", &MASS)?,
+        inertia: amount("inertia", &INERTIA)?,
+        contact,
+        twist: triple(required("twist", TWIST)?, &format!("{path}.twist"), TWIST)?,
+    })
+}
+
+/// An object that has no other keys.
+fn object<'a>(value: &'a Value, path: &str, what: &str, keys: &[&str]) -> Read<&'a Map<String, Value>> {
+    let Value::Object(map) = value else {
+        let wanted = format!("an object with {}", listing(keys, "and"));
+        return Err(if path.is_empty() {
+            Wrong { path: String::new(), message: format!("{what} is {}, expected {wanted}", shown(value)) }
+        } else {
+            expected(path, value, &wanted)
+        });
+    };
+    let Some((key, value)) = map.iter().find(|(key, _)| !keys.contains(&key.as_str())) else { return Ok(map) };
+    let missing = keys.iter().copied().filter(|known| !map.contains_key(*known));
+    let hint = match nearest(key, missing).or_else(|| nearest(key, keys.iter().copied())) {
+        Some(known) => format!("did you mean `{known}`?"),
+        None => format!("keys of {what}: {}", listing(keys, "and")),
+    };
+    let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+    Err(Wrong { message: format!("unknown key `{}` ({}); {hint}", excerpt(&path), shown(value)), path })
+}
+
+/// The elements of an array of the right length, with their paths.
+fn items<'a>(
+    value: &'a Value,
+    path: &str,
+    count: usize,
+    wanted: &str,
+) -> Read<impl Iterator<Item = (String, &'a Value)>> {
+    let wrong = || expected(path, value, wanted);
+    let list = value.as_array().ok_or_else(wrong)?;
+    if list.len() != count {
+        return Err(expected(path, value, &format!("{wanted} (it has {})", list.len())));
+    }
+    let path = path.to_owned();
+    Ok(list.iter().enumerate().map(move |(index, value)| (format!("{path}[{index}]"), value)))
+}
+
+fn numbers(value: &Value, path: &str, count: usize, wanted: &str) -> Read<Vec<f64>> {
+    items(value, path, count, wanted)?.map(|(path, value)| number(value, &path, "a number")).collect()
+}
+
+fn triple(value: &Value, path: &str, form: &str) -> Read<[f64; 3]> {
+    let mut triple = [0.0; 3];
+    triple.copy_from_slice(&numbers(value, path, 3, form)?);
+    Ok(triple)
+}
+
+fn number(value: &Value, path: &str, wanted: &str) -> Read<f64> {
+    value.as_f64().filter(|number| number.is_finite()).ok_or_else(|| expected(path, value, wanted))
+}
+
+fn expected(path: &str, value: &Value, wanted: &str) -> Wrong {
+    Wrong { path: path.to_owned(), message: format!("`{path}` is {}, expected {wanted}", shown(value)) }
+}
+
+fn shown(value: &Value) -> String {
+    excerpt(&value.to_string())
+}
+
+/// Lines before the value at `path`.
+fn line_of(text: &[u8], path: &str) -> usize {
+    let place = places(text).into_iter().rev().find(|(found, _)| found == path);
+    lines_before(text, place.map_or(0, |(_, offset)| offset))
+}
+
+fn lines_before(text: &[u8], offset: usize) -> usize {
+    text.iter().take(offset).filter(|byte| **byte == b'\n').count()
+}
+
+/// A text that is no JSON, or holds a number too large for 64 bits.
+fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
+    let lines = error.line().saturating_sub(1);
+    let start = text.split_inclusive(|byte| *byte == b'\n').take(lines).map(<[u8]>::len).sum::<usize>();
+    let offset = start + error.column();
+    let before = places(text).into_iter().take_while(|(_, place)| *place < offset).last();
+    let what = error.to_string();
+    // the parser counts lines from the start of this state; ours stands in front of the message
+    let what = what.split(" at line ").next().unwrap_or_default();
+    let message = match before {
+        Some((path, place)) if !path.is_empty() => {
+            let rest = text.get(place..).unwrap_or_default();
+            let length = rest.iter().position(|b| b",]} \t\r\n".contains(b)).unwrap_or(rest.len());
+            let value = String::from_utf8_lossy(rest.get(..length).unwrap_or_default()).into_owned();
+            if what == "number out of range" {
+                format!("`{path}` is {}, expected a finite number that fits in 64 bits", excerpt(&value))
+            } else {
+                format!("not JSON: {what}, near `{path}` ({})", excerpt(&value))
+            }
+        }
+        _ => format!("not JSON: {what}"),
+    };
+    (lines, message)
+}
+
+/// The first key that stands twice in one object: a tree keeps only the last of them.
+fn repeated(text: &[u8], tree: &Value) -> Option<Wrong> {
+    if keys_of(tree) == colons(text) {
+        return None;
+    }
+    let places = places(text);
+    let repeat = places.iter().enumerate().find(|(i, (path, _))| places.iter().take(*i).any(|(p, _)| p == path));
+    repeat.map(|(_, (path, _))| Wrong {
+        message: format!("`{}` is given twice, expected once", excerpt(path)),
+        path: path.clone(),
+    })
+}
+
+/// Number of keys in a tree.
+fn keys_of(tree: &Value) -> usize {
+    match tree {
+        Value::Array(items) => items.iter().map(keys_of).sum(),
+        Value::Object(map) => map.len() + map.values().map(keys_of).sum::<usize>(),
+        _ => 0,
+    }
+}
+
+/// Number of keys in a JSON text: colons outside strings.
+fn colons(text: &[u8]) -> usize {
+    let (mut count, mut quoted, mut escaped) = (0, false, false);
+    for byte in text {
+        match byte {
+            _ if escaped => escaped = false,
+            b'\\' if quoted => escaped = true,
+            b'"' => quoted = !quoted,
+            b':' if !quoted => count += 1,
+            _ => {}
+        }
+    }
+    count
+}

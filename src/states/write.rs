@@ -1,0 +1,36 @@
+//! A state as JSON, so that it reads back as the same numbers.
+
+use crate::evaluation::Instant;
+use crate::target::Target;
+use serde_json::{Value, json};
+
+/// The object that [`States`](super::States) reads as this instant; what is absent stays out.
+#[must_use]
+pub fn to_json(instant: &Instant) -> Value {
+    let motion = &instant.motion;
+    let mut value = json!({
+        "base_pose": motion.base_pose,
+        "joint_angles": motion.joint_angles,
+        "base_twist": motion.base_twist,
+        "joint_rates": motion.joint_rates,
+        "joint_torques": instant.joint_torques,
+    });
+    if let Some(wrench) = instant.base_wrench {
+        value["base_wrench"] = json!(wrench);
+    }
+    if let Some(wrenches) = &instant.end_effector_wrenches {
+        value["end_effector_wrenches"] = json!(wrenches);
+    }
+    if instant.targets.iter().any(Option::is_some) {
+        let target = |target: &Target<f64>| {
+            json!({
+                "mass": target.mass,
+                "inertia": target.inertia,
+                "contact": target.contact,
+                "twist": target.twist,
+            })
+        };
+        value["targets"] = instant.targets.iter().map(|entry| entry.as_ref().map(target)).collect();
+    }
+    value
+}

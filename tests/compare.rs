@@ -1,0 +1,69 @@
+//! `planar-capture compare`: what it prints, and that the states it leaves can be computed again.
+
+use assert_cmd::Command;
+use planar_capture::compare::{Comparison, Difference, QUANTITIES, REGIMES, Worst, layout_text};
+use planar_capture::layout::Layout;
+use planar_capture::models::SHIPPED;
+use std::path::Path;
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("planar-capture").expect("built").args(arguments).output().expect("runs");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("a code"), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn every_quantity_is_printed_and_its_worst_state_can_be_replayed() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("compare");
+    let folder = folder.to_str().expect("UTF-8");
+    let arguments = ["compare", "dual_arm_3r", "--samples", "5", "--seed", "7", "--out", folder];
+    let (code, table, problems) = run(&arguments);
+    assert_eq!((code, problems.as_str()), (0, ""));
+    assert!(table.contains("60 states, 5 of each regime, seed 7"), "{table}");
+    assert_eq!(run(&arguments).1, table, "the same seed, the same states");
+    for quantity in QUANTITIES {
+        assert!(table.lines().any(|line| line.starts_with(quantity.name)), "{} is missing", quantity.name);
+        let name = quantity.name.replace([' ', '.'], "_");
+        for dynamics in ["generated", "generic"] {
+            let (layout, states) = (format!("{folder}/{name}.toml"), format!("{folder}/{name}.json"));
+            let (code, results, problems) = run(&["eval", &layout, &states, "--dynamics", dynamics]);
+            assert_eq!((code, problems.as_str()), (0, ""));
+            assert!(results.contains("mass_matrix"));
+        }
+    }
+}
+
+#[test]
+fn a_layout_is_written_so_that_it_reads_back() {
+    for (name, text) in SHIPPED {
+        let layout = Layout::parse(text, name).expect("good");
+        for regime in REGIMES {
+            let layout = regime.sample(&layout, 3, 4).layout;
+            let again = Layout::parse(&layout_text(&layout), name).expect("good");
+            assert_eq!(again, layout);
+        }
+    }
+}
+
+#[test]
+fn an_error_over_its_bound_is_no_agreement() {
+    let (_, text) = SHIPPED.first().expect("there are some");
+    let sample = REGIMES[0].sample(&Layout::parse(text, "shipped").expect("good"), 1, 0);
+    let comparison = |error: f64| Comparison {
+        states: 1,
+        worst: QUANTITIES
+            .iter()
+            .map(|quantity| Worst {
+                difference: Difference { quantity, error, condition: 1.0 },
+                regime: REGIMES[0],
+                index: 0,
+                sample: sample.clone(),
+            })
+            .collect(),
+        refusals: Vec::new(),
+    };
+    assert!(comparison(1e-14).agrees());
+    assert!(!comparison(2e-12).agrees());
+    assert!(!comparison(f64::NAN).agrees());
+    assert!(!Comparison::default().agrees(), "what was not compared does not agree");
+}
