@@ -10,7 +10,7 @@ use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
 use std::collections::BTreeSet;
-use support::tolerance::{EQUIVALENCE, INHERENT, LAYOUTS};
+use support::tolerance::{EQUIVALENCE, INHERENT, LAYOUTS, SHORT_LINK};
 
 /// States of each regime and layout.
 const SAMPLES: u64 = 40;
@@ -317,4 +317,22 @@ fn the_merged_link_is_two_bodies_in_one() {
     let found = merged.com.map(|c| c * merged.mass);
     support::assert_close("first moment", &found, &[moment(0), moment(1)], 1e-14);
     support::assert_close("mass", &[merged.mass], &[8.0], 0.0);
+}
+
+#[test]
+fn a_short_inner_link_costs_generated_accelerations_no_more_than_its_square() {
+    for ratio in [1e-1_f64, 1e-2, 1e-3] {
+        let mut layout = layout("single_arm_3r");
+        layout.arms[0].links[1].length *= ratio;
+        for index in 0..SAMPLES {
+            let sample = Regime::Moving.sample(&layout, SEED, index);
+            let (model, reference) = (generated(&layout).expect("generated code"), generic(&layout));
+            let all = differences(&*model, &*reference, &sample).expect("answers");
+            let bound = (SHORT_LINK * f64::EPSILON / (ratio * ratio)).max(1e-13);
+            for difference in all.iter().filter(|d| d.quantity.name.contains("acceleration")) {
+                let (name, error) = (difference.quantity.name, difference.error);
+                assert!(error <= bound, "{name} is off by {error:e}, bound {bound:e} at ratio {ratio}");
+            }
+        }
+    }
 }
