@@ -17,7 +17,8 @@ INSIDE = "PLANAR_CAPTURE_CODEGEN_INSIDE"
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m codegen",
-        description="Derives codegen/layouts/NAME.toml and writes codegen/graphs/NAME.json.",
+        description="Derives codegen/layouts/NAME.toml, writes codegen/graphs/NAME.json and keeps the layouts' cargo "
+        "features in Cargo.toml in step.",
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts)")
     parser.add_argument(

@@ -24,26 +24,51 @@ ZERO = ca.SX(0)
 
 @dataclass(frozen=True)
 class PlaneMass:
-    """A symmetric 2 x 2 articulated mass, and xx - yy where that is known beforehand."""
+    """A symmetric 2 x 2 articulated mass.
+
+    ``difference`` is xx - yy where that is known beforehand. A rotated constant is its constant plus a swing,
+    xx = fixed[0] - swing and yy = fixed[1] + swing: what is added to it can be added to the constant.
+    """
 
     xx: ca.SX
     xy: ca.SX
     yy: ca.SX
     difference: ca.SX | None = None
+    fixed: tuple[ca.SX, ca.SX] | None = None
+    swing: ca.SX | None = None
 
     def rotate(self, rotation: Vector) -> "PlaneMass":
         """R A R^T in 10 operations, 5 where xy is zero; the trace stays."""
         c, s = rotation
         difference = self.xx - self.yy if self.difference is None else self.difference
         v = c * (self.xy + self.xy) + s * difference
-        sv = s * v
-        return PlaneMass(self.xx - sv, c * v - self.xy, self.yy + sv)
+        swing = s * v
+        fixed = None if self.difference is None else (self.xx, self.yy)
+        return PlaneMass(self.xx - swing, c * v - self.xy, self.yy + swing, None, fixed, swing)
 
     def times(self, a: Vector) -> Vector:
         return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
 
     def plus(self, other: "PlaneMass") -> "PlaneMass":
         return PlaneMass(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
+
+    def xx_plus(self, symbols: Symbols, name: str, term: ca.SX, text: str) -> ca.SX:
+        """xx + term, for a term that is a constant."""
+        if self.fixed is None:
+            return self.xx + term
+        return (
+            symbols.constant(f"{name}_with_child", self.fixed[0] + term, "kg", f"{text} + (child's A_xx without swing)")
+            - self.swing
+        )
+
+    def yy_times_plus(self, symbols: Symbols, name: str, factor: ca.SX, term: ca.SX, text: str) -> ca.SX:
+        """factor yy + term, for a factor and a term that are constants."""
+        if self.fixed is None:
+            return factor * self.yy + term
+        constant = symbols.constant(
+            f"{name}_with_child", factor * self.fixed[1] + term, "kg", f"{text}, A'_yy without swing"
+        )
+        return factor * self.swing + constant
 
 
 @dataclass(frozen=True)
@@ -84,13 +109,14 @@ class Inertia:
 
 
 class InLine:
-    """COM and the one child on the x axis, the child at l: nothing cancels, one division.
+    """COM and the one child on the x axis, the child at l: one division, and nothing cancels however short l is.
 
     With l alpha as the unknown, J = I_P / l^2, mu = m c / l and D = J + A'_yy,
 
-        A = [[m + A'_xx - A'_xy^2 / D,  A'_xy e], [.,  J_next - (J - mu) e]],    e = (J - mu) / D,
+        A_xx = m + A'_xx - A'_xy^2 / D,  A_xy = A'_xy e,  A_yy = (m I / l^2 + J' A'_yy) / D,  e = (J - mu) / D,
 
-    where J_next = (I + m (l - c)^2) / l^2 belongs to the inertia about the child's joint.
+    where J' = (I + m (l - c)^2) / l^2 belongs to the inertia about the child's joint. (A_yy = J' - (J - mu) e
+    would save an operation, and loses digits as the square of a short l.)
     """
 
     def __init__(self, symbols: Symbols, own: Inertia, child: Child) -> None:
@@ -99,25 +125,30 @@ class InLine:
         self.inverse_length = symbols.inverse_constant(f"{label}_inverse_length", self.length, "1/m", "1 / l")
         square = self.inverse_length * self.inverse_length
         near = constant(f"{label}_near_mass", own.about_joint(symbols) * square, "kg", "J = (I + m c^2) / l^2")
-        self.first = constant(f"{label}_first_mass", own.mass * com * self.inverse_length, "kg", "mu = m c / l")
-        coupling = constant(f"{label}_coupling_mass", near - self.first, "kg", "J - mu")
+        first = constant(f"{label}_first_mass", own.mass * com * self.inverse_length, "kg", "mu = m c / l")
+        coupling = constant(f"{label}_coupling_mass", near - first, "kg", "J - mu")
         beyond = self.length - com
         far = constant(
-            f"{label}_far_mass", (own.inertia + own.mass * (beyond * beyond)) * square, "kg", "(I + m (l - c)^2) / l^2"
+            f"{label}_far_mass",
+            (own.inertia + own.mass * (beyond * beyond)) * square,
+            "kg",
+            "J' = (I + m (l - c)^2) / l^2",
         )
-        self.inverse = symbols.reciprocal(near + self.child.yy)
+        turning = constant(f"{label}_turning_mass", own.mass * (own.inertia * square), "kg^2", "m I / l^2")
+        self.inverse = symbols.reciprocal(
+            child.mass.yy_times_plus(symbols, f"{label}_near_mass", ca.SX(1), near, "J + A'_yy")
+        )
         self.row = self.child.xy * self.inverse
         self.ratio = coupling * self.inverse
-        self.mass = PlaneMass(
-            own.mass + self.child.xx - self.child.xy * self.row,
-            self.child.xy * self.ratio,
-            far - coupling * self.ratio,
-        )
+        xx = self.child.xx_plus(symbols, f"{label}_mass", own.mass, "m")
+        yy = self.child.yy_times_plus(symbols, f"{label}_turning_mass", far, turning, "m I / l^2 + J' A'_yy")
+        self.mass = PlaneMass(xx - self.child.xy * self.row, self.child.xy * self.ratio, yy * self.inverse)
+        self.pull = self.child.xx_plus(symbols, f"{label}_first_mass", first, "mu")
 
     def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         x, y = child_forces[0]
         self.centripetal = rate_squared * self.length
-        x = x - self.centripetal * (self.child.xx + self.first)
+        x = x - self.centripetal * self.pull
         y = y - self.centripetal * self.child.xy
         torque = moment * self.inverse_length
         turn = torque - y

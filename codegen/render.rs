@@ -355,10 +355,12 @@ fn operations(counts: &Value) -> Result<String, String> {
 /// One line per function for the header.
 fn table(graph: &Value) -> Result<Vec<String>, String> {
     let mut lines =
-        vec![format!("    {:34} {}", "parameters, once per model", operations(&graph["constants"]["operations"])?)];
+        vec![format!("    {:42} {}", "parameters, once per model", operations(&graph["constants"]["operations"])?)];
     for family in list(&graph["families"])? {
+        let stage = format!("{} (configuration stage)", text(&family["name"])?);
+        lines.push(format!("    {stage:42} {}", operations(&family["configuration"]["operations"])?));
         for function in list(&family["functions"])? {
-            lines.push(format!("    {:34} {}", text(&function["name"])?, operations(&function["operations"])?));
+            lines.push(format!("    {:42} {}", text(&function["name"])?, operations(&function["operations"])?));
         }
     }
     Ok(lines)

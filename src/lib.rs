@@ -90,6 +90,8 @@ pub mod simulate;
 #[cfg(feature = "std")]
 pub mod states;
 #[cfg(feature = "std")]
+pub mod structure;
+#[cfg(feature = "std")]
 pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;

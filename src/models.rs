@@ -6,7 +6,15 @@ use crate::dynamics::Model;
 use crate::generated;
 use crate::generic::Generic;
 use crate::layout::Layout;
-use crate::manifest::{Manifest, Quantity};
+use crate::manifest::Manifest;
+use crate::structure::{Difference, Mismatch, in_words, parameters};
+
+/// As many values as there are parameters: [`parameters`] made them so.
+fn place<const N: usize>(values: Vec<f64>) -> [f64; N] {
+    let mut array = [0.0; N];
+    array.iter_mut().zip(values).for_each(|(place, value)| *place = value);
+    array
+}
 
 /// A generated structure and how to set its numbers.
 struct Candidate {
@@ -28,7 +36,7 @@ macro_rules! registry {
         const CANDIDATES: &[Candidate] = &[$(Candidate {
             manifest: &generated::$name::MANIFEST,
             build: |values| {
-                let parameters = generated::$name::Parameters::from_array(values);
+                let parameters = generated::$name::Parameters::from_array(place(values));
                 Box::new(generated::$name::Model::new(parameters))
             },
         }),*];
@@ -49,7 +57,8 @@ include!(concat!(env!("OUT_DIR"), "/registry.rs"));
 /// No generated code has the structure of a layout.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "no generated code in this build has the structure of layout `{layout}` ({structure}); there is: {available}. {mend}"
+    "no generated code in this build has the structure of layout `{layout}` ({structure}); there is code for: \
+     {available}{nearest}.\n{mend}"
 )]
 pub struct NoModel {
     /// The layout's name.
@@ -58,6 +67,8 @@ pub struct NoModel {
     pub structure: String,
     /// The structures that there are.
     pub available: String,
+    /// What keeps it from the nearest of them, as keys and values; empty where arms or links are others.
+    pub nearest: String,
     /// How to get it.
     pub mend: String,
 }
@@ -67,14 +78,30 @@ pub struct NoModel {
 /// # Errors
 /// [`NoModel`] where no generated code has that structure.
 pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
-    let fitting = CANDIDATES.iter().filter_map(|c| parameters(c.manifest, layout).map(|values| (c, values)));
-    match fitting.min_by_key(|(_, values)| values.len()) {
+    let mut fitting: Option<(&Candidate, Vec<f64>)> = None;
+    let mut nearest: Option<(&str, Vec<Difference>)> = None;
+    for candidate in CANDIDATES {
+        match parameters(candidate.manifest, layout) {
+            Ok(values) if fitting.as_ref().is_none_or(|(_, best)| values.len() < best.len()) => {
+                fitting = Some((candidate, values));
+            }
+            Err(Mismatch::Zeros(found)) if nearest.as_ref().is_none_or(|(_, best)| found.len() < best.len()) => {
+                nearest = Some((candidate.manifest.name, found));
+            }
+            Ok(_) | Err(_) => {}
+        }
+    }
+    match fitting {
         Some((candidate, values)) => Ok((candidate.build)(values)),
         None => Err(NoModel {
             layout: layout.name.clone(),
-            structure: structure(layout),
+            structure: in_words(layout),
             available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
-            mend: mend(&layout.name),
+            nearest: nearest.map_or_else(String::new, |(name, found)| {
+                let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+                format!(". Nearest is `{name}`: {}", found.join("; "))
+            }),
+            mend: mend(layout),
         }),
     }
 }
@@ -86,86 +113,22 @@ pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
 }
 
 /// The way to generated code of a layout.
-fn mend(layout: &str) -> String {
-    if DISABLED.contains(&layout) {
-        format!(
-            "It is shipped, but left out of this build: build again with `--features {layout}`, or compute it with \
-             `--dynamics generic`"
-        )
-    } else {
-        format!(
-            "To add it, put the layout into codegen/layouts/{layout}.toml, run `python -m codegen {layout}` and build \
-             again with `--features {layout}`; `--dynamics generic` computes any layout as it is"
-        )
-    }
-}
-
-/// The layout's numbers in the order of a manifest; `None` unless the structures are the same.
-fn parameters(manifest: &Manifest, layout: &Layout) -> Option<Vec<f64>> {
-    let links: Vec<usize> = layout.arms.iter().map(|arm| arm.links.len()).collect();
-    if links != manifest.links || (manifest.needs_distinct_mounts && first_mounts_coincide(layout)) {
-        return None;
-    }
-    let mut values = vec![0.0; manifest.parameters.len()];
-    for (quantity, arm, link, value) in quantities(layout) {
-        match manifest.position(quantity, arm, link) {
-            Some(place) => *values.get_mut(place)? = value,
-            None if value == 0.0 => {}
-            None => return None, // a structural zero of the code is not zero here
+fn mend(layout: &Layout) -> String {
+    let name = &layout.name;
+    let generic = "`--dynamics generic` computes any layout as it is";
+    let shipped = SHIPPED.iter().find(|(shipped, _)| shipped == name);
+    let is_shipped = |text: &str| Layout::parse(text, name).is_ok_and(|shipped| shipped.sha256() == layout.sha256());
+    match shipped {
+        Some((_, text)) if DISABLED.contains(&name.as_str()) && is_shipped(text) => {
+            format!("It is shipped, but left out of this build: build again with `--features {name}`; {generic}")
         }
-        // the length of an inner link is divided by
-        let inner = links.get(arm).is_some_and(|n| link + 1 < *n);
-        if quantity == Quantity::LinkLength && inner && value == 0.0 && manifest.position(quantity, arm, link).is_some()
-        {
-            return None;
-        }
+        Some(_) => format!(
+            "`{name}` is the name of a shipped layout: give yours a name of its own, put it into \
+             codegen/layouts/NAME.toml, run `python -m codegen NAME` and build again with `--features NAME`; {generic}"
+        ),
+        None => format!(
+            "To add it, put the layout into codegen/layouts/{name}.toml, run `python -m codegen {name}` and build \
+             again with `--features {name}`; {generic}"
+        ),
     }
-    Some(values)
-}
-
-#[allow(clippy::float_cmp, reason = "a structural zero is an exact one")]
-fn first_mounts_coincide(layout: &Layout) -> bool {
-    matches!(layout.arms.as_slice(), [first, second, ..] if first.mount == second.mount)
-}
-
-/// Every number of a layout and what it is.
-fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
-    let mut all =
-        vec![(Quantity::BaseMass, 0, 0, layout.base.mass), (Quantity::BaseInertia, 0, 0, layout.base.inertia)];
-    for (i, arm) in layout.arms.iter().enumerate() {
-        all.push((Quantity::MountX, i, 0, arm.mount[0]));
-        all.push((Quantity::MountY, i, 0, arm.mount[1]));
-        all.push((Quantity::MountAngle, i, 0, arm.mount_angle));
-        for (k, link) in arm.links.iter().enumerate() {
-            all.push((Quantity::LinkLength, i, k, link.length));
-            all.push((Quantity::LinkMass, i, k, link.mass));
-            all.push((Quantity::LinkInertia, i, k, link.inertia));
-            all.push((Quantity::LinkComX, i, k, link.com[0]));
-            all.push((Quantity::LinkComY, i, k, link.com[1]));
-        }
-    }
-    all
-}
-
-/// Arms, links and what is structurally not zero, in words.
-fn structure(layout: &Layout) -> String {
-    let links: Vec<String> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
-    let mut words = vec![format!("{} arm(s) of {} links", layout.arms.len(), links.join(" + "))];
-    if layout.arms.iter().any(|arm| arm.mount[1] != 0.0) {
-        words.push("a mount off the base x axis".to_owned());
-    }
-    if layout.arms.iter().any(|arm| arm.mount_angle != 0.0) {
-        words.push("a mount angle".to_owned());
-    }
-    let inner = || layout.arms.iter().flat_map(|arm| arm.links.split_last().map_or(&[][..], |(_, inner)| inner));
-    if inner().any(|link| link.com[1] != 0.0) {
-        words.push("an off-axis COM".to_owned());
-    }
-    if inner().any(|link| link.length == 0.0) {
-        words.push("an inner link of length zero".to_owned());
-    }
-    if first_mounts_coincide(layout) {
-        words.push("two arms on one mount".to_owned());
-    }
-    words.join(", ")
 }

@@ -61,7 +61,8 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
     let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
     let column = if printed { " as printed" } else { "" };
-    writeln!(out, "  {:<16} {:<10} {:>10} {:>10} {column:>11}", "case", "arm", "exact", "paper eqs.")?;
+    let head = format!("  {:<16} {:<10} {:>10} {:>10} {column:>11}", "case", "arm", "exact", "paper eqs.");
+    writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let Some(Captured { impact, .. }) = &result.capture else { continue };
         let (exact, paper) = (impact.exact.impulse_magnitudes(), impact.paper.impulse_magnitudes());
@@ -72,8 +73,12 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
                 continue;
             };
             let printed = printed.map_or_else(String::new, |value| format!("{value:.4}"));
-            writeln!(out, "  {:<16} {:<10} {exact:>10.5} {paper:>10.5} {printed:>11}", case.name, arm.name)?;
+            let row = format!("  {:<16} {:<10} {exact:>10.5} {paper:>10.5} {printed:>11}", case.name, arm.name);
+            writeln!(out, "{}", row.trim_end())?;
         }
+    }
+    if printed {
+        writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; README says more)")?;
     }
     Ok(())
 }

@@ -200,6 +200,20 @@ fn files_that_cannot_be_read_or_written() {
     assert!(err.contains("occupied"), "{err}");
 }
 
+/// A file that cannot take its place leaves the results of an earlier run as they were.
+#[test]
+fn results_are_of_one_run() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    fs::create_dir_all(results.join("summary.json")).expect("a folder in the summary's place");
+    fs::write(results.join("case1.csv"), "of an earlier run").expect("written");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2017.toml"), &results);
+    assert_eq!(code, 2);
+    assert!(err.contains("summary.json"), "{err}");
+    assert_eq!(fs::read_to_string(results.join("case1.csv")).expect("a file"), "of an earlier run");
+    assert_eq!(fs::read_dir(&results).expect("a folder").count(), 2, "temporary files are gone");
+}
+
 /// Without generated code of its structure, a layout is refused, with the way to get it.
 #[test]
 fn a_structure_without_code_says_how_to_get_it() {
@@ -211,7 +225,15 @@ fn a_structure_without_code_says_how_to_get_it() {
     fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"raised.toml\"")).expect("written");
     let (code, _, err) = run_file(&path, &folder.path().join("results"));
     assert_eq!(code, 2);
-    assert!(err.contains("raised") && err.contains("python -m codegen raised") && err.contains("mount off"), "{err}");
+    assert!(err.contains("scenario.toml: no generated code") && err.contains("python -m codegen raised"), "{err}");
+    assert!(err.contains("`arm[0].mount[1]` is 0.25") && err.contains("Nearest is `dual_arm_3r`"), "{err}");
+    // under a shipped layout's name it is not to take that layout's place
+    let shipped =
+        fs::read_to_string(folder.path().join("raised.toml")).expect("a layout").replace("raised", "dual_arm_3r");
+    fs::write(folder.path().join("raised.toml"), shipped).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!(code, 2);
+    assert!(err.contains("a name of its own") && !err.contains("codegen/layouts/dual_arm_3r.toml"), "{err}");
 }
 
 #[test]

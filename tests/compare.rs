@@ -19,7 +19,7 @@ fn every_quantity_is_printed_and_its_worst_state_can_be_replayed() {
     let arguments = ["compare", "dual_arm_3r", "--samples", "5", "--seed", "7", "--out", folder];
     let (code, table, problems) = run(&arguments);
     assert_eq!((code, problems.as_str()), (0, ""));
-    assert!(table.contains("60 states, 5 of each regime, seed 7"), "{table}");
+    assert!(table.contains("65 states, 5 of each regime, seed 7"), "{table}");
     assert_eq!(run(&arguments).1, table, "the same seed, the same states");
     for quantity in QUANTITIES {
         assert!(table.lines().any(|line| line.starts_with(quantity.name)), "{} is missing", quantity.name);

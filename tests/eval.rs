@@ -1,13 +1,11 @@
 //! `planar-capture eval`: its numbers against Pinocchio's, and what it says of states that are wrong.
 
+mod support;
+
 use assert_cmd::Command;
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
-
-const REFERENCE: &str = include_str!("reference/pinocchio_dual_arm_3r.json");
-/// Largest error over the largest entry of a quantity. Both sides solve systems with condition numbers up to about
-/// 1e3 to rounding; measured below 4e-14.
-const BOUND: f64 = 1e-11;
+use support::tolerance;
 
 fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String) {
     let mut command = Command::cargo_bin("planar-capture").expect("the binary is built");
@@ -20,7 +18,7 @@ fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String)
 
 /// The reference's states, without what is expected of them, and that.
 fn reference() -> (Vec<Value>, Vec<Value>) {
-    let mut reference: Value = serde_json::from_str(REFERENCE).expect("JSON");
+    let mut reference = support::json("tests/reference/pinocchio_dual_arm_3r.json");
     let states = reference["states"].as_array_mut().expect("an array").iter_mut();
     states
         .map(|state| {
@@ -84,7 +82,7 @@ fn both_implementations_agree_with_pinocchio() {
             assert!(found.keys().eq(expected.keys()), "the keys, in the order of the contract: {:?}", found.keys());
             for ((name, found), expected) in found.iter().zip(expected.values()) {
                 let error = error(found, expected, name == "end_effector_poses");
-                assert!(error <= BOUND, "{dynamics}, state {index}: {name} is off by {error:e}");
+                assert!(error <= tolerance::PINOCCHIO, "{dynamics}, state {index}: {name} is off by {error:e}");
             }
         }
     }

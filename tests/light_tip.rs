@@ -29,7 +29,7 @@ fn lengthened(longer: &Manifest, shorter: &Manifest, epsilon: f64) -> Vec<f64> {
 fn inner<'a>(values: &'a [f64], links: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
     let mut start = 0;
     links.iter().flat_map(move |n| {
-        let arm = &values[start..start + n + 1];
+        let arm = &values[start..=start + n];
         start += n + 1;
         arm[..*n].iter().copied()
     })
@@ -60,7 +60,7 @@ macro_rules! light_tip {
                 );
                 let difference = |epsilon: f64| {
                     let values = lengthened(&$longer::MANIFEST, &$shorter::MANIFEST, epsilon);
-                    let model = $longer::Model::new($longer::Parameters::from_array(values));
+                    let model = $longer::Model::new($longer::Parameters::from_array(values.try_into().expect("as many")));
                     let found = model.forward_dynamics(
                         base_pose, &long(joint_angles), base_twist, &long(joint_rates), &with_tip,
                     );

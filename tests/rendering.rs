@@ -72,7 +72,7 @@ fn paper_robot_is_within_its_operation_targets() {
     ] {
         let total = forward + call("ForwardDynamics", function);
         assert!((least..=most).contains(&total), "{function}: {total} operations, at most {most} are wanted");
-        let header = text.lines().find(|line| line.starts_with(&format!("//     {function} "))).expect("a count");
+        let header = text.lines().find(|line| line.starts_with(&format!("//     {function}  "))).expect("a count");
         assert!(header.contains(&format!(" {total} flops")), "the header says `{header}`, the text has {total}");
     }
     let reduced = staged("reduced_dynamics") + call("ReducedDynamics", "reduced_dynamics");

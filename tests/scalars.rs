@@ -17,7 +17,7 @@ const RATES: [f64; 6] = [0.4, -0.2, 0.9, -0.5, 0.3, 0.8];
 const TORQUES: [f64; 6] = [1.0, -2.0, 0.5, 3.0, -1.5, 0.7];
 
 fn accelerations<T: Scalar>(constant: impl Fn(f64) -> T + Copy) -> Vec<T> {
-    let parameters = MANIFEST.parameters.iter().map(|p| constant(p.default));
+    let parameters = std::array::from_fn(|i| constant(MANIFEST.parameters[i].default));
     let result = Model::new(Parameters::from_array(parameters)).forward_dynamics(
         &POSE.map(constant),
         &ANGLES.map(constant),

@@ -30,7 +30,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let layout = layout::read(&arguments.layout)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
-    let comparison = compare(&layout, arguments.samples, arguments.seed)?;
+    let file = arguments.layout.clone();
+    let comparison = compare(&layout, arguments.samples, arguments.seed)
+        .map_err(|source| Problem::Model { file, source: Box::new(source) })?;
     make_folder(&folder)?;
     for worst in &comparison.worst {
         let name = file_name(worst.difference.quantity.name);

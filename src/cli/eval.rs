@@ -33,7 +33,10 @@ impl Arguments {
 
 /// Reads, computes, writes.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
-    let model = arguments.dynamics.model(&layout::read(&arguments.layout)?)?;
+    let layout = layout::read(&arguments.layout)?;
+    let file = arguments.layout.clone();
+    let model =
+        arguments.dynamics.model(&layout).map_err(|source| Problem::Model { file, source: Box::new(source) })?;
     let unreadable = |source: io::Error| Problem::States { file: arguments.shown(), source: source.into() };
     let input: Box<dyn BufRead> = if arguments.states == "-" {
         Box::new(BufReader::new(io::stdin()))

@@ -39,8 +39,8 @@ enum Problem {
     #[error("{}", .0.render(color()))]
     Input(#[from] Report),
     /// No generated code fits.
-    #[error("error: {0}")]
-    Model(#[from] NoModel),
+    #[error("error: {file}: {source}")]
+    Model { file: String, source: Box<NoModel> },
     /// An argument names no layout.
     #[error(
         "error: there is no shipped layout `{name}`; {meant}shipped: {shipped}; a path ends in `.toml` or contains a `/`"

@@ -4,7 +4,7 @@ use super::Problem;
 use super::dynamics::Dynamics;
 use super::progress::Progress;
 use planar_capture::models;
-use planar_capture::output::{make_folder, write_whole};
+use planar_capture::output::{Staged, make_folder};
 use planar_capture::record::write_csv;
 use planar_capture::scenario::Scenario;
 use planar_capture::study::{Study, study};
@@ -37,14 +37,16 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Reads, computes, prints, writes; exit code 1 where the audit objects.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
-    let model = arguments.dynamics.model(&scenario.layout)?;
+    let file = || arguments.scenario.display().to_string();
+    let model = arguments
+        .dynamics
+        .model(&scenario.layout)
+        .map_err(|source| Problem::Model { file: file(), source: Box::new(source) })?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
-    make_folder(&folder)?; // before the work, so that a wrong folder costs no time
     let mut progress = Progress::new();
     let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
     progress.finish();
-    let file = arguments.scenario.display().to_string();
-    let study = result.map_err(|source| Problem::Study { file, source })?;
+    let study = result.map_err(|source| Problem::Study { file: file(), source })?;
     write_results(&folder, &scenario, arguments.dynamics, &study)?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "{}\nResults in {}", table(&scenario, &study), folder.display())?;
@@ -55,15 +57,19 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     Ok(if objections.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
-/// The time series first, the summary last: where it stands, all stands.
+/// All files are written before the first of them takes its place, so that a full disk leaves no mixture of two runs.
 fn write_results(folder: &Path, scenario: &Scenario, dynamics: Dynamics, study: &Study) -> Result<(), Problem> {
+    make_folder(folder)?;
+    let mut files = Vec::new();
     for case in &study.cases {
-        write_whole(&folder.join(format!("{}.csv", case.name)), |to| write_csv(&scenario.layout, study, case, to))?;
+        let path = folder.join(format!("{}.csv", case.name));
+        files.push(Staged::new(&path, |to| write_csv(&scenario.layout, study, case, to))?);
     }
     let summary = summary(&scenario.name, &scenario.layout, dynamics.name(), study);
-    write_whole(&folder.join("summary.json"), |to| {
+    files.push(Staged::new(&folder.join("summary.json"), |to| {
         serde_json::to_writer_pretty(&mut *to, &summary)?;
         writeln!(to)
-    })?;
+    })?);
+    files.into_iter().try_for_each(Staged::commit)?;
     Ok(())
 }

@@ -31,6 +31,10 @@ pub enum Regime {
     HeavyLinks,
     /// Every body's mass and inertia off by a factor of its own, up to a thousand.
     MixedMasses,
+    /// Other lengths, mounts and centres of mass, up to three times as large or as small, structural zeros aside, and
+    /// the last links' centres of mass anywhere. No links or distances of mounts that are far shorter than the arms:
+    /// generated forward dynamics lose digits with the square of that ratio.
+    OtherShape,
     /// Targets of 10⁻⁶ to 10⁻³ kg.
     LightTargets,
     /// Targets of 10³ to 10⁶ kg.
@@ -38,7 +42,7 @@ pub enum Regime {
 }
 
 /// Every regime.
-pub const REGIMES: [Regime; 12] = [
+pub const REGIMES: [Regime; 13] = [
     Regime::Moving,
     Regime::AtRest,
     Regime::Fast,
@@ -49,6 +53,7 @@ pub const REGIMES: [Regime; 12] = [
     Regime::LightLinks,
     Regime::HeavyLinks,
     Regime::MixedMasses,
+    Regime::OtherShape,
     Regime::LightTargets,
     Regime::HeavyTargets,
 ];
@@ -77,6 +82,7 @@ impl Regime {
             Self::LightLinks => "light links",
             Self::HeavyLinks => "heavy links",
             Self::MixedMasses => "mixed masses",
+            Self::OtherShape => "other shape",
             Self::LightTargets => "light targets",
             Self::HeavyTargets => "heavy targets",
         }
@@ -106,6 +112,9 @@ impl Regime {
         scale(&mut layout.base.mass, &mut layout.base.inertia, 1.0);
         for link in layout.arms.iter_mut().flat_map(|arm| &mut arm.links) {
             scale(&mut link.mass, &mut link.inertia, common);
+        }
+        if self == Self::OtherShape {
+            reshape(&mut layout, random);
         }
         layout
     }
@@ -170,6 +179,21 @@ impl Regime {
     }
 }
 
+/// Other numbers of the same structure: zeros stay, save those of the last links' centres of mass.
+fn reshape(layout: &mut Layout, random: &mut Random) {
+    for arm in &mut layout.arms {
+        arm.mount = arm.mount.map(|x| x * random.factor()); // on their side: apart
+        arm.mount_angle *= random.factor();
+        for link in &mut arm.links {
+            link.length *= random.factor();
+            link.com = link.com.map(|x| x * random.factor());
+        }
+        if let Some(last) = arm.links.last_mut() {
+            last.com = last.com.map(|x| x + random.within(0.3));
+        }
+    }
+}
+
 /// Numbers of one sample: a stream of its own for every regime and index.
 struct Random(ChaCha8Rng);
 
@@ -196,6 +220,11 @@ impl Random {
 
     fn coin(&mut self) -> bool {
         self.unit() < 0.5
+    }
+
+    /// Up to three times as large or as small.
+    fn factor(&mut self) -> f64 {
+        self.decades(-0.5, 0.5)
     }
 
     /// 10 to a power between two.

@@ -1,6 +1,7 @@
 //! Becoming one with what was captured: the composition of two rigid bodies.
 
 use super::body::Body;
+use super::impact::check_target;
 use super::{Configuration, Generic, length};
 use crate::check::finite;
 use crate::dynamics::{Merge, Robot};
@@ -35,6 +36,7 @@ impl Merge<f64> for Generic {
         let mut bodies = self.bodies.clone();
         for (arm, target) in targets.iter().enumerate() {
             let Some(target) = target else { continue };
+            check_target(target)?;
             let tip = &self.tips[arm];
             if tip.body == 0 {
                 // a base with its COM elsewhere would be another coordinate

@@ -36,3 +36,81 @@ pub const SOLVED_IDENTITY: f64 = 1e-10;
 pub const TIME_SERIES: f64 = 1e-11;
 /// A quarter of a second of free motion by Runge–Kutta steps of 0.25 ms, relative: its error is O(step⁴).
 pub const INTEGRATED: f64 = 1e-8;
+
+/// What rounding may do to a quantity that two formulations compute.
+#[derive(Clone, Copy, Debug)]
+pub enum Equivalence {
+    /// In units of the entry's natural size (see `planar_capture::compare`).
+    Scaled(f64),
+    /// The same, times ε times the condition of the matrices solved on the way; 1e-13 at least.
+    Condition(f64),
+}
+
+impl Equivalence {
+    /// The bound for one state.
+    pub fn bound(self, condition: f64) -> f64 {
+        match self {
+            Self::Scaled(bound) => bound,
+            Self::Condition(factor) => (factor * f64::EPSILON * condition).max(1e-13),
+        }
+    }
+}
+
+use Equivalence::{Condition, Scaled};
+
+/// Generated against generic: a bound for every quantity, and why. Measured over all layouts and regimes.
+pub const EQUIVALENCE: &[(&str, Equivalence, &str)] = &[
+    ("body_inertias", Scaled(0.0), "parameters, handed through"),
+    ("body_poses", Scaled(1e-14), "sums of link vectors; 3e-16 measured"),
+    ("body_twists", Scaled(1e-14), "absolute rates against Jacobian columns; 4e-16 measured"),
+    ("end_effector_poses", Scaled(1e-14), "sums of link vectors; the same to the bit here"),
+    ("end_effector_twists", Scaled(1e-14), "absolute rates against Jacobian columns; 5e-16 measured"),
+    ("end_effector_jacobian", Scaled(1e-14), "differences of positions; 2e-15 measured"),
+    ("mass_matrix", Scaled(1e-14), "composite inertias against sums over bodies; 3e-15 measured"),
+    ("bias", Scaled(1e-14), "centripetal sweep against differentiated Jacobians; 6e-16 measured"),
+    ("linear_momentum", Scaled(1e-14), "sums over bodies; 4e-16 measured"),
+    ("angular_momentum", Scaled(1e-14), "sums over bodies; 9e-16 measured"),
+    ("kinetic_energy", Scaled(1e-14), "sums over bodies; 4e-16 measured"),
+    ("generalized_inertia", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.05 of it measured"),
+    ("generalized_bias", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.01 of it measured"),
+    ("generalized_jacobian", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.4 of it measured"),
+    ("base_acceleration", Condition(4.0), "articulated masses against dense Cholesky; 0.04 of it measured"),
+    ("joint_accelerations", Condition(4.0), "articulated masses against dense Cholesky; 0.06 of it measured"),
+    ("impact.G", Condition(4.0), "the errors of generalized inertia and Jacobian; 0.05 of it measured"),
+    ("impact.H", Condition(4.0), "the errors of generalized inertia and Jacobian; 0.02 of it measured"),
+    ("impact.joint_rates_after", Condition(4.0), "a solve with G, and G's own error; 0.08 of it measured"),
+    ("capture.base_twist_after", Condition(4.0), "arrow LDLᵀ against dense Cholesky; 0.05 of it measured"),
+    ("capture.joint_rates_after", Condition(4.0), "arrow LDLᵀ against dense Cholesky; 0.06 of it measured"),
+    ("capture.target_twists_after", Condition(4.0), "from the velocities after it; 0.01 of it measured"),
+    ("capture.impulses", Condition(4.0), "target twists, after less before; 0.004 of it measured"),
+    ("merged body_inertias", Scaled(1e-14), "reduced mass against two parallel axes; 1e-16 measured"),
+    ("merged mass_matrix", Scaled(1e-14), "as the mass matrix; 2e-15 measured"),
+    ("merged base_acceleration", Condition(4.0), "as the base acceleration"),
+    ("merged joint_accelerations", Condition(4.0), "as the joint accelerations"),
+];
+
+/// Outputs of generated functions that no trait hands out, generated against generic, relative to the largest entry.
+pub const INHERENT: &[(&str, f64, &str)] = &[
+    ("generalized_jacobian alone", 1e-12, "condition of the base's inertia below 1e3 in the regime `moving`"),
+    ("full impact_matrix", 1e-13, "sums of products; M + JᵀNJ"),
+    ("full impact_momentum", 1e-13, "sums of products; M v + JᵀJ_t⁻ᵀ I_t t"),
+];
+
+/// Every shipped layout, and what it alone can show.
+pub const LAYOUTS: &[(&str, &str)] = &[
+    ("asymmetric_wheel", "off-axis COMs, mounts off the axis, a mount angle, a link of length zero"),
+    ("boom_7r", "a long chain"),
+    ("dual_arm_2r", "two arms that a capture closes to a short loop"),
+    ("dual_arm_3r", "the paper's robot"),
+    ("single_arm_2r", "fewer joints than tip coordinates"),
+    ("single_arm_3r", "ReDySim's robot"),
+    ("triple_arm_3r", "three arms that meet in the base alone"),
+];
+
+/// A central difference of the mass matrix of step 1e-5, relative: its square, and rounding over the step.
+pub const MASS_MATRIX_RATE: f64 = 1e-8;
+/// A study with generic dynamics against the same with generated code, relative: rounding over 4000 steps.
+pub const SAME_STUDY: f64 = 1e-9;
+/// Generated accelerations, relative, times ε arm/distance for a short inner link, or for first two mounts close to each
+/// other: joint torques are divided by that distance on the way. 0.1 measured.
+pub const SHORT_DISTANCE: f64 = 1.0;
