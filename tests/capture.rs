@@ -4,6 +4,7 @@ mod support;
 
 use planar_capture::dynamics::{Conserved, EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge};
 use planar_capture::generated::dual_arm_3r::Model;
+use planar_capture::impact::{self, After, Workspace};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use support::{assert_close, tolerance};
@@ -104,6 +105,32 @@ fn the_merged_robot_carries_the_momentum_of_robot_and_targets() {
             assert_close("rates without impact", &rates, &RATES, tolerance::SAME_IMPACT);
         }
     }
+}
+
+/// Eq. (17) finds the base twist with which the robot alone keeps its momentum, wherever it is and however it moves.
+#[test]
+fn the_papers_base_twist_keeps_the_robots_momentum() {
+    let state = state();
+    let model = Model::<f64>::default();
+    let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; 6], [[0.0; 3]; 2], [[0.0; 3]; 2]);
+    let mut workspace = Workspace {
+        impact_matrix: &mut [0.0; 36],
+        impact_momentum: &mut [0.0; 6],
+        jacobian: &mut [0.0; 36],
+        mass_matrix: &mut [0.0; 81],
+    };
+    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let targets = [Some(target(1.0)), Some(target(40.0))];
+    let base_twist = impact::paper(&model, &state, &targets, &mut workspace, &mut after).expect("an impact");
+    let moving = State { base_twist, joint_rates: &joint_rates, ..state };
+    let [wanted, found] = [&state, &moving].map(|state| {
+        let momentum = Conserved::momentum(&model, state).expect("momentum");
+        [momentum.angular_momentum, momentum.linear_momentum[0], momentum.linear_momentum[1]]
+    });
+    let [l, px, py] = wanted;
+    assert!(l.abs().min(px.abs()).min(py.abs()) > 10.0, "a robot that is at rest would show nothing");
+    let size = 2000.0; // kg m²/s and kg m/s that this state has at most
+    assert_close("momentum", &found, &wanted, tolerance::MOMENTUM_JUMP * size);
 }
 
 /// v + ω × r at the contact, and `J_t⁻¹` back: with R in place of −R both fail.

@@ -5,7 +5,7 @@ mod support;
 use assert_cmd::Command;
 use std::fs;
 use std::path::Path;
-use support::file;
+use support::{assert_close, file, numbers, tolerance};
 use tempfile::TempDir;
 
 fn command() -> Command {
@@ -79,12 +79,49 @@ fn the_papers_study_prints_its_table_and_writes_its_files() {
     };
     assert_eq!((value(&rows[400], "time [s]"), value(&rows[401], "time [s]")), (20.0, 20.0));
     assert_eq!((&rows[400][1], &rows[401][1]), ("approach", "post_impact"));
-    let end = &summary["cases"][0]["post_impact"];
-    assert_eq!(
-        Some(value(&rows[1401], "base_yaw [rad]")),
-        end["base_pose"][0].as_f64(),
-        "the CSV ends where the summary does"
-    );
+    let case = &summary["cases"][0];
+    for (phase, row) in [("approach", &rows[400]), ("post_impact", &rows[1401])] {
+        assert_eq!(motion(&case[phase]), motion_of(&header, row), "the CSV's {phase} ends where the summary's does");
+    }
+    let (end, start) = (&rows[400], &rows[401]);
+    for (row, column, wanted) in [
+        (end, "joint_work [J]", value(end, "kinetic_energy [J]")), // from rest, by the joints alone
+        (start, "kinetic_energy [J]", case["impact"]["exact"]["kinetic_energy_after"].as_f64().expect("a number")),
+        (start, "joint_work [J]", 0.0),
+        (start, "arm1_joint1_torque [N m]", 0.0),
+        (start, "linear_momentum_x [N s]", value(&rows[1401], "linear_momentum_x [N s]")),
+        (start, "linear_momentum_y [N s]", value(&rows[1401], "linear_momentum_y [N s]")),
+        (start, "angular_momentum [N m s]", value(&rows[1401], "angular_momentum [N m s]")),
+    ] {
+        assert_close(column, &[value(row, column)], &[wanted], tolerance::TIME_SERIES);
+    }
+}
+
+/// The lists of a phase of the summary, in the order of the time series.
+fn motion(phase: &serde_json::Value) -> Vec<f64> {
+    let keys = ["base_pose", "joint_angles", "base_twist", "joint_rates", "end_effector_poses", "end_effector_twists"];
+    keys.iter().flat_map(|key| numbers(&phase[*key])).collect()
+}
+
+/// The same of a row of the time series, found by the names of the columns: tips in the approach only.
+fn motion_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Vec<f64> {
+    let pose = ["yaw [rad]", "x [m]", "y [m]"];
+    let twist = ["omega [rad/s]", "vx [m/s]", "vy [m/s]"];
+    let joints = |part: &str| -> Vec<String> {
+        ["arm1", "arm2"].iter().flat_map(|arm| (1..=3).map(move |k| format!("{arm}_joint{k}_{part}"))).collect()
+    };
+    let of = |body: &str, parts: [&str; 3]| parts.map(|part| format!("{body}_{part}"));
+    let mut names =
+        [of("base", pose).to_vec(), joints("angle [rad]"), of("base", twist).to_vec(), joints("rate [rad/s]")].concat();
+    if &row[1] == "approach" {
+        names.extend(["arm1_tip", "arm2_tip"].iter().flat_map(|tip| of(tip, pose)));
+        names.extend(["arm1_tip", "arm2_tip"].iter().flat_map(|tip| of(tip, twist)));
+    }
+    let value = |name: &String| {
+        let place = header.iter().position(|h| h == name).unwrap_or_else(|| panic!("no column {name}"));
+        row[place].parse().expect("a number")
+    };
+    names.iter().map(value).collect()
 }
 
 #[test]

@@ -2,6 +2,9 @@
 
 mod support;
 
+use planar_capture::audit::{Audit, Drift};
+use planar_capture::models;
+use planar_capture::state::State;
 use planar_capture::summary::summary;
 use serde_json::Value;
 use support::{assert_close, json, numbers, run, scenario, tolerance};
@@ -105,6 +108,31 @@ fn patterns_that_must_hold() {
     assert!(relative(exact[0][0], exact[0][1]) < 2e-3 && relative(exact[1][0], exact[1][1]) < 2e-3, "near symmetry");
     let printed = magnitudes("raina_shah_2017_as_printed");
     assert!(printed[1][0] < 0.2 * printed[0][0], "with the printed (7), case 2 is far below case 1");
+}
+
+/// A robot that moves on without turning, faster by a part δ: all of it is drift, relative to what it has then, and what
+/// was gained without work is an error of the energy.
+#[test]
+fn the_audit_measures_what_strays() {
+    let model = models::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
+    let joint_angles = [0.3, -1.2, 0.7];
+    let state = |speed: f64| State {
+        base_pose: [0.4, 0.0, 100.0], // far to the side of its path: all bodies turn about the origin the same way
+        joint_angles: &joint_angles,
+        base_twist: [0.0, speed, 0.0],
+        joint_rates: &[0.0; 3],
+    };
+    for (delta, part) in [(1e-3, 0.0), (0.25, 0.5), (-0.25, 1.0)] {
+        let mut audit = Audit::new(&*model, &state(1.0)).expect("a state");
+        let start = audit.record(&state(1.0), 0.0).expect("a state").kinetic_energy;
+        assert_eq!(audit.drift(), Drift::default(), "nothing strayed yet");
+        let gained = start * ((1.0 + delta) * (1.0 + delta) - 1.0);
+        let largest = (start + gained).max(start);
+        audit.record(&state(1.0 + delta), part * gained).expect("a state");
+        let Drift { momentum_drift, energy_error } = audit.drift();
+        let wanted = [delta.abs() / (1.0 + delta).max(1.0), (1.0 - part) * gained.abs() / largest];
+        assert_close("drift, error", &[momentum_drift, energy_error], &wanted, tolerance::IDENTITY);
+    }
 }
 
 #[test]

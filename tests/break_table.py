@@ -1,0 +1,392 @@
+"""Makes deliberate faults, one at a time, and prints which test catches each: the break table of tests/README.md.
+
+``python3 tests/break_table.py [--jobs N] [--only NAME ...]`` works on copies of the tracked files in a temporary
+folder, so that the repository itself stays as it is. A fault in the derivation is derived again there: its graphs are
+fresh, and it is left to the numbers to give it away. Exits 1 where a fault is not caught, or where its text is not
+there exactly once.
+"""
+
+import argparse
+import os
+import queue
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One wrong text in place of a right one."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+
+    @property
+    def in_derivation(self) -> bool:
+        return self.file.endswith(".py")
+
+
+FAULTS = [
+    # derivation
+    Fault(
+        "sign of a centripetal term",
+        "codegen/dynamics.py",
+        "moment = bias[k + 1] + moment - cross(arm.vector[k], total)",
+        "moment = bias[k + 1] + moment + cross(arm.vector[k], total)",
+    ),
+    Fault(
+        "coupling of base and joints with its rows exchanged",
+        "codegen/dynamics.py",
+        "m[first + k, 1], m[first + k, 2] = turn_left(arm.moment[k])",
+        "m[first + k, 2], m[first + k, 1] = turn_left(arm.moment[k])",
+    ),
+    Fault(
+        "generalized bias without the base's moment",
+        "codegen/dynamics.py",
+        "reduced.append(bias - cross(self.com_shift[k], force) - self.turn[k] * moment)",
+        "reduced.append(bias - cross(self.com_shift[k], force))",
+    ),
+    Fault(
+        "R for −R in the derived contact Jacobian",
+        "codegen/impact.py",
+        "[spin, x + contact[1] * spin, y - contact[0] * spin]",
+        "[spin, x - contact[1] * spin, y + contact[0] * spin]",
+    ),
+    Fault(
+        "targets of the arms exchanged",
+        "codegen/impact.py",
+        "captured_jacobian(jacobian, arm, (",
+        "captured_jacobian(jacobian, inputs.contacts.shape[1] - 1 - arm, (",
+    ),
+    Fault(
+        "fill-in of the elimination dropped",
+        "codegen/impact.py",
+        "for j in [j for j in column if j <= i]:",
+        "for j in [j for j in column if j <= i and (i, j) in work]:",
+    ),
+    Fault(
+        "matrices stored by columns",
+        "codegen/model.py",
+        "[dense[i, j] for i in range(rows) for j in range(columns)]",
+        "[dense[i, j] for j in range(columns) for i in range(rows)]",
+    ),
+    Fault(
+        "far mass of a link from the near distance",
+        "codegen/articulated.py",
+        "own.mass * (beyond * beyond)) * square",
+        "own.mass * (com * com)) * square",
+    ),
+    Fault(
+        "mount angle forgotten in the kinematics",
+        "codegen/kinematics.py",
+        "angle = inputs.base_pose[0] + self.symbols.mount_angle",
+        "angle = inputs.base_pose[0]",
+    ),
+    # renderer and template
+    Fault(
+        "operands of a difference exchanged",
+        "codegen/render.rs",
+        'format!("{a} - {b}")',
+        'format!("{b} - {a}")',
+    ),
+    Fault(
+        "sine and cosine exchanged",
+        "codegen/render.rs",
+        'format!("({}, {})", bound(&pair[0])?, bound(&pair[1])?)',
+        'format!("({}, {})", bound(&pair[1])?, bound(&pair[0])?)',
+    ),
+    Fault(
+        "a nonzero dropped: [5][0] of 6 × 6 results",
+        "codegen/render.rs",
+        'let elements = list(&output["elements"])?.iter().map(|e| scope.operand(e)).collect::<Result<Vec<_>, _>>()?;',
+        'let items = list(&output["elements"])?;\n'
+        "    let mut elements = items.iter().map(|e| scope.operand(e)).collect::<Result<Vec<_>, _>>()?;\n"
+        '    if elements.len() == 36 {\n        elements[30] = "T::ZERO".to_owned();\n    }',
+    ),
+    Fault(
+        "constants from the defaults, not the values",
+        "codegen/templates/model.rs.tera",
+        """\
+        {% for s in constants.statements %}
+        {{ s }}
+        {% endfor %}
+        Self {
+            parameters,
+""",
+        """\
+        let given = parameters;
+        let parameters = Parameters::<T>::default();
+        {% for s in constants.statements %}
+        {{ s }}
+        {% endfor %}
+        Self {
+            parameters: given,
+""",
+    ),
+    # runtime
+    Fault(
+        "structural zero ignored",
+        "src/models.rs",
+        "None => return None, // a structural zero of the code is not zero here",
+        "None => {}",
+    ),
+    Fault(
+        "layout hash without the COM's y",
+        "src/layout.rs",
+        """\
+                    ("com[1]", link.com[1]),
+""",
+        "",
+    ),
+    Fault(
+        "link of one arm merged at the angle of another",
+        "src/generated.rs",
+        "targets.iter().zip(&tips).zip(MANIFEST.links)",
+        "targets.iter().zip(tips.iter().rev()).zip(MANIFEST.links)",
+    ),
+    Fault(
+        "merged inertia without the parallel axis term",
+        "src/target.rs",
+        "link.inertia + self.inertia + reduced * (offset[0] * offset[0] + offset[1] * offset[1])",
+        "link.inertia + self.inertia",
+    ),
+    Fault(
+        "R for −R in the contact Jacobian",
+        "src/target.rs",
+        "[[one, zero, zero], [-ry, one, zero], [rx, zero, one]]",
+        "[[one, zero, zero], [ry, one, zero], [-rx, zero, one]]",
+    ),
+    Fault(
+        "sign of the impulse's moment",
+        "src/target.rs",
+        "[spin + ry * fx - rx * fy, fx, fy]",
+        "[spin - ry * fx + rx * fy, fx, fy]",
+    ),
+    Fault(
+        "momentum of eq. (17) about the origin, not the base",
+        "src/impact.rs",
+        "let about_base = before.angular_momentum - (x * py - y * px);",
+        "let about_base = before.angular_momentum - T::ZERO * (x * py - y * px);",
+    ),
+    Fault(
+        "eq. (7) without the factor T",
+        "src/trajectory.rs",
+        "Some(quartic(initial, change, *self.final_rates.get(joint)?, self.ends.duration, tau))",
+        "let rate = *self.final_rates.get(joint)? / self.ends.duration;\n"
+        "        Some(quartic(initial, change, rate, self.ends.duration, tau))",
+    ),
+    Fault(
+        "gains of the controller exchanged",
+        "src/control.rs",
+        "*torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);",
+        "*torque = *kv * (desired.angle - *angle) + *kp * (desired.rate - *rate);",
+    ),
+    Fault(
+        "weights of the Runge–Kutta stages",
+        "src/integrate/rk4.rs",
+        "[(half, two), (half, two), (step, T::ONE)]",
+        "[(half, two), (half, T::ONE), (step, two)]",
+    ),
+    Fault(
+        "sign of the work in the audit",
+        "src/audit.rs",
+        "now.kinetic_energy - self.start.kinetic_energy - work",
+        "now.kinetic_energy - self.start.kinetic_energy + work",
+    ),
+    Fault(
+        "scale of the audit twice too large",
+        "src/audit.rs",
+        "if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }",
+        "if self.scale > 0.0 { self.deviation / (2.0 * self.scale) } else { 0.0 }",
+    ),
+    Fault(
+        "columns of the time series exchanged",
+        "src/record.rs",
+        """\
+        &motion.base_twist,
+        &motion.joint_rates,
+""",
+        """\
+        &motion.joint_rates,
+        &motion.base_twist,
+""",
+    ),
+    Fault(
+        "audit without an exit code",
+        "src/cli/run.rs",
+        "ExitCode::from(1)",
+        "ExitCode::from(0)",
+    ),
+    Fault(
+        "centripetal term of the base in the generic implementation",
+        "src/generic/configuration.rs",
+        "let mut linear = velocity[0] * quarter_turn(&com);",
+        "let mut linear = -velocity[0] * quarter_turn(&com);",
+    ),
+]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What gave a fault away: failing tests as `binary::name`, or how the build stopped."""
+
+    rust: list[str]
+    derivation: list[str]
+    stopped: str = ""
+
+    @property
+    def caught(self) -> bool:
+        return bool(self.rust or self.derivation or self.stopped)
+
+
+class Broken(Exception):
+    """A fault that cannot be made."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A copy of the repository, and where what is compiled from it is kept over the faults and runs."""
+
+    tree: Path
+    target: Path
+
+
+def copy_tracked(to: Path) -> None:
+    """The tracked files as they are in the working tree."""
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    for name in filter(None, names.split("\0")):
+        if (ROOT / name).exists():
+            (to / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / name, to / name)
+
+
+def run(command: list[str], place: Place, variables: dict[str, str]) -> tuple[int, str]:
+    """(exit code, both streams) of a command in the copy."""
+    kept = {
+        "CARGO_TARGET_DIR": str(place.target),
+        "PLANAR_CAPTURE_ENVIRONMENTS": str(ROOT / "target" / "python"),
+        "CARGO_PROFILE_DEV_DEBUG": "0",
+        "CARGO_TERM_COLOR": "never",
+    }
+    result = subprocess.run(
+        command,
+        cwd=place.tree,
+        env={**os.environ, **kept, **variables},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        check=False,
+    )
+    return result.returncode, result.stdout.decode(errors="replace")
+
+
+def test(place: Place, with_derivation: bool) -> Outcome:
+    """Runs the tests in the copy. Nothing in the derivation's own tests reads Rust: they run for its faults only."""
+    if with_derivation:
+        code, text = run([sys.executable, "-m", "codegen"], place, {})
+        if code != 0:
+            return Outcome([], [], "the derivation: " + text.strip().splitlines()[-1])
+    variables = {} if with_derivation else {"PLANAR_CAPTURE_NO_PYTHON": "1"}
+    code, text = run(["cargo", "test", "--locked", "--no-fail-fast", "--test", "*"], place, variables)
+    rust, derivation, binary = [], [], ""
+    for line in text.splitlines():
+        if found := re.match(r"\s+Running (?:tests/)?(\w+)", line):
+            binary = found[1]
+        elif found := re.match(r"test (\S+) \.\.\. FAILED", line):
+            rust.append(f"{binary}::{found[1]}")
+        elif found := re.match(r"FAILED codegen/tests/(\S+)", line):
+            derivation.append(found[1])
+    if rust or derivation or code == 0:
+        # the two tests of this binary run the derivation's own, which are counted one by one
+        return Outcome([name for name in rust if not name.startswith("derivation::")], list(dict.fromkeys(derivation)))
+    if "failed to run custom build command" in text:
+        stopped = re.search(r"--- stderr\n\s*(.+)", text)
+        return Outcome([], [], "the build: " + (stopped[1].strip() if stopped else "see build.rs"))
+    raise Broken("the faulty code does not compile:\n" + text[-4000:])
+
+
+def attempt(fault: Fault, place: Place) -> Outcome:
+    """Makes a fault in the copy, tests, and mends it."""
+    path = place.tree / fault.file
+    text = path.read_text(encoding="utf-8")
+    if text.count(fault.old) != 1:
+        raise Broken(f"{fault.file} has the text {text.count(fault.old)} times, not once:\n{fault.old}")
+    graphs = {graph: graph.read_bytes() for graph in (place.tree / "codegen" / "graphs").iterdir()}
+    try:
+        path.write_text(text.replace(fault.old, fault.new), encoding="utf-8")
+        return test(place, fault.in_derivation)
+    finally:
+        path.write_text(text, encoding="utf-8")
+        for graph, content in graphs.items():
+            if graph.read_bytes() != content:
+                graph.write_bytes(content)
+
+
+def row(fault: Fault, outcome: Outcome) -> str:
+    """One line of the table."""
+    first = f"`{outcome.rust[0]}`" if outcome.rust else "none"
+    derivation = "–"
+    if outcome.stopped:
+        first = f"stops {outcome.stopped}"
+    if fault.in_derivation and not outcome.stopped:
+        derivation = f"`{outcome.derivation[0].partition('[')[0]}`" if outcome.derivation else "none"
+    count = str(len(outcome.rust)) + (f" + {len(outcome.derivation)}" if fault.in_derivation else "")
+    cells = [fault.name, f"`{fault.file}`", first, derivation, "–" if outcome.stopped else count]
+    return f"| {' | '.join(cell.replace('|', '¦') for cell in cells)} |"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", action="append", metavar="NAME", help="this fault alone; may be given again")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="faults at a time, a copy each (1)")
+    options = parser.parse_args()
+    only = options.only or []
+    unknown = sorted(set(only) - {fault.name for fault in FAULTS})
+    if unknown:
+        print(f"no fault {', '.join(unknown)}; there are: {', '.join(f.name for f in FAULTS)}", file=sys.stderr)
+        return 2
+    chosen = [fault for fault in FAULTS if not only or fault.name in only]
+    start, bad = time.monotonic(), []
+    with tempfile.TemporaryDirectory(prefix="break-table-") as folder, ThreadPoolExecutor(options.jobs) as pool:
+        places: queue.SimpleQueue[Place] = queue.SimpleQueue()
+        for k in range(options.jobs):
+            place = Place(Path(folder) / str(k), ROOT / "target" / "break_table" / str(k))
+            copy_tracked(place.tree)
+            places.put(place)
+
+        def outcome_of(fault: Fault) -> Outcome | Broken:
+            place = places.get()
+            try:
+                return attempt(fault, place)
+            except Broken as problem:
+                return problem
+            finally:
+                places.put(place)
+
+        print("| fault | where | first test in Rust that fails | first of the derivation's | how many |")
+        print("|---|---|---|---|---|", flush=True)
+        for fault, outcome in zip(chosen, pool.map(outcome_of, chosen), strict=True):
+            if isinstance(outcome, Broken):
+                print(f"{fault.name}: {outcome}", file=sys.stderr)
+            else:
+                print(row(fault, outcome), flush=True)
+            if isinstance(outcome, Broken) or not outcome.caught:
+                bad.append(fault.name)
+    print(f"{len(chosen)} faults in {time.monotonic() - start:.0f} s", file=sys.stderr)
+    if bad:
+        print(f"not caught: {', '.join(bad)}", file=sys.stderr)
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
