@@ -43,7 +43,7 @@ impl fmt::Debug for Sample {
             "joint_rates": self.joint_rates, "joint_torques": self.joint_torques, "base_wrench": self.base_wrench,
             "end_effector_wrenches": self.end_effector_wrenches, "targets": targets,
         });
-        write!(f, "{state}")
+        write!(f, "{state} (seed {SEED})")
     }
 }
 
