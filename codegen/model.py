@@ -343,13 +343,14 @@ class Model:
         inertia = reduced.generalized_inertia()
         momentum = matrix_times(inertia, self.inputs.joint_rates)
         g, h = impact_matrix(reduced.generalized_jacobian(), inertia, momentum, self.inputs)
-        rates, smallest = ldlt_solve(self.symbols, g, h, joints)
+        rates, smallest = ldlt_solve(self.symbols, g, h, joints[::-1])
         mass = equations.mass_matrix()
         velocity = ca.vertcat(self.inputs.base_twist, self.inputs.joint_rates)
         full_g, full_h = impact_matrix(
             geometry.end_effector_jacobian(), mass, matrix_times(mass, velocity), self.inputs
         )
-        order = [*range(3, 3 + self.joints), 1, 2, 0]
+        # from the tips to the base: small pivots first, as the tree has them
+        order = [*reversed(range(3, 3 + self.joints)), 1, 2, 0]
         after, full_smallest = ldlt_solve(self.symbols, full_g, full_h, order)
         return Family(
             "impact",

@@ -124,6 +124,43 @@ fn motion_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Vec<f64> {
     names.iter().map(value).collect()
 }
 
+/// The printed table holds the summary's numbers, each in its column.
+#[test]
+fn the_table_is_the_summary() {
+    let (_, out, _, folder) = run_text(&paper());
+    let text = fs::read_to_string(folder.path().join("results/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let rows = |first: &str, second: &str| -> Vec<Vec<String>> {
+        let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        out.lines().map(words).filter(|row| row.len() > 3 && row[0] == first && row[1] == second).collect()
+    };
+    for (case, value) in ["case1", "case2", "case3"].iter().zip(summary["cases"].as_array().expect("cases")) {
+        for (arm, name) in ["arm1", "arm2"].iter().enumerate() {
+            let of = |model: &str| value["impact"][model]["impulse_magnitudes"][arm].as_f64().expect("an impulse");
+            let printed = if *case == "case2" { "0.0131" } else { "0.0873" };
+            let wanted = [format!("{:.5}", of("exact")), format!("{:.5}", of("paper")), printed.to_owned()];
+            assert_eq!(rows(case, name), [[&[(*case).to_owned(), (*name).to_owned()], &wanted[..]].concat()]);
+        }
+        for model in ["exact", "paper"] {
+            let impact = &value["impact"][model];
+            let energy = |when: &str| format!("{:.6}", impact[format!("kinetic_energy_{when}")].as_f64().expect("J"));
+            let jump = impact["momentum_jump"].as_array().expect("a jump").iter();
+            let jump = jump.map(|j| format!("{:.1e}", j.as_f64().expect("a number")));
+            let mut wanted = vec![(*case).to_owned(), model.to_owned(), energy("before"), energy("after")];
+            wanted.extend(jump);
+            assert_eq!(rows(case, model), [wanted]);
+        }
+        let after = &value["post_impact"];
+        let short = |key: &str| format!("{:.1e}", after[key].as_f64().expect("a number"));
+        let wanted = [(*case).to_owned(), "50".to_owned(), short("momentum_drift"), short("energy_error")];
+        assert_eq!(rows(case, "50"), [wanted]);
+    }
+    let approach = &summary["cases"][0]["approach"];
+    let pose: Vec<f64> =
+        approach["base_pose"].as_array().expect("a pose").iter().filter_map(serde_json::Value::as_f64).collect();
+    assert!(out.contains(&format!("yaw {:.6} rad, x {:.6} m, y {:.6} m", pose[0], pose[1], pose[2])), "{out}");
+}
+
 #[test]
 fn an_approach_alone_has_no_impact() {
     let folder = TempDir::new().expect("a folder");

@@ -78,7 +78,7 @@ impl Quantity {
             _ if low => Err(None),
             Some(Suspect { beyond, unit, factor }) if number.abs() > beyond => {
                 let converted = number * factor;
-                Err(Some(format!("this looks like {unit}: {number} {unit} = {converted} {}", self.unit)))
+                Err(Some(format!("this looks like {unit}: {number:?} {unit} = {converted:?} {}", self.unit)))
             }
             _ => Ok(()),
         }

@@ -151,7 +151,7 @@ fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
         format!("the step, {step} s, must not be longer than the duration, {duration} s")
     } else if steps > MOST_STEPS {
         let least = duration / MOST_STEPS;
-        format!("{duration} s would take {steps:.0} steps, expected at most 1e8 (step >= {least} s)")
+        format!("{duration:?} s would take {steps:.3e} steps, expected at most 1e8 (step >= {least:?} s)")
     } else {
         return Some((duration, step));
     };
