@@ -10,6 +10,7 @@ use crate::manifest::Manifest;
 use crate::structure::{Difference, Mismatch, in_words, parameters};
 
 /// As many values as there are parameters: [`parameters`] made them so.
+#[allow(dead_code, reason = "a build may be without any layout")]
 fn place<const N: usize>(values: Vec<f64>) -> [f64; N] {
     let mut array = [0.0; N];
     array.iter_mut().zip(values).for_each(|(place, value)| *place = value);
