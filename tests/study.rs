@@ -135,6 +135,31 @@ fn the_audit_measures_what_strays() {
     }
 }
 
+/// A robot that turns about its COM at the origin, faster by a part δ: its linear momentum stays zero, and all bodies turn
+/// the same way, so that the part of its angular momentum is what strays.
+#[test]
+fn the_audit_measures_angular_momentum_too() {
+    let model = models::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
+    let joint_angles = [0.3, -1.2, 0.7];
+    let (mut inertias, mut poses) = ([[0.0; 2]; 4], [[0.0; 3]; 4]);
+    model.body_inertias(&mut inertias).expect("inertias");
+    model.body_poses(&[0.4, 0.0, 0.0], &joint_angles, &mut poses).expect("poses");
+    let mass: f64 = inertias.iter().map(|[m, _]| m).sum();
+    let com = [1, 2].map(|i: usize| inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum::<f64>() / mass);
+    let state = |rate: f64| State {
+        base_pose: [0.4, -com[0], -com[1]],
+        joint_angles: &joint_angles,
+        base_twist: [rate, rate * com[1], -rate * com[0]],
+        joint_rates: &[0.0; 3],
+    };
+    for delta in [0.25, -0.25] {
+        let mut audit = Audit::new(&*model, &state(1.0)).expect("a state");
+        audit.record(&state(1.0 + delta), 0.0).expect("a state");
+        let wanted = delta.abs() / (1.0_f64 + delta).max(1.0);
+        assert_close("angular drift", &[audit.drift().momentum_drift], &[wanted], tolerance::IDENTITY);
+    }
+}
+
 #[test]
 fn every_shipped_study_passes_its_audit() {
     for entry in std::fs::read_dir(support::file("scenarios")).expect("scenarios") {

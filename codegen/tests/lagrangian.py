@@ -169,7 +169,7 @@ class State:
 
     def reduced_impact(self) -> dict:
         g, h = self.capture(self.generalized_inertia, self.generalized_jacobian, self.v[3:])
-        pivot = smallest_pivot(g, list(range(self.robot.joints)))
+        pivot = smallest_pivot(g, list(reversed(range(self.robot.joints))))
         return {"impact_matrix": g, "impact_momentum": h, "joint_rates_after": solve(g, h), "smallest_pivot": pivot}
 
     def full_impact(self) -> dict:
@@ -180,5 +180,5 @@ class State:
             "impact_momentum": h,
             "base_twist_after": after[:3],
             "joint_rates_after": after[3:],
-            "smallest_pivot": smallest_pivot(g, [*range(3, self.robot.size), 1, 2, 0]),
+            "smallest_pivot": smallest_pivot(g, [*reversed(range(3, self.robot.size)), 1, 2, 0]),
         }

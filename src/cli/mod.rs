@@ -87,6 +87,8 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(code) => code,
+        // whoever reads has read enough: `| head`
+        Err(Problem::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
             ExitCode::from(problem.exit_code())
