@@ -210,6 +210,24 @@ FAULTS = [
         "if self.scale > 0.0 { self.deviation / (2.0 * self.scale) } else { 0.0 }",
     ),
     Fault(
+        "angular momentum left out of the drift",
+        "src/audit.rs",
+        "self.linear.value().max(self.angular.value())",
+        "self.linear.value()",
+    ),
+    Fault(
+        "sign in the angular scale of the audit",
+        "src/audit.rs",
+        "mass * (x * vy - y * vx).abs()",
+        "mass * (x * vy + y * vx).abs()",
+    ),
+    Fault(
+        "compare without an exit code",
+        "src/cli/compare.rs",
+        "ExitCode::from(1)",
+        "ExitCode::SUCCESS",
+    ),
+    Fault(
         "columns of the time series exchanged",
         "src/record.rs",
         """\
