@@ -81,6 +81,11 @@ struct Total {
     energy: f64,
 }
 
+/// Values in arm order, `None` where an arm captures nothing.
+pub(crate) fn per_arm(targets: &[Option<Target<f64>>], values: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
+    targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()
+}
+
 fn balance(
     model: &dyn Model<f64>,
     before: &Motion,
@@ -100,13 +105,10 @@ fn balance(
     let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
     let angular = relative(jump[0].abs(), start.magnitude[0].max(end.magnitude[0]));
     let linear = relative(jump[1].hypot(jump[2]), start.magnitude[1].max(end.magnitude[1]));
-    let per_arm = |values: &[[f64; 3]]| -> Vec<Option<[f64; 3]>> {
-        targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()
-    };
     Ok(ImpactResult {
         base_twist_after: base_twist,
-        target_twists_after: per_arm(target_twists),
-        impulses: per_arm(impulses),
+        target_twists_after: per_arm(targets, target_twists),
+        impulses: per_arm(targets, impulses),
         momentum_jump: jump,
         relative_momentum_jump: angular.max(linear),
         kinetic_energy_before: start.energy,

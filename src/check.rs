@@ -9,11 +9,14 @@ pub(crate) fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X
     slice.first_chunk().filter(|_| slice.len() == N).ok_or(Error::Length { quantity, expected: N, found: slice.len() })
 }
 
+/// Whether there are as many as the model has.
+pub(crate) fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+    if found == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found }) }
+}
+
 /// Copies a result out, after the length and the numbers were found good.
 pub(crate) fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
-    if into.len() != values.len() {
-        return Err(Error::Length { quantity, expected: values.len(), found: into.len() });
-    }
+    length(quantity, values.len(), into.len())?;
     finite(quantity, values)?;
     into.copy_from_slice(values);
     Ok(())
@@ -25,9 +28,7 @@ pub(crate) fn store_rows<T: Real, const C: usize>(
     rows: &[[T; C]],
     into: &mut [[T; C]],
 ) -> Result<(), Error> {
-    if into.len() != rows.len() {
-        return Err(Error::Length { quantity, expected: rows.len(), found: into.len() });
-    }
+    length(quantity, rows.len(), into.len())?;
     finite(quantity, rows.as_flattened())?;
     into.copy_from_slice(rows);
     Ok(())

@@ -1,5 +1,6 @@
 //! Joint torques during the approach.
 
+use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
@@ -52,8 +53,8 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ProportionalDerivative<'_, T, R> 
         torques: &mut [T],
     ) -> Result<(), Error> {
         let expected = torques.len();
-        same_length("proportional_gain", self.proportional_gain, expected)?;
-        same_length("derivative_gain", self.derivative_gain, expected)?;
+        length("proportional_gain", expected, self.proportional_gain.len())?;
+        length("derivative_gain", expected, self.derivative_gain.len())?;
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
         let joints = state.joint_angles.iter().zip(state.joint_rates).zip(gains);
         for (joint, (torque, ((angle, rate), (kp, kv)))) in torques.iter_mut().zip(joints).enumerate() {
@@ -88,7 +89,7 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ExactTracking<'_, T, R> {
         torques: &mut [T],
     ) -> Result<(), Error> {
         let joints = model.joints();
-        same_length("joint_torques", torques, joints)?;
+        length("joint_torques", joints, torques.len())?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
         for (torque, bias) in torques.iter_mut().zip(self.generalized_bias.iter()) {
             *torque = *bias;
@@ -111,8 +112,4 @@ fn desired<T: Real>(
     expected: usize,
 ) -> Result<Desired<T>, Error> {
     trajectory.joint(joint, time).ok_or(Error::Length { quantity: "trajectory", expected, found: joint })
-}
-
-fn same_length<T>(quantity: &'static str, values: &[T], expected: usize) -> Result<(), Error> {
-    if values.len() == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found: values.len() }) }
 }

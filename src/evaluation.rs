@@ -1,5 +1,6 @@
 //! Every quantity at one instant, by any model of the robot.
 
+use crate::capture::per_arm;
 use crate::check::finite;
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
@@ -144,13 +145,10 @@ fn rigid_capture(model: &dyn Model<f64>, instant: &Instant) -> Result<RigidCaptu
     let base_twist_after = impact::exact(model, &instant.motion.state(), &instant.targets, &mut after)?;
     finite("target_twists_after", target_twists.as_flattened())?;
     finite("impulses", impulses.as_flattened())?;
-    let per_arm = |values: &[[f64; 3]]| -> Vec<Option<[f64; 3]>> {
-        instant.targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()
-    };
     Ok(RigidCapture {
         base_twist_after,
-        target_twists_after: per_arm(&target_twists),
-        impulses: per_arm(&impulses),
+        target_twists_after: per_arm(&instant.targets, &target_twists),
+        impulses: per_arm(&instant.targets, &impulses),
         joint_rates_after,
     })
 }

@@ -94,6 +94,12 @@ impl Layout {
         })
     }
 
+    /// Whether a reference to a layout is a path, and not the name of a shipped one: it ends in `.toml` or has a `/`.
+    #[must_use]
+    pub fn is_path(reference: &str) -> bool {
+        reference.contains('/') || Path::new(reference).extension().is_some_and(|extension| extension == "toml")
+    }
+
     /// The number of joints of all arms together.
     #[must_use]
     pub fn joints(&self) -> usize {

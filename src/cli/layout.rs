@@ -8,8 +8,7 @@ use std::path::Path;
 
 /// Reads a layout: what ends in `.toml` or contains a `/` is a path, anything else the name of a shipped one.
 pub fn read(argument: &str) -> Result<Layout, Problem> {
-    let is_toml = Path::new(argument).extension().is_some_and(|extension| extension == "toml");
-    if is_toml || argument.contains(std::path::MAIN_SEPARATOR) || argument.contains('/') {
+    if Layout::is_path(argument) || argument.contains(std::path::MAIN_SEPARATOR) {
         return Ok(Layout::read(Path::new(argument))?);
     }
     match SHIPPED.iter().find(|(name, _)| *name == argument) {

@@ -21,7 +21,7 @@ mod momentum;
 mod reduced;
 mod solve;
 
-use crate::check::finite;
+use crate::check::{finite, length};
 use crate::dynamics::Robot;
 use crate::error::Error;
 use crate::layout::Layout;
@@ -107,8 +107,4 @@ fn store_split(names: [&'static str; 2], vector: &DVector<f64>, joints: &mut [f6
     finite(names[0], base)?;
     crate::check::store(names[1], rest, joints)?;
     crate::check::array(names[0], base).copied()
-}
-
-fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
-    if found == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found }) }
 }

@@ -175,8 +175,7 @@ fn file_name(value: &Value<'_>) -> Option<String> {
 /// The layout that a scenario names.
 fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<Layout> {
     let name = value.text(LAYOUT)?;
-    let is_toml = Path::new(name).extension().is_some_and(|extension| extension == "toml");
-    let layout = if is_toml || name.contains('/') {
+    let layout = if Layout::is_path(name) {
         // Collected from its components, a path loses its `./`.
         Layout::read(&folder.join(name).components().collect::<PathBuf>())
     } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
