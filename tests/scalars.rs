@@ -5,7 +5,7 @@ mod support;
 use planar_capture::dynamics::{Conserved, ForwardDynamics, Kinematics, ReducedDynamics};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{MANIFEST, Model, Parameters};
-use planar_capture::scalar::Scalar;
+use planar_capture::scalar::{self, Scalar};
 use planar_capture::state::{Forces, State};
 use support::dual::Dual;
 use support::{assert_close, tolerance};
@@ -128,4 +128,45 @@ fn singular_robots_are_errors() {
         ReducedDynamics::reduced_dynamics(&model, &state(&ANGLES, &RATES), &mut inertia, &mut bias, &mut jacobian);
     assert!(matches!(found, Err(Error::Singular { .. })), "{found:?}");
     assert!(out.iter().all(|x| x.to_bits() == 0), "nothing is written where there is no result");
+}
+
+/// Angles of every size: a turn, the border of the exact reduction, and far beyond it.
+fn angles() -> impl Iterator<Item = f64> {
+    let near = (-40_000..40_000).map(|i| f64::from(i) * 0.001_234_567);
+    let quarters = (-1000..1000).flat_map(|i| {
+        let quarter = f64::from(i) * std::f64::consts::FRAC_PI_2;
+        [quarter.next_down(), quarter, quarter.next_up(), quarter / 2.0]
+    });
+    let wide = (0..400).flat_map(|i| [1.7, -2.3].map(|x: f64| x * 1.1_f64.powi(i)));
+    near.chain(quarters).chain(wide).chain([0.0, -0.0, f64::MIN_POSITIVE, f64::MAX])
+}
+
+#[test]
+fn sine_and_cosine_are_the_librarys() {
+    for angle in angles() {
+        let ((sine, cosine), (right_sine, right_cosine)) = (scalar::sin_cos_f64(angle), angle.sin_cos());
+        // beyond the exact reduction, by no more than the rounding of the angle
+        let bound = if angle.abs() < 1.6e6 { tolerance::SINE } else { angle.abs() * f64::EPSILON };
+        assert!((sine - right_sine).abs() <= bound, "sin {angle:e}: {sine:e}, not {right_sine:e}");
+        assert!((cosine - right_cosine).abs() <= bound, "cos {angle:e}: {cosine:e}, not {right_cosine:e}");
+        assert!((sine * sine + cosine * cosine - 1.0).abs() <= 2.0 * tolerance::SINE, "{angle:e}");
+    }
+    for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(scalar::sin_cos_f64(odd).0.is_nan() && scalar::sin_cos_f64(odd).1.is_nan());
+    }
+}
+
+#[test]
+fn sine_and_cosine_in_single_precision() {
+    #[allow(clippy::cast_possible_truncation, reason = "that is the test")]
+    for angle in angles().map(|angle| angle as f32).filter(|angle| angle.is_finite()) {
+        let ((sine, cosine), (right_sine, right_cosine)) = (scalar::sin_cos_f32(angle), f64::from(angle).sin_cos());
+        let bound =
+            if angle.abs() < 6e3 { tolerance::SINE_SINGLE } else { f64::from(angle.abs()) * f64::from(f32::EPSILON) };
+        assert!((f64::from(sine) - right_sine).abs() <= bound, "sin {angle:e}: {sine:e}, not {right_sine:e}");
+        assert!((f64::from(cosine) - right_cosine).abs() <= bound, "cos {angle:e}: {cosine:e}, not {right_cosine:e}");
+    }
+    for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(scalar::sin_cos_f32(odd).0.is_nan() && scalar::sin_cos_f32(odd).1.is_nan());
+    }
 }

@@ -25,6 +25,11 @@ pub const OUTSIDE_IMPACT: f64 = 2e-10;
 pub const SINGLE: f64 = 2e-4;
 /// A lane against the scalar, relative: the lanes' sine differs by 2 ulp.
 pub const LANE: f64 = 1e-12;
+/// Own sine and cosine, absolute: rounding of the polynomials and the reduction, a unit in the last place of 1. Below
+/// 1.5e-16 measured.
+pub const SINE: f64 = 2e-16;
+/// The same in `f32`. 9e-8 measured.
+pub const SINE_SINGLE: f64 = 1e-7;
 /// A derivative by dual numbers against the closed form, relative: rounding.
 pub const DUAL: f64 = 1e-11;
 /// Angle, rate and acceleration of a trajectory against central differences of step 1e-5, per unit.

@@ -1,36 +1,7 @@
-//! What generated code needs of a number.
+//! Numbers that are one real number.
 
-use core::ops::{Add, Div, Mul, Neg, Sub};
-
-/// A number that generated code computes with: `f32`, `f64`, SIMD lanes, dual numbers.
-///
-/// Straight-line code needs no comparison but [`Scalar::minimum`], so lanes do.
-pub trait Scalar:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
-{
-    /// 0, in every lane.
-    const ZERO: Self;
-    /// 1, in every lane.
-    const ONE: Self;
-
-    /// The nearest value to `value`, in every lane.
-    fn constant(value: f64) -> Self;
-
-    /// (sine, cosine) of an angle in rad.
-    fn sin_cos(self) -> (Self, Self);
-
-    /// Square root.
-    #[must_use]
-    fn sqrt(self) -> Self;
-
-    /// The angle of the vector (`x`, `self`), in rad, −π to π; 0 for the null vector.
-    #[must_use]
-    fn atan2(self, x: Self) -> Self;
-
-    /// The smaller of two values. Which of them where one is NaN is open.
-    #[must_use]
-    fn minimum(self, other: Self) -> Self;
-}
+use super::Scalar;
+use super::sine;
 
 /// A [`Scalar`] that is one real number, so that it can be compared and reported: `f32`, `f64`.
 pub trait Real: Scalar + nalgebra::RealField + Copy {
@@ -42,7 +13,7 @@ pub trait Real: Scalar + nalgebra::RealField + Copy {
 }
 
 macro_rules! float {
-    ($float:ident, $sincos:ident, $sqrt:ident, $atan2:ident) => {
+    ($float:ident, $sin_cos:ident, $sqrt:ident, $atan2:ident) => {
         impl Scalar for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -59,10 +30,7 @@ macro_rules! float {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                #[cfg(feature = "std")]
-                return $float::sin_cos(self);
-                #[cfg(not(feature = "std"))]
-                libm::$sincos(self)
+                sine::$sin_cos(self)
             }
 
             #[inline]
@@ -93,5 +61,5 @@ macro_rules! float {
     };
 }
 
-float!(f32, sincosf, sqrtf, atan2f);
-float!(f64, sincos, sqrt, atan2);
+float!(f32, sin_cos_f32, sqrtf, atan2f);
+float!(f64, sin_cos_f64, sqrt, atan2);

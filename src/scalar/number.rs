@@ -1,0 +1,33 @@
+//! The trait of numbers that generated code computes with.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number that generated code computes with: `f32`, `f64`, SIMD lanes, dual numbers.
+///
+/// Straight-line code needs no comparison but [`Scalar::minimum`], so lanes do.
+pub trait Scalar:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// 0, in every lane.
+    const ZERO: Self;
+    /// 1, in every lane.
+    const ONE: Self;
+
+    /// The nearest value to `value`, in every lane.
+    fn constant(value: f64) -> Self;
+
+    /// (sine, cosine) of an angle in rad.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// The angle of the vector (`x`, `self`), in rad, −π to π; 0 for the null vector.
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+
+    /// The smaller of two values. Which of them where one is NaN is open.
+    #[must_use]
+    fn minimum(self, other: Self) -> Self;
+}
