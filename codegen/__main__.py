@@ -24,8 +24,13 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--check", action="store_true", help="write nothing; exit 1 if a graph is not what its layout gives"
     )
+    parser.add_argument("--layout", type=Path, help="derive this file alone; with --graph")
+    parser.add_argument("--graph", type=Path, help="where the graph of --layout goes")
     parser.add_argument("--test", action="store_true", help="run the derivation's tests instead")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if (options.layout is None) != (options.graph is None):
+        parser.error("--layout and --graph go together")
+    return options
 
 
 def main() -> int:
@@ -44,6 +49,25 @@ def main() -> int:
 
 
 def derive(options: argparse.Namespace) -> int:
+    return derive_shipped(options) if options.layout is None else derive_file(options.layout, options.graph)
+
+
+def derive_file(layout_file: Path, graph_file: Path) -> int:
+    """The graph of any layout file, for the command ``planar-capture generate``."""
+    from .derive import graph_text, write_whole
+    from .layout import LayoutError, read
+
+    try:
+        layout = read(layout_file)
+    except LayoutError as problem:
+        environment.say(f"error: {problem}")
+        return 2
+    command = f"planar-capture generate {layout.name}.toml --out {layout.name}.json"
+    write_whole(graph_file, graph_text(layout, command, lambda family: environment.say(f"{layout.name}: {family}")))
+    return 0
+
+
+def derive_shipped(options: argparse.Namespace) -> int:
     from .derive import graph_names, graph_path, layout_names
     from .features import FeatureError
     from .layout import LayoutError

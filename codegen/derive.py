@@ -3,10 +3,11 @@
 import json
 import os
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from . import graph
-from .layout import LayoutError, read
+from .layout import Layout, LayoutError, read
 from .model import Model
 
 HERE = Path(__file__).resolve().parent
@@ -33,7 +34,12 @@ def derive_text(path: Path) -> str:
     layout = read(path)
     if layout.name != path.stem:
         raise LayoutError(f'{path}: name = "{layout.name}" must be the file\'s own name, "{path.stem}"')
-    return dump(graph.build(Model(layout))) + "\n"
+    return graph_text(layout, f"python -m codegen {layout.name}")
+
+
+def graph_text(layout: Layout, command: str, progress: Callable[[str], None] = lambda family: None) -> str:
+    """The graph of a layout, with the command that makes it; `progress` hears of each family before it is worked on."""
+    return dump(graph.build(Model(layout, progress), command)) + "\n"
 
 
 def dump(value, indent: int = 0) -> str:

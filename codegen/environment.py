@@ -55,6 +55,8 @@ def ensure(dev: bool = False) -> Path:
             f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
         )
     for good_enough in (requirements(dev), requirements(dev=True)):  # the larger one serves both
+        if not all(file.exists() for file in good_enough):  # the package that a binary carries has the smaller one
+            continue
         place = home() / fingerprint(good_enough)
         if interpreter(place).exists():
             return interpreter(place)

@@ -4,6 +4,7 @@ A *family* shares what depends on the configuration alone (base pose and joint a
 velocities and forces.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import casadi as ca
@@ -96,21 +97,25 @@ def pivot(expression: ca.SX) -> Output:
 class Model:
     """The families of one layout."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: Layout, progress: Callable[[str], None] = lambda family: None) -> None:
         self.layout = layout
         self.symbols = Symbols(layout)
         self.arms, self.joints = len(layout.arms), self.symbols.joints
         self.inputs = Inputs.create(self.arms, self.joints)
         self.input_shapes = input_shapes(self.arms, self.joints)
-        self.families = [
-            self._forward_dynamics(),
-            self._equations_of_motion(),
-            self._reduced_dynamics(),
-            self._end_effectors(),
-            self._bodies(),
-            self._momentum(),
-            self._impact(),
-        ]
+        self.families = []
+        for derive in (
+            self._forward_dynamics,
+            self._equations_of_motion,
+            self._reduced_dynamics,
+            self._end_effectors,
+            self._bodies,
+            self._momentum,
+            self._impact,
+        ):
+            progress(derive.__name__.strip("_").replace("_", " "))
+            self.families.append(derive())
+        progress("single assignments")
 
     def _geometry(self) -> Geometry:
         return Geometry(self.symbols, self.inputs)
@@ -360,7 +365,7 @@ class Model:
                     "reduced_impact",
                     "The paper's impact, literally; exact only for a robot without momentum after it.",
                     "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  G x = H,  N = J_t^-T I_t J_t^-1",
-                    "Raina & Shah (2017), eqs. (15), (16), with J_t's sign corrected",
+                    "Raina & Shah (2017), eqs. (15), (16), with the sign of `J_t` corrected",
                     [*CONFIGURATION, "joint_rates", *targets],
                     [
                         matrix("impact_matrix", "kg m^2", "G, symmetric, row-major", g),

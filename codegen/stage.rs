@@ -1,11 +1,13 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
 use crate::layout::Layout;
-use crate::render;
+use crate::render::{self, Form, Runtime};
+use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them.
+/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them and
+/// `package.rs` that lists the derivation's Python files.
 ///
 /// # Errors
 /// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
@@ -22,9 +24,12 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
         let code = render_one(codegen, name)?;
         write(&out.join(format!("{name}.rs")), &code)?;
     }
+    let include = |name: &String| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));\n");
+    write(&out.join("index.rs"), &enabled.iter().map(include).collect::<String>())?;
     let (enabled, disabled) = (enabled.join(", "), disabled.join(", "));
-    write(&out.join("index.rs"), &format!("generated!({enabled});\n"))?;
-    write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))
+    write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))?;
+    let package = self::names(codegen, "py")?.join("\", \"");
+    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.
@@ -32,23 +37,40 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
 /// # Errors
 /// As [`render_all`].
 pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
-    let mend = format!("derive it again: python -m codegen {name}");
-    let layout = Layout::read(&codegen.join(format!("layouts/{name}.toml"))).map_err(|report| report.to_string())?;
-    let path = codegen.join(format!("graphs/{name}.json"));
-    let graph = fs::read_to_string(&path).map_err(|e| format!("{}: {e}; {mend}", path.display()))?;
-    let found = render::layout_hash(&graph).map_err(|e| format!("{}: {e}; {mend}", path.display()))?;
-    let wanted = layout.sha256();
-    if found != wanted {
-        return Err(format!(
-            "{} is stale: it was derived from a layout with sha256 {found}, codegen/layouts/{name}.toml has {wanted}; {mend}",
-            path.display()
-        ));
+    let command = format!("python -m codegen {name}");
+    let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
+    let (_, value) = fresh(&layout, &graph, &command)?;
+    let source = format!("codegen/graphs/{name}.json");
+    let form = Form { runtime: Runtime::Crate, item: true, source: &source, command: &command, self_test: None };
+    render::render(&value, &form).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
+}
+
+/// A layout and the graph that was derived from it; `command` makes the graph again.
+///
+/// # Errors
+/// What is wrong with either, or that the graph is of another layout, with the command.
+pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Value), String> {
+    let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
+    let wrong = |e: &dyn std::fmt::Display| format!("{}: {e}; derive it again: {command}", graph_path.display());
+    let text = fs::read_to_string(graph_path).map_err(|e| wrong(&e))?;
+    let graph = render::read(&text).map_err(|e| wrong(&e))?;
+    let (found, wanted) = (render::layout_hash(&graph).map_err(|e| wrong(&e))?, layout.sha256());
+    if found == wanted {
+        Ok((layout, graph))
+    } else {
+        Err(format!(
+            "{} is stale: it was derived from a layout with sha256 {found}, {} has {wanted}; derive it again: {command}",
+            graph_path.display(),
+            layout_path.display()
+        ))
     }
-    render::render(&graph).map_err(|e| format!("{}: {e}; {mend}", path.display()))
 }
 
 /// Names of the files with an extension, sorted.
-fn names(folder: &Path, extension: &str) -> Result<Vec<String>, String> {
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn names(folder: &Path, extension: &str) -> Result<Vec<String>, String> {
     let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.path()))

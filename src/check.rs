@@ -1,21 +1,21 @@
-//! Checks at the border between slices and straight-line code.
+//! Checks at the border between slices and straight-line code; public for generated code alone.
 
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
 
 /// A slice as an array, or what is wrong with its length.
-pub(crate) fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
+pub fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
     slice.first_chunk().filter(|_| slice.len() == N).ok_or(Error::Length { quantity, expected: N, found: slice.len() })
 }
 
 /// Whether there are as many as the model has.
-pub(crate) fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
+pub fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found }) }
 }
 
 /// Copies a result out, after the length and the numbers were found good.
-pub(crate) fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
+pub fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
     length(quantity, values.len(), into.len())?;
     finite(quantity, values)?;
     into.copy_from_slice(values);
@@ -23,7 +23,7 @@ pub(crate) fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T
 }
 
 /// As [`store`], for lists of rows.
-pub(crate) fn store_rows<T: Real, const C: usize>(
+pub fn store_rows<T: Real, const C: usize>(
     quantity: &'static str,
     rows: &[[T; C]],
     into: &mut [[T; C]],
@@ -35,7 +35,7 @@ pub(crate) fn store_rows<T: Real, const C: usize>(
 }
 
 /// The first number that is NaN or infinite is an error.
-pub(crate) fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
+pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(()),
         Some(index) => {
@@ -45,20 +45,20 @@ pub(crate) fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<()
 }
 
 /// All numbers of a state.
-pub(crate) fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
+pub fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
     finite_configuration(&state.base_pose, state.joint_angles)?;
     finite("base_twist", &state.base_twist)?;
     finite("joint_rates", state.joint_rates)
 }
 
 /// All numbers of a configuration.
-pub(crate) fn finite_configuration<T: Real>(base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
+pub fn finite_configuration<T: Real>(base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
     finite("base_pose", base_pose)?;
     finite("joint_angles", joint_angles)
 }
 
 /// A relative pivot has to exceed a few rounding units.
-pub(crate) fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
+pub fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
     let limit = T::EPSILON.to_f64() * 8.0;
     let pivot = smallest.to_f64();
     if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }

@@ -25,8 +25,8 @@
 //!
 //! # The core and the rest
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
-//! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `cli` (the default) the command line,
-//! `lanes` SIMD lanes as scalars.
+//! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
+//! other crates, `cli` (the default) the command line, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -42,8 +42,8 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
-#[allow(dead_code, reason = "a build without any layout has no generated code to check")]
-mod check;
+#[doc(hidden)]
+pub mod check;
 pub mod control;
 pub mod dynamics;
 pub mod error;
@@ -59,10 +59,21 @@ pub mod state;
 pub mod target;
 pub mod trajectory;
 
+#[cfg(feature = "build")]
+#[path = "../codegen/render.rs"]
+#[allow(dead_code, reason = "this crate's own modules are rendered by its build script")]
+mod render;
+#[cfg(feature = "build")]
+#[path = "../codegen/stage.rs"]
+#[allow(dead_code, reason = "this crate's own modules are rendered by its build script")]
+mod stage;
+
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
 pub mod audit;
+#[cfg(feature = "build")]
+pub mod build;
 #[cfg(feature = "std")]
 pub mod capture;
 #[cfg(feature = "std")]
@@ -73,6 +84,8 @@ pub mod design;
 pub mod diagnostic;
 #[cfg(feature = "std")]
 pub mod evaluation;
+#[cfg(feature = "build")]
+pub mod generate;
 #[cfg(feature = "std")]
 pub mod generic;
 #[cfg(feature = "std")]

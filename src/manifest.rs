@@ -42,6 +42,40 @@ pub struct Parameter {
     pub default: f64,
 }
 
+/// One of the full coordinates: the base's three, then the joints arm by arm.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// What it is: `base yaw`, or the arm's name and the joint's number.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+}
+
+/// What one call of a function costs, its configuration stage included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Operations {
+    /// The function of the model.
+    pub function: &'static str,
+    /// Products.
+    pub multiplications: usize,
+    /// Sums and differences.
+    pub additions: usize,
+    /// Quotients.
+    pub divisions: usize,
+    /// Pairs of a sine and a cosine.
+    pub sin_cos: usize,
+    /// Sign changes, minima, roots, arctangents.
+    pub other: usize,
+}
+
+impl Operations {
+    /// Multiplications, additions and divisions together.
+    #[must_use]
+    pub const fn flops(&self) -> usize {
+        self.multiplications + self.additions + self.divisions
+    }
+}
+
 /// What a generated model was derived from, and what it expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Manifest {
@@ -51,8 +85,12 @@ pub struct Manifest {
     pub sha256: &'static str,
     /// Number of links of each arm.
     pub links: &'static [usize],
+    /// Full coordinates in their order, which is that of velocities, accelerations and generalized forces too.
+    pub coordinates: &'static [Coordinate],
     /// Parameters in the order of `Parameters::to_array`.
     pub parameters: &'static [Parameter],
+    /// Operation counts of every function.
+    pub operations: &'static [Operations],
     /// Whether the distance between the first two mounts is divided by.
     pub needs_distinct_mounts: bool,
 }

@@ -4,6 +4,7 @@ mod support;
 
 use planar_capture::{diagnostic, layout};
 #[path = "../codegen/render.rs"]
+#[allow(dead_code, reason = "modules for other crates are tested elsewhere")]
 mod render;
 #[path = "../codegen/stage.rs"]
 mod stage;
@@ -41,7 +42,7 @@ fn built_code_is_the_committed_graphs() {
 fn body<'a>(text: &'a str, signature: &str) -> &'a str {
     let start = text.find(signature).unwrap_or_else(|| panic!("no `{signature}`"));
     let rest = &text[start..];
-    &rest[..rest.find("\n    }\n").expect("an end")]
+    &rest[..rest.find("\n        }\n").expect("an end")]
 }
 
 /// Binary operations of a body, counted in the rendered text: what the compiler is given.

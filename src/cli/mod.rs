@@ -3,12 +3,14 @@
 mod compare;
 mod dynamics;
 mod eval;
+mod generate;
 mod layout;
 mod progress;
 mod run;
 
 use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
+use planar_capture::generate::{DerivationError, GenerateError};
 use planar_capture::models::NoModel;
 use planar_capture::output::OutputError;
 use planar_capture::states::StateError;
@@ -30,6 +32,7 @@ enum Command {
     Run(run::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
+    Generate(generate::Arguments),
 }
 
 /// Why there is no result.
@@ -52,6 +55,18 @@ enum Problem {
     /// A state has no answer.
     #[error("error: {file}: state {index}: {source}")]
     Evaluation { file: String, index: usize, source: planar_capture::error::Error },
+    /// Arguments that do not go together.
+    #[error("error: {0}")]
+    Usage(&'static str),
+    /// A file in the way that nobody generated.
+    #[error("error: {file} is there already and was not generated: name another file, or move it away first")]
+    NotGenerated { file: String },
+    /// No equations were derived.
+    #[error("error: {file}: {source}")]
+    Derivation { file: String, source: DerivationError },
+    /// What was derived is not code.
+    #[error("error: {file}: {source}")]
+    Generate { file: String, source: GenerateError },
     /// A computation has no answer.
     #[error("error: {file}: {source}")]
     Study { file: String, source: StudyError },
@@ -64,10 +79,11 @@ enum Problem {
 }
 
 impl Problem {
-    /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way.
+    /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way or a check failed.
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Study { source: StudyError::Approach(_) | StudyError::PostImpact { .. }, .. } => 1,
+            Self::Study { source: StudyError::Approach(_) | StudyError::PostImpact { .. }, .. }
+            | Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
             _ => 2,
         }
     }
@@ -84,6 +100,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Generate(arguments) => generate::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -16,8 +16,9 @@ use crate::dynamics::Model;
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::models::{NoModel, generated, generic};
-use scale::Scales;
-use values::values;
+#[allow(unused_imports, reason = "for reference vectors, which come with the feature `build`")]
+pub(crate) use scale::{Scale, Scales};
+pub(crate) use values::values;
 
 /// How far two models are apart in one quantity at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]

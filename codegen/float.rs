@@ -1,0 +1,107 @@
+//! `f32` and `f64` as scalars, with `core` alone.
+//!
+//! Roots and arctangents are taken of parameters, once per model: they are written for digits, not for speed.
+
+use super::number::Scalar;
+use super::sine::{sin_cos_f32, sin_cos_f64};
+
+/// Square root by Newton's iteration from half the exponent; NaN of what is negative.
+fn sqrt(value: f64) -> f64 {
+    if value == 0.0 || value == f64::INFINITY {
+        return value;
+    }
+    if value.is_nan() || value < 0.0 {
+        return f64::NAN;
+    }
+    if value < f64::MIN_POSITIVE {
+        // 2¹⁰⁸ makes it normal
+        return sqrt(value * 324_518_553_658_426_726_783_156_020_576_256.0) / 18_014_398_509_481_984.0;
+    }
+    let mut root = f64::from_bits((value.to_bits() >> 1) + (1023 << 51));
+    for _ in 0..4 {
+        root = 0.5 * (root + value / root);
+    }
+    root
+}
+
+/// Angle of the vector (x, y): each step turns it by the tangent of what is left, which leaves the cube of that.
+fn atan2(y: f64, x: f64) -> f64 {
+    let size = x.abs().max(y.abs());
+    if size == 0.0 {
+        return 0.0;
+    }
+    if !size.is_finite() {
+        return f64::NAN;
+    }
+    let (x, y) = (x / size, y / size);
+    let half = if y < 0.0 { -core::f64::consts::PI } else { core::f64::consts::PI };
+    // within 0.1 rad: 45° where the sides are equal, the rest in proportion
+    let quarter = 0.5 * half;
+    let mut angle = match (x.abs() < y.abs(), x < 0.0) {
+        (true, _) => quarter - x * half / 4.0,
+        (false, false) => y * core::f64::consts::FRAC_PI_4,
+        (false, true) => half - y * core::f64::consts::FRAC_PI_4,
+    };
+    for _ in 0..3 {
+        let (sine, cosine) = sin_cos_f64(angle);
+        angle += (y * cosine - x * sine) / (x * cosine + y * sine);
+    }
+    angle
+}
+
+impl Scalar for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos_f64(self)
+    }
+
+    fn sqrt(self) -> Self {
+        sqrt(self)
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        atan2(self, x)
+    }
+
+    #[inline]
+    fn minimum(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "rounding to the scalar is what is asked for")]
+impl Scalar for f32 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value as f32
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        sin_cos_f32(self)
+    }
+
+    fn sqrt(self) -> Self {
+        sqrt(f64::from(self)) as f32
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        atan2(f64::from(self), f64::from(x)) as f32
+    }
+
+    #[inline]
+    fn minimum(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+}
