@@ -43,8 +43,8 @@ fn atan2(y: f64, x: f64) -> f64 {
         (false, true) => half - y * core::f64::consts::FRAC_PI_4,
     };
     for _ in 0..3 {
-        let (sine, cosine) = sin_cos_f64(angle);
-        angle += (y * cosine - x * sine) / (x * cosine + y * sine);
+        let (s, c) = sin_cos_f64(angle);
+        angle += (y * c - x * s) / (x * c + y * s);
     }
     angle
 }

@@ -1,0 +1,5 @@
+//! Renders `layouts/NAME.toml` with its graph `layouts/NAME.json`; stops where they disagree.
+
+fn main() -> Result<(), planar_capture::build::BuildError> {
+    planar_capture::build::render("layouts")
+}
