@@ -76,6 +76,8 @@ pub mod evaluation;
 #[cfg(feature = "std")]
 pub mod generic;
 #[cfg(feature = "std")]
+pub mod inspection;
+#[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
 pub mod models;

@@ -1,5 +1,6 @@
 //! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
 
+mod check;
 mod compare;
 mod dynamics;
 mod eval;
@@ -30,6 +31,7 @@ enum Command {
     Run(run::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
+    Check(check::Arguments),
 }
 
 /// Why there is no result.
@@ -84,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
     };
     match result {
         Ok(code) => code,
