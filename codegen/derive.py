@@ -34,7 +34,7 @@ def derive_text(path: Path) -> str:
     layout = read(path)
     if layout.name != path.stem:
         raise LayoutError(f'{path}: name = "{layout.name}" must be the file\'s own name, "{path.stem}"')
-    return graph_text(layout, f"python -m codegen {layout.name}")
+    return dump(graph.build(Model(layout))) + "\n"
 
 
 def graph_text(layout: Layout, command: str, progress: Callable[[str], None] = lambda family: None) -> str:

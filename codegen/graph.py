@@ -90,8 +90,8 @@ def used_names(function: dict) -> list:
     return [a for a in [*arguments, *(e for o in function["outputs"] for e in o["elements"])] if isinstance(a, str)]
 
 
-def build(model: Model, command: str = "") -> dict:
-    """The whole graph of a layout as plain data; `command` makes it again."""
+def build(model: Model, command: str | None = None) -> dict:
+    """The whole graph of a layout as plain data; `command` makes it again, without it that of a shipped layout."""
     layout, symbols = model.layout, model.symbols
     reader = Reader(model)
     families = [family_graph(reader, family) for family in model.families]
@@ -105,7 +105,7 @@ def build(model: Model, command: str = "") -> dict:
         values.append({"name": name, "unit": cut.unit, "description": cut.description})
     return {
         "format": FORMAT,
-        "command": command,
+        "command": command or f"python -m codegen {layout.name}",
         "casadi": ca.__version__,
         "layout": {
             "name": layout.name,

@@ -37,14 +37,7 @@ impl<'a> Approach<'a> {
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
                 let trajectory = self.trajectory(rates);
                 let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-                let initial = &self.scenario.initial;
-                let initial = Motion {
-                    base_pose: initial.base_pose,
-                    joint_angles: initial.joint_angles.clone(),
-                    base_twist: initial.base_twist,
-                    joint_rates: initial.joint_rates.clone(),
-                };
-                simulate(model, &mut law, &initial, &self.timing, tick)
+                simulate(model, &mut law, &Motion::of(&self.scenario.initial.state()), &self.timing, tick)
             }
         }
     }

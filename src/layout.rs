@@ -87,7 +87,7 @@ impl Layout {
                 if arms.is_empty() {
                     value.expected("at least one `[[arm]]`", None);
                 }
-                Table::reject_repeats(&arms, "name", "arm names must differ");
+                Table::reject_repeats(&arms, "name", str::eq, "arm names must differ");
                 every(arms.iter().map(Arm::from_table))
             });
             Some(Self { name: name?, base: base?, arms: arms? })
@@ -104,6 +104,12 @@ impl Layout {
     #[must_use]
     pub fn joints(&self) -> usize {
         self.arms.iter().map(|arm| arm.links.len()).sum()
+    }
+
+    /// The mass of all bodies, in kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.base.mass + self.arms.iter().map(Arm::mass).sum::<f64>()
     }
 
     /// Hash of the content, in hexadecimal: comments, spacing, the writing of numbers and written-out
@@ -150,6 +156,12 @@ impl Layout {
 }
 
 impl Base {
+    /// √(inertia / mass), in m: how far out its mass is.
+    #[must_use]
+    pub fn radius_of_gyration(&self) -> f64 {
+        (self.inertia / self.mass).sqrt()
+    }
+
     fn from_table(table: &Table<'_>) -> Option<Self> {
         let mass = table.number("mass", &MASS);
         let inertia = table.number("inertia", &INERTIA);
@@ -158,6 +170,24 @@ impl Base {
 }
 
 impl Arm {
+    /// The mass of its links, in kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.links.iter().map(|link| link.mass).sum()
+    }
+
+    /// The distance of the tip from the mount when the arm is stretched, in m; 0 for a reaction wheel.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.links.iter().map(|link| link.length).sum()
+    }
+
+    /// The largest distance of the tip from the base COM, in m.
+    #[must_use]
+    pub fn reach_from_base(&self) -> f64 {
+        self.mount[0].hypot(self.mount[1]) + self.reach()
+    }
+
     fn from_table(table: &Table<'_>) -> Option<Self> {
         let name = table.text("name", "a name");
         let mount = table.vector("mount", &POSITION);
@@ -194,7 +224,10 @@ fn module_name(value: &Value<'_>) -> Option<String> {
     let letters = name.starts_with(|c: char| c.is_ascii_lowercase())
         && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
     if !letters || name.len() > 64 {
-        value.expected(&format!("{MODULE_NAME}, at most 64 of them"), None);
+        let plain: String =
+            name.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+        let help = plain.starts_with(|c: char| c.is_ascii_lowercase()) && plain.len() <= 64;
+        value.expected(&format!("{MODULE_NAME}, at most 64 of them"), help.then(|| format!("`{plain}` would do")));
         return None;
     }
     if KEYWORDS.split_whitespace().any(|keyword| keyword == name) {

@@ -89,6 +89,8 @@ pub mod generate;
 #[cfg(feature = "std")]
 pub mod generic;
 #[cfg(feature = "std")]
+pub mod inspection;
+#[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
 pub mod models;

@@ -79,7 +79,20 @@ pub struct NoModel {
 /// # Errors
 /// [`NoModel`] where no generated code has that structure.
 pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
-    let mut fitting: Option<(&Candidate, Vec<f64>)> = None;
+    fitting(layout).map(|(candidate, values)| (candidate.build)(values))
+}
+
+/// What the generated code of the layout's structure was derived from.
+///
+/// # Errors
+/// As [`fn@generated`].
+pub fn manifest(layout: &Layout) -> Result<&'static Manifest, NoModel> {
+    fitting(layout).map(|(candidate, _)| candidate.manifest)
+}
+
+/// The generated structure with the fewest parameters that the layout fits, and its values of them.
+fn fitting(layout: &Layout) -> Result<(&'static Candidate, Vec<f64>), NoModel> {
+    let mut fitting: Option<(&'static Candidate, Vec<f64>)> = None;
     let mut nearest: Option<(&str, Vec<Difference>)> = None;
     for candidate in CANDIDATES {
         match parameters(candidate.manifest, layout) {
@@ -92,19 +105,16 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
             Ok(_) | Err(_) => {}
         }
     }
-    match fitting {
-        Some((candidate, values)) => Ok((candidate.build)(values)),
-        None => Err(NoModel {
-            layout: layout.name.clone(),
-            structure: in_words(layout),
-            available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
-            nearest: nearest.map_or_else(String::new, |(name, found)| {
-                let found: Vec<String> = found.iter().map(ToString::to_string).collect();
-                format!(". Nearest is `{name}`: {}", found.join("; "))
-            }),
-            mend: mend(layout),
+    fitting.ok_or_else(|| NoModel {
+        layout: layout.name.clone(),
+        structure: in_words(layout),
+        available: CANDIDATES.iter().map(|c| c.manifest.name).collect::<Vec<_>>().join(", "),
+        nearest: nearest.map_or_else(String::new, |(name, found)| {
+            let found: Vec<String> = found.iter().map(ToString::to_string).collect();
+            format!(". Nearest is `{name}`: {}", found.join("; "))
         }),
-    }
+        mend: mend(layout),
+    })
 }
 
 /// The generic model of any layout.

@@ -104,7 +104,8 @@ fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
 #[must_use]
 pub fn in_words(layout: &Layout) -> String {
     let links: Vec<String> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
-    let mut words = vec![format!("{} arm(s) of {} links", layout.arms.len(), links.join(" + "))];
+    let arms = if links.len() == 1 { "arm" } else { "arms" };
+    let mut words = vec![format!("{} {arms} of {} links", links.len(), links.join(" + "))];
     if layout.arms.iter().any(|arm| arm.mount[1] != 0.0) {
         words.push("a mount off the base x axis".to_owned());
     }

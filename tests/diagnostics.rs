@@ -217,6 +217,7 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("contact = [0.0, 0.5]\n", "", 10, &["missing key `target[0].contact`", "[rx, ry] in m"]),
     ("radius = 0.5", "radius = 0.5\nposition = [1]", 17, &["`target[0].position` is [1]", "[x, y] in m"]),
     ("\"still\"", "\"spin\"", 21, &["`case[1].name` is \"spin\": the same as `case[0].name`"]),
+    ("\"still\"", "\"Spin\"", 21, &["`case[1].name` is \"Spin\": the same as `case[0].name`", "upper and lower case"]),
     ("\"still\"", "\".still\"", 21, &["`case[1].name` is \".still\"", "not `.` first"]),
     ("{ ball =", "{ bal =", 22, &["`case[1].target_twists.bal` ([0, 0, 0])", "did you mean `ball`?"]),
     ("{ ball = [0, 0, 0] }", "{ ball = [0, 0] }", 22, &["`case[1].target_twists.ball` is [0, 0]", "[ω, vx, vy]"]),
@@ -241,6 +242,29 @@ fn an_arm_captures_one_target() {
     let shown = scenario(&text).err().map(|report| report.to_string()).unwrap_or_default();
     assert!(shown.contains("`target[1].arm` is \"left\": the same as `target[0].arm`"), "{shown}");
     assert!(shown.contains("demo.toml:20:7") && shown.contains("at most one target"), "{shown}");
+}
+
+/// Where targets share a name, or one has none, nothing can be said of what the cases say of them.
+#[test]
+fn target_names_are_complained_of_once() {
+    let start = SCENARIO.find("[[target]]").unwrap_or(0);
+    let end = SCENARIO.find("[[case]]").unwrap_or(0);
+    let (target, cases) = (&SCENARIO[start..end], SCENARIO[end..].replace("{ ball =", "{ box ="));
+    let second = target.replace("\"left\"", "\"right\"");
+    let right = LAYOUT[LAYOUT.find("[[arm]]").unwrap_or(0)..].replace("\"left\"", "\"right\"");
+    let layout = format!("{LAYOUT}{right}");
+    let head = SCENARIO[..end].replace("0.2]", "0.2, 0, 0]").replace("0.6]", "0.6, 0, 0]");
+    let head = head.replace("[[0, -0.1, 0]]", "[[0, -0.1, 0], [0, 0, 0]]");
+    let report = |text: &str| {
+        let report = Scenario::parse(text, "demo.toml", Path::new(""), &[("one_arm", &layout)]).err();
+        report.map(|report| (report.count(), report.to_string())).unwrap_or_default()
+    };
+    let (count, shown) = report(&format!("{head}{second}{cases}"));
+    assert_eq!(count, 1, "{shown}");
+    assert!(shown.contains("`target[1].name` is \"ball\": the same as `target[0].name`"), "{shown}");
+    let (count, shown) = report(&format!("{}{cases}", head.replace("name = \"ball\"", "nmae = \"ball\"")));
+    assert_eq!(count, 1, "{shown}");
+    assert!(shown.contains("did you mean `name`?"), "{shown}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
 
+mod check;
 mod compare;
 mod dynamics;
 mod eval;
@@ -33,6 +34,7 @@ enum Command {
     Eval(eval::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
+    Check(check::Arguments),
 }
 
 /// Why there is no result.
@@ -101,6 +103,7 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
     };
     match result {
         Ok(code) => code,

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use toml::de::DeTable;
 
 use super::table::{Table, place};
-use super::{Problem, Report, Source, excerpt, printable};
+use super::{Problem, Report, Severity, Source, printable, syntax};
 
 /// The source that a tree's spans point into, and where its readers leave what they find wrong.
 #[derive(Debug)]
@@ -16,9 +16,27 @@ pub(super) struct Document {
     problems: RefCell<Vec<Problem>>,
     /// Path and keys of the tables met so far.
     tables: RefCell<Vec<(String, Vec<String>)>>,
+    /// Problems, by index, that are unknown tables, and the tables' names.
+    strays: RefCell<Vec<(usize, String)>>,
 }
 
 impl Document {
+    /// A document without problems; `file` is the name that they are shown under.
+    pub(super) fn new(text: &str, file: &str) -> Self {
+        let source = Source { file: printable(file), text: text.to_owned() };
+        Self {
+            source: Arc::new(source),
+            problems: RefCell::default(),
+            tables: RefCell::default(),
+            strays: RefCell::default(),
+        }
+    }
+
+    /// The whole source text.
+    pub(super) fn source(&self) -> &str {
+        &self.source.text
+    }
+
     /// The source text of a span.
     pub(super) fn text(&self, span: &Range<usize>) -> &str {
         self.source.text.get(span.clone()).unwrap_or_default()
@@ -26,14 +44,44 @@ impl Document {
 
     /// Notes a problem at a span.
     pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
+        self.note(Severity::Error, span, message, label, help);
+    }
+
+    /// Notes what is wrong or odd at a span.
+    pub(super) fn note(
+        &self,
+        severity: Severity,
+        span: &Range<usize>,
+        message: String,
+        label: Option<String>,
+        help: Option<String>,
+    ) {
         let place = Some((Arc::clone(&self.source), span.clone()));
-        self.problems.borrow_mut().push(Problem { place, message, label, help });
+        self.problems.borrow_mut().push(Problem { severity, place, message, label, help });
     }
 
     /// Remembers the keys of a table.
     pub(super) fn open(&self, path: &str, keys: &[&str]) {
         let keys = keys.iter().map(|&key| key.to_owned()).collect();
         self.tables.borrow_mut().push((path.to_owned(), keys));
+    }
+
+    /// Remembers that the last problem is an unknown table, which may belong into another that comes later.
+    pub(super) fn remember_stray(&self, name: &str) {
+        let index = self.problems.borrow().len().saturating_sub(1);
+        self.strays.borrow_mut().push((index, name.to_owned()));
+    }
+
+    /// Says of the unknown tables where they belong, now that all tables are known.
+    fn place_strays(&self) {
+        let (mut problems, tables) = (self.problems.borrow_mut(), self.tables.borrow());
+        for (index, name) in self.strays.borrow().iter() {
+            let owner = tables.iter().find(|(_, keys)| keys.contains(name));
+            if let (Some((owner, _)), Some(Problem { label: label @ None, .. })) = (owner, problems.get_mut(*index)) {
+                *label =
+                    Some(format!("this belongs into {}: write `[[{}.{name}]]`", place(owner), without_indices(owner)));
+            }
+        }
     }
 
     /// The innermost table around `path` that has this key.
@@ -61,25 +109,9 @@ impl Document {
         self.problems.borrow_mut().extend(adopted);
     }
 
-    /// Notes the syntax errors, the first of each line: the others only follow from it.
-    fn report_syntax(&self, errors: &[toml::de::Error]) {
-        let text = &self.source.text;
-        let mut last_line = None;
-        let mut errors: Vec<_> = errors.iter().map(|e| (e.span().unwrap_or_default(), e.message())).collect();
-        errors.sort_by_key(|(span, _)| span.start);
-        for (span, message) in errors {
-            let before = text.get(..span.start).unwrap_or_default();
-            let line = before.matches('\n').count();
-            if last_line.replace(line) != Some(line) {
-                let shown = excerpt(text.lines().nth(line).unwrap_or_default());
-                let title = format!("`{shown}` is not valid TOML: {message}");
-                self.report(&span, title, None, syntax_hint(message, self.text(&span)));
-            }
-        }
-    }
-
     /// The problems in the order of the source, those of other files last.
-    fn into_report(self) -> Report {
+    pub(super) fn into_report(self) -> Report {
+        self.place_strays();
         let mut problems = self.problems.into_inner();
         problems.sort_by_key(|problem| match &problem.place {
             Some((source, span)) if Arc::ptr_eq(source, &self.source) => span.start,
@@ -87,29 +119,6 @@ impl Document {
         });
         Report { problems }
     }
-}
-
-/// What to write instead of the text at an error, for the mistakes that people make most.
-fn syntax_hint(message: &str, found: &str) -> Option<String> {
-    let number = found.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-    let hint = if message.contains("must be quoted") && number {
-        "numbers stand alone, separated by commas, without units or formulas: `[0.5, 10]`"
-    } else if message.contains("must be quoted") {
-        "text stands in quotes, `\"arm1\"`; formulas are not evaluated"
-    } else if message.contains("duplicate key") {
-        "each key is given once; a further entry of a list starts with `[[...]]`"
-    } else if message.contains("mantissa") || message.contains("fraction") {
-        "write digits on both sides of the point: `0.5`, `5.0`"
-    } else if message.contains("leading zero") {
-        "write the number without the leading zero"
-    } else if message.contains("unexpected key or value") {
-        "write one `key = value` per line, and numbers with a decimal point: `1.5`"
-    } else if message.contains("key with no value") {
-        "write `key = value`"
-    } else {
-        return None;
-    };
-    Some(hint.to_owned())
 }
 
 /// Parses `text` and reads its root table, which may hold `keys` and no others, with `read`.
@@ -124,12 +133,11 @@ pub fn read_document<T>(
     keys: &[&str],
     read: impl FnOnce(&Table<'_>) -> Option<T>,
 ) -> Result<T, Report> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = Source { file: printable(file), text: text.to_owned() };
-    let document = Document { source: Arc::new(source), problems: RefCell::default(), tables: RefCell::default() };
+    let text = without_mark(text);
+    let document = Document::new(text, file);
     let (tree, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        document.report_syntax(&errors);
+        syntax::report(&document, &errors);
         return Err(document.into_report());
     }
     let content = read(&Table::new(&document, tree.get_ref(), 0..0, String::new(), keys));
@@ -137,4 +145,14 @@ pub fn read_document<T>(
         Some(content) if document.problems.borrow().is_empty() => Ok(content),
         _ => Err(document.into_report()),
     }
+}
+
+/// A path as headers have it: `arm.link` of `arm[0].link[1]`.
+fn without_indices(path: &str) -> String {
+    path.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect()
+}
+
+/// The text without the byte order mark that some editors put first.
+pub(super) fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
 }

@@ -2,10 +2,13 @@
 //!
 //! [`read_text`] reads a file, [`read_document`] parses it and hands its root [`Table`] to a
 //! reader. Readers note every problem they meet and carry on, so that one [`Report`] shows all.
+//! What can be read but is odd, somebody else finds in the content; [`warnings`] shows it at its place in the file.
 
 mod document;
 mod file;
+mod oddity;
 mod quantity;
+mod syntax;
 mod table;
 mod value;
 
@@ -18,6 +21,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 pub use document::read_document;
 pub use file::read_text;
+pub use oddity::{Oddity, warnings};
 pub use quantity::Quantity;
 pub use table::{Table, every};
 pub use value::Value;
@@ -32,9 +36,19 @@ struct Source {
     text: String,
 }
 
-/// One thing that is wrong, where it is and what would be right.
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Severity {
+    /// The file cannot be worked with.
+    Error,
+    /// The file can be worked with, but may not say what was meant.
+    Warning,
+}
+
+/// One thing that is wrong or odd, where it is and what would be right.
 #[derive(Clone, Debug)]
 struct Problem {
+    severity: Severity,
     place: Option<(Arc<Source>, Range<usize>)>,
     message: String,
     label: Option<String>,
@@ -44,11 +58,15 @@ struct Problem {
 impl Problem {
     /// A problem with a whole file, or with one that cannot be read at all.
     fn with_file(message: String, help: impl Into<Option<String>>) -> Self {
-        Self { place: None, message, label: None, help: help.into() }
+        Self { severity: Severity::Error, place: None, message, label: None, help: help.into() }
     }
 
     fn render(&self, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(self.message.as_str());
+        let level = match self.severity {
+            Severity::Error => Level::ERROR,
+            Severity::Warning => Level::WARNING,
+        };
+        let title = level.primary_title(self.message.as_str());
         let snippet = self.place.as_ref().map(|(source, span)| {
             let mark = AnnotationKind::Primary.span(first_line(&source.text, span));
             Snippet::source(source.text.as_str())
@@ -66,7 +84,7 @@ fn first_line(text: &str, span: &Range<usize>) -> Range<usize> {
     span.start..length.map_or(span.end, |length| span.start + length)
 }
 
-/// All that is wrong with an input: the error of every reader here.
+/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see [`warnings`].
 ///
 /// `Display` is [`render`](Self::render) without colour: for each problem (the first eight; the
 /// rest are counted) what is wrong, the file, line and column, the line itself, and a hint.
@@ -81,10 +99,14 @@ impl Report {
     pub fn render(&self, color: bool) -> String {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let mut parts: Vec<_> = self.problems.iter().take(SHOWN).map(|problem| problem.render(&renderer)).collect();
+        let noun = match self.problems.first() {
+            Some(Problem { severity: Severity::Warning, .. }) => "warning",
+            _ => "problem",
+        };
         match self.problems.len().saturating_sub(SHOWN) {
             0 => {}
-            1 => parts.push("... and 1 more problem".to_owned()),
-            more => parts.push(format!("... and {more} more problems")),
+            1 => parts.push(format!("... and 1 more {noun}")),
+            more => parts.push(format!("... and {more} more {noun}s")),
         }
         // The renderer shows ASCII control characters of the source safely, but not these.
         parts.join("\n\n").replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
@@ -94,6 +116,13 @@ impl Report {
     #[must_use]
     pub fn count(&self) -> usize {
         self.problems.len()
+    }
+
+    /// This report and, after it, another.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.problems.extend(other.problems);
+        self
     }
 }
 

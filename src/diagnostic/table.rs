@@ -90,7 +90,8 @@ impl<'a> Table<'a> {
     /// A table that must be given, with the keys that it may hold.
     #[must_use]
     pub fn table(&self, key: &str, keys: &[&'a str]) -> Option<Table<'a>> {
-        self.require(key, &table_of(keys))?.table(keys)
+        let wanted = format!("a table `[{}]` with {}", self.path_of(key), listing(keys, "and"));
+        self.require(key, &wanted)?.table(keys)
     }
 
     /// An array of tables, `[[key]]`, with the keys that each may hold; empty where not given.
@@ -104,12 +105,12 @@ impl<'a> Table<'a> {
         self.document.report(&self.span, message, Some(label.to_owned()), None);
     }
 
-    /// Notes every string under `key` that an earlier table has already.
-    pub fn reject_repeats(tables: &[Self], key: &str, why: &str) {
+    /// Notes every string under `key` that is the `same` as an earlier table's.
+    pub fn reject_repeats(tables: &[Self], key: &str, same: impl Fn(&str, &str) -> bool, why: &str) {
         let values: Vec<_> = tables.iter().filter_map(|table| table.get(key)).collect();
         for (index, value) in values.iter().enumerate() {
-            let same = |other: &&Value<'_>| value.as_str().is_some() && other.as_str() == value.as_str();
-            if let Some(first) = values.iter().take(index).find(same) {
+            let repeated = |other: &&Value<'_>| value.as_str().zip(other.as_str()).is_some_and(|(a, b)| same(a, b));
+            if let Some(first) = values.iter().take(index).find(repeated) {
                 value.reject(&format!("the same as `{}`, but {why}", first.path()));
             }
         }
@@ -148,6 +149,9 @@ impl<'a> Table<'a> {
             };
             let help = format!("keys of {}: {}", place(&self.path), listing(&self.keys, "and"));
             self.document.report(&key.span(), message, label, Some(help));
+            if value.is_list_of_tables() {
+                self.document.remember_stray(name);
+            }
         }
     }
 

@@ -73,11 +73,15 @@ impl<'a> Value<'a> {
     pub(super) fn shown(&self) -> String {
         match (self.tree, self.document.text(&self.span)) {
             (DeValue::Table(_), text) if !text.starts_with('{') => "a table".to_owned(),
-            (DeValue::Array(items), _) if items.first().is_some_and(|item| item.span() == self.span) => {
-                "a list of tables".to_owned()
-            }
+            (DeValue::Array(_), _) if self.is_list_of_tables() => "a list of tables".to_owned(),
             (_, text) => excerpt(text),
         }
+    }
+
+    /// Whether the value is written `[[key]]`.
+    pub(super) fn is_list_of_tables(&self) -> bool {
+        let DeValue::Array(items) = self.tree else { return false };
+        items.first().is_some_and(|item| item.span() == self.span)
     }
 
     /// A number, integer or not, that makes sense as this quantity.
@@ -158,10 +162,15 @@ impl<'a> Value<'a> {
     #[must_use]
     pub fn tables(&self, keys: &[&'a str]) -> Option<Vec<Table<'a>>> {
         if self.tree.is_table() {
-            let header = self.document.text(&self.span).trim_matches(['[', ']']);
+            let header = self.document.text(&self.span);
             let path = &self.path;
             let message = format!("`{path}` is a single table, expected a list of tables");
-            let label = Some(format!("write `[[{header}]]`"));
+            let label = match header.strip_prefix('[') {
+                Some(header) => format!("write `[[{}]]`", header.trim_end_matches(']')),
+                // no header of its own, only ones further in: `[[arm.link]]`
+                None => format!("write `[[{path}]]` further up"),
+            };
+            let label = Some(label);
             self.document.report(&self.span, message, label, None);
             return None;
         }

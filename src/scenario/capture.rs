@@ -4,6 +4,7 @@
 use super::{FILE_NAME, POSITION, TWIST, duration_and_step, file_name};
 use crate::diagnostic::{Quantity, Table, Value, every};
 use crate::layout::Layout;
+use std::collections::HashSet;
 
 const MASS: Quantity = Quantity::positive("a mass", "kg");
 const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
@@ -60,11 +61,13 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
     let target_keys = ["name", "arm", "mass", "inertia", "contact", "radius", "twist", "position"];
     let tables = root.tables("target", &target_keys)?;
     let alone = tables.is_empty();
-    Table::reject_repeats(&tables, "name", "target names must differ");
-    Table::reject_repeats(&tables, "arm", "an arm captures at most one target");
+    Table::reject_repeats(&tables, "name", str::eq, "target names must differ");
+    Table::reject_repeats(&tables, "arm", str::eq, "an arm captures at most one target");
     let targets = every(tables.iter().map(|table| Target::from_table(table, layout)));
 
-    let target_names: Vec<_> = tables.iter().filter_map(|table| table.get("name")?.as_str()).collect();
+    // what the cases say of the targets can be looked at only where each of these has a name of its own
+    let target_names = every(tables.iter().map(|table| table.get("name")?.as_str()))
+        .filter(|names| names.iter().collect::<HashSet<_>>().len() == names.len());
     let default_twists: Vec<_> = targets.iter().flatten().map(|target| target.twist).collect();
     let tables = root.tables("case", &["name", "target_twists", "printed_impulses"]);
     let cases = tables.and_then(|tables| {
@@ -72,8 +75,9 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
             let message = "`case[0]` is a table, expected no `[[case]]` without a `[[target]]`";
             table.reject(message.to_owned(), "there is nothing to capture");
         }
-        Table::reject_repeats(&tables, "name", "case names must differ");
-        every(tables.iter().map(|table| Case::from_table(table, &target_names, &default_twists)))
+        let why = "case names must differ by more than upper and lower case: they are the names of files";
+        Table::reject_repeats(&tables, "name", str::eq_ignore_ascii_case, why);
+        every(tables.iter().map(|table| Case::from_table(table, target_names.as_deref(), &default_twists)))
     });
 
     let post_impact = if alone {
@@ -138,8 +142,9 @@ fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
 }
 
 impl Case {
-    fn from_table<'a>(table: &Table<'a>, targets: &[&'a str], default_twists: &[[f64; 3]]) -> Option<Self> {
+    fn from_table<'a>(table: &Table<'a>, targets: Option<&[&'a str]>, default_twists: &[[f64; 3]]) -> Option<Self> {
         let name = table.require("name", FILE_NAME).and_then(|value| file_name(&value));
+        let targets = targets?;
         let target_twists = match table.get("target_twists") {
             Some(value) => value.table(targets).and_then(|twists| {
                 let defaults = default_twists.iter().copied().chain(std::iter::repeat([0.0; 3]));

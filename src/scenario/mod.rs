@@ -12,6 +12,7 @@ pub use capture::{Case, PostImpact, Target};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
+use crate::state::State;
 use joints::Joints;
 
 /// The time step where a scenario gives none, in s.
@@ -52,6 +53,15 @@ pub struct Scenario {
     pub post_impact: Option<PostImpact>,
 }
 
+/// What a layout was read from.
+#[derive(Debug)]
+pub(crate) struct LayoutSource {
+    /// TOML.
+    pub(crate) text: String,
+    /// As shown to the user.
+    pub(crate) file: String,
+}
+
 /// A state of the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Initial {
@@ -85,10 +95,21 @@ impl Scenario {
     /// # Errors
     /// All that is wrong with the content and with the layout file.
     pub fn parse(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        Self::parse_with_source(text, file, folder, shipped).map(|(scenario, _)| scenario)
+    }
+
+    /// As [`parse`](Self::parse), with the text that the layout was read from.
+    pub(crate) fn parse_with_source(
+        text: &str,
+        file: &str,
+        folder: &Path,
+        shipped: &[(&str, &str)],
+    ) -> Result<(Self, LayoutSource), Report> {
         const KEYS: [&str; 7] = ["name", "layout", "initial", "approach", "target", "case", "post_impact"];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
-            let layout = root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped));
+            let (layout, source) =
+                root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped)).unzip();
             let joints = Joints { layout: layout.as_ref() };
 
             let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
@@ -101,7 +122,7 @@ impl Scenario {
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
 
             let (targets, cases, post_impact) = capture?;
-            Some(Self {
+            let scenario = Self {
                 name: name?,
                 layout: layout?,
                 initial: initial?,
@@ -109,12 +130,24 @@ impl Scenario {
                 targets,
                 cases,
                 post_impact,
-            })
+            };
+            Some((scenario, source?))
         })
     }
 }
 
 impl Initial {
+    /// The same, borrowed.
+    #[must_use]
+    pub fn state(&self) -> State<'_, f64> {
+        State {
+            base_pose: self.base_pose,
+            joint_angles: &self.joint_angles,
+            base_twist: self.base_twist,
+            joint_rates: &self.joint_rates,
+        }
+    }
+
     fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
         let joint_angles =
             table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
@@ -172,18 +205,20 @@ fn file_name(value: &Value<'_>) -> Option<String> {
     Some(name.to_owned())
 }
 
-/// The layout that a scenario names.
-fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<Layout> {
+/// The layout that a scenario names, and the text that it was read from.
+fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, LayoutSource)> {
     let name = value.text(LAYOUT)?;
-    let layout = if Layout::is_path(name) {
+    let source = if Layout::is_path(name) {
         // Collected from its components, a path loses its `./`.
-        Layout::read(&folder.join(name).components().collect::<PathBuf>())
+        let path: PathBuf = folder.join(name).components().collect();
+        read_text(&path).map(|text| LayoutSource { text, file: path.display().to_string() })
     } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
-        Layout::parse(text, &format!("{name}.toml (shipped)"))
+        Ok(LayoutSource { text: (*text).to_owned(), file: format!("{name}.toml (shipped)") })
     } else {
         let names: Vec<_> = shipped.iter().map(|(name, _)| *name).collect();
         value.expected_one_of(&names, Some("or a path, which ends in `.toml` or contains a `/`"));
         return None;
     };
+    let layout = source.and_then(|source| Ok((Layout::parse(&source.text, &source.file)?, source)));
     layout.map_err(|report| value.adopt(report)).ok()
 }

@@ -1,0 +1,39 @@
+//! `planar-capture check FILE.toml`.
+
+use super::{Problem, color, layout};
+use planar_capture::inspection::inspect;
+use planar_capture::models::SHIPPED;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Says what a layout or a scenario is, what is odd about it and what is wrong.
+///
+/// What it is goes to the standard output, what is odd or wrong to the standard error. Exit code 0, or 2 where
+/// something is wrong.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The file, a layout or a scenario; or the name of a shipped layout.
+    #[arg(value_name = "FILE")]
+    file: String,
+}
+
+/// Reads, looks, prints.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    let (text, file) = layout::source(&arguments.file)?;
+    let folder = Path::new(&arguments.file).parent().unwrap_or(Path::new(""));
+    let inspection = inspect(&text, &file, folder, SHIPPED)?;
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "{}", inspection.description)?;
+    let warnings = inspection.warnings;
+    match warnings.count() {
+        0 => writeln!(out, "nothing odd")?,
+        count => {
+            // so that on a terminal they stand below what they speak of
+            out.flush()?;
+            let noun = if count == 1 { "warning" } else { "warnings" };
+            eprintln!("{}\n\n{count} {noun}", warnings.render(color()));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}

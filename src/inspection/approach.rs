@@ -1,0 +1,142 @@
+//! Approaches that turn the arms too far, too fast or not at all.
+
+use super::number::short;
+use crate::diagnostic::Oddity;
+use crate::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use std::f64::consts::TAU;
+
+/// Joints of space robots turn by degrees a second, not by more than a turn, in rad/s.
+const FASTEST: f64 = TAU;
+
+/// What is odd about the angles, rates and times of an approach.
+pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
+    let fixed = [motionless(scenario), hasty(scenario), slack(scenario)];
+    angles(scenario).into_iter().chain(end_rates(scenario)).chain(fixed.into_iter().flatten()).collect()
+}
+
+/// The joint that turns furthest, and by how much, in rad.
+pub(super) fn largest_turn(scenario: &Scenario) -> (usize, f64) {
+    let pairs = scenario.initial.joint_angles.iter().zip(&scenario.approach.final_joint_angles);
+    let turns = pairs.map(|(from, to)| (to - from).abs()).enumerate();
+    turns.max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or_default()
+}
+
+/// The highest rate on the way that the angles alone ask for, in rad/s.
+pub(super) fn peak_rate(scenario: &Scenario) -> f64 {
+    // of the trajectory's shape, in units of its mean: 30 τ² (1 − τ)² and 1 − cos 2πτ at τ = ½
+    let shape = match scenario.approach.trajectory {
+        TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted => 1.875,
+        TrajectoryKind::Cycloidal => 2.0,
+    };
+    shape * largest_turn(scenario).1 / scenario.approach.duration
+}
+
+/// `joint 2 of arm1`, by the index over all arms.
+pub(super) fn joint_name(scenario: &Scenario, index: usize) -> String {
+    let mut left = index;
+    for arm in &scenario.layout.arms {
+        if left < arm.links.len() {
+            return format!("joint {} of {}", left + 1, arm.name);
+        }
+        left -= arm.links.len();
+    }
+    format!("joint {}", index + 1)
+}
+
+fn angles(scenario: &Scenario) -> Vec<Oddity> {
+    let (initial, end) = (&scenario.initial.joint_angles, &scenario.approach.final_joint_angles);
+    let beyond = |key: &'static str, angles: &[f64]| {
+        let beyond: Vec<_> = angles.iter().enumerate().filter(|(_, angle)| angle.abs() > TAU).collect();
+        let odd = |(index, angle): &(usize, &f64)| Oddity {
+            key: format!("{key}[{index}]"),
+            why: format!("more than a whole turn of {}", joint_name(scenario, *index)),
+            help: format!("angles are in rad; {} is the same pose", short(*angle % TAU)),
+        };
+        beyond.iter().map(odd).collect::<Vec<_>>()
+    };
+    let turns = initial.iter().zip(end).enumerate().filter(|(_, (from, to))| (*to - *from).abs() > TAU);
+    let turns =
+        turns.filter(|(_, (from, to))| from.abs() <= TAU && to.abs() <= TAU).map(|(index, (from, to))| Oddity {
+            key: format!("approach.final_joint_angles[{index}]"),
+            why: format!(
+                "{} turns by {} rad from its initial angle {}, more than once round",
+                joint_name(scenario, index),
+                short(to - from),
+                short(*from)
+            ),
+            help: format!("{} is the same pose, and nearer", short(from + (to - from) % TAU)),
+        });
+    let beyond = [beyond("initial.joint_angles", initial), beyond("approach.final_joint_angles", end)];
+    beyond.into_iter().flatten().chain(turns).collect()
+}
+
+fn motionless(scenario: &Scenario) -> Option<Oddity> {
+    let approach = &scenario.approach;
+    let rest = match &approach.end {
+        EndRates::Rest => true,
+        EndRates::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
+        EndRates::EndEffectorTwists(twists) => twists.as_flattened().iter().all(|part| *part == 0.0),
+    };
+    (rest && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Oddity {
+        key: "approach.final_joint_angles".to_owned(),
+        why: "the arms are there already, and are to be at rest".to_owned(),
+        help: "an approach moves the arms from initial.joint_angles to other angles, or to end rates".to_owned(),
+    })
+}
+
+fn hasty(scenario: &Scenario) -> Option<Oddity> {
+    let peak = peak_rate(scenario);
+    let (joint, turn) = largest_turn(scenario);
+    (peak > FASTEST).then(|| Oddity {
+        key: "approach.duration".to_owned(),
+        why: format!(
+            "{} turns by {} rad in that time, at up to {} rad/s: more than a turn a second",
+            joint_name(scenario, joint),
+            short(turn),
+            short(peak)
+        ),
+        help: format!(
+            "durations are in s; {} s or more is slower than that",
+            short(scenario.approach.duration * peak / FASTEST)
+        ),
+    })
+}
+
+fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
+    let fast = |key: String, why: String, help: &str| Oddity { key, why, help: help.to_owned() };
+    match &scenario.approach.end {
+        EndRates::Rest => Vec::new(),
+        EndRates::JointRates(rates) => {
+            let odd = rates.iter().enumerate().filter(|(_, rate)| rate.abs() > FASTEST);
+            odd.map(|(index, rate)| {
+                let why = format!("{} is to turn more than once a second", joint_name(scenario, index));
+                fast(
+                    format!("approach.final_joint_rates[{index}]"),
+                    why,
+                    &format!("joint rates are in rad/s; {}°/s are {} rad/s", short(*rate), short(rate.to_radians())),
+                )
+            })
+            .collect()
+        }
+        EndRates::EndEffectorTwists(twists) => {
+            let odd = twists.iter().zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
+                omega.abs() > FASTEST || vx.hypot(*vy) > FASTEST * arm.reach_from_base()
+            });
+            odd.map(|(index, (_, arm))| {
+                let why = format!("faster than {}, stretched, turning once a second", arm.name);
+                let help = "a twist is [ω, vx, vy] in rad/s, m/s, m/s";
+                fast(format!("approach.final_end_effector_twists[{index}]"), why, help)
+            })
+            .collect()
+        }
+    }
+}
+
+fn slack(scenario: &Scenario) -> Option<Oddity> {
+    let Tracking::ProportionalDerivative { proportional_gain, .. } = &scenario.approach.tracking else { return None };
+    proportional_gain.iter().all(|gain| *gain == 0.0).then(|| Oddity {
+        key: "approach.proportional_gain".to_owned(),
+        why: "nothing pulls the arms to their trajectory".to_owned(),
+        help: "a gain is in N m/rad, 49 by default; `tracking = \"exact\"` follows without gains".to_owned(),
+    })
+}

@@ -1,0 +1,156 @@
+//! A scenario in words and numbers.
+
+use super::approach::{joint_name, largest_turn, peak_rate};
+use super::number::{count, list, point, short};
+use super::pose::{FinalPose, fastest_mode, final_pose};
+use super::robot::{code, digest, freedom};
+use super::targets::distance_and_most;
+use crate::models;
+use crate::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use crate::simulate::Timing;
+use std::fmt::{self, Write};
+
+/// What the study is, line by line.
+pub(super) fn description(scenario: &Scenario) -> String {
+    let mut text = String::new();
+    // writing to a String does not fail
+    let _ = write(&mut text, scenario);
+    text
+}
+
+fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
+    let (layout, approach) = (&scenario.layout, &scenario.approach);
+    writeln!(out, "{}: a scenario\n", scenario.name)?;
+    let [mass, digest, freedom] = [short(layout.mass()), digest(layout), freedom(layout)];
+    writeln!(out, "  robot               {}, {mass} kg, sha256 {digest}", layout.name)?;
+    writeln!(out, "  degrees of freedom  {freedom}")?;
+    writeln!(out, "  generated code      {}", code(layout))?;
+    writeln!(out, "  start               {}", start(scenario))?;
+    writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
+    writeln!(out, "  trajectory          {}", trajectory(scenario))?;
+    writeln!(out, "  largest turn        {}", turn(scenario))?;
+    writeln!(out, "  tracking            {}", tracking(scenario))?;
+    if let Some(FinalPose { arms, margin }) = final_pose(scenario) {
+        let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
+        let margin = short(margin);
+        writeln!(
+            out,
+            "  final pose          generalized Jacobian of {}: smallest/largest singular value {margin}",
+            names.join(", ")
+        )?;
+    }
+    if let Some(after) = &scenario.post_impact {
+        let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
+        let mass = short(layout.mass() + captured);
+        writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
+        targets(out, scenario)?;
+        cases(out, scenario)?;
+    }
+    Ok(())
+}
+
+fn steps(duration: f64, step: f64) -> String {
+    let steps = Timing { duration, step, sample: step }.steps();
+    format!("{} s in {steps} steps of {} s", short(duration), short(step))
+}
+
+fn start(scenario: &Scenario) -> String {
+    let initial = &scenario.initial;
+    let [yaw, x, y] = initial.base_pose;
+    let place = format!("base at {} m, yaw {} rad", point([x, y]), short(yaw));
+    let still = initial.base_twist.iter().chain(&initial.joint_rates).all(|rate| *rate == 0.0);
+    match models::generic(&scenario.layout).momentum(&initial.state()) {
+        Ok(momentum) if !still => {
+            let [px, py] = momentum.linear_momentum;
+            let energy = short(momentum.kinetic_energy);
+            let momentum = list(&[momentum.angular_momentum, px, py]);
+            format!("{place}; momentum [l, px, py] {momentum} N m s, N s; {energy} J")
+        }
+        Ok(_) | Err(_) => format!("at rest, {place}"),
+    }
+}
+
+fn trajectory(scenario: &Scenario) -> String {
+    let shape = match scenario.approach.trajectory {
+        TrajectoryKind::Quartic => "quartic",
+        TrajectoryKind::QuarticAsPrinted => "quartic as printed",
+        TrajectoryKind::Cycloidal => "cycloidal",
+    };
+    let end = match &scenario.approach.end {
+        EndRates::Rest => "rest".to_owned(),
+        EndRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
+        EndRates::EndEffectorTwists(twists) => {
+            let twists: Vec<_> = twists.iter().map(|twist| list(twist)).collect();
+            format!("tip twists {} rad/s, m/s", twists.join(", "))
+        }
+    };
+    format!("{shape}, to {end}")
+}
+
+fn turn(scenario: &Scenario) -> String {
+    let (joint, turn) = largest_turn(scenario);
+    format!("{}, {} rad at up to {} rad/s", joint_name(scenario, joint), short(turn), short(peak_rate(scenario)))
+}
+
+fn tracking(scenario: &Scenario) -> String {
+    match &scenario.approach.tracking {
+        Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
+        Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
+            let law = format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain));
+            match fastest_mode(scenario) {
+                Some(rate) => {
+                    format!(
+                        "{law}; fastest mode {} 1/s, {} in a step",
+                        short(rate),
+                        short(rate * scenario.approach.step)
+                    )
+                }
+                None => law,
+            }
+        }
+    }
+}
+
+/// One number where all are the same.
+#[allow(clippy::float_cmp, reason = "gains are written down, not computed")]
+fn gains(values: &[f64]) -> String {
+    match values {
+        [first, rest @ ..] if rest.iter().all(|value| value == first) => short(*first),
+        values => list(values),
+    }
+}
+
+fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
+    let row = |cells: [&str; 7]| {
+        let [name, arm, mass, inertia, contact, position, reach] = cells;
+        let row = format!("  {name:<12} {arm:<10} {mass:>9} {inertia:>16}  {contact:<14} {position:<14} {reach}");
+        format!("{}\n", row.trim_end())
+    };
+    let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
+    write!(out, "\n{}", row(head))?;
+    for target in &scenario.targets {
+        let arm = scenario.layout.arms.get(target.arm).map_or("", |arm| arm.name.as_str());
+        let reach = distance_and_most(scenario, target);
+        let reach = reach.map(|(distance, most)| format!("{} of at most {}", short(distance), short(most)));
+        out.write_str(&row([
+            &target.name,
+            arm,
+            &short(target.mass),
+            &short(target.inertia),
+            &point(target.contact),
+            &target.position.map(point).unwrap_or_default(),
+            &reach.unwrap_or_default(),
+        ]))?;
+    }
+    Ok(())
+}
+
+fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
+    writeln!(out, "\n  {}, target twists [ω, vx, vy] in rad/s, m/s", count(scenario.cases.len(), "case"))?;
+    for case in &scenario.cases {
+        let pairs = scenario.targets.iter().zip(&case.target_twists);
+        let twists: Vec<_> = pairs.map(|(target, twist)| format!("{} {}", target.name, list(twist))).collect();
+        writeln!(out, "  {:<12} {}", case.name, twists.join(", "))?;
+    }
+    Ok(())
+}
