@@ -18,6 +18,9 @@ impl<'a> Known<'a> {
     }
 }
 
+/// Statements of a block.
+const BLOCK: usize = 500;
+
 /// How a name is reached in one function body.
 pub struct Scope<'a> {
     pub known: &'a Known<'a>,
@@ -48,9 +51,38 @@ impl Scope<'_> {
         })
     }
 
+    /// One `let` per statement, in blocks of [`BLOCK`] where there are more. `used` are the names that anybody uses,
+    /// `results` those that are used after the statements.
+    ///
+    /// Each `let` opens a scope inside the one before it; a compiler that follows thousands of them runs out of stack.
+    /// The scopes of a block end with it, and only what is used later leaves it.
+    pub fn blocks(
+        &self,
+        lines: &Value,
+        used: &BTreeSet<String>,
+        results: &BTreeSet<String>,
+    ) -> Result<Vec<String>, String> {
+        let lines = list(lines)?;
+        if lines.len() <= BLOCK {
+            return self.statements(lines, used);
+        }
+        let mut later = results.clone();
+        let mut blocks = Vec::new();
+        // from the last, so that what is used later is known
+        for block in lines.chunks(BLOCK).rev() {
+            let leaving: Vec<&str> = block.iter().flat_map(targets).filter(|name| later.contains(*name)).collect();
+            let leaving = leaving.join(", ");
+            let inside = self.statements(block, used)?.join("\n");
+            blocks.push(format!("let [{leaving}] = {{ {inside} [{leaving}] }};"));
+            collect_uses(block, &mut later)?;
+        }
+        blocks.reverse();
+        Ok(blocks)
+    }
+
     /// One `let` per statement. A sine or cosine that nobody uses is not bound.
-    pub fn statements(&self, lines: &Value, used: &BTreeSet<String>) -> Result<Vec<String>, String> {
-        list(lines)?
+    fn statements(&self, lines: &[Value], used: &BTreeSet<String>) -> Result<Vec<String>, String> {
+        lines
             .iter()
             .map(|line| {
                 let [target, operation, arguments @ ..] = list(line)?.as_slice() else {
@@ -93,8 +125,10 @@ fn expression(operation: &str, arguments: &[String]) -> Result<String, String> {
         ("div", [a, b]) => format!("{a} / {b}"),
         ("neg", [a]) => format!("-{a}"),
         ("copy", [a]) => a.clone(),
-        ("min", [a, b]) => format!("{a}.minimum({b})"),
-        ("atan2", [y, x]) => format!("{y}.atan2({x})"),
+        // not as methods: a lint of clippy's follows the receiver of a method with an argument through all its
+        // assignments, again at every use, which takes hours for long functions
+        ("min", [a, b]) => format!("T::minimum({a}, {b})"),
+        ("atan2", [y, x]) => format!("T::atan2({y}, {x})"),
         ("sqrt", [a]) => format!("{a}.sqrt()"),
         ("sin_cos", [a]) => format!("{a}.sin_cos()"),
         _ => return Err(format!("operation `{operation}` with {} arguments is unknown", arguments.len())),
@@ -110,9 +144,17 @@ pub fn prelude(lines: &[String], path: &str) -> Vec<String> {
         .collect()
 }
 
+/// Names that a statement gives values to.
+fn targets(line: &Value) -> Vec<&str> {
+    match &line[0] {
+        Value::Array(pair) => pair.iter().filter_map(Value::as_str).collect(),
+        single => single.as_str().into_iter().collect(),
+    }
+}
+
 /// Adds the names that statements use.
-pub fn collect_uses(lines: &Value, used: &mut BTreeSet<String>) -> Result<(), String> {
-    for line in list(lines)? {
+pub fn collect_uses(lines: &[Value], used: &mut BTreeSet<String>) -> Result<(), String> {
+    for line in lines {
         used.extend(list(line)?.iter().skip(2).filter_map(|a| a.as_str().map(str::to_owned)));
     }
     Ok(())

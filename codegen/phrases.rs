@@ -18,7 +18,7 @@ pub fn function(function: &Value) -> Result<String, String> {
     }
     lines.push(format!(
         "Source: {}. Operations: {}.",
-        escaped(text(&function["source"])?),
+        text(&function["source"])?,
         operations(&function["operations"])?
     ));
     lines.push(String::new());
@@ -32,9 +32,10 @@ pub fn item(item: &Value) -> Result<String, String> {
     Ok(format!("{} ({shape}; {})", escaped(text(&item["description"])?), text(&item["unit"])?))
 }
 
-/// Text in which rustdoc sees no links.
+/// Text in which rustdoc sees no links, tags or code.
 pub fn escaped(text: &str) -> String {
-    text.replace('[', "\\[").replace(']', "\\]")
+    let mark = |c: char| if "[]<>`*".contains(c) { vec!['\\', c] } else { vec![c] };
+    text.chars().flat_map(mark).collect()
 }
 
 /// Operation counts as a phrase: `329 flops (168 mul, 66 add, 87 sub, 8 div), 7 sin/cos pairs`.

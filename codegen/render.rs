@@ -129,7 +129,7 @@ fn context(graph: &Value, form: &Form) -> Result<Value, String> {
         "costs": phrases::costs(graph)?,
         "parameters": list(&graph["parameters"])?.iter().map(parameter).collect::<Result<Vec<_>, _>>()?,
         "constants": {
-            "statements": set_up.statements(&graph["constants"]["statements"], &constant_uses(graph)?)?,
+            "statements": constants(graph, &set_up)?,
             "values": graph["constants"]["values"],
             "operations": phrases::operations(&graph["constants"]["operations"])?,
         },
@@ -145,9 +145,9 @@ fn render_family(graph: &Value, family: &Value, known: &Known) -> Result<Value, 
     let staged: BTreeSet<String> =
         list(&configuration["values"])?.iter().filter_map(|v| v.as_str().map(str::to_owned)).collect();
     let mut used = staged.clone();
-    collect_uses(&configuration["statements"], &mut used)?;
+    collect_uses(list(&configuration["statements"])?, &mut used)?;
     let scope = Scope { known, staged: BTreeSet::new(), constants: true };
-    let lines = scope.statements(&configuration["statements"], &used)?;
+    let lines = scope.blocks(&configuration["statements"], &used, &staged)?;
     let call = Scope { known, staged, constants: true };
     let rendered = functions.iter().map(|f| render_function(graph, f, &call)).collect::<Result<Vec<_>, _>>()?;
     let needs_model = rendered.iter().any(|f| f["prelude"].as_array().is_some_and(|p| !p.is_empty()));
@@ -169,12 +169,13 @@ fn render_family(graph: &Value, family: &Value, known: &Known) -> Result<Value, 
 fn render_function(graph: &Value, function: &Value, scope: &Scope) -> Result<Value, String> {
     let name = text(&function["name"])?;
     let outputs = list(&function["outputs"])?;
-    let mut used = BTreeSet::new();
-    collect_uses(&function["statements"], &mut used)?;
+    let mut results = BTreeSet::new();
     for output in outputs {
-        used.extend(list(&output["elements"])?.iter().filter_map(|e| e.as_str().map(str::to_owned)));
+        results.extend(list(&output["elements"])?.iter().filter_map(|e| e.as_str().map(str::to_owned)));
     }
-    let mut lines = scope.statements(&function["statements"], &used)?;
+    let mut used = results.clone();
+    collect_uses(list(&function["statements"])?, &mut used)?;
+    let mut lines = scope.blocks(&function["statements"], &used, &results)?;
     let values = outputs.iter().map(|o| scope.array(o)).collect::<Result<Vec<_>, _>>()?;
     let single = outputs.len() == 1;
     let result = if single {
@@ -267,9 +268,10 @@ fn parameter(p: &Value) -> Result<Value, String> {
     }))
 }
 
-/// Names that any stage uses of the constants' stage.
-fn constant_uses(graph: &Value) -> Result<BTreeSet<String>, String> {
-    let mut used: BTreeSet<String> = names(&graph["constants"]["values"])?.map(str::to_owned).collect();
-    collect_uses(&graph["constants"]["statements"], &mut used)?;
-    Ok(used)
+/// The statements of the constants' stage.
+fn constants(graph: &Value, scope: &Scope) -> Result<Vec<String>, String> {
+    let values: BTreeSet<String> = names(&graph["constants"]["values"])?.map(str::to_owned).collect();
+    let mut used = values.clone();
+    collect_uses(list(&graph["constants"]["statements"])?, &mut used)?;
+    scope.blocks(&graph["constants"]["statements"], &used, &values)
 }
