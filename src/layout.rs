@@ -71,7 +71,7 @@ impl Layout {
     /// # Errors
     /// All that is wrong with the file or its content.
     pub fn read(path: &Path) -> Result<Self, Report> {
-        Self::parse(&read_text(path)?, &path.display().to_string())
+        Self::parse(&read_text(path, "TOML")?, &path.display().to_string())
     }
 
     /// Reads a layout from TOML text; `file` is the name that problems are reported under.
@@ -98,6 +98,12 @@ impl Layout {
     #[must_use]
     pub fn is_path(reference: &str) -> bool {
         reference.contains('/') || Path::new(reference).extension().is_some_and(|extension| extension == "toml")
+    }
+
+    /// Whether this can be the name of a layout: of a Rust module and of a file.
+    #[must_use]
+    pub fn is_name(name: &str) -> bool {
+        has_letters_of_a_module(name) && !is_keyword(name)
     }
 
     /// The number of joints of all arms together.
@@ -221,18 +227,26 @@ const MODULE_NAME: &str = "a name for a Rust module (lower-case letters, digits 
 /// A name that can be a Rust module and a file.
 fn module_name(value: &Value<'_>) -> Option<String> {
     let name = value.text(MODULE_NAME)?;
-    let letters = name.starts_with(|c: char| c.is_ascii_lowercase())
-        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
-    if !letters || name.len() > 64 {
+    if !has_letters_of_a_module(name) {
         let plain: String =
             name.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
         let help = plain.starts_with(|c: char| c.is_ascii_lowercase()) && plain.len() <= 64;
         value.expected(&format!("{MODULE_NAME}, at most 64 of them"), help.then(|| format!("`{plain}` would do")));
         return None;
     }
-    if KEYWORDS.split_whitespace().any(|keyword| keyword == name) {
+    if is_keyword(name) {
         value.expected(MODULE_NAME, Some(format!("`{name}` is a Rust keyword; `{name}_robot` would do")));
         return None;
     }
     Some(name.to_owned())
+}
+
+fn has_letters_of_a_module(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
+        && name.len() <= 64
+}
+
+fn is_keyword(name: &str) -> bool {
+    KEYWORDS.split_whitespace().any(|keyword| keyword == name)
 }

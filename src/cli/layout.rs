@@ -16,7 +16,7 @@ pub fn read(argument: &str) -> Result<Layout, Problem> {
 /// path, anything else the name of a shipped layout.
 pub fn source(argument: &str) -> Result<(String, String), Problem> {
     if Layout::is_path(argument) || argument.contains(std::path::MAIN_SEPARATOR) {
-        return Ok((read_text(Path::new(argument))?, argument.to_owned()));
+        return Ok((read_text(Path::new(argument), "TOML")?, argument.to_owned()));
     }
     match SHIPPED.iter().find(|(name, _)| *name == argument) {
         Some((name, text)) => Ok(((*text).to_owned(), format!("{name}.toml (shipped)"))),

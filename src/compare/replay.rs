@@ -19,7 +19,10 @@ pub fn layout_text(layout: &Layout) -> String {
     ];
     for arm in &layout.arms {
         lines.push("\n[[arm]]\n".to_owned());
-        lines.extend([text("name", &arm.name), pair("mount", arm.mount), number("mount_angle", arm.mount_angle)]);
+        lines.extend([text("name", &arm.name), pair("mount", arm.mount)]);
+        if arm.mount_angle != 0.0 {
+            lines.push(number("mount_angle", arm.mount_angle));
+        }
         for link in &arm.links {
             lines.push("[[arm.link]]\n".to_owned());
             lines.extend([number("length", link.length), number("mass", link.mass)]);

@@ -9,17 +9,17 @@ use super::{Problem, Report, nearest, printable};
 /// No layout or scenario comes near this size, in bytes; a device or a data file may.
 const LARGEST: u64 = 16 << 20;
 
-/// Reads a UTF-8 text file of at most 16 MiB.
+/// Reads a UTF-8 text file of at most 16 MiB; `kind` is what it should be, "TOML", and in lower case its extension.
 ///
 /// # Errors
 /// A report of what is wrong with the path: no such file (with the nearest name beside it), a
 /// directory, unreadable, too large, or not UTF-8 (with the line and column of the first bad byte).
-pub fn read_text(path: &Path) -> Result<String, Report> {
-    let bytes = read_bytes(path).map_err(|error| unreadable(path, &error))?;
+pub fn read_text(path: &Path, kind: &str) -> Result<String, Report> {
+    let bytes = read_bytes(path).map_err(|error| unreadable(path, kind, &error))?;
     let name = shown(path);
     if bytes.len() as u64 > LARGEST {
         let message = format!("`{name}` is larger than 16 MiB");
-        return Err(Problem::with_file(message, "expected a small TOML file".to_owned()).into());
+        return Err(Problem::with_file(message, format!("expected a small {kind} file")).into());
     }
     String::from_utf8(bytes).map_err(|error| {
         let good = error.utf8_error().valid_up_to();
@@ -38,15 +38,15 @@ fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> Report {
+fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Report {
     let name = shown(path);
     match error.kind() {
         ErrorKind::NotFound => Problem::with_file(format!("there is no file `{name}`"), elsewhere(path)),
         ErrorKind::IsADirectory => Problem::with_file(
-            format!("`{name}` is a directory, expected a TOML file"),
+            format!("`{name}` is a directory, expected a {kind} file"),
             names_in(path)
                 .into_iter()
-                .find(|entry| is_toml(entry))
+                .find(|entry| has_extension(entry, kind))
                 .map(|entry| format!("name a file in it, such as `{}`", shown(&path.join(entry)))),
         ),
         _ => Problem::with_file(format!("cannot read `{name}`: {error}"), None),
@@ -74,8 +74,8 @@ fn names_in(folder: &Path) -> Vec<String> {
     names
 }
 
-fn is_toml(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|extension| extension == "toml")
+fn has_extension(name: &str, kind: &str) -> bool {
+    Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case(kind))
 }
 
 /// A path as shown to the user: whole, but without characters that a terminal would act on.

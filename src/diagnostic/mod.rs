@@ -175,6 +175,6 @@ pub(crate) fn excerpt(text: &str) -> String {
 }
 
 /// The text without characters that a terminal would act on instead of showing them.
-fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }

@@ -84,7 +84,7 @@ impl Scenario {
     /// # Errors
     /// All that is wrong with the scenario and with the layout file.
     pub fn read(path: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
-        let text = read_text(path)?;
+        let text = read_text(path, "TOML")?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::parse(&text, &path.display().to_string(), folder, shipped)
     }
@@ -211,7 +211,7 @@ fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(L
     let source = if Layout::is_path(name) {
         // Collected from its components, a path loses its `./`.
         let path: PathBuf = folder.join(name).components().collect();
-        read_text(&path).map(|text| LayoutSource { text, file: path.display().to_string() })
+        read_text(&path, "TOML").map(|text| LayoutSource { text, file: path.display().to_string() })
     } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
         Ok(LayoutSource { text: (*text).to_owned(), file: format!("{name}.toml (shipped)") })
     } else {
