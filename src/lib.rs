@@ -26,7 +26,8 @@
 //! # The core and the rest
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
-//! other crates, `cli` (the default) the command line, `lanes` SIMD lanes as scalars.
+//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `lanes` SIMD lanes as
+//! scalars.
 //!
 //! # Example
 //! ```
@@ -112,3 +113,5 @@ pub mod study;
 pub mod summary;
 #[cfg(feature = "std")]
 pub mod table;
+#[cfg(feature = "urdf")]
+pub mod urdf;

@@ -4,10 +4,13 @@ mod check;
 mod compare;
 mod dynamics;
 mod eval;
+mod export;
 mod generate;
+mod import;
 mod layout;
 mod progress;
 mod run;
+mod text;
 
 use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
@@ -16,6 +19,7 @@ use planar_capture::models::NoModel;
 use planar_capture::output::OutputError;
 use planar_capture::states::StateError;
 use planar_capture::study::StudyError;
+use planar_capture::urdf::UrdfError;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
@@ -35,6 +39,8 @@ enum Command {
     Compare(compare::Arguments),
     Generate(generate::Arguments),
     Check(check::Arguments),
+    Import(import::Arguments),
+    Export(export::Arguments),
 }
 
 /// Why there is no result.
@@ -69,6 +75,9 @@ enum Problem {
     /// What was derived is not code.
     #[error("error: {file}: {source}")]
     Generate { file: String, source: GenerateError },
+    /// A robot that no layout can describe.
+    #[error("error: {file}: {source}")]
+    Urdf { file: String, source: UrdfError },
     /// A computation has no answer.
     #[error("error: {file}: {source}")]
     Study { file: String, source: StudyError },
@@ -104,6 +113,8 @@ pub fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Import(arguments) => import::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
     };
     match result {
         Ok(code) => code,

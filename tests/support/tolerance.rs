@@ -49,6 +49,9 @@ pub const TIME_SERIES: f64 = 1e-11;
 /// A quarter of a second of free motion by Runge–Kutta steps of 0.25 ms, relative: its error is O(step⁴).
 pub const INTEGRATED: f64 = 1e-8;
 
+/// A layout from a URDF against numbers worked out by hand, and a mount angle through sine, cosine and arctangent.
+pub const URDF: f64 = 1e-14;
+
 /// What rounding may do to a quantity that two formulations compute.
 #[derive(Clone, Copy, Debug)]
 pub enum Equivalence {

@@ -1,0 +1,68 @@
+//! Mass, centre of mass and inertia of rigid bodies in space.
+
+use super::UrdfError;
+use super::reader::{finite, isometry};
+use nalgebra::{IsometryMatrix3, Matrix3, Vector3};
+use urdf_rs::Link;
+
+/// A rigid body, seen from some frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Body {
+    pub(super) mass: f64,
+    pub(super) com: Vector3<f64>,
+    /// About the centre of mass.
+    pub(super) inertia: Matrix3<f64>,
+}
+
+impl Body {
+    /// The body of a link in the frame of that link; no `<inertial>` is no mass.
+    pub(super) fn of(link: &Link) -> Result<Self, UrdfError> {
+        let inertial = &link.inertial;
+        let problem = |found: String, wanted: &'static str| UrdfError::link(&link.name, found, wanted);
+        let i = &inertial.inertia;
+        finite("its mass", [inertial.mass.value], problem)?;
+        finite("its centre of mass", *inertial.origin.xyz, problem)?;
+        finite("the rpy of its inertia", *inertial.origin.rpy, problem)?;
+        finite("its inertia [ixx, ixy, ixz, iyy, iyz, izz]", [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz], problem)?;
+        if inertial.mass.value < 0.0 {
+            return Err(problem(format!("its mass is {:?} kg", inertial.mass.value), "expected 0 or more"));
+        }
+        let moments = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
+        let own = Self { mass: inertial.mass.value, com: Vector3::zeros(), inertia: moments };
+        Ok(own.seen_through(&isometry(&inertial.origin)))
+    }
+
+    /// Whether it neither weighs nor resists turning.
+    pub(super) fn is_nothing(&self) -> bool {
+        self.mass == 0.0 && self.inertia == Matrix3::zeros()
+    }
+
+    /// The same body from the frame that `place` maps to.
+    pub(super) fn seen_through(&self, place: &IsometryMatrix3<f64>) -> Self {
+        let turn = place.rotation.matrix();
+        Self {
+            mass: self.mass,
+            com: place.rotation * self.com + place.translation.vector,
+            inertia: turn * self.inertia * turn.transpose(),
+        }
+    }
+
+    /// Both as one rigid body. With nothing, a body keeps its numbers to the bit.
+    pub(super) fn with(&self, other: &Self) -> Self {
+        if other.is_nothing() {
+            return self.clone();
+        }
+        if self.is_nothing() {
+            return other.clone();
+        }
+        let mass = self.mass + other.mass;
+        let com = if mass > 0.0 { (self.com * self.mass + other.com * other.mass) / mass } else { self.com };
+        Self { mass, com, inertia: self.inertia_about(&com) + other.inertia_about(&com) }
+    }
+
+    /// The parallel axes theorem.
+    fn inertia_about(&self, point: &Vector3<f64>) -> Matrix3<f64> {
+        let arm = self.com - point;
+        self.inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * self.mass
+    }
+}

@@ -1,0 +1,43 @@
+//! What a URDF says of its joints that a layout does not hold.
+
+use super::document::Remark;
+use urdf_rs::{Joint, JointType};
+
+/// Remarks on the joints that became joints of the layout; some have no axis in the file.
+pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone, without_axis: &[String]) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let lossy = joints.clone().filter_map(|joint| {
+        let dynamics = joint.dynamics.as_ref().filter(|d| d.damping != 0.0 || d.friction != 0.0)?;
+        Some(format!("`{}` damping {:?} N m s/rad, friction {:?} N m", joint.name, dynamics.damping, dynamics.friction))
+    });
+    let lossy: Vec<String> = lossy.collect();
+    if !lossy.is_empty() {
+        remarks.push(Remark::warning(&format!("joints move without losses; left out: {}", lossy.join("; "))));
+    }
+    let limits: Vec<String> = joints.clone().filter_map(limits).collect();
+    if !limits.is_empty() {
+        remarks.push(Remark::note(&format!("joints move without limits; left out: {}", limits.join("; "))));
+    }
+    let unsaid: Vec<String> =
+        joints.filter(|joint| without_axis.contains(&joint.name)).map(|joint| format!("`{}`", joint.name)).collect();
+    if !unsaid.is_empty() {
+        remarks.push(Remark::note(&format!("no <axis>, so that it is URDF's default, x: {}", unsaid.join(", "))));
+    }
+    remarks
+}
+
+/// The limits of a joint, where there are any.
+fn limits(joint: &Joint) -> Option<String> {
+    let limit = &joint.limit;
+    let mut parts = Vec::new();
+    // a continuous joint has none, whatever stands there
+    if joint.joint_type == JointType::Revolute && (limit.lower.is_finite() || limit.upper.is_finite()) {
+        parts.push(format!("angle [{:?}, {:?}] rad", limit.lower, limit.upper));
+    }
+    for (what, value, unit) in [("rate", limit.velocity, "rad/s"), ("torque", limit.effort, "N m")] {
+        if value.is_finite() && value != 0.0 {
+            parts.push(format!("{what} {value:?} {unit}"));
+        }
+    }
+    (!parts.is_empty()).then(|| format!("`{}` {}", joint.name, parts.join(", ")))
+}
