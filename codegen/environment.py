@@ -1,6 +1,6 @@
 """The locked Python environment: found, or made on first use, under a name that holds its contents' hash.
 
-``python -m codegen.environment [--dev]`` prints the environment's interpreter.
+``python -m codegen.environment [--dev | --reference]`` prints the environment's interpreter.
 """
 
 import argparse
@@ -15,6 +15,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 OLDEST = (3, 11)
+# Other simulators, for the comparisons in tests/.
+REFERENCE = HERE.parent / "tests" / "reference" / "requirements-reference.txt"
 
 
 class EnvironmentProblem(Exception):
@@ -48,26 +50,26 @@ def interpreter(environment: Path) -> Path:
     return environment / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
-def ensure(dev: bool = False) -> Path:
+def ensure(dev: bool = False, reference: bool = False) -> Path:
     """The interpreter of the locked environment, made if it is not there."""
     if sys.version_info < OLDEST:
         raise EnvironmentProblem(
             f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
         )
-    for good_enough in (requirements(dev), requirements(dev=True)):  # the larger one serves both
+    files = [REFERENCE] if reference else requirements(dev)
+    for good_enough in [files] if reference else (files, requirements(dev=True)):  # the larger one serves both
         if not all(file.exists() for file in good_enough):  # the package that a binary carries has the smaller one
             continue
         place = home() / fingerprint(good_enough)
         if interpreter(place).exists():
             return interpreter(place)
-    files = requirements(dev)
     place = home() / fingerprint(files)
     for module in ("venv", "ensurepip"):
         if importlib.util.find_spec(module) is None:
             raise EnvironmentProblem(
                 f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
             )
-    say(f"making a Python environment with {files[-1].name} in {place} (once; some 100 MB)")
+    say(f"making a Python environment with {files[-1].name} in {place} (once; some {700 if reference else 100} MB)")
     place.parent.mkdir(parents=True, exist_ok=True)
     building = Path(tempfile.mkdtemp(prefix="making-", dir=place.parent))
     try:
@@ -100,16 +102,19 @@ def run(command: list[str]) -> None:
     result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sys.stderr, check=False)
     if result.returncode != 0:
         raise EnvironmentProblem(
-            f"`{' '.join(command)}` failed ({result.returncode}): the packages of {HERE / 'requirements.txt'} "
+            f"`{' '.join(command)}` failed ({result.returncode}): the packages that it names "
             "must be within reach of pip (network, proxy or a local index)"
         )
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m codegen.environment", description=__doc__)
-    parser.add_argument("--dev", action="store_true", help="with what tests and lints need")
+    contents = parser.add_mutually_exclusive_group()
+    contents.add_argument("--dev", action="store_true", help="with what tests and lints need")
+    contents.add_argument("--reference", action="store_true", help="with other simulators to compare with, instead")
+    options = parser.parse_args()
     try:
-        print(ensure(parser.parse_args().dev))
+        print(ensure(options.dev, options.reference))
     except EnvironmentProblem as problem:
         say(f"error: {problem}")
         return 2

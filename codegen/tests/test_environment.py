@@ -70,6 +70,6 @@ def test_the_fingerprint_follows_pins_and_python(tmp_path, monkeypatch):
 
 
 def test_every_pin_is_exact():
-    for path in environment.requirements(dev=True):
+    for path in [*environment.requirements(dev=True), environment.REFERENCE]:
         lines = [line.split("#")[0].strip() for line in path.read_text().splitlines()]
         assert all("==" in line for line in lines if line and not line.startswith("-r "))
