@@ -6,10 +6,10 @@
 //!
 //! ```toml
 //! [dependencies]
-//! planar-capture = { version = "0.1", default-features = false }
+//! planar-capture = { path = "…", default-features = false }
 //!
 //! [build-dependencies]
-//! planar-capture = { version = "0.1", default-features = false, features = ["build"] }
+//! planar-capture = { path = "…", default-features = false, features = ["build"] }
 //! ```
 //!
 //! Its `build.rs` is one call, and [`include_layout!`](crate::include_layout) brings in a module:

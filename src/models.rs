@@ -126,7 +126,8 @@ pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
 /// The way to generated code of a layout.
 fn mend(layout: &Layout) -> String {
     let name = &layout.name;
-    let generic = "`--dynamics generic` computes any layout as it is";
+    let generic = "`run` and `eval` compute any layout as it is with `--dynamics generic`, and `generate` writes code of \
+                   it for a crate of your own";
     let shipped = SHIPPED.iter().find(|(shipped, _)| shipped == name);
     let is_shipped = |text: &str| Layout::parse(text, name).is_ok_and(|shipped| shipped.sha256() == layout.sha256());
     match shipped {
@@ -134,11 +135,11 @@ fn mend(layout: &Layout) -> String {
             format!("It is shipped, but left out of this build: build again with `--features {name}`; {generic}")
         }
         Some(_) => format!(
-            "`{name}` is the name of a shipped layout: give yours a name of its own, put it into \
-             codegen/layouts/NAME.toml, run `python -m codegen NAME` and build again with `--features NAME`; {generic}"
+            "`{name}` is the name of a shipped layout: to add yours, give it a name of its own, put it into \
+             codegen/layouts/NAME.toml, run `python3 -m codegen NAME` and build again with `--features NAME`; {generic}"
         ),
         None => format!(
-            "To add it, put the layout into codegen/layouts/{name}.toml, run `python -m codegen {name}` and build \
+            "To add it, put the layout into codegen/layouts/{name}.toml, run `python3 -m codegen {name}` and build \
              again with `--features {name}`; {generic}"
         ),
     }

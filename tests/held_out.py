@@ -20,9 +20,9 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from tests.reference.pinocchio_states import MEDIUM, Pinocchio, impacts, random_state, reduced
 
 from codegen.layout import read
+from tests.reference.pinocchio_states import MEDIUM, Pinocchio, impacts, random_state, reduced
 
 ROOT = Path(__file__).resolve().parent.parent
 BOUND = 1e-10  # of the largest entry of each result
@@ -92,9 +92,7 @@ def expected(pinocchio, state):
         for key in ("base_acceleration", "joint_accelerations"):
             results[f"{function}.{key}"] = known[key]
     velocity = np.concatenate(motion[2:])
-    results |= {
-        key: known[key] for key in ("mass_matrix", "bias", "end_effector_poses", "end_effector_jacobian")
-    }
+    results |= {key: known[key] for key in ("mass_matrix", "bias", "end_effector_poses", "end_effector_jacobian")}
     results["end_effector_twists"] = (known["end_effector_jacobian"] @ velocity).reshape(-1, 3)
     results |= bodies(pinocchio, *motion)
     for key in ("linear_momentum", "angular_momentum", "kinetic_energy"):
@@ -201,7 +199,10 @@ def run(command, folder, **options):
 
 def install(folder):
     """The command, installed as a user does."""
-    run(["cargo", "install", "--debug", "--locked", "--path", ROOT, "--root", folder, "--target-dir", ROOT / "target"], ROOT)
+    run(
+        ["cargo", "install", "--debug", "--locked", "--path", ROOT, "--root", folder, "--target-dir", ROOT / "target"],
+        ROOT,
+    )
     return folder / "bin" / ("planar-capture.exe" if os.name == "nt" else "planar-capture")
 
 
