@@ -262,7 +262,7 @@ fn a_structure_without_code_says_how_to_get_it() {
     fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"raised.toml\"")).expect("written");
     let (code, _, err) = run_file(&path, &folder.path().join("results"));
     assert_eq!(code, 2);
-    assert!(err.contains("scenario.toml: no generated code") && err.contains("python -m codegen raised"), "{err}");
+    assert!(err.contains("scenario.toml: no generated code") && err.contains("python3 -m codegen raised"), "{err}");
     assert!(err.contains("`arm[0].mount[1]` is 0.25") && err.contains("Nearest is `dual_arm_3r`"), "{err}");
     // under a shipped layout's name it is not to take that layout's place
     let shipped =
