@@ -230,7 +230,7 @@ def check(seed, binary, folder):
     ]
     pinocchio = Pinocchio(layout)
     right = [expected(pinocchio, state) for state in states]
-    library = ["//! Generated.", *(f"pub mod {module};" for module in modules), ""]
+    library = ["//! Generated.", "#![cfg_attr(not(test), no_std)]", *(f"pub mod {module};" for module in modules), ""]
     (crate / "src" / "lib.rs").write_text("\n".join(library), encoding="utf-8")
     (crate / "examples" / "print.rs").write_text(program(modules, states, right[0]), encoding="utf-8")
     target = ["--target-dir", ROOT / "target" / "held_out"]
