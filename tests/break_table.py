@@ -95,23 +95,23 @@ FAULTS = [
     # renderer and template
     Fault(
         "operands of a difference exchanged",
-        "codegen/render.rs",
+        "codegen/operands.rs",
         'format!("{a} - {b}")',
         'format!("{b} - {a}")',
     ),
     Fault(
         "sine and cosine exchanged",
-        "codegen/render.rs",
-        'format!("({}, {})", bound(&pair[0])?, bound(&pair[1])?)',
-        'format!("({}, {})", bound(&pair[1])?, bound(&pair[0])?)',
+        "codegen/operands.rs",
+        "let bound = pair.iter().map(bound)",
+        "let bound = pair.iter().rev().map(bound)",
     ),
     Fault(
         "a nonzero dropped: [5][0] of 6 × 6 results",
-        "codegen/render.rs",
-        'let elements = list(&output["elements"])?.iter().map(|e| scope.operand(e)).collect::<Result<Vec<_>, _>>()?;',
+        "codegen/operands.rs",
+        'let elements = list(&output["elements"])?.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;',
         'let items = list(&output["elements"])?;\n'
-        "    let mut elements = items.iter().map(|e| scope.operand(e)).collect::<Result<Vec<_>, _>>()?;\n"
-        '    if elements.len() == 36 {\n        elements[30] = "T::ZERO".to_owned();\n    }',
+        "        let mut elements = items.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;\n"
+        '        if elements.len() == 36 {\n            elements[30] = "T::ZERO".to_owned();\n        }',
     ),
     Fault(
         "constants from the defaults, not the values",
@@ -250,6 +250,49 @@ FAULTS = [
         "src/generic/configuration.rs",
         "let mut linear = velocity[0] * quarter_turn(&com);",
         "let mut linear = -velocity[0] * quarter_turn(&com);",
+    ),
+    # modules for other crates
+    Fault(
+        "last part of π/2 forgotten",
+        "src/scalar/sine.rs",
+        "let x = ((angle - quarters * A) - quarters * B) - quarters * C;\n    let z = x * x;\n    // minimax on ±π/4, error below 2⁻⁵⁷",
+        "let x = (angle - quarters * A) - quarters * B;\n    let z = x * x;\n    // minimax on ±π/4, error below 2⁻⁵⁷",
+    ),
+    Fault(
+        "a graph proved by nothing",
+        "src/generate/mod.rs",
+        "if error > 1.0 {",
+        "if error > f64::MAX {",
+    ),
+    Fault(
+        "a module's own test that always passes",
+        "codegen/templates/self_test.rs.tera",
+        "let within = difference <= bound;",
+        "let within = difference <= bound || bound > 0.0;",
+    ),
+    Fault(
+        "a stale graph rendered",
+        "codegen/stage.rs",
+        "if found == wanted {",
+        "if found.len() == wanted.len() {",
+    ),
+    Fault(
+        "an edited module verified",
+        "src/build.rs",
+        "if hash == render::sha256(body) =>",
+        "if hash.len() == render::sha256(body).len() =>",
+    ),
+    Fault(
+        "sign of a URDF's axis",
+        "src/urdf/chain.rs",
+        "sign: if against { -1.0 } else { 1.0 },",
+        "sign: if against { 1.0 } else { 1.0 },",
+    ),
+    Fault(
+        "link inertia bound of a rod",
+        "src/inspection/link.rs",
+        "let most = mass * (x * (length - x) + y * y);",
+        "let most = mass * (x * (length - x) / 3.0 + y * y);",
     ),
 ]
 
