@@ -100,6 +100,8 @@ pub mod output;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "std")]
+pub mod report;
+#[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod simulate;

@@ -311,3 +311,34 @@ fn usage_errors_are_exit_code_2() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
 }
+
+/// The page holds everything that it shows; a browser opens it in `report_browser.py`.
+#[test]
+fn a_report_is_one_file_without_a_network() {
+    let folder = TempDir::new().expect("a folder");
+    let text =
+        paper().replace("name = \"target1\"", "name = \"</script><b>\"").replace("target1 =", "\"</script><b>\" =");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let results = folder.path().join("results");
+    let output = command().arg("run").arg(&path).arg("--out").arg(&results).arg("--report").output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = fs::read_to_string(results.join("report.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    for left in ["<!--title-->", "/*data*/", "/*replay.js*/", "/*uplot.js*/", "/*page.css*/"] {
+        assert!(!page.contains(left), "`{left}` was not filled in");
+    }
+    for outside in [" src=", "@import", "fetch(", "XMLHttpRequest", "WebSocket(", "url(http"] {
+        assert!(!page.contains(outside), "`{outside}` reaches out of the page");
+    }
+    assert!(page.contains("default-src 'none'") && page.contains("The MIT License"));
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = rest.split_once("</script>").expect("an end");
+    let data: serde_json::Value = serde_json::from_str(data).expect("JSON");
+    assert_eq!(data["cases"].as_array().map(Vec::len), Some(3));
+    assert_eq!(data["targets"][0]["name"], "</script><b>");
+    assert_eq!(data["approach"]["time"].as_array().map(Vec::len), Some(401));
+    assert_eq!(data["approach"]["joint_angles"].as_array().map(Vec::len), Some(6));
+    let momentum = &data["cases"][0]["targets_alone"]["momentum"];
+    assert!(momentum[0].as_f64().is_some_and(|l| (l - 0.4).abs() < 1e-12), "{momentum}");
+}

@@ -6,6 +6,7 @@ use super::progress::Progress;
 use planar_capture::models;
 use planar_capture::output::{Staged, make_folder};
 use planar_capture::record::write_csv;
+use planar_capture::report::write_report;
 use planar_capture::scenario::Scenario;
 use planar_capture::study::{Study, study};
 use planar_capture::summary::summary;
@@ -24,6 +25,9 @@ pub struct Arguments {
     /// Which implementation of the dynamics computes it.
     #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
     dynamics: Dynamics,
+    /// Write report.html too: a replay with plots that opens in any browser, without a network.
+    #[arg(long)]
+    report: bool,
     /// Time between two rows of the CSV time series, s.
     #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
     sample: f64,
@@ -47,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
     progress.finish();
     let study = result.map_err(|source| Problem::Study { file: file(), source })?;
-    write_results(&folder, &scenario, arguments.dynamics, &study)?;
+    write_results(&folder, &scenario, arguments, &study)?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "{}\nResults in {}", table(&scenario, &study), folder.display())?;
     let objections = study.objections();
@@ -58,18 +62,21 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
 }
 
 /// All files are written before the first of them takes its place, so that a full disk leaves no mixture of two runs.
-fn write_results(folder: &Path, scenario: &Scenario, dynamics: Dynamics, study: &Study) -> Result<(), Problem> {
+fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, study: &Study) -> Result<(), Problem> {
     make_folder(folder)?;
     let mut files = Vec::new();
     for case in &study.cases {
         let path = folder.join(format!("{}.csv", case.name));
         files.push(Staged::new(&path, |to| write_csv(&scenario.layout, study, case, to))?);
     }
-    let summary = summary(&scenario.name, &scenario.layout, dynamics.name(), study);
+    let summary = summary(&scenario.name, &scenario.layout, arguments.dynamics.name(), study);
     files.push(Staged::new(&folder.join("summary.json"), |to| {
         serde_json::to_writer_pretty(&mut *to, &summary)?;
         writeln!(to)
     })?);
+    if arguments.report {
+        files.push(Staged::new(&folder.join("report.html"), |to| write_report(scenario, study, to))?);
+    }
     files.into_iter().try_for_each(Staged::commit)?;
     Ok(())
 }
