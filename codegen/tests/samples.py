@@ -1,5 +1,6 @@
 """Layouts and states to test the derivation on: every structural special case, and random numbers."""
 
+import math
 from dataclasses import replace
 from functools import cache
 
@@ -24,6 +25,17 @@ def arm(*links: Link, mount: tuple[float, float] = (0.5, 0.0), mount_angle: floa
 def chain(links: int) -> Layout:
     """One arm of equal links."""
     return Layout(f"chain_{links}", BASE, (arm(*[link()] * links),))
+
+
+def regular(*links: int) -> Layout:
+    """Arms of so many equal links, spread evenly round the base, no mount on an axis: all of one structure."""
+    angles = [0.5 + 2 * math.pi * i / len(links) for i in range(len(links))]
+    mounts = [(0.5 * math.cos(angle), 0.5 * math.sin(angle)) for angle in angles]
+    arms = tuple(
+        arm(*[link()] * number, mount=mount, mount_angle=angle)
+        for number, mount, angle in zip(links, mounts, angles, strict=True)
+    )
+    return Layout(f"regular_{'_'.join(map(str, links))}", BASE, arms)
 
 
 WHEEL = link(0.0, (0.0, 0.0), 4.0, 0.3)

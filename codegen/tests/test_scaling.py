@@ -1,0 +1,75 @@
+"""How the operations grow with arms and links, counted in the graphs: exactly what docs/scaling.md shows by example."""
+
+from itertools import pairwise
+
+import pytest
+
+from .samples import derived, regular
+
+# Degree of the polynomial in the links of each arm that the operations of a function are, and why.
+DEGREES = {
+    "forward_dynamics": 1,  # articulated plane masses: one step out, one step in per link
+    "forward_dynamics_with_base_wrench": 1,
+    "forward_dynamics_with_wrenches": 1,
+    "bias": 1,  # a sweep
+    "momentum": 1,  # sums over bodies
+    "end_effector_poses": 1,
+    "end_effector_jacobian": 1,  # a column per joint of the arm
+    "end_effector_twists": 1,
+    "body_poses": 1,
+    "body_twists": 1,
+    "mass_matrix": 2,  # as many entries
+    "reduced_dynamics": 2,  # as many entries of the generalized inertia
+    "generalized_jacobian": 2,  # every arm's sub-chains weigh on every column
+    "full_impact": 3,  # LDL^T of each arm's block, which is dense; the arms meet at the base alone
+    "reduced_impact": 3,  # LDL^T of G, which is dense across the arms too
+}
+FORWARD = [name for name in DEGREES if name.startswith("forward_dynamics")]
+
+
+def operations(*links: int) -> dict[str, dict]:
+    """Operations of each function of a regular layout."""
+    families = derived(regular(*links))["families"]
+    return {function["name"]: function["operations"] for family in families for function in family["functions"]}
+
+
+def differences(values: list[int]) -> list[int]:
+    return [after - before for before, after in pairwise(values)]
+
+
+@pytest.mark.parametrize("arms", [1, 2])
+def test_operations_are_polynomials_in_the_links(arms):
+    counts = [operations(*[links] * arms) for links in range(2, 8)]
+    assert counts[0].keys() == DEGREES.keys()
+    for name, degree in DEGREES.items():
+        values = [count[name]["flops"] for count in counts]
+        for _ in range(degree):
+            values = differences(values)
+        assert set(values) != {0}, f"{name} grows more slowly than degree {degree}: lower it"
+        assert set(differences(values)) == {0}, f"{name} grows faster than degree {degree}: {values}"
+
+
+@pytest.mark.parametrize("name", FORWARD)
+def test_a_link_costs_the_same_on_whichever_arm(name):
+    before = operations(3, 3, 3)[name]
+    steps = {
+        tuple(operations(*links)[name].get(op, 0) - before.get(op, 0) for op in ("flops", "div", "sin_cos"))
+        for links in [(4, 3, 3), (3, 4, 3), (3, 3, 4)]
+    }
+    chain = differences([operations(links)[name]["flops"] for links in (3, 4)])
+    assert steps == {(*chain, 1, 1)}, "as much as on a single arm, with one division and one sine and cosine"
+
+
+@pytest.mark.parametrize("name", FORWARD)
+def test_an_arm_costs_the_same_whichever_it_is(name):
+    flops = [operations(*[2] * arms)[name]["flops"] for arms in range(2, 6)]
+    assert len(set(differences(flops))) == 1, flops
+
+
+def test_four_arms_of_seven_links_stay_within_bounds():
+    """31 degrees of freedom, 29 bodies: cheap where recursions make it so, else small enough to be compiled at once."""
+    counts = operations(7, 7, 7, 7)
+    assert counts["forward_dynamics"]["flops"] <= 29 * 57
+    assert counts["forward_dynamics"]["sin_cos"] == 29
+    assert counts["reduced_dynamics"]["flops"] <= 28**2 * 6
+    assert counts["reduced_impact"]["flops"] <= 28**3 / 3 + 25 * 28**2
