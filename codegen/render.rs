@@ -68,7 +68,7 @@ pub fn render(graph: &Value, form: &Form) -> Result<String, String> {
     tera.add_raw_templates(TEMPLATES.to_vec()).map_err(|e| format!("{e:?}"))?;
     let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
     let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
-    let formatted = prettyplease::unparse(&file);
+    let formatted = tables::names(&prettyplease::unparse(&file));
     let text = form.self_test.map_or_else(|| formatted.clone(), |vectors| tables::fill(&formatted, vectors));
     context.insert("text_sha256", &sha256(&text));
     let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;

@@ -1,10 +1,36 @@
-//! Long lists of numbers: put in after formatting, which would give each number a line.
+//! Long lists of names and numbers, wrapped: formatting gives each entry a line.
 
 use serde_json::Value;
 use std::fmt::Write;
 
 /// Columns of a line.
 const WIDTH: usize = 120;
+
+/// The text with as many names of a list on a line as fit, where formatting gave each a line.
+pub fn names(text: &str) -> String {
+    let is_name = |line: &str| {
+        let name = line.trim_start().strip_suffix(',');
+        name.is_some_and(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
+    };
+    let mut wrapped = String::with_capacity(text.len());
+    let mut column = 0; // of a line of names that may go on, else 0
+    for line in text.lines() {
+        let (name, goes_on) = (line.trim_start(), is_name(line));
+        if goes_on && column > 0 && column + 1 + name.len() <= WIDTH {
+            wrapped.push(' ');
+            wrapped.push_str(name);
+            column += 1 + name.len();
+        } else {
+            if !wrapped.is_empty() {
+                wrapped.push('\n');
+            }
+            wrapped.push_str(line);
+            column = if goes_on { line.len() } else { 0 };
+        }
+    }
+    wrapped.push('\n');
+    wrapped
+}
 
 /// The text with the lists of `vectors` in place of `[VALUES_i_j]` and `[SIZES_i_j]`: state i, result j.
 pub fn fill(text: &str, vectors: &Value) -> String {

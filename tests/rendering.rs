@@ -81,6 +81,28 @@ fn paper_robot_is_within_its_operation_targets() {
     assert_eq!(pairs("reduced_dynamics"), 7);
 }
 
+/// Scopes inside each other, one per `let` of a block, exhaust the compiler's stack when they are thousands.
+#[test]
+fn no_block_is_too_long_for_a_compiler_that_describes_its_variables() {
+    let mut longest = 0;
+    for name in layouts() {
+        let mut open = vec![0];
+        for line in rendered(&name).lines().map(str::trim) {
+            if line.starts_with("let ") {
+                *open.last_mut().expect("a block") += 1;
+            }
+            if line.starts_with('}') {
+                open.pop();
+            }
+            if line.ends_with('{') {
+                open.push(0);
+            }
+            longest = longest.max(open.iter().sum());
+        }
+    }
+    assert!((450..=510).contains(&longest), "{longest} variables in scope");
+}
+
 /// A copy of `codegen/` in which something is wrong.
 fn broken(change: impl Fn(&Path)) -> String {
     let folder = tempfile::tempdir().expect("a folder");
