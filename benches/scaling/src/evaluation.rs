@@ -1,0 +1,67 @@
+//! Runs the criterion benchmark over every robot, and reads what it found.
+
+use crate::compilation::cargo;
+use crate::derivation::Derivation;
+use crate::{Problem, REPEATS, shape::Shape};
+use planar_capture::compare::layout_text;
+use serde_json::Value;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// Median times of one call of forward dynamics, ns; those of the fastest of several runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluation {
+    /// Of the generated code.
+    pub generated: f64,
+    /// Of the generic implementation.
+    pub generic: f64,
+}
+
+impl Evaluation {
+    /// How many times as long the generic implementation takes.
+    pub fn ratio(self) -> f64 {
+        self.generic / self.generated
+    }
+}
+
+/// Measures them all in each run; results in the order of the robots.
+pub fn evaluate(robots: &[(Shape, Derivation)], work: &Path) -> Result<Vec<Evaluation>, Problem> {
+    let (modules, found) = (work.join("modules"), work.join("criterion"));
+    fs::create_dir_all(&modules)?;
+    let mut index = String::new();
+    for (shape, derivation) in robots {
+        let name = shape.name();
+        fs::write(modules.join(format!("{name}.rs")), &derivation.item)?;
+        fs::write(modules.join(format!("{name}.toml")), layout_text(&shape.layout()))?;
+        writeln!(index, "include!(\"{name}.rs\");")?;
+    }
+    index.push_str("pub const ROBOTS: &[super::Robot] = &[\n");
+    for name in robots.iter().map(|(shape, _)| shape.name()) {
+        let model = format!("|| Box::new({name}::Model::<f64>::default())");
+        writeln!(index, "super::Robot {{ name: \"{name}\", layout: include_str!(\"{name}.toml\"), model: {model} }},")?;
+    }
+    index.push_str("];\n");
+    let file = modules.join("robots.rs");
+    fs::write(&file, index)?;
+    let median = |name: &str, implementation: &str| -> Result<f64, Problem> {
+        let file = found.join(name).join(implementation).join("new/estimates.json");
+        let estimates: Value = serde_json::from_str(&fs::read_to_string(&file)?)?;
+        estimates["median"]["point_estimate"].as_f64().ok_or_else(|| format!("{}: no median", file.display()).into())
+    };
+    let mut fastest = vec![Evaluation { generated: f64::INFINITY, generic: f64::INFINITY }; robots.len()];
+    for _ in 0..REPEATS {
+        let mut command = cargo();
+        command.args(["bench", "--bench", "evaluation", "--no-default-features"]);
+        command.env("SCALING_ROBOTS", &file).env("CRITERION_HOME", &found).current_dir(env!("CARGO_MANIFEST_DIR"));
+        if !command.status()?.success() {
+            return Err("cargo bench failed".into());
+        }
+        for ((shape, _), Evaluation { generated, generic }) in robots.iter().zip(&mut fastest) {
+            let name = shape.name();
+            *generated = generated.min(median(&name, "generated")?);
+            *generic = generic.min(median(&name, "generic")?);
+        }
+    }
+    Ok(fastest)
+}

@@ -1,0 +1,47 @@
+//! The robots that are measured: regular ones, from one arm of two links to four of seven.
+
+use planar_capture::layout::{Arm, Base, Layout, Link};
+use std::f64::consts::TAU;
+
+/// So many arms of so many links.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shape {
+    /// Number of arms.
+    pub arms: u8,
+    /// Links of each arm.
+    pub links: u8,
+}
+
+impl Shape {
+    /// Every robot that is measured, arms first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [1, 2, 3, 4].into_iter().flat_map(|arms| [2, 3, 5, 7].into_iter().map(move |links| Self { arms, links }))
+    }
+
+    /// Links of all arms together.
+    pub fn joints(self) -> u8 {
+        self.arms * self.links
+    }
+
+    /// As a module is called.
+    pub fn name(self) -> String {
+        format!("arms_{}_links_{}", self.arms, self.links)
+    }
+
+    /// Arms spread evenly round the base, pointing outwards; no mount is on an axis, so that nothing is a structural zero
+    /// for one arm and not for another. Masses and lengths are those of a satellite with equal links.
+    pub fn layout(self) -> Layout {
+        let link = Link { length: 0.8, mass: 7.0, inertia: 0.6, com: [0.35, 0.0] };
+        let arm = |i: u8| {
+            let angle = 0.5 + TAU * f64::from(i) / f64::from(self.arms);
+            Arm {
+                name: format!("arm{}", i + 1),
+                mount: [0.5 * angle.cos(), 0.5 * angle.sin()],
+                mount_angle: angle,
+                links: vec![link.clone(); self.links.into()],
+            }
+        };
+        let base = Base { mass: 400.0, inertia: 60.0 };
+        Layout { name: self.name(), base, arms: (0..self.arms).map(arm).collect() }
+    }
+}
