@@ -5,6 +5,7 @@ mod compare;
 mod dynamics;
 mod eval;
 mod export;
+mod figures;
 mod generate;
 mod import;
 mod layout;
@@ -81,6 +82,10 @@ enum Problem {
     /// A computation has no answer.
     #[error("error: {file}: {source}")]
     Study { file: String, source: StudyError },
+    /// A figure cannot be drawn.
+    #[cfg(feature = "figures")]
+    #[error("error: {0}")]
+    Draw(#[from] planar_capture::figures::draw::DrawError),
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
