@@ -103,6 +103,8 @@ pub mod output;
 pub mod record;
 #[cfg(feature = "std")]
 pub mod report;
+#[cfg(feature = "figures")]
+pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]

@@ -22,6 +22,11 @@ fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
     let message = String::from_utf8(output.stderr).expect("UTF-8");
     assert!(message.contains("cargo run --release --features figures"), "{message}");
     assert!(!results.exists(), "nothing was computed");
+    let mut command = self::command();
+    let output = command.arg("reproduce").arg("--out").arg(&results).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(String::from_utf8(output.stderr).expect("UTF-8"), message);
+    assert!(!results.exists(), "nothing was computed");
 }
 
 #[cfg(feature = "figures")]
