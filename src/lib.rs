@@ -26,8 +26,8 @@
 //! # The core and the rest
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
-//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `lanes` SIMD lanes as
-//! scalars.
+//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
+//! and PNG, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -85,6 +85,8 @@ pub mod design;
 pub mod diagnostic;
 #[cfg(feature = "std")]
 pub mod evaluation;
+#[cfg(feature = "figures")]
+pub mod figures;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -101,6 +103,8 @@ pub mod output;
 pub mod record;
 #[cfg(feature = "std")]
 pub mod report;
+#[cfg(feature = "figures")]
+pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]

@@ -5,10 +5,12 @@ mod compare;
 mod dynamics;
 mod eval;
 mod export;
+mod figures;
 mod generate;
 mod import;
 mod layout;
 mod progress;
+mod reproduce;
 mod run;
 mod text;
 
@@ -41,6 +43,7 @@ enum Command {
     Check(check::Arguments),
     Import(import::Arguments),
     Export(export::Arguments),
+    Reproduce(reproduce::Arguments),
 }
 
 /// Why there is no result.
@@ -81,6 +84,14 @@ enum Problem {
     /// A computation has no answer.
     #[error("error: {file}: {source}")]
     Study { file: String, source: StudyError },
+    /// A figure cannot be drawn.
+    #[cfg(feature = "figures")]
+    #[error("error: {0}")]
+    Draw(#[from] planar_capture::figures::draw::DrawError),
+    /// The paper's study came to nothing.
+    #[cfg(feature = "figures")]
+    #[error("error: {0}")]
+    Reproduction(#[from] planar_capture::reproduction::ReproductionError),
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
@@ -115,6 +126,7 @@ pub fn main() -> ExitCode {
         Command::Check(arguments) => check::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::run(&arguments),
     };
     match result {
         Ok(code) => code,

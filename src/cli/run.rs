@@ -2,6 +2,7 @@
 
 use super::Problem;
 use super::dynamics::Dynamics;
+use super::figures;
 use super::progress::Progress;
 use planar_capture::models;
 use planar_capture::output::{Staged, make_folder};
@@ -31,6 +32,9 @@ pub struct Arguments {
     /// Time between two rows of the CSV time series, s.
     #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
     sample: f64,
+    /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
+    #[arg(long)]
+    figures: bool,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -40,6 +44,9 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// Reads, computes, prints, writes; exit code 1 where the audit objects.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    if arguments.figures {
+        figures::require()?;
+    }
     let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
     let file = || arguments.scenario.display().to_string();
     let model = arguments
@@ -76,6 +83,9 @@ fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, stud
     })?);
     if arguments.report {
         files.push(Staged::new(&folder.join("report.html"), |to| write_report(scenario, study, to))?);
+    }
+    if arguments.figures {
+        files.extend(figures::stage(folder, scenario, study)?);
     }
     files.into_iter().try_for_each(Staged::commit)?;
     Ok(())

@@ -1,0 +1,69 @@
+//! `planar-capture reproduce --out FOLDER`.
+
+use super::{Problem, figures};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Write the report on the paper's reproduction: every table and figure of it beside what is computed here.
+///
+/// Writes FOLDER/reproduction.md and the figures it shows; needs a build with the feature `figures`.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Folder of the report.
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Write nothing; exit code 1 if the report there is not what this command gives.
+    #[arg(long)]
+    check: bool,
+}
+
+/// Computes, then writes or compares.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    figures::require()?;
+    report(arguments)
+}
+
+/// A build that draws no figures has said so before this.
+#[cfg(not(feature = "figures"))]
+fn report(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    let Arguments { out: _, check: _ } = arguments;
+    Ok(ExitCode::from(2))
+}
+
+#[cfg(feature = "figures")]
+fn report(arguments: &Arguments) -> Result<ExitCode, Problem> {
+    use super::progress::Progress;
+    use planar_capture::output::{Staged, make_folder};
+    use planar_capture::reproduction::reproduce;
+    use std::io::Write;
+
+    let mut progress = Progress::new();
+    let result = reproduce(&mut progress);
+    progress.finish();
+    let files = result?.files;
+    let (out, shown) = (&arguments.out, arguments.out.display());
+    if arguments.check {
+        let stale =
+            |(path, text): &&(String, String)| std::fs::read_to_string(out.join(path)).ok().as_ref() != Some(text);
+        let Some((path, _)) = files.iter().find(stale) else {
+            writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
+            return Ok(ExitCode::SUCCESS);
+        };
+        eprintln!(
+            "{} is not what is computed; to mend: cargo run --release --features figures -- reproduce --out {shown}",
+            out.join(path).display()
+        );
+        return Ok(ExitCode::from(1));
+    }
+    let mut staged = Vec::new();
+    for (path, text) in &files {
+        let path = out.join(path);
+        if let Some(folder) = path.parent() {
+            make_folder(folder)?;
+        }
+        staged.push(Staged::new(&path, |to| to.write_all(text.as_bytes()))?);
+    }
+    staged.into_iter().try_for_each(Staged::commit)?;
+    writeln!(std::io::stdout().lock(), "{}: {} figures", out.join("reproduction.md").display(), files.len() - 1)?;
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,98 @@
+//! Pictures of the robot: at the start, at the impact, and while it moves with what it holds.
+
+use super::figure::{Axis, Figure, Panel, Series, Span};
+use super::robot::{expected, place, robot, target};
+use super::style::Colour;
+use crate::scenario::Scenario;
+use crate::simulate::{Phase, Sample};
+use crate::study::Study;
+
+/// Number of pictures of the motion after an impact.
+const PICTURES: usize = 6;
+
+/// At the start and at the end of the approach.
+pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
+    let (Some(start), Some(end)) = (study.approach.samples.first(), study.approach.end()) else { return Vec::new() };
+    let mut before = expected_targets(scenario);
+    before.extend(robot(&scenario.layout, &start.motion));
+    let mut at_impact = expected_targets(scenario);
+    at_impact.extend(robot(&scenario.layout, &end.motion));
+    at_impact.extend(held(scenario, end, end));
+    let one = |name: &str, caption: &str, series| Figure {
+        name: name.to_owned(),
+        caption: caption.to_owned(),
+        columns: 1,
+        panels: pictures(&[(None, series)]),
+    };
+    let (name, caption) = if scenario.targets.is_empty() {
+        ("final_configuration", "The robot at the end of the approach.")
+    } else {
+        ("impact_configuration", "Robot and targets at the impact; dashed: where the targets were expected.")
+    };
+    vec![one("initial_configuration", "The robot at the start of the approach.", before), one(name, caption, at_impact)]
+}
+
+/// At equal times from the impact to the end.
+pub(super) fn after_impact(scenario: &Scenario, study: &Study, case: &str, phase: &Phase) -> Option<Figure> {
+    let contact = study.approach.end()?;
+    let last = phase.samples.len().checked_sub(1)?;
+    let shown = (0..PICTURES).filter_map(|k| phase.samples.get(last * k / (PICTURES - 1)));
+    let drawn = shown.map(|sample| {
+        let mut series = robot(&scenario.layout, &sample.motion);
+        series.extend(held(scenario, contact, sample));
+        (Some(format!("{} s after the impact", (sample.time * 1e3).round() / 1e3)), series)
+    });
+    Some(Figure {
+        name: format!("post_impact_motion_{case}"),
+        caption: format!("Robot and targets after the impact, {case}."),
+        columns: 3,
+        panels: pictures(&drawn.collect::<Vec<_>>()),
+    })
+}
+
+/// The targets at the tips that hold them: as they were at the contact, turned with the link since.
+fn held(scenario: &Scenario, contact: &Sample, now: &Sample) -> Vec<Series> {
+    let mut series = Vec::new();
+    for (i, object) in scenario.targets.iter().enumerate() {
+        let poses = (contact.end_effector_poses.get(object.arm), now.end_effector_poses.get(object.arm));
+        let (Some([start, ..]), Some([yaw, x, y])) = poses else { continue };
+        let [rx, ry] = object.contact;
+        let centre = place([*x, *y], yaw - start, [-rx, -ry]);
+        let colour = Colour::of(scenario.layout.arms.len() + i);
+        series.extend(target(&object.name, colour, centre.into(), object.radius, [*x, *y]));
+    }
+    series
+}
+
+fn expected_targets(scenario: &Scenario) -> Vec<Series> {
+    let placed = scenario.targets.iter().filter_map(|target| Some((target, target.position?)));
+    placed.map(|(target, position)| expected("expected targets", position, target.radius)).collect()
+}
+
+/// Panels of one scale that hold everything.
+fn pictures(drawn: &[(Option<String>, Vec<Series>)]) -> Vec<Panel> {
+    let all = || drawn.iter().flat_map(|(_, series)| series).flat_map(|series| &series.points);
+    let span = |values: &mut dyn Iterator<Item = f64>| {
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
+        let margin = 0.04 * (high - low).max(1e-3);
+        (low - margin, high + margin)
+    };
+    let (x, y) = (span(&mut all().map(|p| p.0)), span(&mut all().map(|p| p.1)));
+    // square panels: the longer side decides
+    let half = (x.1 - x.0).max(y.1 - y.0) / 2.0;
+    let about = |(low, high): (f64, f64)| {
+        let middle = f64::midpoint(low, high);
+        Span::Between(middle - half, middle + half)
+    };
+    let axis = |label: &str, span| Axis { label: label.to_owned(), span };
+    drawn
+        .iter()
+        .map(|(title, series)| Panel {
+            title: title.clone(),
+            x: axis("x [m]", about(x)),
+            y: axis("y [m]", about(y)),
+            equal_scale: true,
+            series: series.clone(),
+        })
+        .collect()
+}

@@ -1,0 +1,82 @@
+//! The momentum of robot and targets together, before and after the impact.
+
+use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
+use super::style::{Colour, Dash};
+use super::time::CURVE;
+use crate::scenario::{Case, Scenario};
+use crate::simulate::Phase;
+use crate::study::{Captured, Study};
+use crate::target::Target;
+
+/// Part of the momentum that the moving bodies could have which an axis shows at least: less of it is rounding.
+const LEAST_PART: f64 = 0.01;
+
+/// [l, px, py] over the whole case; dashed, what the paper's literal equations would leave of it.
+pub(super) fn figure(scenario: &Scenario, study: &Study, case: &Case, captured: Option<&Captured>) -> Figure {
+    let free = targets_before(scenario, study, case);
+    let contact = study.approach.duration;
+    let duration = contact + captured.map_or(0.0, |captured| captured.post_impact.duration);
+    let least = least(scenario, study);
+    let curve = |label: &str, component: usize, colour: Colour, dash: Dash| {
+        let mut points = part(&study.approach, 0.0, component, free[component]);
+        if let Some(captured) = captured {
+            points.extend(part(&captured.post_impact, contact, component, 0.0));
+        }
+        Series { label: Some(label.to_owned()), colour, mark: Mark::Line(dash, CURVE), points }
+    };
+    let literal = |label: &str, component: usize, colour: Colour| {
+        let captured = captured?;
+        let before = part(&study.approach, 0.0, component, free[component]).pop()?.1;
+        let left = before + captured.impact.paper.momentum_jump[component];
+        let mark = Mark::Line(Dash::DashDot, CURVE);
+        Some(Series {
+            label: Some(format!("{label}, literal eqs.")),
+            colour,
+            mark,
+            points: vec![(contact, left), (duration, left)],
+        })
+    };
+    let panel = |quantity: &str, least, curves: &[(&str, usize, Colour, Dash)]| {
+        let solid = curves.iter().map(|(label, i, colour, dash)| curve(label, *i, *colour, *dash));
+        let broken = curves.iter().filter_map(|(label, i, colour, _)| literal(label, *i, *colour));
+        let y = Axis { label: quantity.to_owned(), span: Span::DataAndZero(least) };
+        Panel::new(Axis::time("Time [s]", duration), y, solid.chain(broken).collect())
+    };
+    let linear = [("px", 1, Colour::Blue, Dash::Solid), ("py", 2, Colour::Vermillion, Dash::Dashed)];
+    let angular = [("l", 0, Colour::Blue, Dash::Solid)];
+    Figure::column(
+        &format!("momentum_{}", case.name),
+        &format!("Momentum of robot and targets together, about the inertial origin, {}.", case.name),
+        vec![panel("Linear momentum [N s]", least[1], &linear), panel("Angular momentum [N m s]", least[0], &angular)],
+    )
+}
+
+/// One component of the robot's momentum over a phase, `more` added.
+fn part(phase: &Phase, start: f64, component: usize, more: f64) -> Vec<(f64, f64)> {
+    let value = |s: &crate::simulate::Sample| match component {
+        0 => s.angular_momentum,
+        i => s.linear_momentum[i - 1],
+    };
+    phase.samples.iter().map(|sample| (start + sample.time, value(sample) + more)).collect()
+}
+
+/// [l, px, py] of the free targets, which is the same at all times before the impact.
+fn targets_before(scenario: &Scenario, study: &Study, case: &Case) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    let Some(end) = study.approach.end() else { return sum };
+    for (object, twist) in scenario.targets.iter().zip(&case.target_twists) {
+        let Some(tip) = end.end_effector_poses.get(object.arm) else { continue };
+        let target = Target { mass: object.mass, inertia: object.inertia, contact: object.contact, twist: *twist };
+        let (momentum, _) = target.momentum(&target.position(tip), twist);
+        for (sum, part) in sum.iter_mut().zip(momentum) {
+            *sum += part;
+        }
+    }
+    sum
+}
+
+/// [angular, linear]: a part of what the robot would have if all its kinetic energy were in one motion.
+fn least(scenario: &Scenario, study: &Study) -> [f64; 2] {
+    let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.kinetic_energy));
+    [scenario.layout.base.inertia, scenario.layout.mass()].map(|inertia| LEAST_PART * (2.0 * energy * inertia).sqrt())
+}

@@ -1,0 +1,131 @@
+//! Tables 1 to 4: robot, targets, joint angles and tips.
+
+use super::Run;
+use super::markdown::{number, point, table};
+use super::printed::{BODIES, JOINT_ANGLES, LOCATIONS, TARGET, TIPS};
+use crate::simulate::Sample;
+
+/// Name in the template and table.
+pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
+    let mut tables = vec![("bodies", bodies(&runs[0])), ("targets", targets(&runs[0]))];
+    tables.extend([("joint_angles", joint_angles(runs)), ("tips", tips(runs)), ("tip_velocities", velocities(runs))]);
+    tables.push(("ends", ends(runs)));
+    tables
+}
+
+/// Heads of the columns for the three readings.
+const READINGS: [&str; 3] = ["ours, PD control", "ours, exact tracking", "eq. (7) as printed, PD"];
+
+fn end(run: &Run) -> Option<&Sample> {
+    run.study.approach.end()
+}
+
+fn bodies(run: &Run) -> String {
+    let layout = &run.scenario.layout;
+    let links = || layout.arms.iter().flat_map(|arm| &arm.links);
+    let same = |value: fn(&crate::layout::Link) -> f64| {
+        let mut values: Vec<String> = links().map(|link| value(link).to_string()).collect();
+        values.dedup();
+        values.join(", ")
+    };
+    let [base, link] = BODIES;
+    let row = |what: &str, printed: f64, ours: String| vec![what.to_owned(), printed.to_string(), ours];
+    let rows = [
+        row("mass of the base [kg]", base[1], layout.base.mass.to_string()),
+        row("moment of inertia of the base [kg m²]", base[2], layout.base.inertia.to_string()),
+        row("length of each link [m]", link[0], same(|link| link.length)),
+        row("mass of each link [kg]", link[1], same(|link| link.mass)),
+        row("moment of inertia of each link [kg m²]", link[2], same(|link| link.inertia)),
+    ];
+    table(&["", "Table 1", "ours"], &rows)
+}
+
+fn targets(run: &Run) -> String {
+    let Some(end) = end(run) else { return String::new() };
+    let [mass, radius, inertia] = TARGET;
+    let mut rows = Vec::new();
+    for (target, [x, y]) in run.scenario.targets.iter().zip(LOCATIONS) {
+        let Some([_, tip_x, tip_y]) = end.end_effector_poses.get(target.arm) else { continue };
+        let place = [tip_x - target.contact[0], tip_y - target.contact[1]];
+        rows.push(vec![
+            target.name.clone(),
+            format!("{mass} kg, {radius} m, {inertia} kg m², at {}", point([x, y], 1)),
+            format!("{} kg, {} m, {} kg m², taken at {}", target.mass, target.radius, target.inertia, point(place, 4)),
+            number((place[0] - x).hypot(place[1] - y), 4),
+        ]);
+    }
+    table(&["", "Table 2", "ours", "apart [m]"], &rows)
+}
+
+fn joint_angles(runs: &[Run; 3]) -> String {
+    let mut rows = Vec::new();
+    let [initial, last] = JOINT_ANGLES;
+    for (joint, (initial, last)) in initial.into_iter().zip(last).enumerate() {
+        let start = runs[0].scenario.initial.joint_angles.get(joint).copied().unwrap_or_default();
+        let mut row = vec![format!("θ{}", joint + 1), number(initial, 3), number(start, 3)];
+        row.push(number(last, 3));
+        row.extend(runs.iter().map(|run| {
+            let angle = end(run).and_then(|end| end.motion.joint_angles.get(joint).copied());
+            number(angle.unwrap_or_default(), 4)
+        }));
+        rows.push(row);
+    }
+    let mut head = vec!["[rad]", "Table 3, initial", "ours, initial", "Table 3, final"];
+    head.extend(READINGS);
+    table(&head, &rows)
+}
+
+fn tips(runs: &[Run; 3]) -> String {
+    let tip = |sample: Option<&Sample>, i: usize| {
+        let pose = sample.and_then(|sample| sample.end_effector_poses.get(i)).copied().unwrap_or_default();
+        [pose[1], pose[2]]
+    };
+    let mut rows = Vec::new();
+    let [initial, last] = TIPS;
+    for (i, (initial, last)) in initial.into_iter().zip(last).enumerate() {
+        let start = tip(runs[0].study.approach.samples.first(), i);
+        let mut row = vec![format!("tip {}", i + 1), point(initial, 2), point(start, 4), point(last, 1)];
+        row.extend(runs.iter().map(|run| point(tip(end(run), i), 4)));
+        rows.push(row);
+    }
+    let mut row = vec!["tip 1 from the base COM".to_owned(), String::new(), String::new()];
+    row.push(number(last[0][0].hypot(last[0][1]), 4));
+    row.extend(runs.iter().map(|run| {
+        let [x, y] = tip(end(run), 0);
+        let [_, base_x, base_y] = end(run).map(|end| end.motion.base_pose).unwrap_or_default();
+        number((x - base_x).hypot(y - base_y), 4)
+    }));
+    rows.push(row);
+    let mut head = vec!["[m]", "Table 4, initial", "ours, initial", "Table 4, final"];
+    head.extend(READINGS);
+    table(&head, &rows)
+}
+
+fn velocities(runs: &[Run; 3]) -> String {
+    let mut rows = Vec::new();
+    for (i, wanted) in [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]].into_iter().enumerate() {
+        let text =
+            |[omega, vx, vy]: [f64; 3], digits| format!("{}, {}", point([vx, vy], digits), number(omega, digits));
+        let mut row = vec![format!("tip {}", i + 1), text(wanted, 1)];
+        row.extend(runs.iter().map(|run| {
+            let twist = end(run).and_then(|end| end.end_effector_twists.get(i).copied());
+            text(twist.unwrap_or_default(), 4)
+        }));
+        rows.push(row);
+    }
+    let mut head = vec!["(vx, vy) [m/s], ω [rad/s]", "wanted"];
+    head.extend(READINGS);
+    table(&head, &rows)
+}
+
+fn ends(runs: &[Run; 3]) -> String {
+    let mut rows: Vec<Vec<String>> = ["base yaw [rad]", "base position [m]"].map(|what| vec![what.to_owned()]).into();
+    for run in runs {
+        let [yaw, x, y] = end(run).map(|end| end.motion.base_pose).unwrap_or_default();
+        rows[0].push(number(yaw, 4));
+        rows[1].push(point([x, y], 4));
+    }
+    let mut head = vec!["after 20 s"];
+    head.extend(READINGS);
+    table(&head, &rows)
+}
