@@ -10,11 +10,13 @@
 //! | (2) reduced form: generalized inertia, bias, Jacobian | [`dynamics::ReducedDynamics`] |
 //! | (3)–(5) target, contact Jacobian `J_t` | [`target`] |
 //! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
+//! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
 //! | end rates from the generalized Jacobian | `design` |
 //! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
 //!
 //! # Conventions
@@ -69,6 +71,8 @@ mod render;
 #[allow(dead_code, reason = "this crate's own modules are rendered by its build script")]
 mod stage;
 
+#[cfg(feature = "std")]
+pub mod actuators;
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]

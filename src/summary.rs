@@ -45,6 +45,9 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     }
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
+    if !phase.saturation.joints.is_empty() {
+        value["joints_saturated"] = json!(phase.saturation.joints);
+    }
     value
 }
 

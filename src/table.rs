@@ -54,6 +54,9 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
         writeln!(out)?;
     }
+    if !phase.saturation.joints.is_empty() {
+        writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
+    }
     writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
 }
 

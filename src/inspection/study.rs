@@ -6,7 +6,7 @@ use super::pose::{FinalPose, fastest_mode, final_pose};
 use super::robot::{code, digest, freedom};
 use super::targets::distance_and_most;
 use crate::models;
-use crate::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use crate::scenario::{Actuation, EndRates, Scenario, Tracking, TrajectoryKind};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -75,6 +75,7 @@ fn trajectory(scenario: &Scenario) -> String {
         TrajectoryKind::Quartic => "quartic",
         TrajectoryKind::QuarticAsPrinted => "quartic as printed",
         TrajectoryKind::Cycloidal => "cycloidal",
+        TrajectoryKind::Quintic => "quintic",
     };
     let end = match &scenario.approach.end {
         EndRates::Rest => "rest".to_owned(),
@@ -93,20 +94,28 @@ fn turn(scenario: &Scenario) -> String {
 }
 
 fn tracking(scenario: &Scenario) -> String {
+    let law = law(scenario);
+    let law = match fastest_mode(scenario) {
+        Some(rate) => {
+            format!("{law}; fastest mode {} 1/s, {} in a step", short(rate), short(rate * scenario.approach.step))
+        }
+        None => law,
+    };
+    let Actuation { torque_limits, steps_per_sample } = &scenario.approach.actuation;
+    let limits = torque_limits.as_ref().map_or_else(String::new, |limits| format!("; at most {} N m", gains(limits)));
+    let samples = steps_per_sample
+        .map_or_else(String::new, |steps| format!("; sampled every {}, and held", count(steps as usize, "step")));
+    format!("{law}{limits}{samples}")
+}
+
+fn law(scenario: &Scenario) -> String {
     match &scenario.approach.tracking {
+        Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
+            format!("computed torque, {} 1/s², {} 1/s", gains(proportional_gain), gains(derivative_gain))
+        }
         Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-            let law = format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain));
-            match fastest_mode(scenario) {
-                Some(rate) => {
-                    format!(
-                        "{law}; fastest mode {} 1/s, {} in a step",
-                        short(rate),
-                        short(rate * scenario.approach.step)
-                    )
-                }
-                None => law,
-            }
+            format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }
     }
 }
