@@ -18,6 +18,7 @@
 //! | (18) PD control | [`control::ProportionalDerivative`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
+//! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions
 //! SI units and radians. Planar twists are `[ω, vx, vy]`, wrenches and impulses `[n, fx, fy]`, poses `[yaw, x, y]`, in
@@ -104,7 +105,11 @@ pub mod output;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "std")]
+pub mod remainder;
+#[cfg(feature = "std")]
 pub mod scenario;
+#[cfg(feature = "std")]
+pub mod settle;
 #[cfg(feature = "std")]
 pub mod simulate;
 #[cfg(feature = "std")]

@@ -266,8 +266,41 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("{ ball =", "{ bal =", 22, &["`case[1].target_twists.bal` ([0, 0, 0])", "did you mean `ball`?"]),
     ("{ ball = [0, 0, 0] }", "{ ball = [0, 0] }", 22, &["`case[1].target_twists.ball` is [0, 0]", "[ω, vx, vy]"]),
     ("{ ball = [0, 0, 0] }", "[0, 0, 0]", 22, &["`case[1].target_twists` is [0, 0, 0], expected a table with `ball`"]),
-    ("[post_impact]\nduration = 50.0\n", "", 1, &["missing key `post_impact`", "`duration` and `step`"]),
+    ("[post_impact]\nduration = 50.0\n", "", 1, &["missing key `post_impact`", "`duration`, `step`"]),
     ("duration = 50.0", "duration = 50.0\nstep = 0", 25, &["`post_impact.step` is 0", "greater than 0"]),
+    ("duration = 50.0", "duration = 50.0\ncontrol = 1", 25, &["`post_impact.control` is 1, expected `none`, `hold`"]),
+    ("duration = 50.0", "duration = 50.0\ncontrol = \"stabilize\"", 25, &["did you mean `stabilise`?"]),
+    ("duration = 50.0", "duration = 50.0\ntorque_limits = 1", 25, &["`post_impact.torque_limits` is 1", "no torques"]),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"hold\"\nbase_torque_limit = 1",
+        26,
+        &["`post_impact.base_torque_limit` is 1", "only `control = \"stabilise\"`"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"damping\"\nproportional_gain = 1",
+        26,
+        &["`post_impact.proportional_gain` is 1", "derivative_gain alone"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nproportional_gain = 1",
+        26,
+        &["`post_impact.proportional_gain` is 1", "wants no angles"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nbase_torque_limit = -1",
+        26,
+        &["`post_impact.base_torque_limit` is -1", "in N m of 0 or more"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nsample_time = 0.012",
+        26,
+        &["`post_impact.sample_time` is 0.012", "whole number of steps"],
+    ),
     ("[post_impact]", "[post_imapct]", 23, &["unknown key `post_imapct` (a table)", "did you mean `post_impact`?"]),
 ];
 

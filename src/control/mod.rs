@@ -5,12 +5,14 @@ mod exact_tracking;
 mod limited;
 mod proportional_derivative;
 mod sampled;
+mod stabilise;
 
 pub use computed_torque::ComputedTorque;
 pub use exact_tracking::ExactTracking;
 pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
 pub use sampled::Sampled;
+pub use stabilise::Stabilise;
 
 use crate::dynamics::Model;
 use crate::error::Error;

@@ -4,13 +4,15 @@ mod actuation;
 mod approach;
 mod capture;
 mod joints;
+mod post_impact;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, Tracking, TrajectoryKind};
-pub use capture::{Case, PostImpact, Target};
+pub use capture::{Case, Target};
+pub use post_impact::{PostImpact, Settling};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
