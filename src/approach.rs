@@ -1,10 +1,11 @@
 //! The approach phase of a scenario: trajectory and tracking put together.
 
-use crate::control::{ExactTracking, ProportionalDerivative};
+use crate::actuators::drive;
+use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
-use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Trajectory};
+use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +33,40 @@ impl<'a> Approach<'a> {
     /// # Errors
     /// When and why it stopped.
     pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+        let trajectory = self.trajectory(rates);
+        let joints = model.joints();
         match &self.scenario.approach.tracking {
             Tracking::Exact => self.track_exactly(model, rates, tick),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-                let trajectory = self.trajectory(rates);
                 let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-                simulate(model, &mut law, &Motion::of(&self.scenario.initial.state()), &self.timing, tick)
+                self.drive(model, &mut law, tick)
+            }
+            Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
+                let mut law = ComputedTorque {
+                    trajectory,
+                    proportional_gain,
+                    derivative_gain,
+                    generalized_inertia: &mut vec![0.0; joints * joints],
+                    generalized_bias: &mut vec![0.0; joints],
+                    generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+                };
+                self.drive(model, &mut law, tick)
             }
         }
     }
 
-    /// Runs it with torques from inverse dynamics, from zero joint rates.
+    fn drive(
+        &self,
+        model: &dyn Model<f64>,
+        law: &mut dyn Control<f64>,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let initial = Motion::of(&self.scenario.initial.state());
+        drive(model, law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
+    }
+
+    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
+    /// quintic one.
     ///
     /// # Errors
     /// When and why it stopped.
@@ -63,7 +87,10 @@ impl<'a> Approach<'a> {
             base_pose: self.scenario.initial.base_pose,
             joint_angles: self.scenario.initial.joint_angles.clone(),
             base_twist: self.scenario.initial.base_twist,
-            joint_rates: vec![0.0; joints],
+            joint_rates: match self.scenario.approach.trajectory {
+                TrajectoryKind::Quintic => self.scenario.initial.joint_rates.clone(),
+                _ => vec![0.0; joints],
+            },
         };
         simulate(model, &mut law, &initial, &self.timing, tick)
     }
@@ -78,6 +105,10 @@ impl<'a> Approach<'a> {
             TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),
             TrajectoryKind::QuarticAsPrinted => AnyTrajectory::QuarticAsPrinted(QuarticAsPrinted { ends, final_rates }),
             TrajectoryKind::Cycloidal => AnyTrajectory::Cycloidal(Cycloidal { ends }),
+            TrajectoryKind::Quintic => {
+                let initial_rates = &self.scenario.initial.joint_rates;
+                AnyTrajectory::Quintic(Quintic { ends, initial_rates, final_rates })
+            }
         }
     }
 }
@@ -88,6 +119,7 @@ enum AnyTrajectory<'a> {
     Quartic(Quartic<'a, f64>),
     QuarticAsPrinted(QuarticAsPrinted<'a, f64>),
     Cycloidal(Cycloidal<'a, f64>),
+    Quintic(Quintic<'a, f64>),
 }
 
 impl Trajectory<f64> for AnyTrajectory<'_> {
@@ -96,6 +128,7 @@ impl Trajectory<f64> for AnyTrajectory<'_> {
             Self::Quartic(t) => t.joint(joint, time),
             Self::QuarticAsPrinted(t) => t.joint(joint, time),
             Self::Cycloidal(t) => t.joint(joint, time),
+            Self::Quintic(t) => t.joint(joint, time),
         }
     }
 }

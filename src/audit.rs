@@ -7,11 +7,20 @@ use crate::state::State;
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drift {
-    /// Largest change of momentum over the largest Σ m|v|, or the same for the angular momentum about the inertial
-    /// origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing moves.
+    /// Largest change of momentum, less the impulse from outside, over the largest Σ m|v|, or the same for the angular
+    /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing moves.
     pub momentum_drift: f64,
-    /// Largest |E(t) − E(0) − work of the joint torques| over the largest kinetic energy; 0 where nothing moves.
+    /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing moves.
     pub energy_error: f64,
+}
+
+/// What was done to the robot since the start of a phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Done {
+    /// By joint torques and from outside, J.
+    pub work: f64,
+    /// From outside: [l, px, py], angular momentum about the inertial origin; N m s, N s.
+    pub impulse: [f64; 3],
 }
 
 /// Watches one phase.
@@ -57,15 +66,15 @@ impl<'a> Audit<'a> {
         let none = Ratio::default();
         let (poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
         let mut audit = Self { model, inertias, poses, twists, start, linear: none, angular: none, energy: none };
-        audit.record(state, 0.0)?;
+        audit.record(state, &Done::default())?;
         Ok(audit)
     }
 
-    /// Looks at one state, `work` (J) having been done on the robot since the start.
+    /// Looks at one state, this having been done to the robot since the start.
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn record(&mut self, state: &State<'_, f64>, work: f64) -> Result<Momentum<f64>, Error> {
+    pub fn record(&mut self, state: &State<'_, f64>, done: &Done) -> Result<Momentum<f64>, Error> {
         let now = self.model.momentum(state)?;
         self.model.body_poses(&state.base_pose, state.joint_angles, &mut self.poses)?;
         self.model.body_twists(state, &mut self.twists)?;
@@ -76,10 +85,12 @@ impl<'a> Audit<'a> {
             linear += mass * vx.hypot(*vy);
             angular += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
         }
-        let change = [0, 1].map(|axis: usize| now.linear_momentum[axis] - self.start.linear_momentum[axis]);
-        self.linear.record(change[0].hypot(change[1]), linear);
-        self.angular.record(now.angular_momentum - self.start.angular_momentum, angular);
-        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - work, now.kinetic_energy);
+        let [l, px, py] = done.impulse;
+        let [x0, y0] = self.start.linear_momentum;
+        let [x1, y1] = now.linear_momentum;
+        self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
+        self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
+        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - done.work, now.kinetic_energy);
         Ok(now)
     }
 

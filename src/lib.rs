@@ -10,12 +10,15 @@
 //! | (2) reduced form: generalized inertia, bias, Jacobian | [`dynamics::ReducedDynamics`] |
 //! | (3)–(5) target, contact Jacobian `J_t` | [`target`] |
 //! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
+//! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
 //! | end rates from the generalized Jacobian | `design` |
 //! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
+//! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions
 //! SI units and radians. Planar twists are `[ω, vx, vy]`, wrenches and impulses `[n, fx, fy]`, poses `[yaw, x, y]`, in
@@ -70,6 +73,8 @@ mod render;
 mod stage;
 
 #[cfg(feature = "std")]
+pub mod actuators;
+#[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
 pub mod audit;
@@ -102,11 +107,15 @@ pub mod output;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "std")]
+pub mod remainder;
+#[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod scenario;
+#[cfg(feature = "std")]
+pub mod settle;
 #[cfg(feature = "std")]
 pub mod simulate;
 #[cfg(feature = "std")]

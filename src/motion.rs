@@ -1,4 +1,4 @@
-//! The differential equation of a controlled robot, with the work of its joint torques beside it.
+//! The differential equation of a controlled robot, with what its actuators do beside it.
 
 use crate::control::Control;
 use crate::dynamics::Model;
@@ -6,7 +6,9 @@ use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::{Forces, State, vector_length};
 
-/// d/dt of `[base_pose, joint_angles, base_twist, joint_rates, work]` under a control law; no other forces.
+/// d/dt of `[base_pose, joint_angles, base_twist, joint_rates, joint_work, base_work, base_impulse]` under a control law:
+/// its joint torques and, where it has one, its base torque; no other forces. The last three are an
+/// [`Effort`](crate::state::Effort).
 ///
 /// `torques` (joints) is left with the torques at this time.
 ///
@@ -33,9 +35,16 @@ pub fn derivative<T: Real>(
         *place = *value;
     }
     let (base, rest) = accelerations.split_at_mut(3);
-    let (joint_accelerations, work) = rest.split_at_mut(joints);
-    base.copy_from_slice(&model.forward_dynamics(&state, &Forces::torques(torques), joint_accelerations)?);
-    let power = torques.iter().zip(state.joint_rates).fold(T::ZERO, |sum, (t, r)| sum + *t * *r);
-    work.fill(power);
+    let (joint_accelerations, effort) = rest.split_at_mut(joints);
+    let base_torque = control.base_torque().map(|base| base.torque);
+    let base_wrench = base_torque.map(|torque| [torque, T::ZERO, T::ZERO]);
+    let forces = Forces { base_wrench, ..Forces::torques(torques) };
+    base.copy_from_slice(&model.forward_dynamics(&state, &forces, joint_accelerations)?);
+    let joint_power = torques.iter().zip(state.joint_rates).fold(T::ZERO, |sum, (t, r)| sum + *t * *r);
+    let [omega, ..] = state.base_twist;
+    let base_torque = base_torque.unwrap_or(T::ZERO);
+    for (place, value) in effort.iter_mut().zip([joint_power, base_torque * omega, base_torque]) {
+        *place = value;
+    }
     Ok(())
 }

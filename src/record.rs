@@ -7,21 +7,24 @@ use std::io::{self, Write};
 
 /// Writes the time series of one case: a header row with units, one row per sample.
 ///
+/// Where a torque acts on the base, there are columns for it, its work and its impulse; the torque is 0 in phases without.
 /// At the impact there are two rows of the same time, before and after it. Work is counted from the start of each phase.
 ///
 /// # Errors
 /// What the writer says.
 pub fn write_csv(layout: &Layout, study: &Study, case: &CaseResult, to: impl Write) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(to);
-    csv.write_record(header(layout))?;
-    write_phase(&mut csv, "approach", 0.0, &study.approach)?;
+    let base_torque =
+        case.capture.iter().flat_map(|captured| captured.post_impact.end()).any(|end| end.base_torque.is_some());
+    csv.write_record(header(layout, base_torque))?;
+    write_phase(&mut csv, "approach", 0.0, &study.approach, base_torque)?;
     if let Some(captured) = &case.capture {
-        write_phase(&mut csv, "post_impact", study.approach.duration, &captured.post_impact)?;
+        write_phase(&mut csv, "post_impact", study.approach.duration, &captured.post_impact, base_torque)?;
     }
     csv.flush()
 }
 
-fn header(layout: &Layout) -> Vec<String> {
+fn header(layout: &Layout, base_torque: bool) -> Vec<String> {
     let mut names = vec!["time [s]".to_owned(), "phase".to_owned()];
     let mut add = |prefix: &str, parts: &[(&str, &str)]| {
         names.extend(parts.iter().map(|(part, unit)| format!("{prefix}{part} [{unit}]")));
@@ -41,6 +44,9 @@ fn header(layout: &Layout) -> Vec<String> {
     }
     add("linear_momentum_", &[("x", "N s"), ("y", "N s")]);
     add("", &[("angular_momentum", "N m s"), ("kinetic_energy", "J"), ("joint_work", "J")]);
+    if base_torque {
+        add("base_", &[("torque", "N m"), ("work", "J"), ("impulse", "N m s")]);
+    }
     names
 }
 
@@ -52,10 +58,20 @@ fn each_joint(layout: &Layout, mut name: impl FnMut(String)) {
     }
 }
 
-fn write_phase(csv: &mut csv::Writer<impl Write>, name: &str, start: f64, phase: &Phase) -> io::Result<()> {
+fn write_phase(
+    csv: &mut csv::Writer<impl Write>,
+    name: &str,
+    start: f64,
+    phase: &Phase,
+    base_torque: bool,
+) -> io::Result<()> {
     for sample in &phase.samples {
         let mut row = vec![number(start + sample.time), name.to_owned()];
         row.extend(values(sample).map(number));
+        if base_torque {
+            let of_base = [sample.base_torque.unwrap_or_default(), sample.base_work, sample.base_impulse];
+            row.extend(of_base.map(number));
+        }
         csv.write_record(row)?;
     }
     Ok(())

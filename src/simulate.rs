@@ -1,12 +1,12 @@
 //! One phase in time: fixed Runge–Kutta steps under a control law, audited at every step.
 
-use crate::audit::{Audit, Drift};
+use crate::audit::{Audit, Done, Drift};
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::integrate::RungeKutta4;
 use crate::motion::derivative;
-use crate::state::{State, vector_length};
+use crate::state::{Effort, State, vector_length};
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +66,12 @@ pub struct Sample {
     pub kinetic_energy: f64,
     /// Work of the joint torques since the start of the phase, J.
     pub work: f64,
+    /// On the base, N m; `None` where there is no such actuator.
+    pub base_torque: Option<f64>,
+    /// Work of the base torque since the start of the phase, J.
+    pub base_work: f64,
+    /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
+    pub base_impulse: f64,
 }
 
 /// How one phase is cut into steps and samples.
@@ -108,6 +114,29 @@ pub struct Phase {
     pub samples: Vec<Sample>,
     /// The audit of every step.
     pub drift: Drift,
+    /// How long the actuators were at their limits.
+    pub saturation: Saturation,
+}
+
+/// How long actuators were at their limits, by what they gave when each step began.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Saturation {
+    /// One per joint, s; empty where the law has no limits.
+    pub joints: Vec<f64>,
+    /// s; 0 without a base torque.
+    pub base: f64,
+}
+
+impl Saturation {
+    /// Adds a step (s) to what is saturated as it begins.
+    fn count(&mut self, control: &dyn Control<f64>, step: f64) {
+        let flags = control.saturated();
+        self.joints.resize(flags.len(), 0.0);
+        for (time, saturated) in self.joints.iter_mut().zip(flags) {
+            *time += if *saturated { step } else { 0.0 };
+        }
+        self.base += if control.base_torque().is_some_and(|base| base.saturated) { step } else { 0.0 };
+    }
 }
 
 impl Phase {
@@ -154,11 +183,16 @@ pub fn simulate(
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
     let step = time_of(1);
     let mut samples = Vec::new();
+    let mut saturation = Saturation::default();
     for i in 0..=steps {
         let time = time_of(i);
         let state = State::from_vector(&x, joints).ok_or(Stopped { time, source: wrong_length })?;
-        let work = x.last().copied().unwrap_or_default();
-        let momentum = audit.record(&state, work).map_err(at(time))?;
+        let effort = Effort::from_vector(&x).unwrap_or_default();
+        let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let momentum = audit.record(&state, &done).map_err(at(time))?;
+        if i < steps {
+            control.begin_step(time, model, &state).map_err(at(time))?;
+        }
         if i % stride == 0 || i == steps {
             control.joint_torques(time, model, &state, &mut torques).map_err(at(time))?;
             let mut sample = Sample {
@@ -170,7 +204,10 @@ pub fn simulate(
                 linear_momentum: momentum.linear_momentum,
                 angular_momentum: momentum.angular_momentum,
                 kinetic_energy: momentum.kinetic_energy,
-                work,
+                work: effort.joint_work,
+                base_torque: control.base_torque().map(|base| base.torque),
+                base_work: effort.base_work,
+                base_impulse: effort.base_impulse,
             };
             model
                 .end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)
@@ -179,11 +216,18 @@ pub fn simulate(
             samples.push(sample);
         }
         if i < steps {
+            let mut first = true;
             integrator
-                .step(time, step, &mut x, |t, x, rate| derivative(model, control, t, x, rate, &mut torques))
+                .step(time, step, &mut x, |t, x, rate| {
+                    derivative(model, control, t, x, rate, &mut torques)?;
+                    if std::mem::take(&mut first) {
+                        saturation.count(control, step);
+                    }
+                    Ok(())
+                })
                 .map_err(at(time))?;
             tick();
         }
     }
-    Ok(Phase { duration: timing.duration, samples, drift: audit.drift() })
+    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation })
 }

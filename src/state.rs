@@ -31,10 +31,29 @@ impl<'a, T> Forces<'a, T> {
     }
 }
 
-/// Number of entries of the vector that is integrated: pose, angles, twist, rates, work.
+/// Number of entries of the vector that is integrated: pose, angles, twist, rates, [`Effort`].
 #[must_use]
 pub const fn vector_length(joints: usize) -> usize {
-    2 * (3 + joints) + 1
+    2 * (3 + joints) + 3
+}
+
+/// What the actuators have done, integrated beside the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort<T> {
+    /// Work of the joint torques, J.
+    pub joint_work: T,
+    /// Work of the base torque, J.
+    pub base_work: T,
+    /// Angular momentum that the base torque gave the robot, N m s.
+    pub base_impulse: T,
+}
+
+impl<T: Copy> Effort<T> {
+    /// The last three entries of an integrated vector; `None` where there are not so many.
+    pub fn from_vector(vector: &[T]) -> Option<Self> {
+        let [joint_work, base_work, base_impulse] = *vector.last_chunk::<3>()?;
+        Some(Self { joint_work, base_work, base_impulse })
+    }
 }
 
 impl<'a, T: Copy> State<'a, T> {

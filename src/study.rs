@@ -2,11 +2,12 @@
 
 use crate::approach::Approach;
 use crate::capture::{Capture, capture};
-use crate::control::Free;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario};
-use crate::simulate::{Motion, Phase, Sample, Stopped, Timing, simulate};
+use crate::remainder::Remainder;
+use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling};
+use crate::settle::{settle, wheels};
+use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
 use crate::target::Target;
 
 /// Largest momentum drift of a phase that passes the audit.
@@ -42,8 +43,10 @@ pub struct CaseResult {
 pub struct Captured {
     /// Exact and as the paper writes it.
     pub impact: Capture,
-    /// The merged robot, free, from the exact velocities.
+    /// The merged robot from the exact velocities.
     pub post_impact: Phase,
+    /// What is left at its end; `None` where the joints are free, as in the paper.
+    pub remainder: Option<Remainder>,
 }
 
 /// Why a study has no result.
@@ -143,9 +146,17 @@ fn run_case(
     };
     let timing = Timing { duration: after.duration, step: after.step, sample };
     observer.begin(&case.name, timing.steps());
-    let post_impact = simulate(&*model, &mut Free, &start, &timing, &mut || observer.step())
-        .map_err(|source| StudyError::PostImpact { case: case.name.clone(), source })?;
-    Ok(Captured { impact, post_impact })
+    let wheels = wheels(&scenario.layout, &targets);
+    let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };
+    let post_impact = settle(&*model, after, &wheels, &start, sample, &mut || observer.step()).map_err(stopped)?;
+    let remainder = match (&after.control, post_impact.end()) {
+        (Settling::None, _) | (_, None) => None,
+        (control, Some(end)) => {
+            let at_end = |source| stopped(Stopped { time: end.time, source });
+            Some(Remainder::of(&*model, control, &end.motion, &wheels).map_err(at_end)?)
+        }
+    };
+    Ok(Captured { impact, post_impact, remainder })
 }
 
 /// The scenario's targets with the case's twists, in arm order.

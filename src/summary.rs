@@ -2,6 +2,7 @@
 
 use crate::capture::ImpactResult;
 use crate::layout::Layout;
+use crate::remainder::Remainder;
 use crate::simulate::Phase;
 use crate::study::{CaseResult, Study};
 use serde_json::{Value, json};
@@ -25,6 +26,9 @@ fn case_value(study: &Study, case: &CaseResult) -> Value {
             "paper": impact(&captured.impact.paper),
         });
         value["post_impact"] = phase(&captured.post_impact, false);
+        if let Some(left) = &captured.remainder {
+            value["post_impact"]["remainder"] = remainder(left);
+        }
     }
     value
 }
@@ -45,7 +49,28 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     }
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
+    if !phase.saturation.joints.is_empty() {
+        value["joints_saturated"] = json!(phase.saturation.joints);
+    }
+    if end.base_torque.is_some() {
+        value["base_impulse"] = json!(end.base_impulse);
+        value["base_work"] = json!(end.base_work);
+        value["base_saturated"] = json!(phase.saturation.base);
+    }
     value
+}
+
+fn remainder(left: &Remainder) -> Value {
+    json!({
+        "control": left.control,
+        "momentum": left.momentum,
+        "velocity": left.velocity,
+        "inertia": left.inertia,
+        "rigid_rate": left.rigid_rate,
+        "base_rate": left.base_rate,
+        "largest_joint_rate": left.largest_joint_rate,
+        "wheel_rates": left.wheel_rates,
+    })
 }
 
 fn impact(result: &ImpactResult) -> Value {

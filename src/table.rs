@@ -1,7 +1,7 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
 use crate::capture::ImpactResult;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Settling};
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -18,7 +18,8 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt
     approach(out, scenario, study)?;
     if study.cases.iter().any(|case| case.capture.is_some()) {
         impulses(out, scenario, study)?;
-        balances(out, study)?;
+        balances(out, scenario, study)?;
+        remainders(out, study)?;
     }
     Ok(())
 }
@@ -54,6 +55,9 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
         writeln!(out)?;
     }
+    if !phase.saturation.joints.is_empty() {
+        writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
+    }
     writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
 }
 
@@ -83,7 +87,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     Ok(())
 }
 
-fn balances(out: &mut String, study: &Study) -> std::fmt::Result {
+fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
     writeln!(out, "\nRobot and targets together, before and after the impact")?;
     writeln!(
         out,
@@ -96,7 +100,11 @@ fn balances(out: &mut String, study: &Study) -> std::fmt::Result {
             balance(out, case, model, result)?;
         }
     }
-    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, robot and targets as one, no torques")?;
+    let torques = match scenario.post_impact.as_ref().map(|after| &after.control) {
+        None | Some(Settling::None) => "no torques".to_owned(),
+        Some(control) => format!("control `{}`", control.name()),
+    };
+    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, robot and targets as one, {torques}")?;
     writeln!(out, "  {:<16} {:>10} {:>15} {:>13}", "case", "time [s]", "momentum drift", "energy error")?;
     for case in &study.cases {
         let Some(Captured { post_impact, .. }) = &case.capture else { continue };
@@ -105,6 +113,46 @@ fn balances(out: &mut String, study: &Study) -> std::fmt::Result {
             "  {:<16} {:>10} {:>15.1e} {:>13.1e}",
             case.name, post_impact.duration, post_impact.drift.momentum_drift, post_impact.drift.energy_error
         )?;
+    }
+    Ok(())
+}
+
+fn remainders(out: &mut String, study: &Study) -> std::fmt::Result {
+    let each = study.cases.iter().filter_map(|case| {
+        let captured = case.capture.as_ref()?;
+        Some((case, &captured.post_impact, captured.remainder.as_ref()?))
+    });
+    let each: Vec<_> = each.collect();
+    if each.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\nWhat remains of the motion then: rates [rad/s], momentum about the COM of the whole [N m s, N s]"
+    )?;
+    let head = ["case", "base rate", "l/I", "joint rates", "l", "px", "py"];
+    let [case, base, rigid, joints, l, px, py] = head;
+    writeln!(out, "  {case:<16} {base:>10} {rigid:>10} {joints:>11} {l:>10} {px:>10} {py:>10}")?;
+    for (case, phase, left) in each {
+        let [l, px, py] = left.momentum;
+        writeln!(
+            out,
+            "  {:<16} {:>10.6} {:>10.6} {:>11.1e} {l:>10.6} {px:>10.6} {py:>10.6}",
+            case.name, left.base_rate, left.rigid_rate, left.largest_joint_rate
+        )?;
+        if !left.wheel_rates.is_empty() {
+            writeln!(out, "    wheels turn at {} rad/s", list(&left.wheel_rates, 6))?;
+        }
+        if let Some(end) = phase.end().filter(|end| end.base_torque.is_some()) {
+            writeln!(
+                out,
+                "    the base torque took {:.6} N m s and did {:.6} J; {:.3} s at its limit",
+                -end.base_impulse, end.base_work, phase.saturation.base
+            )?;
+        }
+        if !phase.saturation.joints.is_empty() {
+            writeln!(out, "    joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
+        }
     }
     Ok(())
 }

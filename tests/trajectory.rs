@@ -3,7 +3,8 @@
 mod support;
 
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Trajectory};
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic};
+use support::dual::Dual;
 use support::{assert_close, tolerance};
 
 const FROM: [f64; 3] = [0.698, -1.5, 0.3];
@@ -17,10 +18,19 @@ fn ends() -> Ends<'static, f64> {
 
 /// Starts at rest, ends with these rates and without acceleration, and is differentiable in between.
 fn check(trajectory: &impl Trajectory<f64>, final_rates: &[f64; 3]) {
+    check_from(trajectory, &[0.0; 3], final_rates);
+}
+
+fn check_from(trajectory: &impl Trajectory<f64>, initial_rates: &[f64; 3], final_rates: &[f64; 3]) {
     for joint in 0..3 {
         let at = |time| trajectory.joint(joint, time).expect("a joint");
         let (start, end) = (at(0.0), at(DURATION));
-        assert_close("start", &[start.angle, start.rate, start.acceleration], &[FROM[joint], 0.0, 0.0], 0.0);
+        assert_close(
+            "start",
+            &[start.angle, start.rate, start.acceleration],
+            &[FROM[joint], initial_rates[joint], 0.0],
+            0.0,
+        );
         let found = [end.angle, end.rate, end.acceleration];
         assert_close("end", &found, &[TO[joint], final_rates[joint], 0.0], 10.0 * tolerance::POLYNOMIAL);
         for i in 1..20 {
@@ -51,6 +61,37 @@ fn printed_quartic_reaches_a_twentieth() {
 #[test]
 fn cycloidal_ends_at_rest() {
     check(&Cycloidal { ends: ends() }, &[0.0; 3]);
+}
+
+#[test]
+fn quintic_goes_from_its_first_rates_to_its_last() {
+    let initial_rates = [0.1, 0.03, -0.2];
+    check_from(&Quintic { ends: ends(), initial_rates: &initial_rates, final_rates: &RATES }, &initial_rates, &RATES);
+}
+
+/// The rate of a quintic is a quartic, and from rest both are held to the same six conditions.
+#[test]
+fn quintic_from_rest_is_eq_6() {
+    let quartic = Quartic { ends: ends(), final_rates: &RATES };
+    let quintic = Quintic { ends: ends(), initial_rates: &[0.0; 3], final_rates: &RATES };
+    for (joint, i) in (0..3).flat_map(|joint| (0..=10).map(move |i| (joint, i))) {
+        let time = f64::from(i) * DURATION / 10.0;
+        let [a, b] = [quartic.joint(joint, time), quintic.joint(joint, time)].map(|d| d.expect("a joint"));
+        let values = |d: planar_capture::trajectory::Desired<f64>| [d.angle, d.rate, d.acceleration];
+        assert_close("eq. (6)", &values(a), &values(b), tolerance::POLYNOMIAL);
+    }
+}
+
+/// Rate and acceleration are the derivatives of angle and rate, to rounding.
+#[test]
+fn dual_numbers_differentiate_the_quintic() {
+    let c = |x: f64| Dual(x, 0.0);
+    for i in 0..=20 {
+        let tau = Dual(f64::from(i) / 20.0, 1.0 / DURATION);
+        let found = quintic([c(0.698), c(-0.524)], [c(0.1), c(-0.2)], c(DURATION), tau);
+        assert_close("rate", &[found.rate.0], &[found.angle.1], tolerance::DUAL);
+        assert_close("acceleration", &[found.acceleration.0], &[found.rate.1], tolerance::DUAL);
+    }
 }
 
 /// Eqs. (6) and (7) letter by letter, with the dimensionless s and with the printed one.

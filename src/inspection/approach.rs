@@ -25,7 +25,7 @@ pub(super) fn largest_turn(scenario: &Scenario) -> (usize, f64) {
 pub(super) fn peak_rate(scenario: &Scenario) -> f64 {
     // of the trajectory's shape, in units of its mean: 30 τ² (1 − τ)² and 1 − cos 2πτ at τ = ½
     let shape = match scenario.approach.trajectory {
-        TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted => 1.875,
+        TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted | TrajectoryKind::Quintic => 1.875,
         TrajectoryKind::Cycloidal => 2.0,
     };
     shape * largest_turn(scenario).1 / scenario.approach.duration
@@ -133,10 +133,14 @@ fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
 }
 
 fn slack(scenario: &Scenario) -> Option<Oddity> {
-    let Tracking::ProportionalDerivative { proportional_gain, .. } = &scenario.approach.tracking else { return None };
+    let (Tracking::ProportionalDerivative { proportional_gain, .. }
+    | Tracking::ComputedTorque { proportional_gain, .. }) = &scenario.approach.tracking
+    else {
+        return None;
+    };
     proportional_gain.iter().all(|gain| *gain == 0.0).then(|| Oddity {
         key: "approach.proportional_gain".to_owned(),
         why: "nothing pulls the arms to their trajectory".to_owned(),
-        help: "a gain is in N m/rad, 49 by default; `tracking = \"exact\"` follows without gains".to_owned(),
+        help: "a gain is 49 by default; `tracking = \"exact\"` follows without gains".to_owned(),
     })
 }

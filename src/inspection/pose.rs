@@ -27,7 +27,7 @@ pub(super) struct FinalPose<'a> {
 
 /// What is odd about the final pose and the gains.
 pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
-    [short_of_joints(scenario), singular(scenario), coarse(scenario)].into_iter().flatten().collect()
+    [short_of_joints(scenario), singular(scenario), coarse(scenario), seldom(scenario)].into_iter().flatten().collect()
 }
 
 /// The arms whose tips are to move or to capture, and that have the joints to move their tips any way: they need three.
@@ -81,13 +81,19 @@ fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
     })
 }
 
-/// 1/s: how fast the fastest joint motion under PD control goes, at the initial or the final pose.
+/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains; under PD
+/// control it is, at the initial or the final pose, that of
 ///
 /// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I: the largest of the damping rates, eigenvalues of I⁻¹ Kd, and
 /// the natural frequencies, roots of those of I⁻¹ Kp.
 pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
-    let Tracking::ProportionalDerivative { proportional_gain, derivative_gain } = &scenario.approach.tracking else {
-        return None;
+    let (proportional_gain, derivative_gain) = match &scenario.approach.tracking {
+        Tracking::Exact => return None,
+        Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => (proportional_gain, derivative_gain),
+        Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
+            let largest = |gains: &[f64]| gains.iter().copied().fold(0.0, f64::max);
+            return Some(largest(derivative_gain).max(largest(proportional_gain).sqrt()));
+        }
     };
     let poses = [&scenario.initial.joint_angles, &scenario.approach.final_joint_angles];
     let modes = poses.into_iter().filter_map(|angles| {
@@ -118,6 +124,22 @@ fn coarse(scenario: &Scenario) -> Option<Oddity> {
             short(1.0 / rate)
         ),
         help: format!("a step of {} s or less resolves it; or smaller gains", short(FINE / rate)),
+    })
+}
+
+/// Torques that are held for longer than the motion that they should steer takes.
+fn seldom(scenario: &Scenario) -> Option<Oddity> {
+    let Scenario { approach, .. } = scenario;
+    let (steps, rate) = (approach.actuation.steps_per_sample?, fastest_mode(scenario)?);
+    let sample_time = f64::from(steps) * approach.step;
+    (sample_time * rate > COARSE && approach.step * rate <= COARSE).then(|| Oddity {
+        key: "approach.sample_time".to_owned(),
+        why: format!(
+            "torques are held for {} s, while the fastest joint motion under these gains decays or swings within {} s",
+            short(sample_time),
+            short(1.0 / rate)
+        ),
+        help: format!("a sample time of {} s or less keeps up with it; or smaller gains", short(FINE / rate)),
     })
 }
 

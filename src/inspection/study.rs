@@ -6,7 +6,7 @@ use super::pose::{FinalPose, fastest_mode, final_pose};
 use super::robot::{code, digest, freedom};
 use super::targets::distance_and_most;
 use crate::models;
-use crate::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use crate::scenario::{Actuation, EndRates, Scenario, Settling, Tracking, TrajectoryKind};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -43,6 +43,11 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
+        let Actuation { torque_limits, steps_per_sample } = &after.actuation;
+        if after.control != Settling::None {
+            let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
+            writeln!(out, "  control afterwards  {}{actuation}", settling(&after.control))?;
+        }
         targets(out, scenario)?;
         cases(out, scenario)?;
     }
@@ -75,6 +80,7 @@ fn trajectory(scenario: &Scenario) -> String {
         TrajectoryKind::Quartic => "quartic",
         TrajectoryKind::QuarticAsPrinted => "quartic as printed",
         TrajectoryKind::Cycloidal => "cycloidal",
+        TrajectoryKind::Quintic => "quintic",
     };
     let end = match &scenario.approach.end {
         EndRates::Rest => "rest".to_owned(),
@@ -93,20 +99,47 @@ fn turn(scenario: &Scenario) -> String {
 }
 
 fn tracking(scenario: &Scenario) -> String {
+    let law = law(scenario);
+    let law = match fastest_mode(scenario) {
+        Some(rate) => {
+            format!("{law}; fastest mode {} 1/s, {} in a step", short(rate), short(rate * scenario.approach.step))
+        }
+        None => law,
+    };
+    let Actuation { torque_limits, steps_per_sample } = &scenario.approach.actuation;
+    format!("{law}{}", actuation(torque_limits.as_deref(), *steps_per_sample))
+}
+
+fn actuation(torque_limits: Option<&[f64]>, steps_per_sample: Option<u32>) -> String {
+    let limits = torque_limits.map_or_else(String::new, |limits| format!("; at most {} N m", gains(limits)));
+    let samples = steps_per_sample
+        .map_or_else(String::new, |steps| format!("; sampled every {}, and held", count(steps as usize, "step")));
+    format!("{limits}{samples}")
+}
+
+fn settling(control: &Settling) -> String {
+    match control {
+        Settling::None => "none".to_owned(),
+        Settling::Hold { proportional_gain, derivative_gain } => {
+            format!("hold, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
+        }
+        Settling::Damping { derivative_gain } => format!("damping, {} N m s/rad", gains(derivative_gain)),
+        Settling::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
+            let rates = format!("stabilise, joints {} 1/s, base {} 1/s", gains(derivative_gain), short(*base_gain));
+            let torque = base_torque_limit.map(|limit| format!("; base torque of at most {} N m", short(limit)));
+            rates + &torque.unwrap_or_default()
+        }
+    }
+}
+
+fn law(scenario: &Scenario) -> String {
     match &scenario.approach.tracking {
+        Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
+            format!("computed torque, {} 1/s², {} 1/s", gains(proportional_gain), gains(derivative_gain))
+        }
         Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-            let law = format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain));
-            match fastest_mode(scenario) {
-                Some(rate) => {
-                    format!(
-                        "{law}; fastest mode {} 1/s, {} in a step",
-                        short(rate),
-                        short(rate * scenario.approach.step)
-                    )
-                }
-                None => law,
-            }
+            format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }
     }
 }

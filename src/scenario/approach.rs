@@ -1,11 +1,16 @@
 //! The `[approach]` table: how the arms move to the targets.
 
+use super::actuation::Actuation;
 use super::joints::{Joints, check_length};
 use super::{JOINT_ANGLE, JOINT_RATE, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
 const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
 const DERIVATIVE_GAIN: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+/// Of accelerations, not of torques.
+const ERROR_GAIN: Quantity =
+    Quantity::non_negative("a proportional gain of computed torque (or one per joint)", "1/s²");
+const RATE_GAIN: Quantity = Quantity::non_negative("a derivative gain of computed torque (or one per joint)", "1/s");
 
 /// A joint trajectory and how it is followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +27,8 @@ pub struct Approach {
     pub end: EndRates,
     /// How the trajectory is followed.
     pub tracking: Tracking,
+    /// Torque limits and sample time of the control law; none of them for exact tracking.
+    pub actuation: Actuation,
 }
 
 /// The shape of the joint trajectories.
@@ -33,6 +40,9 @@ pub enum TrajectoryKind {
     QuarticAsPrinted,
     /// From rest to rest along a cycloid.
     Cycloidal,
+    /// Joint angles quintic in time, from the initial joint rates to those wanted at the end: quartic rates where the
+    /// arms start at rest.
+    Quintic,
 }
 
 /// The rates wanted at the end of an approach.
@@ -59,10 +69,17 @@ pub enum Tracking {
         /// Kd for each joint in N m s/rad, 0 or more; default 14.
         derivative_gain: Vec<f64>,
     },
+    /// τ = I (θ̈d + Kd (θ̇d − θ̇) + Kp (θd − θ)) + c, by inverse dynamics of the measured state.
+    ComputedTorque {
+        /// Kp for each joint in 1/s², 0 or more; default 49.
+        proportional_gain: Vec<f64>,
+        /// Kd for each joint in 1/s, 0 or more; default 14.
+        derivative_gain: Vec<f64>,
+    },
 }
 
 impl Approach {
-    pub(super) const KEYS: [&'static str; 9] = [
+    pub(super) const KEYS: [&'static str; 11] = [
         "duration",
         "step",
         "trajectory",
@@ -72,18 +89,29 @@ impl Approach {
         "tracking",
         "proportional_gain",
         "derivative_gain",
+        Actuation::KEYS[0],
+        Actuation::KEYS[1],
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
         let times = duration_and_step(table);
         let trajectory = table
-            .require("trajectory", "`quartic`, `quartic_as_printed` or `cycloidal`")
+            .require("trajectory", "`quartic`, `quartic_as_printed`, `cycloidal` or `quintic`")
             .and_then(|value| value.choice(&TrajectoryKind::CHOICES));
         let final_joint_angles = table
             .require("final_joint_angles", &joints.one_each())
             .and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
         let end = EndRates::from_table(table, trajectory, joints);
         let tracking = Tracking::from_table(table, joints);
+        let actuation = match &tracking {
+            Some(Tracking::Exact) => {
+                let why =
+                    "exact tracking gives whatever torque it takes, expected `tracking` `computed_torque` or `pd`";
+                Actuation::reject(table, why);
+                Some(Actuation::default())
+            }
+            _ => Actuation::from_table(table, times, joints),
+        };
         let (duration, step) = times?;
         Some(Self {
             duration,
@@ -92,13 +120,18 @@ impl Approach {
             final_joint_angles: final_joint_angles?,
             end: end?,
             tracking: tracking?,
+            actuation: actuation?,
         })
     }
 }
 
 impl TrajectoryKind {
-    const CHOICES: [(&'static str, Self); 3] =
-        [("quartic", Self::Quartic), ("quartic_as_printed", Self::QuarticAsPrinted), ("cycloidal", Self::Cycloidal)];
+    const CHOICES: [(&'static str, Self); 4] = [
+        ("quartic", Self::Quartic),
+        ("quartic_as_printed", Self::QuarticAsPrinted),
+        ("cycloidal", Self::Cycloidal),
+        ("quintic", Self::Quintic),
+    ];
 }
 
 impl EndRates {
@@ -126,7 +159,7 @@ impl EndRates {
                 "missing key `approach.final_end_effector_twists`, expected one [ω, vx, vy] per arm \
                  (or `approach.final_joint_rates`, one rate per joint)"
                     .to_owned(),
-                "the quartic trajectories need rates at their end",
+                "quartic and quintic trajectories need rates at their end",
             ),
             _ => {}
         }
@@ -150,25 +183,38 @@ fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<EndRate
 
 impl Tracking {
     fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
-        let exact = match table.get("tracking") {
-            Some(value) => value.choice(&[("pd", false), ("exact", true)])?,
-            None => false,
-        };
-        if exact {
-            for key in ["proportional_gain", "derivative_gain"] {
-                if let Some(value) = table.get(key) {
-                    value.reject("exact tracking has no gains, expected `tracking = \"pd\"` with them");
-                }
+        let law = match table.get("tracking") {
+            Some(value) => {
+                value.choice(&[("pd", Law::Torques), ("exact", Law::Exact), ("computed_torque", Law::Accelerations)])?
             }
-            return Some(Self::Exact);
-        }
-        let gain = |key, quantity: &Quantity, default| match table.get(key) {
-            Some(value) if value.is_array() => joints.numbers(&value, quantity),
-            Some(value) => value.number(quantity).map(|gain| joints.repeat(gain)),
-            None => Some(joints.repeat(default)),
+            None => Law::Torques,
         };
-        let proportional_gain = gain("proportional_gain", &PROPORTIONAL_GAIN, 49.0);
-        let derivative_gain = gain("derivative_gain", &DERIVATIVE_GAIN, 14.0);
-        Some(Self::ProportionalDerivative { proportional_gain: proportional_gain?, derivative_gain: derivative_gain? })
+        let [error, rate] = match law {
+            Law::Torques => [&PROPORTIONAL_GAIN, &DERIVATIVE_GAIN],
+            Law::Accelerations => [&ERROR_GAIN, &RATE_GAIN],
+            Law::Exact => {
+                for key in ["proportional_gain", "derivative_gain"] {
+                    if let Some(value) = table.get(key) {
+                        value.reject("exact tracking has no gains, expected `tracking = \"pd\"` with them");
+                    }
+                }
+                return Some(Self::Exact);
+            }
+        };
+        let proportional_gain = joints.gain(table, "proportional_gain", error, 49.0);
+        let derivative_gain = joints.gain(table, "derivative_gain", rate, 14.0);
+        let (proportional_gain, derivative_gain) = (proportional_gain?, derivative_gain?);
+        Some(match law {
+            Law::Accelerations => Self::ComputedTorque { proportional_gain, derivative_gain },
+            Law::Torques | Law::Exact => Self::ProportionalDerivative { proportional_gain, derivative_gain },
+        })
     }
+}
+
+/// What the gains of a law make of an error.
+#[derive(Clone, Copy)]
+enum Law {
+    Torques,
+    Accelerations,
+    Exact,
 }

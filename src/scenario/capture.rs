@@ -1,7 +1,9 @@
 //! `[[target]]`, `[[case]]` and `[post_impact]`: what is captured, in which variants, and what
 //! follows.
 
-use super::{FILE_NAME, POSITION, TWIST, duration_and_step, file_name};
+use super::joints::Joints;
+use super::post_impact::PostImpact;
+use super::{FILE_NAME, POSITION, TWIST, file_name};
 use crate::diagnostic::{Quantity, Table, Value, every};
 use crate::layout::Layout;
 use std::collections::HashSet;
@@ -45,15 +47,6 @@ pub struct Case {
     pub printed_impulses: Vec<Option<f64>>,
 }
 
-/// The free motion of robot and targets after the capture.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PostImpact {
-    /// Length in s, greater than 0.
-    pub duration: f64,
-    /// Time step in s, at most the duration; default 0.005.
-    pub step: f64,
-}
-
 type Capture = (Vec<Target>, Vec<Case>, Option<PostImpact>);
 
 /// Reads the three tables; `name` is the scenario's.
@@ -86,10 +79,8 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
         }
         None
     } else {
-        Some(root.table("post_impact", &["duration", "step"]).and_then(|table| {
-            let (duration, step) = duration_and_step(&table)?;
-            Some(PostImpact { duration, step })
-        }))
+        let table = root.table("post_impact", &PostImpact::KEYS);
+        Some(table.and_then(|table| PostImpact::from_table(&table, &Joints { layout })))
     };
 
     let mut cases = cases?;

@@ -1,6 +1,6 @@
 //! Checking lists against the joints and arms of the layout.
 
-use crate::diagnostic::{Quantity, Value};
+use crate::diagnostic::{Quantity, Table, Value};
 use crate::layout::Layout;
 
 /// The joints that lists are checked against; nothing is known of them where the layout is broken.
@@ -23,6 +23,19 @@ impl Joints<'_> {
         let items = value.items(&self.one_each())?;
         check_length(value, items.len(), self.layout.map(Layout::joints), &self.one_each())?;
         items.iter().map(|item| item.number(quantity)).collect()
+    }
+
+    /// One number for all joints, or a list with one per joint.
+    pub(super) fn one_or_each(&self, value: &Value<'_>, quantity: &Quantity) -> Option<Vec<f64>> {
+        if value.is_array() {
+            return self.numbers(value, quantity);
+        }
+        value.number(quantity).map(|number| self.repeat(number))
+    }
+
+    /// The gain under a key, or the default for every joint.
+    pub(super) fn gain(&self, table: &Table<'_>, key: &str, quantity: &Quantity, default: f64) -> Option<Vec<f64>> {
+        table.get(key).map_or_else(|| Some(self.repeat(default)), |value| self.one_or_each(&value, quantity))
     }
 
     /// The same number for every joint.

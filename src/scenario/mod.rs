@@ -1,14 +1,18 @@
 //! Scenarios: what a run simulates, read from TOML.
 
+mod actuation;
 mod approach;
 mod capture;
 mod joints;
+mod post_impact;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
+pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, Tracking, TrajectoryKind};
-pub use capture::{Case, PostImpact, Target};
+pub use capture::{Case, Target};
+pub use post_impact::{PostImpact, Settling};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
@@ -116,7 +120,10 @@ impl Scenario {
             let initial = initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
             let approach =
                 root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints));
-            if let (Some(table), Some(Approach { tracking: Tracking::Exact, .. })) = (&initial_table, &approach) {
+            if let (Some(table), Some(approach)) = (&initial_table, &approach)
+                && approach.tracking == Tracking::Exact
+                && approach.trajectory != TrajectoryKind::Quintic
+            {
                 require_rest(table, initial.as_ref());
             }
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
@@ -166,11 +173,13 @@ impl Initial {
     }
 }
 
-/// The exactly tracked trajectories start at rest, so the arms must too.
+/// All trajectories but the quintic start at rest, so the arms must too where tracking is exact.
 fn require_rest(table: &Table<'_>, initial: Option<&Initial>) {
     let moving = initial.is_some_and(|initial| initial.joint_rates.iter().any(|rate| *rate != 0.0));
     if let (true, Some(value)) = (moving, table.get("joint_rates")) {
-        value.reject("exact tracking starts from rest, expected zeros or `tracking = \"pd\"`");
+        value.reject(
+            "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or `trajectory = \"quintic\"`",
+        );
     }
 }
 

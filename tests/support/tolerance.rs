@@ -43,6 +43,16 @@ pub const POLYNOMIAL: f64 = 1e-14;
 pub const IDENTITY: f64 = 1e-12;
 /// The same where a system of equations was solved on the way: rounding times its condition, below 1e4 for these robots.
 pub const SOLVED_IDENTITY: f64 = 1e-10;
+/// Joint angles and rates that a law with inverse dynamics should give, rad, rad/s: the integration error of RK4 at 5 ms over
+/// 4 s of fast motion.
+pub const CONTROLLED: f64 = 1e-8;
+/// What remains after the capture was stabilised for 50 s at 0.5 1/s, rad/s, N m s: exp(−25) of what was there.
+pub const SETTLED: f64 = 1e-10;
+/// Angles held for 50 s after the paper's impact, rad, and rates, rad/s: the slowest mode
+/// of 49 N m/rad and 14 N m s/rad on a stretched arm takes 40 s to decay, 5e-4 measured.
+pub const HELD: f64 = 1e-3;
+/// Rates that should decay exponentially, relative to the largest: RK4 steps of 5 ms of motions of up to 2 rad/s.
+pub const DECAY: f64 = 1e-6;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
 /// error of RK4 at 5 ms, 4e-13 measured.
 pub const TIME_SERIES: f64 = 1e-11;

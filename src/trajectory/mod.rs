@@ -1,6 +1,12 @@
-//! Joint trajectories of the approach: from rest at the initial angles to the final ones.
+//! Joint trajectories of the approach: from the initial angles to the final ones.
 //!
 //! Outside 0 ≤ t ≤ duration a trajectory stays at the nearer end.
+
+mod quintic;
+mod standing;
+
+pub use quintic::{Quintic, quintic};
+pub use standing::Standing;
 
 use crate::scalar::{Real, Scalar};
 

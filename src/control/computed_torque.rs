@@ -1,0 +1,54 @@
+//! Inverse dynamics with feedback.
+
+use super::{Control, desired, inverse_dynamics};
+use crate::check::length;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+use crate::trajectory::Trajectory;
+
+/// Computed torque in the reduced equations: `τ = I (θ̈_d + K_v (θ̇_d − θ̇) + K_p (θ_d − θ)) + c`.
+///
+/// I and c are those of the measured state, momentum of the robot included, so that every joint's error obeys
+/// `ë + K_v ė + K_p e = 0` on its own, whatever the base does. The slices `generalized_…` are working space.
+#[derive(Debug)]
+pub struct ComputedTorque<'a, T, R> {
+    /// Desired angles, rates and accelerations.
+    pub trajectory: R,
+    /// Diagonal of `K_p`, 1/s².
+    pub proportional_gain: &'a [T],
+    /// Diagonal of `K_v`, 1/s.
+    pub derivative_gain: &'a [T],
+    /// joints².
+    pub generalized_inertia: &'a mut [T],
+    /// joints.
+    pub generalized_bias: &'a mut [T],
+    /// 3 arms × joints.
+    pub generalized_jacobian: &'a mut [T],
+}
+
+impl<T: Real, R: Trajectory<T>> Control<T> for ComputedTorque<'_, T, R> {
+    fn joint_torques(
+        &mut self,
+        time: T,
+        model: &dyn Model<T>,
+        state: &State<'_, T>,
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let joints = model.joints();
+        length("joint_torques", joints, torques.len())?;
+        length("proportional_gain", joints, self.proportional_gain.len())?;
+        length("derivative_gain", joints, self.derivative_gain.len())?;
+        model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
+        let gains = self.proportional_gain.iter().zip(self.derivative_gain);
+        let mut feedback = gains.zip(state.joint_angles.iter().zip(state.joint_rates));
+        inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques, |joint| {
+            let desired = desired(&self.trajectory, joint, time, joints)?;
+            let feedback = feedback.next().map_or(T::ZERO, |((kp, kv), (angle, rate))| {
+                *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate)
+            });
+            Ok(desired.acceleration + feedback)
+        })
+    }
+}

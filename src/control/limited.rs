@@ -1,0 +1,53 @@
+//! Actuators that give no more than they can.
+
+use super::{BaseTorque, Control};
+use crate::check::length;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// Another law's joint torques, each cut to its limit: `|τ| ≤ limit`. A base torque is left as it is.
+#[derive(Debug)]
+pub struct Limited<'a, T, C> {
+    /// What is wanted.
+    pub law: C,
+    /// One per joint, N m, 0 or more.
+    pub torque_limits: &'a [T],
+    /// One per joint: whether more was wanted than the limit, in the torques last asked for.
+    pub saturated: &'a mut [bool],
+}
+
+impl<T: Real, C: Control<T>> Control<T> for Limited<'_, T, C> {
+    fn joint_torques(
+        &mut self,
+        time: T,
+        model: &dyn Model<T>,
+        state: &State<'_, T>,
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        length("torque_limits", torques.len(), self.torque_limits.len())?;
+        length("saturated", torques.len(), self.saturated.len())?;
+        self.law.joint_torques(time, model, state, torques)?;
+        let limits = self.torque_limits.iter().zip(self.saturated.iter_mut());
+        for (torque, (limit, saturated)) in torques.iter_mut().zip(limits) {
+            *saturated = torque.abs() > *limit;
+            if *saturated {
+                *torque = if *torque < T::ZERO { -*limit } else { *limit };
+            }
+        }
+        Ok(())
+    }
+
+    fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
+        self.law.begin_step(time, model, state)
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<T>> {
+        self.law.base_torque()
+    }
+
+    fn saturated(&self) -> &[bool] {
+        self.saturated
+    }
+}

@@ -1,0 +1,41 @@
+//! The paper's control law.
+
+use super::{Control, desired};
+use crate::check::length;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+use crate::trajectory::Trajectory;
+
+/// Eq. (18): `τ = K_p (θ_d − θ) + K_v (θ̇_d − θ̇)`, gains per joint.
+#[derive(Clone, Copy, Debug)]
+pub struct ProportionalDerivative<'a, T, R> {
+    /// Desired angles and rates.
+    pub trajectory: R,
+    /// Diagonal of `K_p`, N m/rad.
+    pub proportional_gain: &'a [T],
+    /// Diagonal of `K_v`, N m s/rad.
+    pub derivative_gain: &'a [T],
+}
+
+impl<T: Real, R: Trajectory<T>> Control<T> for ProportionalDerivative<'_, T, R> {
+    fn joint_torques(
+        &mut self,
+        time: T,
+        _: &dyn Model<T>,
+        state: &State<'_, T>,
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let expected = torques.len();
+        length("proportional_gain", expected, self.proportional_gain.len())?;
+        length("derivative_gain", expected, self.derivative_gain.len())?;
+        let gains = self.proportional_gain.iter().zip(self.derivative_gain);
+        let joints = state.joint_angles.iter().zip(state.joint_rates).zip(gains);
+        for (joint, (torque, ((angle, rate), (kp, kv)))) in torques.iter_mut().zip(joints).enumerate() {
+            let desired = desired(&self.trajectory, joint, time, expected)?;
+            *torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,54 @@
+//! A law in a computer that runs at a fixed rate.
+
+use super::{BaseTorque, Control};
+use crate::check::length;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// Another law, asked at the start of every so many steps; its torques are held in between (zero-order hold).
+///
+/// Counting steps and not comparing times keeps the samples where they belong, whatever the rounding of the time.
+#[derive(Debug)]
+pub struct Sampled<'a, T, C> {
+    law: C,
+    steps_per_sample: u32,
+    steps_left: u32,
+    held: &'a mut [T],
+}
+
+impl<'a, T: Real, C: Control<T>> Sampled<'a, T, C> {
+    /// `held` (joints) keeps the torques; they are zero until the first step begins. Less than one step per sample is
+    /// one.
+    pub fn new(law: C, steps_per_sample: u32, held: &'a mut [T]) -> Self {
+        held.fill(T::ZERO);
+        Self { law, steps_per_sample: steps_per_sample.max(1), steps_left: 0, held }
+    }
+}
+
+impl<T: Real, C: Control<T>> Control<T> for Sampled<'_, T, C> {
+    fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
+        length("joint_torques", self.held.len(), torques.len())?;
+        torques.copy_from_slice(self.held);
+        Ok(())
+    }
+
+    fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
+        self.law.begin_step(time, model, state)?;
+        if self.steps_left == 0 {
+            self.law.joint_torques(time, model, state, self.held)?;
+            self.steps_left = self.steps_per_sample;
+        }
+        self.steps_left = self.steps_left.saturating_sub(1);
+        Ok(())
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<T>> {
+        self.law.base_torque()
+    }
+
+    fn saturated(&self) -> &[bool] {
+        self.law.saturated()
+    }
+}
