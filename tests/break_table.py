@@ -180,14 +180,14 @@ FAULTS = [
     ),
     Fault(
         "eq. (7) without the factor T",
-        "src/trajectory.rs",
+        "src/trajectory/mod.rs",
         "Some(quartic(initial, change, *self.final_rates.get(joint)?, self.ends.duration, tau))",
         "let rate = *self.final_rates.get(joint)? / self.ends.duration;\n"
         "        Some(quartic(initial, change, rate, self.ends.duration, tau))",
     ),
     Fault(
         "gains of the controller exchanged",
-        "src/control.rs",
+        "src/control/proportional_derivative.rs",
         "*torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);",
         "*torque = *kv * (desired.angle - *angle) + *kp * (desired.rate - *rate);",
     ),
@@ -200,8 +200,8 @@ FAULTS = [
     Fault(
         "sign of the work in the audit",
         "src/audit.rs",
-        "now.kinetic_energy - self.start.kinetic_energy - work",
-        "now.kinetic_energy - self.start.kinetic_energy + work",
+        "now.kinetic_energy - self.start.kinetic_energy - done.work",
+        "now.kinetic_energy - self.start.kinetic_energy + done.work",
     ),
     Fault(
         "scale of the audit twice too large",
