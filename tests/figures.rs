@@ -32,7 +32,7 @@ fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
 #[cfg(feature = "figures")]
 mod drawn {
     use super::*;
-    use planar_capture::figures::{Colour, Figure, Mark, Span, draw, figures};
+    use planar_capture::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
     use std::collections::BTreeSet;
     use std::fs;
     use std::path::Path;
@@ -77,6 +77,17 @@ mod drawn {
         }
     }
 
+    /// A label stands once in each legend: of each panel, or of all.
+    fn assert_one_legend_entry_each(figure: &Figure, svg: &str) {
+        let has = |panel: &Panel, label: &str| panel.series.iter().any(|s| s.label.as_deref() == Some(label));
+        for label in figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|s| s.label.as_ref()) {
+            let panels = figure.panels.iter().filter(|panel| has(panel, label)).count();
+            let legends = if figure.columns > 1 { 1 } else { panels };
+            let found = svg.matches(&format!("\u{2002}{label}<")).count();
+            assert_eq!(found, legends, "{}: `{label}` in the legends", figure.name);
+        }
+    }
+
     /// Width and height of a PNG.
     fn png_size(png: &[u8]) -> (u32, u32) {
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
@@ -112,6 +123,7 @@ mod drawn {
             let svg = draw::svg(figure);
             assert_well_formed(&figure.name, &svg);
             assert_labelled(figure, &svg);
+            assert_one_legend_entry_each(figure, &svg);
             assert_eq!(svg, draw::svg(figure), "{}: the same figure, the same bytes", figure.name);
         }
     }
@@ -145,6 +157,25 @@ mod drawn {
             let (x, y) = line.points[3];
             assert!((x - tip[1]).abs() + (y - tip[2]).abs() < 1e-12, "{}", arm.name);
         }
+    }
+
+    /// A robot with more joints than a panel has lines gets a higher panel: no legend reaches into the next one.
+    #[test]
+    fn a_long_legend_has_room() {
+        let series = |i: usize| Series {
+            label: Some(format!("joint {i}")),
+            colour: Colour::of(i),
+            mark: Mark::Line(Dash::of(i), 1.0),
+            points: vec![(0.0, 0.0), (1.0, 1.0)],
+        };
+        let height = |joints: usize| -> f64 {
+            let panel =
+                Panel::new(Axis::time("t [s]", 1.0), Axis::new("θ [rad]", 0.1), (0..joints).map(series).collect());
+            let svg = draw::svg(&Figure::column("many", "", vec![panel]));
+            let (_, rest) = svg.split_once(" height=\"").expect("a height");
+            rest[..rest.find('"').expect("its end")].parse().expect("a number")
+        };
+        assert!(height(6) < height(40) && height(40) > 40.0 * 18.0);
     }
 
     #[test]

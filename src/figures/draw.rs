@@ -22,7 +22,7 @@ pub struct DrawError {
 /// The figure as SVG with text; the same figure gives the same bytes.
 #[must_use]
 pub fn svg(figure: &Figure) -> String {
-    let text = SvgBackend::new().render_scene(&scene(figure, Medium::Vector));
+    let text = SvgBackend::new().with_pretty(true).render_scene(&scene(figure, Medium::Vector));
     number_clips(&text)
 }
 

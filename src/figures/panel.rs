@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// megabyte to every file; the PNG files have it drawn in.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
+/// Dashes of the legend's samples, which are short, against those of the curves.
+const SAMPLE: f64 = 0.5;
+
 /// What is drawn on.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Medium {
@@ -52,7 +55,7 @@ impl Size {
         let frame = match (pictures, shared_legend) {
             (true, true) => [230.0; 2],
             (true, false) => [360.0; 2],
-            (false, _) => [470.0, 190.0],
+            (false, _) => [470.0, figure.panels.iter().map(lines).fold(190.0, f64::max)],
         };
         Self {
             frame,
@@ -71,6 +74,13 @@ impl Size {
     pub(super) fn height(&self) -> f64 {
         self.top + self.frame[1] + self.bottom
     }
+}
+
+/// Height of what stands line by line: the legend, and names along the axis.
+fn lines(panel: &Panel) -> f64 {
+    let names = if let Span::Names(names) = &panel.y.span { names.len() } else { 0 };
+    let count = entries(panel, Medium::Vector).len().max(names);
+    18.0 * u32::try_from(count).map_or(0.0, f64::from)
 }
 
 /// Width of the longest text.
@@ -134,24 +144,26 @@ pub(super) fn entries(panel: &Panel, medium: Medium) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
     for series in &panel.series {
         let Some(label) = &series.label else { continue };
-        if entries.iter().any(|entry| entry.label == *label) {
+        // the library's samples of dashed lines reach up to the text
+        let label = format!("\u{2002}{label}");
+        if entries.iter().any(|entry| entry.label == label) {
             continue;
         }
         let (shape, dasharray) = match series.mark {
-            Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, medium)),
+            Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, SAMPLE, medium)),
             Mark::Points(shape) => (LegendShape::Marker(marker(shape)), None),
         };
         let color = series.colour.hexadecimal().to_owned();
-        // the library's samples of dashed lines reach up to the text
-        entries.push(LegendEntry { label: format!("\u{2002}{label}"), color, shape, dasharray });
+        entries.push(LegendEntry { label, color, shape, dasharray });
     }
     entries
 }
 
-fn lengths(dash: Dash, medium: Medium) -> Option<String> {
+/// Strokes and gaps, `size` times as long as in the figure.
+fn lengths(dash: Dash, size: f64, medium: Medium) -> Option<String> {
     let scale = match medium {
-        Medium::Vector => 1.0,
-        Medium::Raster { scale } => scale,
+        Medium::Vector => size,
+        Medium::Raster { scale } => size * scale,
     };
     let lengths: Vec<String> = dash.lengths().iter().map(|length| (length * scale).to_string()).collect();
     if lengths.is_empty() { None } else { Some(lengths.join(" ")) }
@@ -179,7 +191,7 @@ fn plot(series: &Series, points_per_unit: [f64; 2], medium: Medium) -> Vec<Plot>
             cut.into_iter().map(|stroke| Plot::Line(line(stroke, width))).collect()
         }
         (Mark::Line(dash, width), Medium::Vector) => {
-            let style = lengths(dash, medium).map_or(LineStyle::Solid, LineStyle::Custom);
+            let style = lengths(dash, 1.0, medium).map_or(LineStyle::Solid, LineStyle::Custom);
             vec![Plot::Line(line(points.collect(), width).with_line_style(style))]
         }
     }
