@@ -15,7 +15,7 @@ use std::io::{self, Write};
 pub fn write_csv(layout: &Layout, study: &Study, case: &CaseResult, to: impl Write) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(to);
     let base_torque =
-        case.capture.iter().flat_map(|captured| captured.post_impact.end()).any(|end| end.base_torque.is_some());
+        case.capture.iter().filter_map(|captured| captured.post_impact.end()).any(|end| end.base_torque.is_some());
     csv.write_record(header(layout, base_torque))?;
     write_phase(&mut csv, "approach", 0.0, &study.approach, base_torque)?;
     if let Some(captured) = &case.capture {

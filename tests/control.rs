@@ -94,7 +94,7 @@ fn torques_stay_within_their_limits() {
         for sample in &limited.samples {
             for ((torque, limit), time) in sample.joint_torques.iter().zip(&limits).zip(&mut at_limit) {
                 assert!(torque.abs() <= *limit, "{torque} over {limit}");
-                *time += if torque.abs() == *limit { 0.05 } else { 0.0 };
+                *time += if torque.abs() >= *limit { 0.05 } else { 0.0 };
             }
         }
         assert!(limited.saturation.joints.iter().any(|time| *time > 0.1), "{:?}", limited.saturation);
