@@ -107,7 +107,11 @@ pub fn end_rates(
 }
 
 /// Joint rates that give the wanted twists at the end of a phase, and the singularity margin there.
-fn rates_for(model: &dyn Model<f64>, phase: &Phase, wanted: &[[f64; 3]]) -> Result<(Vec<f64>, f64), DesignError> {
+pub(crate) fn rates_for(
+    model: &dyn Model<f64>,
+    phase: &Phase,
+    wanted: &[[f64; 3]],
+) -> Result<(Vec<f64>, f64), DesignError> {
     let (joints, rows) = (model.joints(), 3 * model.arms());
     let Some(Sample { motion, end_effector_twists, time, .. }) = phase.end() else {
         return Ok((vec![0.0; joints], 0.0));
@@ -131,7 +135,11 @@ fn rates_for(model: &dyn Model<f64>, phase: &Phase, wanted: &[[f64; 3]]) -> Resu
     Ok((rates.iter().copied().collect(), margin))
 }
 
-fn generalized_jacobian(model: &dyn Model<f64>, motion: &Motion) -> Result<DMatrix<f64>, crate::error::Error> {
+/// J at a state: 3 per arm × joints.
+pub(crate) fn generalized_jacobian(
+    model: &dyn Model<f64>,
+    motion: &Motion,
+) -> Result<DMatrix<f64>, crate::error::Error> {
     let (joints, rows) = (model.joints(), 3 * model.arms());
     let mut inertia = vec![0.0; joints * joints];
     let mut bias = vec![0.0; joints];

@@ -12,6 +12,7 @@
 //! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
 //! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
 //! | end rates from the generalized Jacobian | `design` |
+//! | final joint angles from wanted tip poses | `posture` |
 //! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
@@ -104,6 +105,8 @@ pub mod layout;
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
+#[cfg(feature = "std")]
+pub mod posture;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "std")]

@@ -19,7 +19,7 @@ pub fn wheels(layout: &Layout, targets: &[Option<Target<f64>>]) -> Vec<bool> {
 }
 
 fn is_wheel(arm: &Arm) -> bool {
-    matches!(arm.links.as_slice(), [link] if link.length == 0.0 && link.com.iter().all(|x| *x == 0.0))
+    matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
 /// Runs the merged robot from `start` on; `wheels` as [`wheels`] says.

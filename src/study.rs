@@ -4,6 +4,7 @@ use crate::approach::Approach;
 use crate::capture::{Capture, capture};
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
+use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
 use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling};
 use crate::settle::{settle, wheels};
@@ -23,6 +24,8 @@ pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn Model<f64>>;
 pub struct Study {
     /// Where the end rates of the approach come from, where they were designed.
     pub design: Option<Design>,
+    /// Where its final joint angles come from, where they were designed.
+    pub posture: Option<Posture>,
     /// The approach, the same in every case.
     pub approach: Phase,
     /// One per case, in the scenario's order.
@@ -55,6 +58,9 @@ pub enum StudyError {
     /// The end rates could not be designed.
     #[error(transparent)]
     Design(#[from] DesignError),
+    /// The final joint angles could not be designed.
+    #[error(transparent)]
+    Posture(#[from] PostureError),
     /// The approach stopped.
     #[error("the approach stopped {0}")]
     Approach(Stopped),
@@ -95,13 +101,30 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
+    let posture = match &scenario.approach.final_end_effector_poses {
+        Some(goals) => {
+            observer.begin("designing final joint angles", 0);
+            Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
+        }
+        None => None,
+    };
+    let mut designed;
+    let scenario = match &posture {
+        Some(posture) => {
+            designed = scenario.clone();
+            designed.approach.final_joint_angles.clone_from(&posture.joint_angles);
+            &designed
+        }
+        None => scenario,
+    };
     let approach = Approach::new(scenario, sample);
-    let design = match &scenario.approach.end {
-        EndRates::EndEffectorTwists(wanted) => {
+    let design = match (&scenario.approach.end, &posture) {
+        (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
+        (EndRates::EndEffectorTwists(wanted), None) => {
             observer.begin("designing end rates", 0);
             Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
-        EndRates::Rest | EndRates::JointRates(_) => None,
+        (EndRates::Rest | EndRates::JointRates(_), _) => None,
     };
     let rates = match (&scenario.approach.end, &design) {
         (EndRates::JointRates(rates), _) => rates.clone(),
@@ -121,7 +144,7 @@ pub fn study(
             Ok(CaseResult { name: case.name.clone(), capture })
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    Ok(Study { design, approach, cases })
+    Ok(Study { design, posture, approach, cases })
 }
 
 /// Impact and post-impact of one case.

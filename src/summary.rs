@@ -20,6 +20,15 @@ pub fn summary(scenario: &str, layout: &Layout, dynamics: &str, study: &Study) -
 
 fn case_value(study: &Study, case: &CaseResult) -> Value {
     let mut value = json!({"name": case.name, "approach": phase(&study.approach, true)});
+    if let Some(posture) = &study.posture {
+        value["approach"]["designed"] = json!({
+            "final_joint_angles": posture.joint_angles,
+            "residual": posture.residual,
+            "rounds": posture.rounds,
+            "singularity_margin": posture.rates.singularity_margin,
+            "spare_joints": posture.spare_joints,
+        });
+    }
     if let Some(captured) = &case.capture {
         value["impact"] = json!({
             "exact": impact(&captured.impact.exact),

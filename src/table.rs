@@ -28,6 +28,16 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     let phase = &study.approach;
     let Some(end) = phase.end() else { return Ok(()) };
     writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
+    if let Some(posture) = &study.posture {
+        writeln!(
+            out,
+            "  final joint angles designed in {} rounds [rad]: {}\n  (tips missed by {:.1e}; {})",
+            posture.rounds,
+            list(&posture.joint_angles, 6),
+            posture.residual,
+            spare(posture.spare_joints)
+        )?;
+    }
     if let Some(design) = &study.design {
         writeln!(
             out,
@@ -59,6 +69,15 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
     }
     writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
+}
+
+/// What there is to choose beside the wanted poses.
+fn spare(joints: isize) -> String {
+    match joints {
+        0 => "as many joints as wanted numbers".to_owned(),
+        1.. => format!("{joints} more joints than wanted numbers: steps of least size from the first guess"),
+        _ => format!("{} wanted numbers more than joints, which happen to agree", -joints),
+    }
 }
 
 fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {

@@ -230,6 +230,15 @@ const SCENARIO_EDITS: &[Edit] = &[
         9,
         &["`approach.sample_time` is 1", "whatever torque it takes"],
     ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nfinal_end_effector_poses = [[0, 1, 1]]",
+        8,
+        &["`approach.final_end_effector_poses[0]` is [0, 1, 1]", "fewer than three links", "[x, y]"],
+    ),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),
     ("\"quartic\"", "\"quartic\"\nsample_time = 0", 8, &["`approach.sample_time` is 0", "in s greater than 0"]),
     (
         "\"quartic\"",

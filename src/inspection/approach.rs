@@ -77,7 +77,8 @@ fn motionless(scenario: &Scenario) -> Option<Oddity> {
         EndRates::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
         EndRates::EndEffectorTwists(twists) => twists.as_flattened().iter().all(|part| *part == 0.0),
     };
-    (rest && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Oddity {
+    let designed = approach.final_end_effector_poses.is_some();
+    (rest && !designed && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Oddity {
         key: "approach.final_joint_angles".to_owned(),
         why: "the arms are there already, and are to be at rest".to_owned(),
         help: "an approach moves the arms from initial.joint_angles to other angles, or to end rates".to_owned(),
@@ -85,6 +86,9 @@ fn motionless(scenario: &Scenario) -> Option<Oddity> {
 }
 
 fn hasty(scenario: &Scenario) -> Option<Oddity> {
+    if scenario.approach.final_end_effector_poses.is_some() {
+        return None; // how far the joints turn is not known yet
+    }
     let peak = peak_rate(scenario);
     let (joint, turn) = largest_turn(scenario);
     (peak > FASTEST).then(|| Oddity {

@@ -20,6 +20,7 @@ use crate::layout::Layout;
 use crate::scenario::Scenario;
 use kind::Kind;
 use std::path::Path;
+pub(crate) use targets::distance_and_most;
 
 /// A file that can be worked with.
 #[derive(Clone, Debug)]

@@ -35,6 +35,9 @@ pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
 ///
 /// It does not matter where the base is and how it is turned: that turns the twists and leaves the singular values.
 pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
+    if scenario.approach.final_end_effector_poses.is_some() {
+        return None; // it is designed by the run, which says the margin
+    }
     let designed = matches!(scenario.approach.end, EndRates::EndEffectorTwists(_));
     let captures = |i| designed || scenario.targets.iter().any(|target| target.arm == i);
     let arms = scenario.layout.arms.iter().enumerate();

@@ -4,9 +4,9 @@ use super::approach::{joint_name, largest_turn, peak_rate};
 use super::number::{count, list, point, short};
 use super::pose::{FinalPose, fastest_mode, final_pose};
 use super::robot::{code, digest, freedom};
-use super::targets::distance_and_most;
+use super::targets::of_contact;
 use crate::models;
-use crate::scenario::{Actuation, EndRates, Scenario, Settling, Tracking, TrajectoryKind};
+use crate::scenario::{Actuation, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -28,7 +28,10 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  start               {}", start(scenario))?;
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
-    writeln!(out, "  largest turn        {}", turn(scenario))?;
+    match &approach.final_end_effector_poses {
+        Some(goals) => writeln!(out, "  final angles        to be designed, for {}", wishes(goals))?,
+        None => writeln!(out, "  largest turn        {}", turn(scenario))?,
+    }
     writeln!(out, "  tracking            {}", tracking(scenario))?;
     if let Some(FinalPose { arms, margin }) = final_pose(scenario) {
         let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
@@ -91,6 +94,15 @@ fn trajectory(scenario: &Scenario) -> String {
         }
     };
     format!("{shape}, to {end}")
+}
+
+fn wishes(goals: &[TipGoal]) -> String {
+    let goals = goals.iter().map(|goal| match goal {
+        TipGoal::Any => "any pose".to_owned(),
+        TipGoal::Position(position) => format!("tip at {} m", point(*position)),
+        TipGoal::Pose(pose) => format!("tip pose {} rad, m", list(pose)),
+    });
+    goals.collect::<Vec<_>>().join(", ")
 }
 
 fn turn(scenario: &Scenario) -> String {
@@ -163,7 +175,7 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
     write!(out, "\n{}", row(head))?;
     for target in &scenario.targets {
         let arm = scenario.layout.arms.get(target.arm).map_or("", |arm| arm.name.as_str());
-        let reach = distance_and_most(scenario, target);
+        let reach = of_contact(scenario, target);
         let reach = reach.map(|(distance, most)| format!("{} of at most {}", short(distance), short(most)));
         out.write_str(&row([
             &target.name,

@@ -68,23 +68,26 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
     Some(("arm", why, format!("arms with a length: {}", longer.join(", "))))
 }
 
-/// The distance of the contact point from the robot's COM at the end of the approach, and the most at which the arm can
-/// have its tip, in m; `None` where the target's place is not given,
-/// and for a wheel.
+/// [`distance_and_most`] of the contact point; `None` also where the target's place is not given.
+pub(super) fn of_contact(scenario: &Scenario, target: &Target) -> Option<(f64, f64)> {
+    let [x, y] = target.position?;
+    distance_and_most(scenario, target.arm, [x + target.contact[0], y + target.contact[1]])
+}
+
+/// The distance of a point from the robot's COM at the end of the approach, and the most at which the arm can have its tip,
+/// in m; `None` for a wheel.
 ///
 /// The COM goes its way whatever the joints do. In any pose it is within Σ m d of the base COM, d being how far out each
 /// link's COM can be, and the tip within the arm's reach.
-pub(super) fn distance_and_most(scenario: &Scenario, target: &Target) -> Option<(f64, f64)> {
-    let [x, y] = target.position?;
+pub(crate) fn distance_and_most(scenario: &Scenario, arm: usize, [x, y]: [f64; 2]) -> Option<(f64, f64)> {
     let [from_x, from_y] = center_of_mass_at_end(scenario)?;
-    let contact = [x + target.contact[0], y + target.contact[1]];
-    let arm = scenario.layout.arms.get(target.arm).filter(|arm| arm.reach() > 0.0)?;
-    let distance = (contact[0] - from_x).hypot(contact[1] - from_y);
+    let arm = scenario.layout.arms.get(arm).filter(|arm| arm.reach() > 0.0)?;
+    let distance = (x - from_x).hypot(y - from_y);
     Some((distance, arm.reach_from_base() + base_from_center_of_mass(&scenario.layout)))
 }
 
 fn out_of_reach(scenario: &Scenario, target: &Target) -> Option<Odd> {
-    let (distance, most) = distance_and_most(scenario, target)?;
+    let (distance, most) = of_contact(scenario, target)?;
     (distance > most).then(|| {
         let why = format!(
             "puts the contact point {} m from where the robot's COM is at the end of the approach; no pose brings the \

@@ -2,7 +2,7 @@
 
 use super::actuation::Actuation;
 use super::joints::{Joints, check_length};
-use super::{JOINT_ANGLE, JOINT_RATE, TWIST, duration_and_step};
+use super::{JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
 const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
@@ -21,14 +21,28 @@ pub struct Approach {
     pub step: f64,
     /// The shape of the joint trajectories.
     pub trajectory: TrajectoryKind,
-    /// Joint angles wanted at the end, arm by arm, in rad.
+    /// Joint angles wanted at the end, arm by arm, in rad. Where tip poses are wanted, the first guess of the angles that
+    /// give them, by default the initial ones.
     pub final_joint_angles: Vec<f64>,
+    /// What is wanted of the tips at the end, one per arm; `None` where joint angles are given.
+    pub final_end_effector_poses: Option<Vec<TipGoal>>,
     /// Rates wanted at the end.
     pub end: EndRates,
     /// How the trajectory is followed.
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
     pub actuation: Actuation,
+}
+
+/// Where a tip should be at the end of an approach, inertial frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TipGoal {
+    /// Anywhere.
+    Any,
+    /// At [x, y] in m, at any yaw.
+    Position([f64; 2]),
+    /// At [yaw, x, y] in rad, m, m; the yaw up to whole turns.
+    Pose([f64; 3]),
 }
 
 /// The shape of the joint trajectories.
@@ -79,11 +93,12 @@ pub enum Tracking {
 }
 
 impl Approach {
-    pub(super) const KEYS: [&'static str; 11] = [
+    pub(super) const KEYS: [&'static str; 12] = [
         "duration",
         "step",
         "trajectory",
         "final_joint_angles",
+        "final_end_effector_poses",
         "final_joint_rates",
         "final_end_effector_twists",
         "tracking",
@@ -93,14 +108,22 @@ impl Approach {
         Actuation::KEYS[1],
     ];
 
-    pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
+    pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
         let times = duration_and_step(table);
         let trajectory = table
             .require("trajectory", "`quartic`, `quartic_as_printed`, `cycloidal` or `quintic`")
             .and_then(|value| value.choice(&TrajectoryKind::CHOICES));
-        let final_joint_angles = table
-            .require("final_joint_angles", &joints.one_each())
-            .and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+        let goals = table.get("final_end_effector_poses");
+        let final_joint_angles = match (table.get("final_joint_angles"), &goals) {
+            (None, Some(_)) => Some(initial.map_or_else(|| joints.repeat(0.0), <[f64]>::to_vec)),
+            _ => table
+                .require("final_joint_angles", &joints.one_each())
+                .and_then(|value| joints.numbers(&value, &JOINT_ANGLE)),
+        };
+        let goals = match &goals {
+            Some(value) => tip_goals(value, joints).map(Some),
+            None => Some(None),
+        };
         let end = EndRates::from_table(table, trajectory, joints);
         let tracking = Tracking::from_table(table, joints);
         let actuation = match &tracking {
@@ -118,6 +141,7 @@ impl Approach {
             step,
             trajectory: trajectory?,
             final_joint_angles: final_joint_angles?,
+            final_end_effector_poses: goals?,
             end: end?,
             tracking: tracking?,
             actuation: actuation?,
@@ -165,6 +189,38 @@ impl EndRates {
         }
         end
     }
+}
+
+fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {
+    const WANTED: &str = "one [yaw, x, y] or [x, y] per arm in rad, m, m, or [] for an arm that may end anywhere";
+    let arms = joints.layout.map(|layout| &layout.arms);
+    let items = value.items(WANTED)?;
+    check_length(value, items.len(), arms.map(Vec::len), WANTED)?;
+    let goals = every(items.iter().enumerate().map(|(i, item)| {
+        let links = arms.and_then(|arms| arms.get(i)).map_or(usize::MAX, |arm| arm.links.len());
+        let goal = match item.items("[yaw, x, y], [x, y] or []")?.len() {
+            0 => TipGoal::Any,
+            2 => TipGoal::Position(item.vector(&POSITION)?),
+            _ => TipGoal::Pose(item.vector(&POSE)?),
+        };
+        let short = match goal {
+            TipGoal::Any => None,
+            TipGoal::Position(_) => (links < 2).then_some("a single link has its tip on a circle, expected []"),
+            TipGoal::Pose(_) => {
+                (links < 3).then_some("fewer than three links cannot choose the yaw too, expected [x, y]")
+            }
+        };
+        if let Some(why) = short {
+            item.reject(why);
+            return None;
+        }
+        Some(goal)
+    }))?;
+    if goals.iter().all(TipGoal::is_empty) {
+        value.reject("nothing is wanted of any tip, expected a pose, or `final_joint_angles` alone");
+        return None;
+    }
+    Some(goals)
 }
 
 fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<EndRates> {

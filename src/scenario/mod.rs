@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
-pub use approach::{Approach, EndRates, Tracking, TrajectoryKind};
+pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
 pub use capture::{Case, Target};
 pub use post_impact::{PostImpact, Settling};
 
@@ -118,8 +118,9 @@ impl Scenario {
 
             let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
             let initial = initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
+            let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
             let approach =
-                root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints));
+                root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints, start));
             if let (Some(table), Some(approach)) = (&initial_table, &approach)
                 && approach.tracking == Tracking::Exact
                 && approach.trajectory != TrajectoryKind::Quintic

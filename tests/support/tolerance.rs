@@ -53,6 +53,8 @@ pub const SETTLED: f64 = 1e-10;
 pub const HELD: f64 = 1e-3;
 /// Rates that should decay exponentially, relative to the largest: RK4 steps of 5 ms of motions of up to 2 rad/s.
 pub const DECAY: f64 = 1e-6;
+/// Tip poses that the design of the final joint angles should reach, rad, m: it iterates to 1e-11 per unit.
+pub const REACHED: f64 = 1e-9;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
 /// error of RK4 at 5 ms, 4e-13 measured.
 pub const TIME_SERIES: f64 = 1e-11;
