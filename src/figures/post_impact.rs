@@ -14,12 +14,14 @@ pub(super) fn figures(scenario: &Scenario, study: &Study, case: &Case, captured:
     let angles = joints(layout, phase, |s| &s.motion.joint_angles);
     let rates = joints(layout, phase, |s| &s.motion.joint_rates);
     let twists = |component| tips(layout, phase, component, |s| &s.end_effector_twists);
+    let mut driven =
+        vec![panel(phase, TIME, "Joint angle [rad]", angles), panel(phase, TIME, "Joint rate [rad/s]", rates)];
+    if phase.samples.iter().any(|sample| sample.joint_torques.iter().any(|torque| *torque != 0.0)) {
+        let torques = joints(layout, phase, |s| &s.joint_torques);
+        driven.push(panel(phase, TIME, "Joint torque [N m]", torques));
+    }
     let mut figures = vec![
-        Figure::column(
-            &format!("post_impact_joints_{name}"),
-            &format!("Joint angles and rates after the impact, {name}."),
-            vec![panel(phase, TIME, "Joint angle [rad]", angles), panel(phase, TIME, "Joint rate [rad/s]", rates)],
-        ),
+        Figure::column(&format!("post_impact_joints_{name}"), &format!("Joints after the impact, {name}."), driven),
         Figure::column(
             &format!("post_impact_base_{name}"),
             &format!("Pose and twist of the base after the impact, {name}."),
