@@ -28,7 +28,7 @@
 //!
 //! A layout that was changed after its graph stops the build with the command that mends it.
 
-use crate::generate::Module;
+use crate::generate::{Module, quoted};
 use crate::layout::Layout;
 use crate::render;
 use crate::stage::{fresh, names};
@@ -103,7 +103,8 @@ impl Layouts {
         let Some(out) = self.out.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from)) else {
             return Err(BuildError("OUT_DIR is not set: call this from a build script".to_owned()));
         };
-        let layouts = names(&self.folder, "toml")?;
+        let layouts =
+            names(&self.folder, "toml").map_err(|e| format!("{e}: the folder of the layouts NAME.toml is wanted"))?;
         if layouts.is_empty() {
             return Err(BuildError(format!("there is no layout NAME.toml in {shown}")));
         }
@@ -121,15 +122,19 @@ impl Layouts {
         let [layout_path, graph_path] =
             ["toml", "json"].map(|extension| self.folder.join(format!("{name}.{extension}")));
         let (from, shown) = (layout_path.display(), graph_path.display());
-        let command = format!("planar-capture generate {from} --out {shown}");
-        let (layout, graph) = fresh(&layout_path, &graph_path, &command)?;
+        let command = {
+            let (from, to) = (quoted(&from.to_string()), quoted(&shown.to_string()));
+            format!("planar-capture generate {from} --out {to}")
+        };
+        let mend = format!("{command}{}", here());
+        let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
         if layout.name != name {
             let found = &layout.name;
             return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
         }
         let source = shown.to_string();
         let module = Module { standalone: self.standalone, item: true, source: &source, command: &command };
-        let text = module.render(&layout, &graph).map_err(|e| format!("{shown}: {e}; to mend: {command}"))?;
+        let text = module.render(&layout, &graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
         let path = out.join(format!("{name}.rs"));
         fs::write(&path, text).map_err(|e| BuildError(format!("{}: {e}", path.display())))
     }
@@ -146,17 +151,30 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
         println!("cargo::rerun-if-changed={}", path.display());
     }
     let (shown, from) = (module.display(), layout.display());
-    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}"))?;
+    let command = |options: &str| {
+        let (from, to) = (quoted(&from.to_string()), quoted(&shown.to_string()));
+        format!("planar-capture generate {from} --out {to}{options}{}", here())
+    };
+    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", command("")))?;
+    let text = text.replace("\r\n", "\n"); // as some checkouts have it
     let (header, body) = text.split_once("\n\n").unwrap_or_default();
     let standalone = if header.contains(" --standalone") { " --standalone" } else { "" };
-    let mend = format!("planar-capture generate {from} --out {shown}{standalone}");
     let said = |key: &str| Some(header.split_once(key)?.1.split([',', '\n']).next().unwrap_or_default().trim());
     let wanted = Layout::read(layout).map_err(|report| report.to_string())?.sha256();
     let problem = match (said("// layout sha256 "), said("// sha256 of the text below this header ")) {
         (Some(found), _) if found != wanted => format!("was generated from another layout than {from} is now"),
         (Some(_), Some(hash)) if hash == render::sha256(body) => return Ok(()),
         (Some(_), Some(_)) => "was changed after it was generated".to_owned(),
-        _ => "is not a generated module".to_owned(),
+        _ => {
+            let make = command("");
+            return Err(BuildError(format!("{shown} is not a generated module: move it away, then {make}")));
+        }
     };
-    Err(BuildError(format!("{shown} {problem}; to mend: {mend}")))
+    Err(BuildError(format!("{shown} {problem}; to mend: {}", command(standalone))))
+}
+
+/// Where a command has to be run, for those who build from elsewhere.
+fn here() -> String {
+    let folder = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    folder.map_or_else(String::new, |folder| format!(" (in {})", folder.display()))
 }

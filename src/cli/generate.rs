@@ -2,11 +2,11 @@
 
 use super::{Problem, layout};
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::generate::{self, Module};
+use planar_capture::generate::{self, Module, quoted};
 use planar_capture::layout::Layout;
 use planar_capture::output::write_whole;
 use std::fs;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -52,6 +52,10 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let (Output::Code(path) | Output::Graph(path)) = &arguments.out;
     if arguments.standalone && matches!(arguments.out, Output::Graph(_)) {
         return Err(Problem::Usage("--standalone is for a module: name FILE.rs, or leave it out for a graph"));
+    }
+    let own_name = path.file_stem().is_some_and(|stem| stem.to_str() == Some(layout.name.as_str()));
+    if matches!(arguments.out, Output::Graph(_)) && !own_name {
+        return Err(Problem::GraphName { file: path.display().to_string(), name: layout.name });
     }
     if !arguments.check {
         refuse_to_overwrite(path)?;
@@ -103,7 +107,7 @@ fn recipe(arguments: &Arguments, layout: &Layout, path: &Path) -> (String, Strin
     };
     let from = if Layout::is_path(&arguments.layout) { &source } else { &layout.name };
     let standalone = if arguments.standalone { " --standalone" } else { "" };
-    let command = format!("planar-capture generate {from} --out {}{standalone}", name(path));
+    let command = format!("planar-capture generate {} --out {}{standalone}", quoted(from), quoted(&name(path)));
     (source, command)
 }
 
@@ -116,15 +120,25 @@ fn check(path: &Path, text: &str, arguments: &Arguments) -> Result<ExitCode, Pro
     }
     let standalone = if arguments.standalone { " --standalone" } else { "" };
     let state = if path.exists() { "is not what the layout gives" } else { "is not there" };
-    eprintln!("{shown} {state}; to mend: planar-capture generate {} --out {shown}{standalone}", arguments.layout);
+    let (from, to) = (quoted(&arguments.layout), quoted(&shown.to_string()));
+    eprintln!("{shown} {state}; to mend: planar-capture generate {from} --out {to}{standalone}");
     Ok(ExitCode::from(1))
 }
 
 /// Somebody's own file must not be lost to a slip in a name.
 fn refuse_to_overwrite(path: &Path) -> Result<(), Problem> {
-    let Ok(text) = fs::read_to_string(path) else { return Ok(()) };
-    let ours = text.starts_with("// @generated from ") || text.starts_with("{\n \"format\": ") || text.is_empty();
-    if ours { Ok(()) } else { Err(Problem::NotGenerated { file: path.display().to_string() }) }
+    let file = || path.display().to_string();
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        return Err(Problem::NoFolder { file: file(), folder: folder.display().to_string() });
+    }
+    let Ok(found) = fs::metadata(path) else { return Ok(()) };
+    let mut start = Vec::new();
+    if found.is_file() {
+        // the first bytes tell; a device or a pipe would never end
+        let _ = fs::File::open(path).map(|file| file.take(64).read_to_end(&mut start));
+    }
+    let ours = start.starts_with(b"// @generated from ") || start.starts_with(b"{\n \"format\": ");
+    if ours || (found.is_file() && found.len() == 0) { Ok(()) } else { Err(Problem::NotGenerated { file: file() }) }
 }
 
 /// What the derivation says; on a terminal the last line with a spinner, else the lines that take their time.

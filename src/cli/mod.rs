@@ -72,6 +72,15 @@ enum Problem {
     /// A file in the way that nobody generated.
     #[error("error: {file} is there already and was not generated: name another file, or move it away first")]
     NotGenerated { file: String },
+    /// A result has no folder to go to.
+    #[error("error: cannot write {file}: there is no folder {folder}; make it first")]
+    NoFolder { file: String, folder: String },
+    /// A file in the way that would be lost.
+    #[error("error: {file} is there already: name another file, or move it away first")]
+    Exists { file: String },
+    /// A graph has to have its layout's name.
+    #[error("error: {file}: build scripts look for the graph of layout `{name}` in {name}.json: use that name")]
+    GraphName { file: String, name: String },
     /// No equations were derived.
     #[error("error: {file}: {source}")]
     Derivation { file: String, source: DerivationError },

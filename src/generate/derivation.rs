@@ -32,7 +32,7 @@ const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 pub enum DerivationError {
     /// There is no Python, or none that is new enough.
     #[error(
-        "deriving needs Python 3.11 or newer with venv, and none of {tried} is that.\n\
+        "deriving needs Python 3.11 or newer with venv; tried, and not found to be that: {tried}.\n\
          Install it (Debian, Ubuntu: apt install python3 python3-venv), or name one: PLANAR_CAPTURE_PYTHON=/path/to/python3"
     )]
     NoPython {
@@ -132,14 +132,17 @@ fn unpack(home: &Path) -> Result<PathBuf, DerivationError> {
 /// The first interpreter that is new enough.
 fn python() -> Result<OsString, DerivationError> {
     if let Some(chosen) = env::var_os("PLANAR_CAPTURE_PYTHON").filter(|chosen| !chosen.is_empty()) {
-        return Ok(chosen); // one that is too old says so itself
+        let tried = chosen.to_string_lossy().into_owned();
+        return if works(&chosen) { Ok(chosen) } else { Err(DerivationError::NoPython { tried }) };
     }
-    let works = |name: &&str| {
-        let outcome = Command::new(name).args(["-c", OLDEST]).stdin(Stdio::null()).output();
-        outcome.is_ok_and(|output| output.status.success())
-    };
-    let found = PYTHONS.into_iter().find(works).map(OsString::from);
+    let found = PYTHONS.into_iter().map(OsString::from).find(works);
     found.ok_or_else(|| DerivationError::NoPython { tried: PYTHONS.join(", ") })
+}
+
+/// Whether an interpreter runs and is new enough.
+fn works(python: &OsString) -> bool {
+    let outcome = Command::new(python).args(["-c", OLDEST]).stdin(Stdio::null()).output();
+    outcome.is_ok_and(|output| output.status.success())
 }
 
 /// Runs it; what it says goes to `say`, and into the error if it fails.

@@ -149,12 +149,27 @@ impl Module<'_> {
     /// # Errors
     /// [`GenerateError`].
     pub fn render(&self, layout: &Layout, graph: &Value) -> Result<String, GenerateError> {
-        let vectors = (0..CARRIED).map(|index| Ok(at(layout, Regime::Moving, index)?.to_json()));
+        let vectors = (0..CARRIED).map(|index| {
+            let vectors = at(layout, Regime::Moving, index)?;
+            let found = interpret(graph, &vectors.inputs()).map_err(GenerateError::Graph)?;
+            Ok(vectors.to_json(&found))
+        });
         let vectors = Value::Array(vectors.collect::<Result<_, GenerateError>>()?);
         let runtime = if self.standalone { Runtime::Own } else { Runtime::Library };
         let form =
             Form { runtime, item: self.item, source: self.source, command: self.command, self_test: Some(&vectors) };
         render::render(graph, &form).map_err(GenerateError::Graph)
+    }
+}
+
+/// A path as one word of a command line.
+#[must_use]
+pub fn quoted(path: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./\\:".contains(c) || !c.is_ascii();
+    if !path.is_empty() && path.chars().all(plain) {
+        path.to_owned()
+    } else {
+        format!("'{}'", path.replace('\'', "'\\''"))
     }
 }
 

@@ -12,13 +12,16 @@ use serde_json::{Value, json};
 /// Rounding units that a result computed by sums and products may be off, in natural sizes.
 const ROUNDINGS: f64 = 64.0;
 
+/// Rounding units that a pivot relative to its scale may be off.
+const PIVOT_ROUNDINGS: f64 = 1024.0;
+
 /// What one result has to be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
     /// The function.
-    pub function: &'static str,
+    pub function: String,
     /// Which of its results.
-    pub output: &'static str,
+    pub output: String,
     /// Row-major.
     pub values: Vec<f64>,
     /// How many rounding units each element may be off.
@@ -116,7 +119,7 @@ impl Vectors {
                 _ => &all,
             };
             let (values, sizes) = quantities.of(quantity);
-            Expected { function, output, values, sizes }
+            Expected { function: function.to_owned(), output: output.to_owned(), values, sizes }
         });
         let expected = expected.collect();
         Ok(Self { instant, expected })
@@ -142,9 +145,10 @@ impl Vectors {
         ]
     }
 
-    /// For the template: inputs as array literals, expected results as lists of literals.
+    /// For the template: inputs as array literals, expected results as lists of literals, in the graph's order. Pivots,
+    /// which the generic implementation does not have, are those that were `found`.
     #[must_use]
-    pub fn to_json(&self) -> Value {
+    pub fn to_json(&self, found: &[Found]) -> Value {
         let inputs: Vec<Value> = self
             .inputs()
             .iter()
@@ -158,7 +162,18 @@ impl Vectors {
                 json!({"name": name, "value": format!("[{}]", rows.join(", "))})
             })
             .collect();
-        let expected = self.expected.iter().map(|Expected { function, output, values, sizes }| {
+        let pivot = |found: &Found| Expected {
+            function: found.function.clone(),
+            output: found.output.clone(),
+            values: found.values.clone(),
+            sizes: vec![PIVOT_ROUNDINGS; found.values.len()],
+        };
+        let by_generic = |found: &Found| {
+            let same = |e: &&Expected| e.function == found.function && e.output == found.output;
+            self.expected.iter().find(same).cloned()
+        };
+        let expected = found.iter().map(|found| by_generic(found).unwrap_or_else(|| pivot(found)));
+        let expected = expected.map(|Expected { function, output, values, sizes }| {
             let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
             let sizes: Vec<String> = sizes.iter().map(|size| format!("{size:.1e}")).collect();
             json!({"function": function, "output": output, "values": values, "sizes": sizes})

@@ -50,7 +50,12 @@ fn too_much(link: &Link) -> Option<Odd> {
             short(most)
         );
         let about_com = inertia - mass * (x * x + y * y);
-        let help = if about_com > 0.0 && about_com <= most {
+        let help = if most <= 0.0 {
+            let middle = short(length / 2.0);
+            format!(
+                "a COM at an end of the link leaves nothing but a point mass there: com = [{middle}, 0] is mid-link"
+            )
+        } else if about_com > 0.0 && about_com <= most {
             format!(
                 "inertias are about the COM: if this one is about the joint, it is {} about the COM",
                 short(about_com)

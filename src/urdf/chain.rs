@@ -39,7 +39,10 @@ pub(super) fn follow(
             several => {
                 let names: Vec<String> = several
                     .iter()
-                    .map(|(j, _)| format!("`{}` to `{}`", tree.joint(*j).name, tree.link_name(tree.child(*j))))
+                    .map(|(j, _)| {
+                        let joint = tree.joint(*j);
+                        format!("`{}` ({}) to `{}`", joint.name, kind(joint), tree.link_name(tree.child(*j)))
+                    })
                     .collect();
                 return Err(UrdfError::link(
                     tree.link_name(group.link),
