@@ -342,7 +342,11 @@ fn refused_joints() -> Vec<Refused> {
             changed(elbow, "<joint name=\"elbow\" type=\"screw\">"),
             &["line 6, joint `elbow`", "`screw`", "`revolute`"],
         ),
-        ("branch", robot(&(arm() + &branch)), &["link `upper`", "`elbow` (continuous) to `lower`", "`third` to `twig`", "base"]),
+        (
+            "branch",
+            robot(&(arm() + &branch)),
+            &["link `upper`", "`elbow` (continuous) to `lower`", "`third` (continuous) to `twig`", "base"],
+        ),
         (
             "mimic",
             changed(elbow, &format!("{elbow}<mimic joint=\"shoulder\"/>")),
