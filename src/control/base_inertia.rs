@@ -31,11 +31,11 @@ impl<T: Real> BaseInertia<T> {
     }
 
     /// `I_b⁻¹ right`.
-    pub(super) fn solve(&self, [x, y, z]: [T; 3]) -> [T; 3] {
-        let ([first, second, third], [a, b, c]) = (self.pivots, self.lower);
-        let y = y - a * x;
-        let z = (z - b * x - c * y) / third;
-        let y = y / second - c * z;
-        [x / first - a * y - b * z, y, z]
+    pub(super) fn solve(&self, right: [T; 3]) -> [T; 3] {
+        let Self { pivots: [first, second, third], lower: [yx, zx, zy] } = *self;
+        let middle = right[1] - yx * right[0];
+        let last = (right[2] - zx * right[0] - zy * middle) / third;
+        let middle = middle / second - zy * last;
+        [right[0] / first - yx * middle - zx * last, middle, last]
     }
 }
