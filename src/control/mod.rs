@@ -1,5 +1,6 @@
 //! Joint torques of the approach and after the impact, and the torque of a base actuator.
 
+mod base_inertia;
 mod computed_torque;
 mod exact_tracking;
 mod limited;

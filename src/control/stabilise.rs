@@ -1,12 +1,12 @@
 //! Bringing a robot to rest after a capture.
 
+use super::base_inertia::BaseInertia;
 use super::{BaseTorque, Control};
 use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
-use nalgebra::{Matrix3, Vector3};
 
 /// Joint rates to zero, and the base rate with them where an actuator can take the angular momentum.
 ///
@@ -57,41 +57,39 @@ impl<T: Real> Control<T> for Stabilise<'_, T> {
         let wheel = || self.wheels.iter().map(|wheel| if *wheel { T::ONE } else { T::ZERO });
 
         // the first three rows: M_b a_b = F_b − c_b − M_bm θ̈
-        let (mut inertia, mut right, mut wheel_column) = (Matrix3::zeros(), Vector3::zeros(), Vector3::zeros());
-        let rows = self.mass_matrix.chunks_exact(3 + joints).zip(self.bias.iter());
-        for (i, (row, bias)) in rows.clone().take(3).enumerate() {
-            let (base, joints) = row.split_at(3);
-            right[i] = -*bias - dot(joints, slowing());
-            wheel_column[i] = dot(joints, wheel());
-            for (j, entry) in base.iter().enumerate() {
-                inertia[(i, j)] = *entry;
-            }
+        let (mut inertia, mut right, mut wheel_column) = ([[T::ZERO; 3]; 3], [T::ZERO; 3], [T::ZERO; 3]);
+        let rows = self.mass_matrix.chunks_exact((3 + joints).max(1)).zip(self.bias.iter());
+        let places = inertia.iter_mut().zip(right.iter_mut().zip(&mut wheel_column));
+        for ((row, bias), (place, (right, wheel_column))) in rows.clone().zip(places) {
+            let Some((base, joints)) = row.split_first_chunk::<3>() else { continue };
+            *place = *base;
+            *right = -*bias - dot(joints, slowing());
+            *wheel_column = dot(joints, wheel());
         }
-        let singular = Error::Singular { what: "the base inertia I_b", pivot: 0.0, limit: 0.0 };
-        let factor = inertia.cholesky().ok_or(singular)?;
-        let mut base = factor.solve(&right);
+        let inertia = BaseInertia::new(&inertia)?;
+        let mut base = inertia.solve(right);
         let [omega, ..] = state.base_twist;
         let wanted = -(self.base_gain * omega);
         self.base_torque = self.base_torque_limit.map(|limit| {
-            let per_torque = factor.solve(&Vector3::new(T::ONE, T::ZERO, T::ZERO));
-            let command = (wanted - base.x) / per_torque.x;
+            let per_torque = inertia.solve([T::ONE, T::ZERO, T::ZERO]);
+            let command = (wanted - base[0]) / per_torque[0];
             let saturated = command.abs() > limit;
             let torque = match saturated {
                 true if command < T::ZERO => -limit,
                 true => limit,
                 false => command,
             };
-            base += per_torque * torque;
+            add(&mut base, &per_torque, torque);
             BaseTorque { torque, saturated }
         });
-        let per_wheel = factor.solve(&wheel_column);
-        let spin = if per_wheel.x == T::ZERO { T::ZERO } else { (base.x - wanted) / per_wheel.x };
-        base -= per_wheel * spin;
+        let per_wheel = inertia.solve(wheel_column);
+        let spin = if per_wheel[0] == T::ZERO { T::ZERO } else { (base[0] - wanted) / per_wheel[0] };
+        add(&mut base, &per_wheel, -spin);
 
         for (torque, (row, bias)) in torques.iter_mut().zip(rows.skip(3)) {
-            let (of_base, of_joints) = row.split_at(3);
+            let Some((of_base, of_joints)) = row.split_first_chunk::<3>() else { continue };
             let accelerations = slowing().zip(wheel()).map(|(slowing, wheel)| slowing + wheel * spin);
-            *torque = *bias + dot(of_base, base.iter().copied()) + dot(of_joints, accelerations);
+            *torque = *bias + dot(of_base, base.into_iter()) + dot(of_joints, accelerations);
         }
         Ok(())
     }
@@ -103,4 +101,10 @@ impl<T: Real> Control<T> for Stabilise<'_, T> {
 
 fn dot<T: Real>(row: &[T], values: impl Iterator<Item = T>) -> T {
     row.iter().zip(values).fold(T::ZERO, |sum, (entry, value)| sum + *entry * value)
+}
+
+fn add<T: Real>(sum: &mut [T; 3], part: &[T; 3], times: T) {
+    for (sum, part) in sum.iter_mut().zip(part) {
+        *sum += *part * times;
+    }
 }

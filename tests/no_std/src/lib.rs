@@ -4,7 +4,9 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
-use planar_capture::control::{Control, ExactTracking, Free, ProportionalDerivative};
+use planar_capture::control::{
+    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, Sampled, Stabilise,
+};
 use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
@@ -13,7 +15,7 @@ use planar_capture::integrate::RungeKutta4;
 use planar_capture::motion::derivative;
 use planar_capture::state::{State, vector_length};
 use planar_capture::target::Target;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic};
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic};
 
 const LENGTH: usize = vector_length(JOINTS);
 const ARMS: usize = 2;
@@ -55,6 +57,59 @@ pub fn exact_step(model: &Model<f32>, ends: Ends<'_, f32>, time: f32, x: &mut [f
         generalized_inertia: &mut [0.0; JOINTS * JOINTS],
         generalized_bias: &mut [0.0; JOINTS],
         generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+    };
+    step(model, &mut law, time, x)
+}
+
+/// One step along a quintic under computed torque, sampled at its start, with limits.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn computed_step(
+    model: &Model<f32>,
+    ends: Ends<'_, f32>,
+    rates: [&[f32; JOINTS]; 2],
+    time: f32,
+    x: &mut [f32; LENGTH],
+) -> Result<[bool; JOINTS], Error> {
+    let mut saturated = [false; JOINTS];
+    let law = ComputedTorque {
+        trajectory: Quintic { ends, initial_rates: rates[0], final_rates: rates[1] },
+        proportional_gain: &[49.0; JOINTS],
+        derivative_gain: &[14.0; JOINTS],
+        generalized_inertia: &mut [0.0; JOINTS * JOINTS],
+        generalized_bias: &mut [0.0; JOINTS],
+        generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+    };
+    let mut held = [0.0; JOINTS];
+    let limited = Limited { law, torque_limits: &[20.0; JOINTS], saturated: &mut saturated };
+    let mut sampled = Sampled::new(limited, 1, &mut held);
+    let before = *x;
+    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
+        quantity: "state vector",
+        expected: LENGTH,
+        found: 0,
+    })?;
+    sampled.begin_step(time, model, &state)?;
+    step(model, &mut sampled, time, x)?;
+    Ok(saturated)
+}
+
+/// One step of coming to rest, by joints and thrusters on the base.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn stabilise_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let mut law = Stabilise {
+        joint_gain: &[0.5; JOINTS],
+        base_gain: 0.5,
+        wheels: &[false; JOINTS],
+        base_torque_limit: Some(0.02),
+        base_torque: None,
+        mass_matrix: &mut [0.0; SIZE * SIZE],
+        bias: &mut [0.0; SIZE],
     };
     step(model, &mut law, time, x)
 }
