@@ -30,7 +30,7 @@ const STATES: u64 = 16;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default()
         .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_millis(1000))
+        .measurement_time(Duration::from_secs(1))
         .sample_size(50)
         .without_plots()
         .configure_from_args();
