@@ -34,10 +34,12 @@ def derive_text(path: Path) -> str:
     layout = read(path)
     if layout.name != path.stem:
         raise LayoutError(f'{path}: name = "{layout.name}" must be the file\'s own name, "{path.stem}"')
-    return dump(graph.build(Model(layout))) + "\n"
+    return graph_text(layout)
 
 
-def graph_text(layout: Layout, command: str, progress: Callable[[str], None] = lambda family: None) -> str:
+def graph_text(
+    layout: Layout, command: str | None = None, progress: Callable[[str], None] = lambda family: None
+) -> str:
     """The graph of a layout, with the command that makes it; `progress` hears of each family before it is worked on."""
     return dump(graph.build(Model(layout, progress), command)) + "\n"
 

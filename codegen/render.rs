@@ -69,7 +69,10 @@ pub fn render(graph: &Value, form: &Form) -> Result<String, String> {
     let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
     let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
     let formatted = tables::names(&prettyplease::unparse(&file));
-    let text = form.self_test.map_or_else(|| formatted.clone(), |vectors| tables::fill(&formatted, vectors));
+    let text = match form.self_test {
+        Some(vectors) => tables::fill(&formatted, vectors),
+        None => formatted,
+    };
     context.insert("text_sha256", &sha256(&text));
     let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;
     Ok(format!("{}\n\n{text}", header.trim_end()))

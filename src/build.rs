@@ -28,7 +28,7 @@
 //!
 //! A layout that was changed after its graph stops the build with the command that mends it.
 
-use crate::generate::{Module, quoted};
+use crate::generate::{Module, command};
 use crate::layout::Layout;
 use crate::render;
 use crate::stage::{fresh, names};
@@ -122,10 +122,7 @@ impl Layouts {
         let [layout_path, graph_path] =
             ["toml", "json"].map(|extension| self.folder.join(format!("{name}.{extension}")));
         let (from, shown) = (layout_path.display(), graph_path.display());
-        let command = {
-            let (from, to) = (quoted(&from.to_string()), quoted(&shown.to_string()));
-            format!("planar-capture generate {from} --out {to}")
-        };
+        let command = command(&from.to_string(), &shown.to_string(), false);
         let mend = format!("{command}{}", here());
         let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
         if layout.name != name {
@@ -151,14 +148,10 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
         println!("cargo::rerun-if-changed={}", path.display());
     }
     let (shown, from) = (module.display(), layout.display());
-    let command = |options: &str| {
-        let (from, to) = (quoted(&from.to_string()), quoted(&shown.to_string()));
-        format!("planar-capture generate {from} --out {to}{options}{}", here())
-    };
-    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", command("")))?;
+    let mend = |standalone| command(&from.to_string(), &shown.to_string(), standalone) + &here();
+    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", mend(false)))?;
     let text = text.replace("\r\n", "\n"); // as some checkouts have it
     let (header, body) = text.split_once("\n\n").unwrap_or_default();
-    let standalone = if header.contains(" --standalone") { " --standalone" } else { "" };
     let said = |key: &str| Some(header.split_once(key)?.1.split([',', '\n']).next().unwrap_or_default().trim());
     let wanted = Layout::read(layout).map_err(|report| report.to_string())?.sha256();
     let problem = match (said("// layout sha256 "), said("// sha256 of the text below this header ")) {
@@ -166,11 +159,11 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
         (Some(_), Some(hash)) if hash == render::sha256(body) => return Ok(()),
         (Some(_), Some(_)) => "was changed after it was generated".to_owned(),
         _ => {
-            let make = command("");
+            let make = mend(false);
             return Err(BuildError(format!("{shown} is not a generated module: move it away, then {make}")));
         }
     };
-    Err(BuildError(format!("{shown} {problem}; to mend: {}", command(standalone))))
+    Err(BuildError(format!("{shown} {problem}; to mend: {}", mend(header.contains(" --standalone")))))
 }
 
 /// Where a command has to be run, for those who build from elsewhere.

@@ -2,7 +2,7 @@
 
 use super::{Problem, layout};
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::generate::{self, Module, quoted};
+use planar_capture::generate::{self, Module};
 use planar_capture::layout::Layout;
 use planar_capture::output::write_whole;
 use std::fs;
@@ -106,8 +106,7 @@ fn recipe(arguments: &Arguments, layout: &Layout, path: &Path) -> (String, Strin
         format!("the layout {}", layout.name)
     };
     let from = if Layout::is_path(&arguments.layout) { &source } else { &layout.name };
-    let standalone = if arguments.standalone { " --standalone" } else { "" };
-    let command = format!("planar-capture generate {} --out {}{standalone}", quoted(from), quoted(&name(path)));
+    let command = generate::command(from, &name(path), arguments.standalone);
     (source, command)
 }
 
@@ -118,10 +117,9 @@ fn check(path: &Path, text: &str, arguments: &Arguments) -> Result<ExitCode, Pro
         writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
         return Ok(ExitCode::SUCCESS);
     }
-    let standalone = if arguments.standalone { " --standalone" } else { "" };
     let state = if path.exists() { "is not what the layout gives" } else { "is not there" };
-    let (from, to) = (quoted(&arguments.layout), quoted(&shown.to_string()));
-    eprintln!("{shown} {state}; to mend: planar-capture generate {from} --out {to}{standalone}");
+    let mend = generate::command(&arguments.layout, &shown.to_string(), arguments.standalone);
+    eprintln!("{shown} {state}; to mend: {mend}");
     Ok(ExitCode::from(1))
 }
 

@@ -33,7 +33,7 @@ pub fn interpret(graph: &Value, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found
             other => Err(format!("input `{name}` has {} dimensions", other.len())),
         };
         for (i, value) in values.iter().enumerate() {
-            known.0.insert(element(i)?, *value);
+            known.own.insert(element(i)?, *value);
         }
     }
     for parameter in list(&graph["parameters"])? {
@@ -43,10 +43,10 @@ pub fn interpret(graph: &Value, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found
     known.run(&graph["constants"]["statements"])?;
     let mut found = Vec::new();
     for family in list(&graph["families"])? {
-        let mut of_family = known.clone();
+        let mut of_family = known.inside();
         of_family.run(&family["configuration"]["statements"])?;
         for function in list(&family["functions"])? {
-            let mut call = of_family.clone();
+            let mut call = of_family.inside();
             call.run(&function["statements"])?;
             for output in list(&function["outputs"])? {
                 let values = list(&output["elements"])?.iter().map(|e| call.get(e)).collect::<Result<_, _>>()?;
@@ -58,20 +58,32 @@ pub fn interpret(graph: &Value, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found
     Ok(found)
 }
 
-/// Names that have a value.
-#[derive(Clone, Default)]
-struct Known(HashMap<String, f64>);
+/// Names that have a value, in a stage and in those before it.
+#[derive(Default)]
+struct Known<'a> {
+    before: Option<&'a Known<'a>>,
+    own: HashMap<String, f64>,
+}
 
-impl Known {
+impl Known<'_> {
+    /// The next stage.
+    fn inside(&self) -> Known<'_> {
+        Known { before: Some(self), own: HashMap::new() }
+    }
+
+    fn find(&self, name: &str) -> Option<f64> {
+        self.own.get(name).copied().or_else(|| self.before?.find(name))
+    }
+
     fn set(&mut self, name: &Value, value: f64) -> Result<(), String> {
-        self.0.insert(text(name)?.to_owned(), value);
+        self.own.insert(text(name)?.to_owned(), value);
         Ok(())
     }
 
     fn get(&self, operand: &Value) -> Result<f64, String> {
         match operand.as_f64() {
             Some(number) => Ok(number),
-            None => self.0.get(text(operand)?).copied().ok_or_else(|| format!("{operand} is used before it is known")),
+            None => self.find(text(operand)?).ok_or_else(|| format!("{operand} is used before it is known")),
         }
     }
 

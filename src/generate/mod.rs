@@ -6,26 +6,13 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive};
 
-use crate::compare::Regime;
+use crate::compare::{REGIMES, Regime};
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::render::{self, Form, Runtime};
 use interpreter::interpret;
 use serde_json::Value;
 use vectors::Vectors;
-
-/// Regimes that leave the layout's numbers as they are, which a graph is computed with here.
-const REGIMES: [Regime; 9] = [
-    Regime::Moving,
-    Regime::AtRest,
-    Regime::Fast,
-    Regime::Stretched,
-    Regime::Folded,
-    Regime::NearSingular,
-    Regime::Far,
-    Regime::LightTargets,
-    Regime::HeavyTargets,
-];
 
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
@@ -99,13 +86,13 @@ pub fn read_graph(text: &str, layout: &Layout) -> Result<Value, GenerateError> {
 }
 
 /// Compares a graph, computed as it stands, with the generic implementation: every result of every function at states of
-/// nine regimes.
+/// every regime that leaves the layout's numbers as they are.
 ///
 /// # Errors
 /// [`GenerateError`], with the first result that is off.
 pub fn prove(layout: &Layout, graph: &Value) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
-    for regime in REGIMES {
+    for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
             let vectors = at(layout, regime, index)?;
             let found = interpret(graph, &vectors.inputs()).map_err(GenerateError::Graph)?;
@@ -160,6 +147,13 @@ impl Module<'_> {
             Form { runtime, item: self.item, source: self.source, command: self.command, self_test: Some(&vectors) };
         render::render(graph, &form).map_err(GenerateError::Graph)
     }
+}
+
+/// The command that generates a file from a layout, as it can be typed.
+#[must_use]
+pub fn command(layout: &str, out: &str, standalone: bool) -> String {
+    let option = if standalone { " --standalone" } else { "" };
+    format!("planar-capture generate {} --out {}{option}", quoted(layout), quoted(out))
 }
 
 /// A path as one word of a command line.
