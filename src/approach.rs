@@ -5,6 +5,7 @@ use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivat
 use crate::dynamics::Model;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::system::System;
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.
@@ -62,7 +63,7 @@ impl<'a> Approach<'a> {
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let initial = Motion::of(&self.scenario.initial.state());
-        drive(model, law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
+        drive(&System::alone(model), law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
     }
 
     /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
@@ -92,7 +93,7 @@ impl<'a> Approach<'a> {
                 _ => vec![0.0; joints],
             },
         };
-        simulate(model, &mut law, &initial, &self.timing, tick)
+        simulate(&System::alone(model), &mut law, &initial, &self.timing, tick)
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {

@@ -130,6 +130,8 @@ pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;
 #[cfg(feature = "std")]
+pub mod system;
+#[cfg(feature = "std")]
 pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;

@@ -6,6 +6,7 @@ use crate::dynamics::Model;
 use crate::layout::{Arm, Layout};
 use crate::scenario::{PostImpact, Settling};
 use crate::simulate::{Motion, Phase, Stopped, Timing};
+use crate::system::System;
 use crate::target::Target;
 use crate::trajectory::Standing;
 
@@ -63,5 +64,5 @@ pub fn settle(
             &mut stabilised
         }
     };
-    drive(model, law, &after.actuation, start, &timing, tick)
+    drive(&System::alone(model), law, &after.actuation, start, &timing, tick)
 }

@@ -2,11 +2,10 @@
 
 use crate::audit::{Audit, Done, Drift};
 use crate::control::Control;
-use crate::dynamics::Model;
 use crate::error::Error;
 use crate::integrate::RungeKutta4;
-use crate::motion::derivative;
-use crate::state::{Effort, State, vector_length};
+use crate::state::{Effort, State};
+use crate::system::{Body, System};
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +71,8 @@ pub struct Sample {
     pub base_work: f64,
     /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
     pub base_impulse: f64,
+    /// The bodies beside the robot, in the system's order.
+    pub bodies: Vec<Body>,
 }
 
 /// How one phase is cut into steps and samples.
@@ -162,22 +163,21 @@ pub struct Stopped {
 /// # Errors
 /// The time and the reason where the model or the law has no answer (singular, not finite).
 pub fn simulate(
-    model: &dyn Model<f64>,
+    system: &System<'_>,
     control: &mut dyn Control<f64>,
     initial: &Motion,
     timing: &Timing,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
+    let model = system.model;
     let joints = model.joints();
-    let length = vector_length(joints);
-    let mut x = vec![0.0; length];
-    initial.state().write(&mut x);
+    let mut x = system.vector(&initial.state());
     let mut torques = vec![0.0; joints];
-    let mut workspace = vec![0.0; 3 * length];
+    let mut workspace = vec![0.0; 3 * x.len()];
     let at = |time| move |source| Stopped { time, source };
-    let wrong_length = Error::Length { quantity: "state vector", expected: length, found: x.len() };
+    let wrong_length = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
     let mut integrator = RungeKutta4::new(&mut workspace).ok_or(Stopped { time: 0.0, source: wrong_length })?;
-    let mut audit = Audit::new(model, &initial.state()).map_err(at(0.0))?;
+    let mut audit = Audit::new(model, &initial.state(), system.bodies).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
@@ -189,7 +189,8 @@ pub fn simulate(
         let state = State::from_vector(&x, joints).ok_or(Stopped { time, source: wrong_length })?;
         let effort = Effort::from_vector(&x).unwrap_or_default();
         let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
-        let momentum = audit.record(&state, &done).map_err(at(time))?;
+        let bodies = system.bodies_at(&x);
+        let momentum = audit.record(&state, &bodies, &done).map_err(at(time))?;
         if i < steps {
             control.begin_step(time, model, &state).map_err(at(time))?;
         }
@@ -208,6 +209,7 @@ pub fn simulate(
                 base_torque: control.base_torque().map(|base| base.torque),
                 base_work: effort.base_work,
                 base_impulse: effort.base_impulse,
+                bodies,
             };
             model
                 .end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)
@@ -219,12 +221,13 @@ pub fn simulate(
             let mut first = true;
             integrator
                 .step(time, step, &mut x, |t, x, rate| {
-                    derivative(model, control, t, x, rate, &mut torques)?;
+                    system.derivative(control, t, x, rate, &mut torques)?;
                     if std::mem::take(&mut first) {
                         saturation.count(control, step);
                     }
                     Ok(())
                 })
+                .and_then(|()| system.restore(&mut x))
                 .map_err(at(time))?;
             tick();
         }
