@@ -47,8 +47,10 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod body;
 #[doc(hidden)]
 pub mod check;
+pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod error;

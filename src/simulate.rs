@@ -1,11 +1,12 @@
 //! One phase in time: fixed Runge–Kutta steps under a control law, audited at every step.
 
 use crate::audit::{Audit, Done, Drift};
+use crate::body::Body;
 use crate::control::Control;
 use crate::error::Error;
 use crate::integrate::RungeKutta4;
 use crate::state::{Effort, State};
-use crate::system::{Body, System};
+use crate::system::System;
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ pub struct Sample {
     /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
     pub base_impulse: f64,
     /// The bodies beside the robot, in the system's order.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<Body<f64>>,
 }
 
 /// How one phase is cut into steps and samples.
