@@ -1,9 +1,9 @@
 //! What must not change while the robot moves, watched in every run.
 
-use crate::body::Body;
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::state::State;
+use crate::system::Body;
 
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,7 +59,7 @@ impl<'a> Audit<'a> {
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body<f64>]) -> Result<Self, Error> {
+    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let mut inertias = vec![[0.0; 2]; bodies];
         model.body_inertias(&mut inertias)?;
@@ -76,12 +76,7 @@ impl<'a> Audit<'a> {
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn record(
-        &mut self,
-        state: &State<'_, f64>,
-        beside: &[Body<f64>],
-        done: &Done,
-    ) -> Result<Momentum<f64>, Error> {
+    pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], done: &Done) -> Result<Momentum<f64>, Error> {
         let now = with_bodies(self.model.momentum(state)?, beside);
         self.model.body_poses(&state.base_pose, state.joint_angles, &mut self.poses)?;
         self.model.body_twists(state, &mut self.twists)?;
@@ -110,12 +105,12 @@ impl<'a> Audit<'a> {
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.
-fn with_bodies(mut total: Momentum<f64>, bodies: &[Body<f64>]) -> Momentum<f64> {
-    for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {
-        total.linear_momentum[0] += mass * vx;
-        total.linear_momentum[1] += mass * vy;
-        total.angular_momentum += inertia * omega + mass * (x * vy - y * vx);
-        total.kinetic_energy += 0.5 * (inertia * omega * omega + mass * (vx * vx + vy * vy));
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+    for body in bodies {
+        let ([l, px, py], energy) = body.momentum();
+        total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];
+        total.angular_momentum += l;
+        total.kinetic_energy += energy;
     }
     total
 }

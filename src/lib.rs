@@ -80,6 +80,8 @@ pub mod actuators;
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
+pub mod assembly;
+#[cfg(feature = "std")]
 pub mod audit;
 #[cfg(feature = "build")]
 pub mod build;
@@ -104,6 +106,8 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod meeting;
+#[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
@@ -118,6 +122,8 @@ pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
+pub mod response;
+#[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod settle;
@@ -131,6 +137,8 @@ pub mod structure;
 pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;
+#[cfg(feature = "std")]
+pub mod surface;
 #[cfg(feature = "std")]
 pub mod system;
 #[cfg(feature = "std")]

@@ -1,12 +1,11 @@
 //! One phase in time: fixed Runge–Kutta steps under a control law, audited at every step.
 
 use crate::audit::{Audit, Done, Drift};
-use crate::body::Body;
 use crate::control::Control;
 use crate::error::Error;
 use crate::integrate::RungeKutta4;
 use crate::state::{Effort, State};
-use crate::system::System;
+use crate::system::{Body, System};
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +72,7 @@ pub struct Sample {
     /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
     pub base_impulse: f64,
     /// The bodies beside the robot, in the system's order.
-    pub bodies: Vec<Body<f64>>,
+    pub bodies: Vec<Body>,
 }
 
 /// How one phase is cut into steps and samples.
@@ -118,6 +117,8 @@ pub struct Phase {
     pub drift: Drift,
     /// How long the actuators were at their limits.
     pub saturation: Saturation,
+    /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
+    pub constraint_errors: [f64; 2],
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.
@@ -185,11 +186,14 @@ pub fn simulate(
     let step = time_of(1);
     let mut samples = Vec::new();
     let mut saturation = Saturation::default();
+    let mut constraint_errors = [0.0; 2];
     for i in 0..=steps {
         let time = time_of(i);
         let state = State::from_vector(&x, joints).ok_or(Stopped { time, source: wrong_length })?;
         let effort = Effort::from_vector(&x).unwrap_or_default();
         let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let open = system.constraint_errors(&x).map_err(at(time))?;
+        constraint_errors = std::array::from_fn(|i| open[i].max(constraint_errors[i]));
         let bodies = system.bodies_at(&x);
         let momentum = audit.record(&state, &bodies, &done).map_err(at(time))?;
         if i < steps {
@@ -233,5 +237,5 @@ pub fn simulate(
             tick();
         }
     }
-    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation })
+    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation, constraint_errors })
 }

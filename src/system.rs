@@ -1,6 +1,5 @@
 //! What moves in one phase: a robot, and the free bodies that it holds or may meet.
 
-use crate::body::Body;
 use crate::contact::{Closure, Contact, Hold, Workspace};
 use crate::control::Control;
 use crate::dynamics::Model;
@@ -8,13 +7,16 @@ use crate::error::Error;
 use crate::motion::derivative;
 use crate::state::{State, halves, vector_length};
 
+/// A rigid body beside the robot.
+pub type Body = crate::body::Body<f64>;
+
 /// A robot and free bodies, as they are when a phase begins.
 #[derive(Clone, Copy)]
 pub struct System<'a> {
     /// The robot.
     pub model: &'a dyn Model<f64>,
     /// The bodies beside it: held as the closures say, free where none does.
-    pub bodies: &'a [Body<f64>],
+    pub bodies: &'a [Body],
     /// Holds of tips on the bodies, and on what other tips hold.
     pub closures: &'a [Closure<f64>],
 }
@@ -46,7 +48,7 @@ impl<'a> System<'a> {
 
     /// The bodies at an integrated vector.
     #[must_use]
-    pub fn bodies_at(&self, x: &[f64]) -> Vec<Body<f64>> {
+    pub fn bodies_at(&self, x: &[f64]) -> Vec<Body> {
         let skip = 3 + self.model.joints();
         let part = |half: &[f64], i: usize| {
             half.get(skip + 3 * i..).and_then(|rest| rest.first_chunk::<3>()).copied().unwrap_or_default()

@@ -47,6 +47,18 @@ pub enum Kind<T> {
     },
 }
 
+impl<T> Kind<T> {
+    /// As in a scenario.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Pin => "pin",
+            Self::Bounce { .. } => "bounce",
+        }
+    }
+}
+
 /// What a tip touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Other {
