@@ -3,6 +3,7 @@
 use crate::actuators::drive;
 use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
 use crate::dynamics::Model;
+use crate::event::NoEvents;
 use crate::layout::{Arm, Layout};
 use crate::scenario::{PostImpact, Settling};
 use crate::simulate::{Motion, Phase, Stopped, Timing};
@@ -35,7 +36,8 @@ pub fn settle(
     sample: f64,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let timing = Timing { duration: after.duration, step: after.step, sample };
+    let (duration, step, integration) = (after.duration, after.step, after.integration);
+    let timing = Timing { duration, step, sample, integration };
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     let (mut held, mut damped, mut stabilised);
@@ -64,5 +66,5 @@ pub fn settle(
             &mut stabilised
         }
     };
-    drive(&System::alone(model), law, &after.actuation, start, &timing, tick)
+    drive(&System::alone(model), law, &after.actuation, start, &timing, &mut NoEvents, tick)
 }

@@ -167,7 +167,7 @@ fn run_case(
         joint_rates: impact.exact.joint_rates_after.clone(),
         ..end.motion.clone()
     };
-    let timing = Timing { duration: after.duration, step: after.step, sample };
+    let timing = Timing { duration: after.duration, step: after.step, sample, integration: after.integration };
     observer.begin(&case.name, timing.steps());
     let wheels = wheels(&scenario.layout, &targets);
     let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };

@@ -4,7 +4,7 @@ mod support;
 
 use planar_capture::models;
 use planar_capture::remainder::Remainder;
-use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
+use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
 use planar_capture::settle::{settle, wheels};
 use planar_capture::simulate::{Motion, Phase};
 use planar_capture::study::Captured;
@@ -143,7 +143,8 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
     let wheels = wheels(&layout, &[]);
     let control =
         Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };
-    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default() };
+    let integration = Integration::default();
+    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
     let start = Motion {
         base_pose: s.base_pose,
         joint_angles: s.joint_angles.clone(),

@@ -3,6 +3,7 @@
 mod actuation;
 mod approach;
 mod capture;
+mod integration;
 mod joints;
 mod post_impact;
 
@@ -12,6 +13,7 @@ use std::path::{Path, PathBuf};
 pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
 pub use capture::{Case, Target};
+pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
