@@ -1,6 +1,7 @@
 //! A control law behind limited and sampled actuators.
 
 use crate::control::{Control, Limited, Sampled};
+use crate::event::Events;
 use crate::scenario::Actuation;
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use crate::system::System;
@@ -15,6 +16,7 @@ pub fn drive(
     actuation: &Actuation,
     initial: &Motion,
     timing: &Timing,
+    events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
     let mut saturated = vec![false; system.model.joints()];
@@ -28,7 +30,7 @@ pub fn drive(
     };
     let mut held = vec![0.0; system.model.joints()];
     match actuation.steps_per_sample {
-        Some(steps) => simulate(system, &mut Sampled::new(law, steps, &mut held), initial, timing, tick),
-        None => simulate(system, law, initial, timing, tick),
+        Some(steps) => simulate(system, &mut Sampled::new(law, steps, &mut held), initial, timing, events, tick),
+        None => simulate(system, law, initial, timing, events, tick),
     }
 }

@@ -3,6 +3,7 @@
 use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::event::NoEvents;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use crate::system::System;
@@ -19,7 +20,9 @@ impl<'a> Approach<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
-        let timing = Timing { duration: scenario.approach.duration, step: scenario.approach.step, sample };
+        let approach = &scenario.approach;
+        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
+        let timing = Timing { duration, step, sample, integration };
         Self { scenario, timing }
     }
 
@@ -63,7 +66,15 @@ impl<'a> Approach<'a> {
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let initial = Motion::of(&self.scenario.initial.state());
-        drive(&System::alone(model), law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
+        drive(
+            &System::alone(model),
+            law,
+            &self.scenario.approach.actuation,
+            &initial,
+            &self.timing,
+            &mut NoEvents,
+            tick,
+        )
     }
 
     /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
@@ -93,7 +104,7 @@ impl<'a> Approach<'a> {
                 _ => vec![0.0; joints],
             },
         };
-        simulate(&System::alone(model), &mut law, &initial, &self.timing, tick)
+        simulate(&System::alone(model), &mut law, &initial, &self.timing, &mut NoEvents, tick)
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {

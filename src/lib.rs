@@ -18,6 +18,10 @@
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
+//! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
+//! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
+//! | other integrators | [`integrate`] |
+//! | events that end a phase | `event` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
@@ -94,9 +98,15 @@ pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
+mod equation;
+#[cfg(feature = "std")]
 pub mod evaluation;
+#[cfg(feature = "std")]
+pub mod event;
 #[cfg(feature = "figures")]
 pub mod figures;
+#[cfg(feature = "std")]
+mod flow;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -115,6 +125,8 @@ pub mod output;
 pub mod posture;
 #[cfg(feature = "std")]
 pub mod record;
+#[cfg(feature = "std")]
+mod recorder;
 #[cfg(feature = "std")]
 pub mod remainder;
 #[cfg(feature = "std")]
@@ -145,3 +157,5 @@ pub mod system;
 pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;
+#[cfg(feature = "std")]
+mod watch;

@@ -3,6 +3,7 @@
 use crate::actuators::drive;
 use crate::assembly::Grip;
 use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
+use crate::event::Events;
 use crate::layout::{Arm, Layout};
 use crate::scenario::{PostImpact, Settling};
 use crate::simulate::{Motion, Phase, Stopped, Timing};
@@ -21,7 +22,7 @@ fn is_wheel(arm: &Arm) -> bool {
     matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
-/// Runs robot and targets from `start` on; `wheels` as [`wheels`] says.
+/// Runs robot and targets from `start` on, for a time or up to an event; `wheels` as [`wheels`] says.
 ///
 /// # Errors
 /// When and why it stopped.
@@ -30,10 +31,10 @@ pub fn settle(
     after: &PostImpact,
     wheels: &[bool],
     start: &Motion,
-    sample: f64,
+    timing: &Timing,
+    events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let timing = Timing { duration: after.duration, step: after.step, sample };
     let model = system.model;
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
@@ -63,5 +64,5 @@ pub fn settle(
             &mut stabilised
         }
     };
-    drive(system, law, &after.actuation, start, &timing, tick)
+    drive(system, law, &after.actuation, start, timing, events, tick)
 }

@@ -53,6 +53,14 @@ pub fn halves<T>(vector: &[T]) -> Option<(&[T], &[T])> {
     (positions.len() == rates.len()).then_some((positions, rates))
 }
 
+/// Positions, rates and what follows them in an integrated vector, to be changed; `None` as [`halves`].
+pub fn halves_mut<T>(vector: &mut [T]) -> Option<(&mut [T], &mut [T], &mut [T; 3])> {
+    let places = half(vector.len());
+    let (state, effort) = vector.split_last_chunk_mut::<3>()?;
+    let (positions, rates) = state.split_at_mut_checked(places)?;
+    (positions.len() == rates.len()).then_some((positions, rates, effort))
+}
+
 /// What the actuators have done, integrated beside the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Effort<T> {

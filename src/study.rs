@@ -6,6 +6,7 @@ use crate::capture::{Capture, capture};
 use crate::contact::Kind;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
+use crate::event::NoEvents;
 use crate::meeting::{Touching, in_time};
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
@@ -179,12 +180,12 @@ fn run_case(
     let touched: Vec<_> = moved.map(|(target, twist)| Body { twist: *twist, ..*target }).collect();
     let grips = grips(&touching);
     let held = Assembly::new(make(), &start, &touched, &grips).map_err(failed)?;
-    let timing = Timing { duration: after.duration, step: after.step, sample };
+    let timing = Timing { duration: after.duration, step: after.step, sample, integration: after.integration };
     observer.begin(&case.name, timing.steps());
     let wheels = wheels(&scenario.layout, &grips);
     let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };
-    let post_impact =
-        settle(&held.system(), after, &wheels, &start, sample, &mut || observer.step()).map_err(stopped)?;
+    let post_impact = settle(&held.system(), after, &wheels, &start, &timing, &mut NoEvents, &mut || observer.step())
+        .map_err(stopped)?;
     let remainder = match (&after.control, post_impact.end()) {
         (Settling::None, _) | (_, None) => None,
         (control, Some(end)) => {

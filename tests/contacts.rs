@@ -6,6 +6,7 @@ use planar_capture::body::Body;
 use planar_capture::contact::{After, Closure, Contact, Kind, Other, Rows, impact, workspace_length};
 use planar_capture::control::Free;
 use planar_capture::dynamics::{Kinematics, Merge};
+use planar_capture::event::NoEvents;
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::impact as rigid;
 use planar_capture::simulate::{Motion, Timing, simulate};
@@ -69,7 +70,7 @@ fn rigid_contacts_are_the_rigid_capture() {
 #[test]
 fn a_rigid_hold_is_a_merged_link() {
     let state = state();
-    let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0 };
+    let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
     let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], kind: Kind::Rigid };
     let tip = tips(&state)[1];
     let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
@@ -79,12 +80,13 @@ fn a_rigid_hold_is_a_merged_link() {
     let held = [Body { twist: twists[0], ..body }];
     let closures = [Closure::new(&contact, &tip, &body.pose).expect("a hold")];
     let system = System { model: &model, bodies: &held, closures: &closures };
-    let by_forces = simulate(&system, &mut Free, &start, &timing, &mut || {}).expect("a motion");
+    let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
     let mut merged = model.clone();
     let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
     Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
-    let as_one = simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut || {}).expect("a motion");
+    let as_one =
+        simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
     let (a, b) = (by_forces.end().expect("an end"), as_one.end().expect("an end"));
     assert_close("base pose", &a.motion.base_pose, &b.motion.base_pose, 1e-9);
     assert_close("joint angles", &a.motion.joint_angles, &b.motion.joint_angles, 1e-9);
@@ -120,8 +122,8 @@ fn a_loop_stays_closed() {
             .map(|(c, tip)| Closure::new(c, &tip, &body.pose).expect("a hold"))
             .collect();
         let system = System { model: &model, bodies: &held, closures: &closures };
-        let timing = Timing { duration: 10.0, step: 0.005, sample: 0.05 };
-        let phase = simulate(&system, &mut Free, &start, &timing, &mut || {}).expect("a motion");
+        let timing = Timing { duration: 10.0, step: 0.005, sample: 0.05, ..Timing::default() };
+        let phase = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
         println!("{kinds:?} {:?}", phase.drift);
         let end = phase.end().expect("an end");
         let x = System { bodies: &end.bodies, ..system }.vector(&end.motion.state());

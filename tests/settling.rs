@@ -2,11 +2,12 @@
 
 mod support;
 
+use planar_capture::event::NoEvents;
 use planar_capture::models;
 use planar_capture::remainder::Remainder;
-use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
+use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
 use planar_capture::settle::{settle, wheels};
-use planar_capture::simulate::{Motion, Phase};
+use planar_capture::simulate::{Motion, Phase, Timing};
 use planar_capture::study::Captured;
 use planar_capture::summary::summary;
 use planar_capture::system::System;
@@ -144,14 +145,17 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
     let wheels = wheels(&layout, &[]);
     let control =
         Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };
-    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default() };
+    let integration = Integration::default();
+    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
+    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
     let start = Motion {
         base_pose: s.base_pose,
         joint_angles: s.joint_angles.clone(),
         base_twist: s.base_twist,
         joint_rates: s.joint_rates.clone(),
     };
-    let phase = settle(&System::alone(&*model), &after, &wheels, &start, 1.0, &mut || ()).expect("a phase");
+    let phase =
+        settle(&System::alone(&*model), &after, &wheels, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     let end = phase.end().expect("an end").motion.clone();
     let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
     (phase, left, wheels)

@@ -58,7 +58,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 fn steps(duration: f64, step: f64) -> String {
-    let steps = Timing { duration, step, sample: step }.steps();
+    let steps = Timing { duration, step, sample: step, ..Timing::default() }.steps();
     format!("{} s in {steps} steps of {} s", short(duration), short(step))
 }
 

@@ -1,6 +1,7 @@
 //! The `[approach]` table: how the arms move to the targets.
 
 use super::actuation::Actuation;
+use super::integration::Integration;
 use super::joints::{Joints, check_length};
 use super::{JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
@@ -32,6 +33,8 @@ pub struct Approach {
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
     pub actuation: Actuation,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
 }
 
 /// Where a tip should be at the end of an approach, inertial frame.
@@ -93,7 +96,7 @@ pub enum Tracking {
 }
 
 impl Approach {
-    pub(super) const KEYS: [&'static str; 12] = [
+    pub(super) const KEYS: [&'static str; 15] = [
         "duration",
         "step",
         "trajectory",
@@ -106,6 +109,9 @@ impl Approach {
         "derivative_gain",
         Actuation::KEYS[0],
         Actuation::KEYS[1],
+        Integration::KEYS[0],
+        Integration::KEYS[1],
+        Integration::KEYS[2],
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
@@ -135,6 +141,7 @@ impl Approach {
             }
             _ => Actuation::from_table(table, times, joints),
         };
+        let integration = Integration::from_table(table);
         let (duration, step) = times?;
         Some(Self {
             duration,
@@ -145,6 +152,7 @@ impl Approach {
             end: end?,
             tracking: tracking?,
             actuation: actuation?,
+            integration: integration?,
         })
     }
 }

@@ -5,6 +5,7 @@ mod approach;
 mod capture;
 mod case;
 mod contact;
+mod integration;
 mod joints;
 mod post_impact;
 mod target;
@@ -16,6 +17,7 @@ pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
+pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
 pub use target::{Target, Touch, TouchKind};
 

@@ -1,4 +1,11 @@
-//! The differential equation of a controlled robot, with what its actuators do beside it.
+//! The differential equation of a controlled robot, with what its actuators do beside it: in full coordinates, in [`Reduced`] ones and in [`Canonical`] variables.
+
+mod canonical;
+mod reduced;
+mod solve;
+
+pub use canonical::Canonical;
+pub use reduced::Reduced;
 
 use crate::control::Control;
 use crate::dynamics::Model;
