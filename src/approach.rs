@@ -3,6 +3,7 @@
 use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
@@ -51,6 +52,12 @@ impl<'a> Approach<'a> {
                     generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
                 };
                 self.drive(model, &mut law, tick)
+            }
+            Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
+                let mut tips = Tips::new(model, self.scenario)?;
+                let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
+                let phase = self.drive(model, &mut law, tick)?;
+                Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
             }
         }
     }

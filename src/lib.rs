@@ -17,6 +17,7 @@
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
@@ -102,6 +103,8 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod miss;
+#[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
@@ -115,6 +118,8 @@ pub mod remainder;
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
+#[cfg(feature = "std")]
+pub mod resolved;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]

@@ -116,6 +116,8 @@ pub struct Phase {
     pub drift: Drift,
     /// How long the actuators were at their limits.
     pub saturation: Saturation,
+    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
+    pub singularity_margin: Option<f64>,
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.
@@ -229,5 +231,5 @@ pub fn simulate(
             tick();
         }
     }
-    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation })
+    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation, singularity_margin: None })
 }

@@ -4,9 +4,10 @@ use crate::approach::Approach;
 use crate::capture::{Capture, capture};
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
+use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling};
+use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling, Tracking};
 use crate::settle::{settle, wheels};
 use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
 use crate::target::Target;
@@ -28,6 +29,8 @@ pub struct Study {
     pub posture: Option<Posture>,
     /// The approach, the same in every case.
     pub approach: Phase,
+    /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
+    pub misses: Vec<Option<Miss>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
@@ -101,12 +104,14 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
+    // tips on paths of their own need no joint trajectory
+    let by_tips = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     let posture = match &scenario.approach.final_end_effector_poses {
-        Some(goals) => {
+        Some(goals) if !by_tips => {
             observer.begin("designing final joint angles", 0);
             Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
         }
-        None => None,
+        _ => None,
     };
     let mut designed;
     let scenario = match &posture {
@@ -120,11 +125,11 @@ pub fn study(
     let approach = Approach::new(scenario, sample);
     let design = match (&scenario.approach.end, &posture) {
         (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
-        (EndRates::EndEffectorTwists(wanted), None) => {
+        (EndRates::EndEffectorTwists(wanted), None) if !by_tips => {
             observer.begin("designing end rates", 0);
             Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
-        (EndRates::Rest | EndRates::JointRates(_), _) => None,
+        _ => None,
     };
     let rates = match (&scenario.approach.end, &design) {
         (EndRates::JointRates(rates), _) => rates.clone(),
@@ -144,7 +149,8 @@ pub fn study(
             Ok(CaseResult { name: case.name.clone(), capture })
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    Ok(Study { design, posture, approach, cases })
+    let misses = Miss::of(scenario, &approach);
+    Ok(Study { design, posture, approach, misses, cases })
 }
 
 /// Impact and post-impact of one case.

@@ -2,6 +2,7 @@
 
 use crate::capture::ImpactResult;
 use crate::layout::Layout;
+use crate::miss::Miss;
 use crate::remainder::Remainder;
 use crate::simulate::Phase;
 use crate::study::{CaseResult, Study};
@@ -28,6 +29,10 @@ fn case_value(study: &Study, case: &CaseResult) -> Value {
             "singularity_margin": posture.rates.singularity_margin,
             "spare_joints": posture.spare_joints,
         });
+    }
+    if !study.misses.is_empty() {
+        let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
+        value["approach"]["missed"] = study.misses.iter().map(parts).collect();
     }
     if let Some(captured) = &case.capture {
         value["impact"] = json!({
@@ -58,6 +63,9 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     }
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
+    if let Some(margin) = phase.singularity_margin {
+        value["singularity_margin"] = json!(margin);
+    }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);
     }

@@ -5,6 +5,7 @@ mod approach;
 mod capture;
 mod joints;
 mod post_impact;
+mod resolved;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
