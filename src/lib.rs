@@ -17,6 +17,7 @@
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
 //! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
@@ -107,6 +108,8 @@ pub mod event;
 pub mod figures;
 #[cfg(feature = "std")]
 mod flow;
+#[cfg(feature = "std")]
+pub mod gaps;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -117,6 +120,8 @@ pub mod inspection;
 pub mod layout;
 #[cfg(feature = "std")]
 pub mod meeting;
+#[cfg(feature = "std")]
+pub mod miss;
 #[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
@@ -133,6 +138,8 @@ pub mod remainder;
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
+#[cfg(feature = "std")]
+pub mod resolved;
 #[cfg(feature = "std")]
 pub mod response;
 #[cfg(feature = "std")]

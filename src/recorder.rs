@@ -105,6 +105,14 @@ impl<'a> Recorder<'a> {
     /// The phase, so long.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
         let Self { samples, audit, saturation, constraint_errors, .. } = self;
-        Phase { duration, event, samples, drift: audit.drift(), saturation, constraint_errors }
+        Phase {
+            duration,
+            event,
+            samples,
+            drift: audit.drift(),
+            saturation,
+            constraint_errors,
+            singularity_margin: None,
+        }
     }
 }

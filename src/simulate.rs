@@ -128,6 +128,8 @@ pub struct Phase {
     pub saturation: Saturation,
     /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
     pub constraint_errors: [f64; 2],
+    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
+    pub singularity_margin: Option<f64>,
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.

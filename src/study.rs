@@ -8,9 +8,10 @@ use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
 use crate::event::NoEvents;
 use crate::meeting::{Touching, in_time};
+use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling};
+use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling, Tracking};
 use crate::settle::{settle, wheels};
 use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
 use crate::system::Body;
@@ -35,6 +36,8 @@ pub struct Study {
     pub posture: Option<Posture>,
     /// The approach: of all cases where contacts come by time, else as far as it would go without any.
     pub approach: Phase,
+    /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
+    pub misses: Vec<Option<Miss>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
@@ -114,12 +117,14 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
+    // tips on paths of their own need no joint trajectory
+    let by_tips = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     let posture = match &scenario.approach.final_end_effector_poses {
-        Some(goals) => {
+        Some(goals) if !by_tips => {
             observer.begin("designing final joint angles", 0);
             Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
         }
-        None => None,
+        _ => None,
     };
     let mut designed;
     let scenario = match &posture {
@@ -133,11 +138,11 @@ pub fn study(
     let approach = Approach::new(scenario, sample);
     let design = match (&scenario.approach.end, &posture) {
         (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
-        (EndRates::EndEffectorTwists(wanted), None) => {
+        (EndRates::EndEffectorTwists(wanted), None) if !by_tips => {
             observer.begin("designing end rates", 0);
             Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
-        (EndRates::Rest | EndRates::JointRates(_), _) => None,
+        _ => None,
     };
     let rates = match (&scenario.approach.end, &design) {
         (EndRates::JointRates(rates), _) => rates.clone(),
@@ -154,7 +159,8 @@ pub fn study(
             _ => Ok(CaseResult { name: case.name.clone(), approach: None, targets: Vec::new(), capture: None }),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    Ok(Study { design, posture, approach, cases })
+    let misses = Miss::of(scenario, &approach);
+    Ok(Study { design, posture, approach, misses, cases })
 }
 
 /// Impact and post-impact of one case.

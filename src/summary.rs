@@ -2,6 +2,7 @@
 
 use crate::capture::{ContactResult, ImpactResult};
 use crate::meeting::Touching;
+use crate::miss::Miss;
 use crate::remainder::Remainder;
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
@@ -30,6 +31,10 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
             "singularity_margin": posture.rates.singularity_margin,
             "spare_joints": posture.spare_joints,
         });
+    }
+    if !study.misses.is_empty() {
+        let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
+        value["approach"]["missed"] = study.misses.iter().map(parts).collect();
     }
     if let Some(captured) = &case.capture {
         value["impact"] = json!({
@@ -66,6 +71,9 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     value["energy_error"] = json!(phase.drift.energy_error);
     if phase.constraint_errors.iter().any(|error| *error > 0.0) {
         value["constraint_errors"] = json!(phase.constraint_errors);
+    }
+    if let Some(margin) = phase.singularity_margin {
+        value["singularity_margin"] = json!(margin);
     }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);

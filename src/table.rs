@@ -2,7 +2,7 @@
 
 use crate::capture::ImpactResult;
 use crate::meeting::Touching;
-use crate::scenario::{Detection, Scenario, Settling};
+use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -68,6 +68,25 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
         }
         writeln!(out)?;
+        if let Some(miss) = study.misses.get(i).and_then(Option::as_ref) {
+            let head =
+                if miss.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
+            writeln!(out, "    {head} {miss}")?;
+        }
+    }
+    if let Some(margin) = phase.singularity_margin {
+        let damped = match scenario.approach.tracking {
+            Tracking::ResolvedMotionRate { singularity_threshold, .. } if margin < singularity_threshold => {
+                format!(
+                    "\n  (below {singularity_threshold} it was damped: the way is through a singular pose, or to one out of reach)"
+                )
+            }
+            _ => String::new(),
+        };
+        writeln!(
+            out,
+            "  generalized Jacobian on the way: smallest/largest singular value {margin:.4} at the least{damped}"
+        )?;
     }
     if !phase.saturation.joints.is_empty() {
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;

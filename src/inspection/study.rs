@@ -29,6 +29,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
     match &approach.final_end_effector_poses {
+        Some(goals) if by_tips(scenario) => writeln!(out, "  tips                to {}", wishes(goals))?,
         Some(goals) => writeln!(out, "  final angles        to be designed, for {}", wishes(goals))?,
         None => writeln!(out, "  largest turn        {}", turn(scenario))?,
     }
@@ -78,6 +79,10 @@ fn start(scenario: &Scenario) -> String {
     }
 }
 
+fn by_tips(scenario: &Scenario) -> bool {
+    matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. })
+}
+
 fn trajectory(scenario: &Scenario) -> String {
     let shape = match scenario.approach.trajectory {
         TrajectoryKind::Quartic => "quartic",
@@ -93,7 +98,8 @@ fn trajectory(scenario: &Scenario) -> String {
             format!("tip twists {} rad/s, m/s", twists.join(", "))
         }
     };
-    format!("{shape}, to {end}")
+    let whose = if by_tips(scenario) { " of the tips" } else { "" };
+    format!("{shape}{whose}, to {end}")
 }
 
 fn wishes(goals: &[TipGoal]) -> String {
@@ -149,6 +155,12 @@ fn law(scenario: &Scenario) -> String {
         Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
             format!("computed torque, {} 1/s², {} 1/s", gains(proportional_gain), gains(derivative_gain))
         }
+        Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => format!(
+            "resolved motion rate, poses {} 1/s, rates {} 1/s, singular values damped below {} of the largest",
+            short(*pose_gain),
+            short(*rate_gain),
+            short(*singularity_threshold)
+        ),
         Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
             format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))

@@ -8,6 +8,7 @@ mod contact;
 mod integration;
 mod joints;
 mod post_impact;
+mod resolved;
 mod target;
 
 use std::f64::consts::PI;

@@ -55,6 +55,14 @@ pub const HELD: f64 = 1e-3;
 pub const DECAY: f64 = 1e-6;
 /// Tip poses that the design of the final joint angles should reach, rad, m: it iterates to 1e-11 per unit.
 pub const REACHED: f64 = 1e-9;
+/// Tips on their paths and at their ends under resolved motion rate control, rad, m, rad/s, m/s: the integration error of RK4
+/// at 5 ms, which feedback pulls back; 3e-10 measured, near a singular pose.
+pub const STEERED: f64 = 1e-8;
+/// The same with torques held for up to 40 ms, at the end: half a sample of delay in accelerations of some mm/s².
+pub const STEERED_SAMPLED: f64 = 1e-4;
+/// Accelerations of tips, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding times the
+/// condition of the generalized Jacobian.
+pub const STEERED_ACCELERATION: f64 = 1e-8;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
 /// error of RK4 at 5 ms, 4e-13 measured.
 pub const TIME_SERIES: f64 = 1e-11;
