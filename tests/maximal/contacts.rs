@@ -16,6 +16,10 @@ use proptest::prelude::*;
 fn happen(layout: &Layout, scene: &Scene) -> (System, Vec<Contact>, Impact, System) {
     let before = scene.system(layout);
     let contacts = scene.contacts(&before);
+    for (touch, contact) in scene.touches.iter().zip(&contacts) {
+        let arrow = before.position(&before.tips[touch.arm]) - before.bodies[contact.target.body].com();
+        assert_close("offset", &touch.offset, arrow.as_slice(), tolerance::POLYNOMIAL);
+    }
     let found = impact(&before, &contacts);
     let mut after = before.clone();
     after.apply(&contacts, &found);
@@ -59,6 +63,30 @@ fn check_contacts(contacts: &[Contact], found: &Impact, before: &System, after: 
                 assert!(apart.dot(&Vector2::from(normal)) >= -small, "{contact:?} closes by {apart}");
             }
         }
+    }
+}
+
+/// Poisson's law: p₁ ≥ 0, u₁ ≥ 0, p₁ u₁ = 0, and p₂ ≥ e p₁, (p₂ − e p₁) u₂ = 0; u₁ is what e = 0 leaves.
+fn check_phases(contacts: &[Contact], found: &Impact, before: &System, after: &System) {
+    let soft = |contact: &Contact| match contact.kind {
+        Kind::Bounce { normal, .. } => Contact { kind: Kind::Bounce { normal, restitution: 0.0 }, ..*contact },
+        _ => *contact,
+    };
+    let soft: Vec<_> = contacts.iter().map(soft).collect();
+    let squeezed = impact(before, &soft);
+    let mut between = before.clone();
+    between.apply(&soft, &squeezed);
+    let [first, second] = &found.phases;
+    let (_, speed) = scales(before, after);
+    let bounces: Vec<_> = contacts.iter().filter(|contact| contact.tie(before).is_none()).collect();
+    assert_eq!(bounces.len(), first.len());
+    for ((contact, p1), p2) in bounces.iter().zip(first).zip(second) {
+        let Kind::Bounce { restitution, .. } = contact.kind else { unreachable!() };
+        let [u1, u2] = [&between, after].map(|all| contact.opening(all).expect("u"));
+        let small = tolerance::MAXIMAL_IMPACT * speed * p1.abs().max(p2.abs());
+        let more = p2 - restitution * p1;
+        assert!(*p1 >= 0.0 && (p1 * u1).abs() <= small, "{p1} {u1}");
+        assert!(more >= 0.0 && (more * u2).abs() <= small, "{p1} {p2} {restitution} {u2}");
     }
 }
 
@@ -112,6 +140,7 @@ macro_rules! mixtures {
                 let (before, contacts, found, after) = happen(&layout, &scene);
                 check_conservation(&before, &contacts, &after);
                 check_contacts(&contacts, &found, &before, &after);
+                check_phases(&contacts, &found, &before, &after);
                 check_targets(&contacts, &found, &before, &after);
                 let impulses: Vec<_> = scene.touches.iter().map(|t| t.arm).zip(found.impulses).collect();
                 check_robot(&layout, &scene.state, &impulses, &before, &after);
