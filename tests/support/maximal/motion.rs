@@ -78,7 +78,7 @@ const ERROR: f64 = 1e-13;
 /// length where it is not good enough: of high order, with no table of coefficients, and no relative of the product's
 /// integrators.
 fn step(all: &mut System, time: f64, step: f64, y: &DVector<f64>, law: &Torques<'_>) -> DVector<f64> {
-    assert!(step > 1e-7, "no step is short enough at t = {time} s");
+    assert!(step > 1e-5, "no step is short enough at t = {time} s");
     let slope = derivative(all, time, y, law);
     let mut table: Vec<DVector<f64>> = vec![];
     for (row, count) in SUBSTEPS.iter().enumerate() {
