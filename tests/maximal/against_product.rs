@@ -6,14 +6,14 @@ use crate::maximal::motion::{accelerations, joint_accelerations, run};
 use crate::maximal::system::System;
 use crate::support::sample::{Sample, config, sample};
 use crate::support::tolerance;
-use crate::{close, layout, rigid_targets, robot, state, targets};
+use crate::{close, layout, rigid_targets, robot, simulated, state, targets};
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
 use planar_capture::models;
-use planar_capture::simulate::{Motion, Timing, simulate};
+use planar_capture::simulate::Motion;
 use planar_capture::state::{Forces, State};
 use proptest::prelude::*;
 
@@ -97,10 +97,8 @@ impl Control<f64> for Shaken {
 /// Motion after the capture against that of the merged robot.
 fn check_motion(layout: &Layout, s: &Sample, duration: f64, controlled: bool) {
     let (mut all, merged, motion) = check_capture(layout, s);
-    let timing = Timing { duration, step: 0.001, sample: duration };
     let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut Free };
-    let end = simulate(&*merged, control, &motion, &timing, &mut || ()).expect("a phase");
-    let end = &end.end().expect("an end").motion;
+    let end = simulated(&*merged, control, &motion, duration);
     let nothing = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
     let seen = run(&mut all, duration, 0.25, if controlled { &shaken } else { &nothing });
     let bound = tolerance::MAXIMAL_MOTION;

@@ -8,12 +8,12 @@ use crate::maximal::system::System;
 use crate::maximal::tie::{Tie, centripetal, residual, rows};
 use crate::support::sample::{Sample, config, sample};
 use crate::support::{assert_close, tolerance};
-use crate::{close, layout, robot};
+use crate::{close, layout, robot, simulated};
 use nalgebra::{DMatrix, DVector};
 use planar_capture::control::Free;
 use planar_capture::layout::{Layout, Link};
 use planar_capture::models;
-use planar_capture::simulate::{Motion, Timing, simulate};
+use planar_capture::simulate::Motion;
 use proptest::prelude::*;
 
 /// The robot, its first two arms with hold of one target by these kinds, after the impact that made it so.
@@ -151,9 +151,7 @@ proptest! {
             base_twist: all.bodies[0].twist,
             joint_rates: rate(&all),
         };
-        let timing = Timing { duration: 1.5, step: 0.001, sample: 1.5 };
-        let end = simulate(&*models::generic(&longer), &mut Free, &start, &timing, &mut || ()).expect("a phase");
-        let end = &end.end().expect("an end").motion;
+        let end = simulated(&*models::generic(&longer), &mut Free, &start, 1.5);
         run(&mut all, 1.5, 0.2, &|_, angles, _| vec![0.0; angles.len()]);
         close("angles", &angle(&all), &end.joint_angles, tolerance::MAXIMAL_MOTION);
         close("rates", &rate(&all), &end.joint_rates, tolerance::MAXIMAL_MOTION);

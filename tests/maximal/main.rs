@@ -14,8 +14,13 @@ use maximal::body::Body;
 use maximal::impact::{Contact, Kind};
 use maximal::system::System;
 use nalgebra::Vector2;
+use planar_capture::control::Control;
+use planar_capture::dynamics::Model;
+use planar_capture::event::NoEvents;
 use planar_capture::layout::Layout;
 use planar_capture::models::SHIPPED;
+use planar_capture::scenario::Integration;
+use planar_capture::simulate::{Motion, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::target::Target;
 use support::assert_close;
@@ -61,4 +66,12 @@ fn targets(s: &Sample) -> Vec<Option<Target<f64>>> {
         Some(Target { mass: *mass, inertia: *inertia, contact: [*rx, *ry], twist: *twist })
     };
     s.targets.iter().map(target).collect()
+}
+
+/// How the product's robot moves for a time, by Runge–Kutta steps of a millisecond.
+fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &Motion, duration: f64) -> Motion {
+    let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
+    let robot = planar_capture::system::System::alone(model);
+    let phase = simulate(&robot, control, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    phase.end().expect("an end").motion.clone()
 }
