@@ -23,8 +23,6 @@ pub struct Capture {
     pub target_twists: Vec<[f64; 3]>,
     /// The contacts one by one.
     pub contacts: Vec<ContactResult>,
-    /// By what restitutions were multiplied so that no energy is created, see [`contact::impact`]; else 1.
-    pub restitution_scale: f64,
 }
 
 /// One contact, by the exact model.
@@ -78,15 +76,12 @@ pub fn capture(
     touching: &[Touching],
 ) -> Result<Capture, Error> {
     let model = &*assembly.model;
-    let (exact, paper, restitution_scale) = match rigid_by_arm(assembly, targets, touching) {
+    let (exact, paper) = match rigid_by_arm(assembly, targets, touching) {
         Some(by_arm) => {
             let by = |literal| rigid(model, before, targets, touching, &by_arm, literal);
-            (by(false)?, Some(by(true)?), 1.0)
+            (by(false)?, Some(by(true)?))
         }
-        None => {
-            let (velocities, scale) = of_any_kind(assembly, before, targets, touching)?;
-            (velocities, None, scale)
-        }
+        None => (of_any_kind(assembly, before, targets, touching)?, None),
     };
     let each = touching.iter().zip(&exact.impulses).map(|(touch, impulse)| {
         let target = targets.get(touch.target).ok_or(Error::Length {
@@ -100,7 +95,7 @@ pub fn capture(
     let result = |velocities: &Velocities| balance(assembly, before, targets, touching, velocities);
     let paper = paper.as_ref().map(result).transpose()?;
     let target_twists = exact.targets.clone();
-    Ok(Capture { exact: result(&exact)?, paper, target_twists, contacts, restitution_scale })
+    Ok(Capture { exact: result(&exact)?, paper, target_twists, contacts })
 }
 
 /// What an impact leaves: all targets, and one impulse per contact.
@@ -165,13 +160,13 @@ fn rigid(
     })
 }
 
-/// Contacts of any kind, together with what is held already; and the scale of the restitutions.
+/// Contacts of any kind, together with what is held already.
 fn of_any_kind(
     assembly: &Assembly,
     before: &Motion,
     targets: &[Body],
     touching: &[Touching],
-) -> Result<(Velocities, f64), Error> {
+) -> Result<Velocities, Error> {
     let model = &*assembly.model;
     let mut tips = vec![[0.0; 3]; model.arms()];
     model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut tips)?;
@@ -199,7 +194,7 @@ fn of_any_kind(
     let mut impulses = vec![[0.0; 3]; contacts.len()];
     let mut after =
         contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
-    let (base_twist, rebound) = contact::impact(model, &before.state(), &bodies, rows, &mut after)?;
+    let base_twist = contact::impact(model, &before.state(), &bodies, rows, &mut after)?;
     let mut tip_twists = vec![[0.0; 3]; model.arms()];
     let moving = State { base_twist, joint_rates: &joint_rates, ..before.state() };
     model.end_effector_twists(&moving, &mut tip_twists)?;
@@ -207,7 +202,7 @@ fn of_any_kind(
     let after = assembly.targets(targets, &tips, &tip_twists, &moved);
     impulses.truncate(touching.len());
     let twists = after.iter().map(|target| target.twist).collect();
-    Ok((Velocities { base_twist, joint_rates, targets: twists, impulses }, rebound.restitution_scale))
+    Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
 }
 
 /// Momentum [l, px, py] and energy of robot and targets, and the sum of their parts' magnitudes.

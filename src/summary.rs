@@ -69,15 +69,11 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
 }
 
 fn capture(scenario: &Scenario, impact: &Capture) -> Value {
-    let mut value = json!({
+    json!({
         "exact": result(&impact.exact),
         "paper": impact.paper.as_ref().map(result),
         "contacts": impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
-    });
-    if impact.restitution_scale < 1.0 {
-        value["restitution_scale"] = json!(impact.restitution_scale);
-    }
-    value
+    })
 }
 
 /// The end of a phase and its audit.

@@ -31,7 +31,7 @@ fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], conta
     let (mut rates, mut twists) = ([0.0; 6], vec![[0.0; 3]; bodies.len()]);
     let mut impulses = vec![[0.0; 3]; contacts.len()];
     let mut after = After { joint_rates: &mut rates, body_twists: &mut twists, impulses: &mut impulses };
-    let (base, _) = impact(model, state, bodies, rows, &mut after).expect("an impact");
+    let base = impact(model, state, bodies, rows, &mut after).expect("an impact");
     (base, rates, twists, impulses)
 }
 

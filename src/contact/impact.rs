@@ -10,9 +10,6 @@ use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// Enough to find a scale to rounding.
-const HALVINGS: usize = 60;
-
 /// Where the results of an impact go.
 #[derive(Debug)]
 pub struct After<'a, T> {
@@ -22,14 +19,6 @@ pub struct After<'a, T> {
     pub body_twists: &'a mut [[T; 3]],
     /// [n, fx, fy] on the robot at each contact's tip, inertial axes, N m s, N s.
     pub impulses: &'a mut [[T; 3]],
-}
-
-/// What an impact gave back of what its bounces ask for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rebound<T> {
-    /// By what all restitutions were multiplied, so that no energy is created: 1 but for several bounces with different
-    /// restitutions at once.
-    pub restitution_scale: T,
 }
 
 /// All contacts of an instant at once. Returns the base twist after it.
@@ -44,9 +33,9 @@ pub struct Rebound<T> {
 /// | rigid, pinned | u⁺ = 0 | u⁺ = 0 |
 /// | bounces | p ≥ 0, u⁺ ≥ 0, p u⁺ = 0 | p₂ ≥ e p, u⁺ ≥ 0, (p₂ − e p) u⁺ = 0 |
 ///
-/// Momentum of robot and bodies together is conserved to rounding. Energy never grows where all bounces have one e. With
-/// different ones the law could create some; then all are scaled by the largest factor that does not, which is returned.
-/// A single bounce is Newton's law too: u⁺ = −e u. A bounce that separates takes no impulse.
+/// Momentum of robot and bodies together is conserved to rounding. Energy never grows, whatever the restitutions: p₂
+/// minimises the energy `u·p₂ + ½ p₂ᵀ W p₂` gained over all p₂ ≥ e p, of which the compression's own p, which gives back just
+/// what that took, is one. A single bounce is Newton's law too: u⁺ = −e u. A bounce that separates takes no impulse.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`]; [`Error::Singular`] where contacts depend on each other, as two rigid ones on
@@ -57,7 +46,7 @@ pub fn impact<T: Real>(
     bodies: &[Body<T>],
     mut rows: Rows<'_, T>,
     after: &mut After<'_, T>,
-) -> Result<([T; 3], Rebound<T>), Error> {
+) -> Result<[T; 3], Error> {
     finite_state(state)?;
     length("joint_rates_after", model.joints(), after.joint_rates.len())?;
     length("body_twists_after", bodies.len(), after.body_twists.len())?;
@@ -72,40 +61,19 @@ pub fn impact<T: Real>(
         *velocity = row.velocity_of(rows.tips, after.body_twists);
     }
     solve_contacts(rows.matrix, before, rows.bilateral, rows.factors, compression)?;
-    // fills `total` for all restitutions times a scale; returns the energy that it would create, times two
-    let mut restitute = |scale: T| -> Result<T, Error> {
-        for ((given, impulse), row) in given.iter_mut().zip(compression.iter()).zip(rows.rows()) {
-            *given = *impulse + row.restitution.map_or(T::ZERO, |e| scale * e * *impulse);
-        }
-        let products = || rows.matrix.chunks_exact(before.len().max(1));
-        for ((shifted, before), row) in shifted.iter_mut().zip(before.iter()).zip(products()) {
-            *shifted = *before + dot(row, given);
-        }
-        solve_contacts(rows.matrix, shifted, rows.bilateral, rows.factors, total)?;
-        for (total, given) in total.iter_mut().zip(given.iter()) {
-            *total += *given;
-        }
-        let (mut created, mut sizes) = (T::ZERO, T::ZERO);
-        for ((impulse, before), row) in total.iter().zip(before.iter()).zip(products()) {
-            let change = dot(row, total);
-            created += *impulse * (*before + *before + change);
-            sizes += (*impulse * *before).abs() + (*impulse * change).abs();
-        }
-        Ok(created - sizes * T::EPSILON * T::constant(16.0))
-    };
-    let mut scale = T::ONE;
-    if restitute(scale)? > T::ZERO {
-        let (mut none, mut some) = (T::ZERO, T::ONE);
-        for _ in 0..HALVINGS {
-            let middle = (none + some) * T::constant(0.5);
-            let bound = if restitute(middle)? > T::ZERO { &mut some } else { &mut none };
-            *bound = middle;
-        }
-        scale = none;
-        restitute(scale)?;
+    for ((given, impulse), row) in given.iter_mut().zip(compression.iter()).zip(rows.rows()) {
+        *given = *impulse + row.restitution.map_or(T::ZERO, |e| e * *impulse);
+    }
+    let products = rows.matrix.chunks_exact(before.len().max(1));
+    for ((shifted, before), row) in shifted.iter_mut().zip(before.iter()).zip(products) {
+        *shifted = *before + dot(row, given);
+    }
+    solve_contacts(rows.matrix, shifted, rows.bilateral, rows.factors, total)?;
+    for (total, given) in total.iter_mut().zip(given.iter()) {
+        *total += *given;
     }
     let mut base_twist = state.base_twist;
     rows.add_responses(total, &mut base_twist, after.joint_rates, after.body_twists.as_flattened_mut());
     rows.wrenches_into(total, after.impulses);
-    Ok((base_twist, Rebound { restitution_scale: scale }))
+    Ok(base_twist)
 }

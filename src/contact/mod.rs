@@ -24,7 +24,7 @@ mod rows;
 
 pub use closure::Closure;
 pub use hold::{Hold, Workspace};
-pub use impact::{After, Rebound, impact};
+pub use impact::{After, impact};
 pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
 pub use rows::{Rows, workspace_length};
 
