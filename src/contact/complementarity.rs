@@ -22,8 +22,8 @@ pub(super) fn solve_contacts<T: Real>(
     impulses: &mut [T],
 ) -> Result<(), Error> {
     let n = velocities.len();
-    let negative = |(i, u): (usize, &T)| if *u < T::ZERO && i < 64 { 1 << i } else { 0 };
-    let mut active = velocities.iter().enumerate().map(negative).fold(bilateral, |set: Set, bit| set | bit);
+    // bounces join one by one: two that say the same never both do
+    let mut active: Set = bilateral;
     for _ in 0..MOST_EXCHANGES {
         factors.copy_from_slice(matrix);
         for (impulse, velocity) in impulses.iter_mut().zip(velocities) {
