@@ -7,7 +7,10 @@ mod support;
 
 mod against_product;
 mod contacts;
+mod holds;
+mod impacts;
 mod loops;
+mod product;
 mod textbook;
 
 use maximal::body::Body;

@@ -25,6 +25,8 @@ pub struct Constrained {
     l: Vec<Row>,
     /// Some rows depend on others. Those that come last then get no multiplier.
     pub redundant: bool,
+    /// The least that is left of a row of length one without what the rows before it say, of those that say something new.
+    pub margin: f64,
 }
 
 /// A row of B that does not depend on those before it, by the rows of Q.
@@ -46,6 +48,7 @@ impl Constrained {
     fn of(a: &DMatrix<f64>, root: DVector<f64>) -> Self {
         let mut scale = DVector::zeros(a.nrows());
         let (mut q, mut l): (Vec<Vec<f64>>, Vec<Row>) = (vec![], vec![]);
+        let mut margin = 1.0_f64;
         for i in 0..a.nrows() {
             let mut row: Vec<f64> = a.row(i).iter().zip(&root).map(|(a, root)| a / root).collect();
             scale[i] = 1.0 / norm(&row);
@@ -64,6 +67,7 @@ impl Constrained {
             }
             let rest = norm(&row);
             if rest > DEPENDENT {
+                margin = margin.min(rest);
                 for x in &mut row {
                     *x /= rest;
                 }
@@ -72,7 +76,7 @@ impl Constrained {
                 l.push(Row { index: i, coefficients });
             }
         }
-        Self { redundant: l.len() < a.nrows(), root, scale, q, l }
+        Self { redundant: l.len() < a.nrows(), margin, root, scale, q, l }
     }
 
     /// x and λ for forces (or momenta) f and a right side g of the constraints.

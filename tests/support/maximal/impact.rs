@@ -82,6 +82,8 @@ pub struct Impact {
     pub held: Vec<[f64; 3]>,
     /// Constraints say something twice: twists are unique, the impulses of the constraints are not.
     pub redundant: bool,
+    /// How near the constraints are to that, see [`Constrained::margin`].
+    pub margin: f64,
     /// The bounces' impulses do not follow from the velocities alone: twists are unique, these are not.
     pub bounces_redundant: bool,
     /// Of compression and of restitution, one per bounce.
@@ -155,6 +157,7 @@ pub fn impact(all: &System, contacts: &[Contact]) -> Impact {
         twists,
         held: of_ties,
         redundant: system.redundant,
+        margin: system.margin,
         bounces_redundant: !is_definite(&w, floor),
         phases: [first.as_slice().to_vec(), second.as_slice().to_vec()],
     }

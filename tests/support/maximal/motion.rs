@@ -19,6 +19,8 @@ pub struct Monitor {
     pub constraint: f64,
     /// The same afterwards.
     pub projected: f64,
+    /// The smallest [`Constrained::margin`]: how near a loop came to a configuration where its ties depend on each other.
+    pub margin: f64,
     /// Work of the joint torques, J.
     pub work: f64,
 }
@@ -108,8 +110,8 @@ fn step(all: &mut System, time: f64, step: f64, y: &DVector<f64>, law: &Torques<
 }
 
 /// Poses and twists onto the ties, by the least change in the metric of the masses, which moves no centre of mass.
-/// Returns the residual before and after.
-pub fn project(all: &mut System) -> [f64; 2] {
+/// Returns the residual before and after, and the margin.
+pub fn project(all: &mut System) -> [f64; 3] {
     let ties: Vec<Tie> = all.ties().copied().collect();
     let nothing = DVector::zeros(3 * all.bodies.len());
     let before = residual(all, &ties).amax();
@@ -119,9 +121,10 @@ pub fn project(all: &mut System) -> [f64; 2] {
             body.pose.iter_mut().zip(change).for_each(|(pose, change)| *pose += change);
         }
     }
-    let (twists, _) = Constrained::new(all, &ties).close(&all.twists());
+    let system = Constrained::new(all, &ties);
+    let (twists, _) = system.close(&all.twists());
     all.set_twists(&twists);
-    [before, residual(all, &ties).amax()]
+    [before, residual(all, &ties).amax(), system.margin]
 }
 
 /// Moves the bodies for a time, by equal steps of at most `longest`.
@@ -131,13 +134,14 @@ pub fn run(all: &mut System, duration: f64, longest: f64, law: &Torques<'_>) -> 
     let h = duration / f64::from(steps);
     let (momentum, energy) = (all.momentum(), all.kinetic_energy());
     let (mut largest, mut scale) = (energy, all.momentum_scale());
-    let mut seen = Monitor::default();
+    let mut seen = Monitor { margin: 1.0, ..Monitor::default() };
     let (mut drift, mut error) = ([0.0_f64; 2], 0.0_f64);
     for i in 0..steps {
         let y = pack(all, seen.work);
         let y = step(all, f64::from(i) * h, h, &y, law);
         seen.work = unpack(&y, all);
-        let [before, after] = project(all);
+        let [before, after, margin] = project(all);
+        seen.margin = seen.margin.min(margin);
         seen.constraint = seen.constraint.max(before);
         seen.projected = seen.projected.max(after);
         let now = all.momentum();

@@ -1,0 +1,216 @@
+//! The product's motion with holds, by constraint forces on recursions and merged links, against that of free bodies.
+
+use crate::maximal::body::Body;
+use crate::maximal::impact::{Contact, Kind, impact};
+use crate::maximal::motion::run;
+use crate::maximal::system::System;
+use crate::support::sample::{Sample, config, sample};
+use crate::support::{assert_close, tolerance};
+use crate::{close, layout, robot};
+use planar_capture::assembly::{Assembly, Grip};
+use planar_capture::control::{Control, Free};
+use planar_capture::dynamics::Model;
+use planar_capture::error::Error;
+use planar_capture::event::NoEvents;
+use planar_capture::layout::Layout;
+use planar_capture::models;
+use planar_capture::scenario::{Integration, Scheme};
+use planar_capture::simulate::{Motion, Phase, Sample as Instant, Timing, simulate};
+use planar_capture::state::State;
+use proptest::prelude::*;
+
+/// A robot that holds a target of the sample's, in both terms.
+struct Held {
+    all: System,
+    assembly: Assembly,
+    motion: Motion,
+    target: planar_capture::body::Body<f64>,
+}
+
+fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
+    let mut all = robot(layout, s);
+    let ([mass, inertia, rx, ry], twist) = s.targets[0];
+    let tip = all.position(&all.tips[holding[0].0]);
+    let body = all.add(Body { mass, inertia, pose: [0.7, tip.x - rx, tip.y - ry], twist });
+    let contacts: Vec<_> = holding.iter().map(|(arm, kind)| Contact::new(&all, *arm, body, *kind)).collect();
+    all.apply(&contacts, &impact(&all, &contacts));
+    let motion = Motion {
+        base_pose: s.base_pose,
+        joint_angles: s.joint_angles.clone(),
+        base_twist: all.bodies[0].twist,
+        joint_rates: all.joint_rates(),
+    };
+    let Body { mass, inertia, pose, twist } = all.bodies[body];
+    let target = planar_capture::body::Body { mass, inertia, pose, twist };
+    let grips: Vec<_> =
+        holding.iter().map(|(arm, kind)| Grip { target: 0, arm: *arm, pinned: *kind == Kind::Pin }).collect();
+    let model = models::generated(layout).unwrap_or_else(|_| models::generic(layout));
+    let assembly = Assembly::new(model, &motion, &[target], &grips).expect("an assembly");
+    Held { all, assembly, motion, target }
+}
+
+/// Springs, dampers and something that shakes each joint.
+fn shaken(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
+    angles.iter().zip(rates).map(|(angle, rate)| 0.3 * (2.0 * time).sin() - 0.2 * angle - 0.5 * rate).collect()
+}
+
+struct Shaken;
+
+impl Control<f64> for Shaken {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        _: &dyn Model<f64>,
+        state: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        torques.copy_from_slice(&shaken(time, state.joint_angles, state.joint_rates));
+        Ok(())
+    }
+}
+
+impl Held {
+    fn simulated(&self, controlled: bool, timing: &Timing) -> Phase {
+        let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut Free };
+        simulate(&self.assembly.system(), control, &self.motion, timing, &mut NoEvents, &mut || ()).expect("a motion")
+    }
+
+    fn target_at(&self, now: &Instant) -> planar_capture::body::Body<f64> {
+        let (tips, twists) = (&now.end_effector_poses, &now.end_effector_twists);
+        self.assembly.targets(&[self.target], tips, twists, &now.bodies)[0]
+    }
+
+    /// Where the tips that hold are in the target's frame, [x, y] of each, and their yaws of the rigid ones.
+    fn relative_tips(&self, now: &Instant, holding: &[(usize, Kind)]) -> Vec<f64> {
+        let [yaw, x, y] = self.target_at(now).pose;
+        let (sin, cos) = yaw.sin_cos();
+        let of = |(arm, kind): &(usize, Kind)| {
+            let [tip_yaw, tip_x, tip_y] = now.end_effector_poses[*arm];
+            let (dx, dy) = (tip_x - x, tip_y - y);
+            let turned = (*kind == Kind::Rigid).then_some(tip_yaw - yaw);
+            [cos * dx + sin * dy, cos * dy - sin * dx].into_iter().chain(turned)
+        };
+        holding.iter().flat_map(of).collect()
+    }
+}
+
+const MIXTURES: [&[(usize, Kind)]; 5] = [
+    &[(0, Kind::Rigid), (1, Kind::Rigid)],
+    &[(0, Kind::Rigid), (1, Kind::Pin)],
+    &[(0, Kind::Pin), (1, Kind::Rigid)],
+    &[(0, Kind::Pin), (1, Kind::Pin)],
+    &[(1, Kind::Pin)],
+];
+
+/// Slower by a factor.
+fn slowly(mut s: Sample) -> Sample {
+    s.base_twist = s.base_twist.map(|value| 0.2 * value);
+    s.joint_rates.iter_mut().for_each(|value| *value *= 0.2);
+    s.targets.iter_mut().for_each(|(_, twist)| *twist = twist.map(|value| 0.2 * value));
+    s
+}
+
+/// The end of a motion, and of the reference's; `false` where a loop came near a configuration that locks it.
+fn check(layout: &Layout, s: &Sample, holding: &[(usize, Kind)], controlled: bool, duration: f64) -> bool {
+    let mut held = held(layout, s, holding);
+    let none = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
+    let seen = run(&mut held.all, duration, 0.25, if controlled { &shaken } else { &none });
+    if seen.margin < tolerance::SEEN_MARGIN {
+        return false;
+    }
+    let integration = Integration { scheme: Scheme::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
+    let phase = held.simulated(controlled, &Timing { duration, step: 0.05, sample: duration, integration });
+    let end = phase.end().expect("an end");
+    let (all, bound) = (&held.all, tolerance::HELD_MOTION);
+    close("angles", &end.motion.joint_angles, &all.joint_angles(), bound);
+    close("rates", &end.motion.joint_rates, &all.joint_rates(), bound);
+    close("base pose", &end.motion.base_pose, &all.bodies[0].pose, bound);
+    close("base twist", &end.motion.base_twist, &all.bodies[0].twist, bound);
+    let (target, body) = (held.target_at(end), all.bodies.last().expect("the target"));
+    close("target pose", &target.pose, &body.pose, bound);
+    close("target twist", &target.twist, &body.twist, bound);
+    assert_close("work", &[end.work], &[seen.work], bound * end.kinetic_energy.max(1.0));
+    true
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2, ..config() })]
+
+    #[test]
+    fn what_is_held_moves_freely(s in sample(2, 6)) {
+        for holding in MIXTURES {
+            prop_assume!(check(&layout("dual_arm_3r"), &slowly(s.clone()), holding, false, 8.0));
+        }
+    }
+
+    #[test]
+    fn what_is_held_moves_under_torques(s in sample(2, 6)) {
+        for holding in MIXTURES {
+            prop_assume!(check(&layout("dual_arm_3r"), &slowly(s.clone()), holding, true, 5.0));
+        }
+    }
+
+    /// Three hands on one target, with a model of another structure.
+    #[test]
+    fn three_arms_hold_one_target(s in sample(3, 9)) {
+        for holding in [[(0, Kind::Pin), (1, Kind::Rigid), (2, Kind::Pin)], [(2, Kind::Pin), (0, Kind::Pin), (1, Kind::Pin)]] {
+            prop_assume!(check(&layout("triple_arm_3r"), &slowly(s.clone()), &holding, true, 4.0));
+        }
+    }
+}
+
+/// One start for long and repeated runs: elbows out, the tips at two sides of a target.
+fn start() -> Sample {
+    Sample {
+        base_pose: [0.3, 0.0, 0.0],
+        joint_angles: vec![1.1, 1.0, -1.2, 2.04, -1.0, 1.2],
+        base_twist: [0.02, 0.01, -0.01],
+        joint_rates: vec![0.04, -0.06, 0.05, -0.03, 0.05, -0.04],
+        joint_torques: vec![0.0; 6],
+        base_wrench: [0.0; 3],
+        end_effector_wrenches: vec![[0.0; 3]; 2],
+        targets: vec![([120.0, 60.0, 0.6, -0.4], [0.05, 0.02, -0.03]); 2],
+    }
+}
+
+/// No hold opens in 10,000 steps, and what rounding does at the end is no more than at the beginning.
+#[test]
+fn nothing_opens() {
+    for holding in MIXTURES {
+        let held = held(&layout("dual_arm_3r"), &start(), holding);
+        let phase = held.simulated(false, &Timing { duration: 100.0, step: 0.01, sample: 0.01, ..Timing::default() });
+        let [position, rate] = phase.constraint_errors;
+        assert!(position.max(rate) <= tolerance::HELD_CLOSED, "{holding:?}: {position:e} {rate:e}");
+        let first = held.relative_tips(&phase.samples[0], holding);
+        let open: Vec<f64> = phase
+            .samples
+            .iter()
+            .map(|sample| crate::support::difference(&held.relative_tips(sample, holding), &first))
+            .collect();
+        let tenth = open.len() / 10;
+        let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, value| most.max(*value));
+        let (early, late) = (most(&open[..tenth]), most(&open[open.len() - tenth..]));
+        assert!(most(&open) <= tolerance::HELD_CLOSED, "{holding:?}: {:e}", most(&open));
+        assert!(late <= 2.0 * early + tolerance::HELD_CLOSED / 10.0, "{holding:?}: {early:e}, then {late:e}");
+    }
+}
+
+/// Momentum, energy and where it ends: errors of Runge–Kutta steps, which fall with their fourth power.
+#[test]
+fn holds_keep_the_order_of_the_integrator() {
+    for holding in MIXTURES {
+        let mut exact = held(&layout("dual_arm_3r"), &start(), holding);
+        run(&mut exact.all, 4.0, 0.25, &shaken);
+        let held = held(&layout("dual_arm_3r"), &start(), holding);
+        let errors = [0.08, 0.04, 0.02].map(|step| {
+            let phase = held.simulated(true, &Timing { duration: 4.0, step, sample: 4.0, ..Timing::default() });
+            let end = &phase.end().expect("an end").motion;
+            let angles = crate::support::difference(&end.joint_angles, &exact.all.joint_angles());
+            [phase.drift.momentum_drift, phase.drift.energy_error, angles]
+        });
+        for (what, k) in ["momentum", "energy", "angles"].iter().zip(0..) {
+            let order = (errors[1][k] / errors[2][k]).log2();
+            assert!(order > 4.0 - tolerance::ORDER_OF_DIFFERENCE, "{what} of {holding:?}: {errors:?}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The product's impacts, in the reference's terms.
+
+use crate::close;
+use crate::maximal::impact::Kind;
+use crate::maximal::random::{Object, Scene, Touch};
+use crate::maximal::system::System;
+use planar_capture::body::Body;
+use planar_capture::capture::{Capture, ImpactResult};
+use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_length};
+use planar_capture::dynamics::Model;
+use planar_capture::error::Error;
+use planar_capture::layout::Layout;
+use planar_capture::models;
+use planar_capture::scalar::Real;
+use planar_capture::state::State;
+
+/// What an impact leaves, by the product.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome<T> {
+    pub base_twist: [T; 3],
+    pub joint_rates: Vec<T>,
+    pub body_twists: Vec<[T; 3]>,
+    pub impulses: Vec<[T; 3]>,
+}
+
+impl<T: Real> Outcome<T> {
+    /// Base, joints, bodies: as [`velocities`].
+    pub fn velocities(&self) -> Vec<f64> {
+        let all = self.base_twist.iter().chain(&self.joint_rates).chain(self.body_twists.as_flattened());
+        all.map(|value| value.to_f64()).collect()
+    }
+}
+
+/// Base twist, joint rates and targets' twists of the reference: with the positions, the twists of all bodies.
+pub fn velocities(all: &System) -> Vec<f64> {
+    let targets = all.bodies[1 + all.joints.len()..].iter().flat_map(|body| body.twist);
+    all.bodies[0].twist.into_iter().chain(all.joint_rates()).chain(targets).collect()
+}
+
+/// Both models of a layout, generic alone where no code of it is generated.
+pub fn both_models(layout: &Layout) -> Vec<Box<dyn Model<f64>>> {
+    models::generated(layout).into_iter().chain([models::generic(layout)]).collect()
+}
+
+pub fn kind(kind: Kind) -> contact::Kind<f64> {
+    match kind {
+        Kind::Rigid => contact::Kind::Rigid,
+        Kind::Pin => contact::Kind::Pin,
+        Kind::Bounce { normal, restitution } => contact::Kind::Bounce { normal, restitution },
+    }
+}
+
+/// The scene's targets and contacts.
+pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
+    let body =
+        |target: &Object| Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist };
+    let contact = |touch: &Touch| Contact {
+        arm: touch.arm,
+        other: Other::Body(touch.target),
+        offset: touch.offset,
+        kind: kind(touch.kind),
+    };
+    (scene.targets.iter().map(body).collect(), scene.touches.iter().map(contact).collect())
+}
+
+/// All contacts at once, by [`contact::impact`].
+pub fn strike<T: Real>(
+    model: &dyn Model<T>,
+    state: &State<'_, T>,
+    bodies: &[Body<T>],
+    contacts: &[Contact<T>],
+) -> Result<Outcome<T>, Error> {
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), Rows::count(contacts));
+    let mut numbers = vec![T::constant(f64::NAN); length];
+    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers)?;
+    let mut found = Outcome {
+        base_twist: [T::ZERO; 3],
+        joint_rates: vec![T::ZERO; model.joints()],
+        body_twists: vec![[T::ZERO; 3]; bodies.len()],
+        impulses: vec![[T::ZERO; 3]; contacts.len()],
+    };
+    let mut after = After {
+        joint_rates: &mut found.joint_rates,
+        body_twists: &mut found.body_twists,
+        impulses: &mut found.impulses,
+    };
+    found.base_twist = contact::impact(model, state, bodies, rows, &mut after)?;
+    Ok(found)
+}
+
+/// A study's impact against the reference's: all velocities and the new contacts' impulses.
+#[track_caller]
+pub fn assert_same(found: &Capture, after: &System, impulses: &[[f64; 3]], bound: f64) {
+    let ImpactResult { base_twist_after, joint_rates_after, .. } = &found.exact;
+    let all = base_twist_after.iter().chain(joint_rates_after).chain(found.target_twists.as_flattened());
+    close("velocities", &all.copied().collect::<Vec<_>>(), &velocities(after), bound);
+    let found: Vec<f64> = found.contacts.iter().flat_map(|contact| contact.impulse).collect();
+    close("impulses", &found, impulses.as_flattened(), bound);
+}
