@@ -88,6 +88,8 @@ pub mod approach;
 pub mod assembly;
 #[cfg(feature = "std")]
 pub mod audit;
+#[cfg(feature = "std")]
+mod bodies;
 #[cfg(feature = "build")]
 pub mod build;
 #[cfg(feature = "std")]

@@ -186,7 +186,7 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         None | Some(Settling::None) => "no torques".to_owned(),
         Some(control) => format!("control `{}`", control.name()),
     };
-    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, robot and targets as one, {torques}")?;
+    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, {torques}")?;
     writeln!(out, "  {:<16} {:>10} {:>15} {:>13}", "case", "time [s]", "momentum drift", "energy error")?;
     for case in &study.cases {
         let Some(Captured { post_impact, .. }) = &case.capture else { continue };
