@@ -110,7 +110,7 @@ impl<'a> Equation<'a> {
         Ok(Self { form: Form::Reduced(space), ..Self::full(system) })
     }
 
-    /// In canonical variables: between [`Self::to_momenta`] and [`Self::to_rates`].
+    /// In canonical variables: between [`Self::put_momenta`] and [`Self::put_rates`].
     ///
     /// # Errors
     /// What the model says.
@@ -205,7 +205,7 @@ impl<'a> Equation<'a> {
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn to_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
+    pub(crate) fn put_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &self.form {
             Form::Canonical(space) if space.left == x => x.copy_from_slice(&space.carried),
             _ => self.replace(x, Direction::ToMomenta)?,
@@ -217,7 +217,7 @@ impl<'a> Equation<'a> {
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn to_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
+    pub(crate) fn put_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
         let momenta = x.to_vec();
         self.replace(x, Direction::ToRates)?;
         if let Form::Canonical(space) = &mut self.form {
