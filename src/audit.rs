@@ -15,6 +15,17 @@ pub struct Drift {
     pub energy_error: f64,
 }
 
+impl Drift {
+    /// The worse of both, number by number.
+    #[must_use]
+    pub fn worse(&self, other: &Self) -> Self {
+        Self {
+            momentum_drift: self.momentum_drift.max(other.momentum_drift),
+            energy_error: self.energy_error.max(other.energy_error),
+        }
+    }
+}
+
 /// What was done to the robot since the start of a phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Done {
@@ -105,12 +116,12 @@ impl<'a> Audit<'a> {
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.
-fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
-    for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {
-        total.linear_momentum[0] += mass * vx;
-        total.linear_momentum[1] += mass * vy;
-        total.angular_momentum += inertia * omega + mass * (x * vy - y * vx);
-        total.kinetic_energy += 0.5 * (inertia * omega * omega + mass * (vx * vx + vy * vy));
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+    for body in bodies {
+        let ([l, px, py], energy) = body.momentum();
+        total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];
+        total.angular_momentum += l;
+        total.kinetic_energy += energy;
     }
     total
 }

@@ -94,8 +94,9 @@ impl<'a> Equation<'a> {
     /// # Errors
     /// [`Error::Beside`] where there are bodies beside the robot, and what the model says.
     pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
-        if !system.bodies.is_empty() {
-            return Err(Error::Beside { count: system.bodies.len() });
+        let count = system.bodies.len() + system.closures.len();
+        if count > 0 {
+            return Err(Error::Beside { count });
         }
         let (joints, arms) = (system.model.joints(), system.model.arms());
         let momentum = system.model.momentum(&state(x, joints)?)?;

@@ -53,7 +53,7 @@ pub enum Error {
     },
     /// Reduced coordinates where there is more than the robot.
     #[error(
-        "reduced coordinates are for a robot alone, found {count} bodies beside it, expected `coordinates = \"full\"`"
+        "reduced coordinates are for a robot alone, found {count} bodies or holds beside it, expected `coordinates = \"full\"`"
     )]
     Beside {
         /// How many bodies there are.

@@ -17,6 +17,7 @@
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
 //! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
@@ -51,8 +52,10 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod body;
 #[doc(hidden)]
 pub mod check;
+pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod error;
@@ -82,6 +85,8 @@ pub mod actuators;
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
+pub mod assembly;
+#[cfg(feature = "std")]
 pub mod audit;
 #[cfg(feature = "build")]
 pub mod build;
@@ -89,6 +94,8 @@ pub mod build;
 pub mod capture;
 #[cfg(feature = "std")]
 pub mod compare;
+#[cfg(feature = "std")]
+mod course;
 #[cfg(feature = "std")]
 pub mod design;
 #[cfg(feature = "std")]
@@ -103,6 +110,8 @@ pub mod event;
 pub mod figures;
 #[cfg(feature = "std")]
 mod flow;
+#[cfg(feature = "std")]
+pub mod gaps;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -111,6 +120,10 @@ pub mod generic;
 pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
+#[cfg(feature = "std")]
+pub mod meeting;
+#[cfg(feature = "std")]
+pub mod miss;
 #[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
@@ -128,6 +141,10 @@ pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
+pub mod resolved;
+#[cfg(feature = "std")]
+pub mod response;
+#[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod settle;
@@ -141,6 +158,8 @@ pub mod structure;
 pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;
+#[cfg(feature = "std")]
+pub mod surface;
 #[cfg(feature = "std")]
 pub mod system;
 #[cfg(feature = "std")]

@@ -17,6 +17,7 @@ pub(crate) struct Recorder<'a> {
     /// What is saturated as the step begins.
     saturated: Vec<bool>,
     base_saturated: bool,
+    constraint_errors: [f64; 2],
 }
 
 impl<'a> Recorder<'a> {
@@ -33,6 +34,7 @@ impl<'a> Recorder<'a> {
             saturation: Saturation::default(),
             saturated: Vec::new(),
             base_saturated: false,
+            constraint_errors: [0.0; 2],
         })
     }
 
@@ -53,6 +55,8 @@ impl<'a> Recorder<'a> {
         let state = State::from_vector(x, model.joints()).ok_or(wrong)?;
         let effort = Effort::from_vector(x).unwrap_or_default();
         let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let open = self.system.constraint_errors(x)?;
+        self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
         let bodies = self.system.bodies_at(x);
         let momentum = self.audit.record(&state, &bodies, &done)?;
         if begins {
@@ -100,7 +104,15 @@ impl<'a> Recorder<'a> {
 
     /// The phase, so long.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
-        let Self { samples, audit, saturation, .. } = self;
-        Phase { duration, event, samples, drift: audit.drift(), saturation }
+        let Self { samples, audit, saturation, constraint_errors, .. } = self;
+        Phase {
+            duration,
+            event,
+            samples,
+            drift: audit.drift(),
+            saturation,
+            constraint_errors,
+            singularity_margin: None,
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What moves in one phase: a robot, and the free bodies that it holds or may meet.
 
+use crate::contact::{Closure, Contact, Hold, Workspace};
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -7,32 +8,24 @@ use crate::motion::derivative;
 use crate::state::{State, halves, vector_length};
 
 /// A rigid body beside the robot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
-    /// kg.
-    pub mass: f64,
-    /// About its COM, kg m².
-    pub inertia: f64,
-    /// [yaw, x, y] of its COM, inertial frame; rad, m.
-    pub pose: [f64; 3],
-    /// [ω, vx, vy] of its COM, inertial axes; rad/s, m/s.
-    pub twist: [f64; 3],
-}
+pub type Body = crate::body::Body<f64>;
 
 /// A robot and free bodies, as they are when a phase begins.
 #[derive(Clone, Copy)]
 pub struct System<'a> {
     /// The robot.
     pub model: &'a dyn Model<f64>,
-    /// The bodies beside it.
+    /// The bodies beside it: held as the closures say, free where none does.
     pub bodies: &'a [Body],
+    /// Holds of tips on the bodies, and on what other tips hold.
+    pub closures: &'a [Closure<f64>],
 }
 
 impl<'a> System<'a> {
     /// A robot alone.
     #[must_use]
     pub fn alone(model: &'a dyn Model<f64>) -> Self {
-        Self { model, bodies: &[] }
+        Self { model, bodies: &[], closures: &[] }
     }
 
     /// The integrated vector at the start, from the robot's state.
@@ -68,7 +61,7 @@ impl<'a> System<'a> {
     /// d/dt of the integrated vector under a control law; `torques` is left with its torques.
     ///
     /// # Errors
-    /// What model and law say.
+    /// What model and law say; [`Error::Singular`] where holds depend on each other.
     pub fn derivative(
         &self,
         control: &mut dyn Control<f64>,
@@ -77,14 +70,45 @@ impl<'a> System<'a> {
         rate: &mut [f64],
         torques: &mut [f64],
     ) -> Result<(), Error> {
-        derivative(self.model, control, time, x, rate, torques)
+        derivative(self.model, control, time, x, rate, torques)?;
+        if self.closures.is_empty() {
+            return Ok(());
+        }
+        self.with_space(|hold, space| hold.constrain(x, rate, space))
     }
 
-    /// After a step: puts the vector back onto what holds the bodies, where rounding and the step took it off.
+    /// After a step: closes what rounding and the step have opened of the holds.
+    ///
+    /// # Errors
+    /// As [`System::derivative`].
+    pub fn restore(&self, x: &mut [f64]) -> Result<(), Error> {
+        if self.closures.is_empty() {
+            return Ok(());
+        }
+        self.with_space(|hold, space| hold.restore(x, space))
+    }
+
+    /// By how much the holds are open: the largest error of a yaw (rad) or a coordinate (m), and of their rates.
     ///
     /// # Errors
     /// What the model says.
-    pub fn restore(&self, _x: &mut [f64]) -> Result<(), Error> {
-        Ok(())
+    pub fn constraint_errors(&self, x: &[f64]) -> Result<[f64; 2], Error> {
+        if self.closures.is_empty() {
+            return Ok([0.0; 2]);
+        }
+        self.with_space(|hold, space| hold.errors(x, space))
+    }
+
+    fn with_space<R>(&self, run: impl FnOnce(&Hold<'_, f64>, &mut Workspace<'_, f64>) -> R) -> R {
+        let hold = Hold { model: self.model, bodies: self.bodies, closures: self.closures };
+        let (joints, arms) = (self.model.joints(), self.model.arms());
+        let mut space = Workspace {
+            contacts: &mut vec![Contact::any(); self.closures.len()],
+            numbers: &mut vec![0.0; hold.workspace_length()],
+            forces: &mut vec![0.0; hold.rows()],
+            jacobian: &mut vec![0.0; 3 * arms * (3 + joints)],
+            tips: &mut vec![[0.0; 3]; arms],
+        };
+        run(&hold, &mut space)
     }
 }

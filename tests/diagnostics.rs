@@ -149,6 +149,16 @@ fn arms_are_lists_with_distinct_names() {
     }
 }
 
+/// The scenario's trajectory, end and end rates.
+const STEERED: &str = "\"quartic\"\nfinal_joint_angles = [0.5, 0.6]\nfinal_end_effector_twists = [[0, -0.1, 0]]";
+
+/// Tips on paths of their own in place of that, with one more line.
+macro_rules! steered {
+    ($line:literal) => {
+        concat!("\"quintic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]\n", $line)
+    };
+}
+
 const SCENARIO_EDITS: &[Edit] = &[
     ("\"demo\"", "\"a demo/1\"", 1, &["`name` is \"a demo/1\"", "ASCII letters"]),
     ("\"one_arm\"", "\"one_arms\"", 2, &["`layout` is \"one_arms\"", "did you mean `one_arm`?", ".toml"]),
@@ -196,7 +206,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         "\"quartic\"",
         "\"quartic\"\ntracking = \"p\"",
         8,
-        &["`approach.tracking` is \"p\", expected `pd`, `exact` or `computed_torque`"],
+        &["`approach.tracking` is \"p\", expected `pd`, `exact`, `computed_torque` or `resolved_motion_rate`"],
     ),
     (
         "\"quartic\"",
@@ -236,6 +246,35 @@ const SCENARIO_EDITS: &[Edit] = &[
         8,
         &["`approach.final_end_effector_poses[0]` is [0, 1, 1]", "fewer than three links", "[x, y]"],
     ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\npose_gain = 2",
+        8,
+        &["`approach.pose_gain` is 2", "only `tracking = \"resolved_motion"],
+    ),
+    (
+        STEERED,
+        "\"quartic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]",
+        7,
+        &["`approach.trajectory` is \"quartic\"", "quintic paths"],
+    ),
+    (
+        STEERED,
+        "\"quintic\"\ntracking = \"resolved_motion_rate\"",
+        5,
+        &["missing key `approach.final_end_effector_poses`", "[yaw, x, y] or [x, y] per arm"],
+    ),
+    (
+        STEERED,
+        steered!("final_joint_angles = [0.5, 0.6]"),
+        10,
+        &["final_joint_angles` is [0.5, 0.6]", "tips take them"],
+    ),
+    (STEERED, steered!("final_joint_rates = [0.5, 0.6]"), 10, &["final_joint_rates` is [0.5, 0.6]", "_twists`"]),
+    (STEERED, steered!("derivative_gain = 3"), 10, &["derivative_gain` is 3", "`pose_gain` and `rate_gain`"]),
+    (STEERED, steered!("rate_gain = 0"), 10, &["rate_gain` is 0", "1/s greater than 0"]),
+    (STEERED, steered!("singularity_threshold = 1.5"), 10, &["singularity_threshold` is 1.5", "less than 1"]),
+    (STEERED, steered!("final_end_effector_twists = [[1, 0, 0]]"), 10, &["twists[0]` is [1, 0, 0]", "expected ω = 0"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),

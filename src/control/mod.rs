@@ -3,8 +3,10 @@
 mod base_inertia;
 mod computed_torque;
 mod exact_tracking;
+mod least_squares;
 mod limited;
 mod proportional_derivative;
+mod resolved_motion_rate;
 mod sampled;
 mod stabilise;
 
@@ -13,6 +15,7 @@ pub use computed_torque::ComputedTorque;
 pub use exact_tracking::ExactTracking;
 pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
+pub use resolved_motion_rate::{ResolvedMotionRate, TipWorkspace};
 pub use sampled::Sampled;
 pub use stabilise::Stabilise;
 

@@ -55,6 +55,14 @@ pub const HELD: f64 = 1e-3;
 pub const DECAY: f64 = 1e-6;
 /// Tip poses that the design of the final joint angles should reach, rad, m: it iterates to 1e-11 per unit.
 pub const REACHED: f64 = 1e-9;
+/// Tips on their paths and at their ends under resolved motion rate control, rad, m, rad/s, m/s: the integration error of RK4
+/// at 5 ms, which feedback pulls back; 3e-10 measured, near a singular pose.
+pub const STEERED: f64 = 1e-8;
+/// The same with torques held for up to 40 ms, at the end: half a sample of delay in accelerations of some mm/s².
+pub const STEERED_SAMPLED: f64 = 1e-4;
+/// Accelerations of tips, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding times the
+/// condition of the generalized Jacobian.
+pub const STEERED_ACCELERATION: f64 = 1e-8;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
 /// error of RK4 at 5 ms, 4e-13 measured.
 pub const TIME_SERIES: f64 = 1e-11;
@@ -172,3 +180,20 @@ pub const SAME_STUDY: f64 = 1e-9;
 /// Generated accelerations, relative, times ε arm/distance for a short inner link, or for first two mounts close to each
 /// other: joint torques are divided by that distance on the way. 0.1 measured.
 pub const SHORT_DISTANCE: f64 = 1.0;
+
+/// Accelerations and constraint forces in maximal coordinates, relative to the largest, against the product and against
+/// the whole KKT matrix: rounding times the condition of joints in a chain, 1e-14 measured.
+pub const MAXIMAL_ACCELERATION: f64 = 1e-12;
+/// Velocities after impacts and impulses in maximal coordinates, relative to the largest, or to the largest momentum:
+/// rounding times the condition of light links with heavy targets, 2e-13 measured.
+pub const MAXIMAL_IMPACT: f64 = 1e-11;
+/// Angles, poses and rates some seconds later, relative to the largest: the product's RK4 at 1 ms, 4e-10 measured where
+/// a folded arm swings through.
+pub const MAXIMAL_MOTION: f64 = 1e-9;
+/// Momentum and energy of the motion in maximal coordinates, relative; its ties before they are projected, rad, m: an
+/// integrator of order 12 whose steps are halved until they err by 1e-13 per unit.
+pub const MAXIMAL_DRIFT: f64 = 1e-11;
+/// The same ties once projected, rad, m: rounding at some metres.
+pub const MAXIMAL_TIE: f64 = 1e-13;
+/// A base of 1e14 kg in place of one that nothing moves, rad/s.
+pub const HEAVY_BASE: f64 = 1e-12;

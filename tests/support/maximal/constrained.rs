@@ -1,0 +1,115 @@
+//! The KKT system of free bodies under bilateral constraints, solved whole.
+
+use super::system::System;
+use super::tie::{Tie, rows};
+use nalgebra::{DMatrix, DVector};
+
+/// A row of length one that is nearer than this to the span of the rows before it says nothing new.
+const DEPENDENT: f64 = 1e-10;
+
+/// [M −Aᵀ; A 0] [x; λ] = [f; g], decomposed for one set of ties at one position.
+///
+/// With B = D A M^(−½), D giving rows of length one, it is w − Bᵀλ' = M^(−½) f and B w = D g in w = M^½ x, λ' = D⁻¹ λ.
+/// B = L Q, with orthonormal rows in Q and L lower triangular, says it all, without ever forming A M⁻¹ Aᵀ, whose condition
+/// is the square. Rows are made orthogonal to those before them twice, which is enough (Kahan; Parlett), and quick where
+/// they are so already, as most joints' are. (nalgebra's `svd` was the first choice: now and then its U Σ Vᵀ is another
+/// matrix, where the wheel's zeros are in it.)
+pub struct Constrained {
+    /// M^½, a diagonal.
+    root: DVector<f64>,
+    /// D.
+    scale: DVector<f64>,
+    /// Rows of Q.
+    q: Vec<Vec<f64>>,
+    /// Rows of L.
+    l: Vec<Row>,
+    /// Some rows depend on others. Those that come last then get no multiplier.
+    pub redundant: bool,
+}
+
+/// A row of B that does not depend on those before it, by the rows of Q.
+struct Row {
+    /// Which of B's.
+    index: usize,
+    /// As many as there are rows of Q up to its own.
+    coefficients: Vec<f64>,
+}
+
+impl Constrained {
+    /// All bodies under these ties.
+    pub fn new(all: &System, ties: &[Tie]) -> Self {
+        let root = all.masses().map(f64::sqrt);
+        Self::of(&rows(all, ties), root)
+    }
+
+    /// Of any A and M^½.
+    fn of(a: &DMatrix<f64>, root: DVector<f64>) -> Self {
+        let mut scale = DVector::zeros(a.nrows());
+        let (mut q, mut l): (Vec<Vec<f64>>, Vec<Row>) = (vec![], vec![]);
+        for i in 0..a.nrows() {
+            let mut row: Vec<f64> = a.row(i).iter().zip(&root).map(|(a, root)| a / root).collect();
+            scale[i] = 1.0 / norm(&row);
+            for x in &mut row {
+                *x *= scale[i];
+            }
+            let mut coefficients = vec![0.0; q.len()];
+            for _ in 0..2 {
+                for (q, sum) in q.iter().zip(&mut coefficients) {
+                    let share = dot(q, &row);
+                    if share != 0.0 {
+                        row.iter_mut().zip(q).for_each(|(x, q)| *x -= share * q);
+                        *sum += share;
+                    }
+                }
+            }
+            let rest = norm(&row);
+            if rest > DEPENDENT {
+                for x in &mut row {
+                    *x /= rest;
+                }
+                q.push(row);
+                coefficients.push(rest);
+                l.push(Row { index: i, coefficients });
+            }
+        }
+        Self { redundant: l.len() < a.nrows(), root, scale, q, l }
+    }
+
+    /// x and λ for forces (or momenta) f and a right side g of the constraints.
+    pub fn solve(&self, f: &DVector<f64>, g: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        let force: Vec<f64> = f.iter().zip(&self.root).map(|(f, root)| f / root).collect();
+        // L z = D g for z = Q w, forwards
+        let mut z: Vec<f64> = vec![];
+        for Row { index, coefficients } in &self.l {
+            let known = dot(&coefficients[..z.len()], &z);
+            z.push((g[*index] * self.scale[*index] - known) / coefficients[z.len()]);
+        }
+        // w = f' + Qᵀ (z − Q f'), Lᵀ λ' = z − Q f', backwards
+        let mut w = force.clone();
+        let mut change: Vec<f64> = z.iter().zip(&self.q).map(|(z, q)| z - dot(q, &force)).collect();
+        for (change, q) in change.iter().zip(&self.q) {
+            w.iter_mut().zip(q).for_each(|(w, q)| *w += change * q);
+        }
+        let mut multipliers = DVector::zeros(self.scale.len());
+        for (k, Row { index, coefficients }) in self.l.iter().enumerate().rev() {
+            let multiplier = change[k] / coefficients[k];
+            change.iter_mut().zip(coefficients).for_each(|(change, l)| *change -= multiplier * l);
+            multipliers[*index] = multiplier * self.scale[*index];
+        }
+        (DVector::from_vec(w).component_div(&self.root), multipliers)
+    }
+
+    /// The twists nearest to the given ones, by kinetic energy, that satisfy the constraints, and the impulses it takes.
+    pub fn close(&self, twists: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        let momentum = twists.component_mul(&self.root).component_mul(&self.root);
+        self.solve(&momentum, &DVector::zeros(self.scale.len()))
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
