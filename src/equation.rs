@@ -185,7 +185,7 @@ impl<'a> Equation<'a> {
         let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: rate.len() };
         let (_, rates, [.., base_torque]) = halves_mut(rate).ok_or(wrong)?;
         let places = rates.get_mut(..3 + joints).ok_or(wrong)?;
-        if system.bodies.is_empty() {
+        if system.bodies.is_empty() && system.closures.is_empty() {
             let (base, of_joints) = places.split_first_chunk_mut::<3>().ok_or(wrong)?;
             *base = [*base_torque, 0.0, 0.0];
             of_joints.copy_from_slice(torques);

@@ -1,6 +1,6 @@
 //! The two figures.
 
-use crate::long_time::{DURATION, Run};
+use crate::long_time::{DURATION, LongTime, Run};
 use crate::work::{Work, logarithms};
 use planar_capture::figures::{Axis, Dash, Figure, Mark, Panel, Series, Span};
 
@@ -25,12 +25,13 @@ pub fn work_precision(works: &[Work]) -> Figure {
     Figure::column("work_precision", caption, panels.collect())
 }
 
-/// Energy and momentum errors over a thousand seconds.
-pub fn long_time(runs: &[Run]) -> Figure {
-    let panel = |quantity: &str, values: fn(&Run) -> &[(f64, f64)]| {
-        let series = runs.iter().map(|run| {
+/// Energy and momentum errors over a thousand seconds, two panels per motion.
+pub fn long_time(motions: &[LongTime]) -> Figure {
+    let panel = |motion: &LongTime, quantity: &str, values: fn(&Run) -> &[(f64, f64)]| {
+        let series = motion.runs.iter().map(|run| {
             let (colour, mut dash, _) = run.method.style();
-            let finer = runs.iter().any(|other| other.method == run.method && other.evaluations < run.evaluations);
+            let finer =
+                motion.runs.iter().any(|other| other.method == run.method && other.evaluations < run.evaluations);
             if finer {
                 dash = if dash == Dash::Solid { Dash::DashDot } else { Dash::Dotted };
             }
@@ -38,14 +39,13 @@ pub fn long_time(runs: &[Run]) -> Figure {
             Series { label, colour, mark: Mark::Line(dash, WIDTH), points: maxima(values(run)) }
         });
         let x = Axis::time("Time [s]", DURATION);
-        let y = Axis { label: quantity.to_owned(), span: Span::Powers(-16, 0) };
-        Panel::new(x, y, series.collect())
+        let y = Axis { label: format!("{quantity} error, relative"), span: Span::Powers(-16, 0) };
+        Panel { title: Some(motion.title.to_owned()), ..Panel::new(x, y, series.collect()) }
     };
-    let panels = vec![
-        panel("Energy error, relative", |run| &run.energy),
-        panel("Momentum error, relative", |run| &run.momentum),
-    ];
-    Figure::column("long_time", "Errors of kinetic energy and momentum of a free tumbling robot.", panels)
+    let panels = motions.iter().flat_map(|motion| {
+        [panel(motion, "Energy", |run| &run.energy), panel(motion, "Momentum", |run| &run.momentum)]
+    });
+    Figure::column("long_time", "Errors of kinetic energy and momentum of a free robot.", panels.collect())
 }
 
 /// Logarithms of the largest value in each of as many parts of the time.

@@ -1,4 +1,4 @@
-//! Energy and momentum of free tumbling over a thousand seconds.
+//! Energy and momentum of free motion over a thousand seconds.
 
 use crate::Problem;
 use crate::method::{Fineness, Method};
@@ -6,12 +6,12 @@ use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
-use planar_capture::simulate::{Phase, Sample};
+use planar_capture::simulate::{Motion, Phase, Sample};
 
 /// s.
 pub const DURATION: f64 = 1000.0;
 /// Between samples, s.
-const SAMPLE: f64 = 0.2;
+const SAMPLE: f64 = 0.5;
 
 /// One run.
 pub struct Run {
@@ -40,34 +40,48 @@ fn largest(series: &[(f64, f64)], until: f64) -> f64 {
     series.iter().filter(|(time, _)| *time <= until).fold(0.0, |most, (_, error)| most.max(*error))
 }
 
-/// Methods with their steps and tolerances.
-fn chosen() -> Vec<(Method, Fineness)> {
+/// One motion, by several methods.
+pub struct LongTime {
+    /// In a title.
+    pub title: &'static str,
+    pub runs: Vec<Run>,
+}
+
+/// A regular motion and a chaotic one.
+pub fn motions() -> Result<[LongTime; 2], Problem> {
+    Ok([
+        LongTime { title: "Turning with the arms out", runs: runs(&Problems::turning(), [0.5, 0.25], [0.1, 0.05])? },
+        LongTime { title: "Tumbling", runs: runs(&Problems::tumbling(), [0.1, 0.05], [0.02, 0.005])? },
+    ])
+}
+
+/// Methods with these steps of Gauss–Legendre and of Runge–Kutta, in s.
+fn chosen(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
     let method = |scheme, coordinates| Method { integration: Integration { scheme, coordinates } };
-    let (full, reduced) = (Coordinates::Full, Coordinates::Reduced);
     let adaptive = Scheme::Adaptive { tolerance: 0.0 };
-    vec![
-        (method(Scheme::GaussLegendre, full), Fineness::Step(0.1)),
-        (method(Scheme::GaussLegendre, full), Fineness::Step(0.05)),
-        (method(Scheme::RungeKutta4, full), Fineness::Step(0.02)),
-        (method(Scheme::RungeKutta4, full), Fineness::Step(0.005)),
-        (method(Scheme::RungeKutta4, reduced), Fineness::Step(0.02)),
-        (method(Scheme::RungeKutta4, reduced), Fineness::Step(0.005)),
+    let (full, reduced) = (Coordinates::Full, Coordinates::Reduced);
+    let mut all = Vec::from(gauss.map(|step| (method(Scheme::GaussLegendre, full), Fineness::Step(step))));
+    for coordinates in [full, reduced] {
+        all.extend(runge_kutta.map(|step| (method(Scheme::RungeKutta4, coordinates), Fineness::Step(step))));
+    }
+    all.extend([
         (method(adaptive, full), Fineness::Tolerance(1e-8)),
         (method(adaptive, full), Fineness::Tolerance(1e-11)),
         (method(adaptive, reduced), Fineness::Tolerance(1e-11)),
         (method(Scheme::SemiImplicitEuler, full), Fineness::Step(0.001)),
         (method(Scheme::SemiImplicitEuler, reduced), Fineness::Step(0.001)),
-    ]
+    ]);
+    all
 }
 
-pub fn runs() -> Result<Vec<Run>, Problem> {
+fn runs(start: &Motion, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Vec<Run>, Problem> {
     let problems = Problems::new()?;
-    let scale = Scale::of(&*problems.model)?;
-    chosen()
+    let scale = Scale::of(&*problems.model, start)?;
+    chosen(gauss, runge_kutta)
         .into_iter()
         .map(|(method, fineness)| {
             let how = method.with(fineness, SAMPLE);
-            let (phase, evaluations) = problems.tumbling(DURATION, SAMPLE, how)?;
+            let (phase, evaluations) = problems.free(start, DURATION, SAMPLE, how)?;
             let series = |error: &dyn Fn(&Sample, &Sample) -> f64| errors(&phase, error);
             let energy = series(&|now, start| (now.kinetic_energy - start.kinetic_energy).abs() / start.kinetic_energy);
             let momentum = series(&|now, start| scale.momentum_error(now, start));
@@ -88,8 +102,8 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(model: &dyn Model<f64>) -> Result<Self, Error> {
-        let (start, bodies) = (Problems::start(), model.joints() + 1);
+    fn of(model: &dyn Model<f64>, start: &Motion) -> Result<Self, Error> {
+        let bodies = model.joints() + 1;
         let (mut inertias, mut poses, mut twists) =
             (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
         model.body_inertias(&mut inertias)?;

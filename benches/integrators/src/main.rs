@@ -35,11 +35,11 @@ fn main() -> ExitCode {
 /// Path below `docs`, and content.
 fn compute() -> Result<Vec<(&'static str, String)>, Problem> {
     let works = [work::approach()?, work::tumbling()?];
-    let runs = long_time::runs()?;
+    let motions = long_time::motions()?;
     Ok(vec![
-        ("integrators.md", report::write(&works, &runs)?),
+        ("integrators.md", report::write(&works, &motions)?),
         ("integrators/work_precision.svg", svg(&figure::work_precision(&works))),
-        ("integrators/long_time.svg", svg(&figure::long_time(&runs))),
+        ("integrators/long_time.svg", svg(&figure::long_time(&motions))),
     ])
 }
 

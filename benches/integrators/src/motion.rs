@@ -13,6 +13,7 @@ use planar_capture::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::system::System;
 use planar_capture::trajectory::{Ends, Quartic};
+use std::f64::consts::PI;
 use std::path::Path;
 
 const SCENARIO: &str = include_str!("../../../scenarios/raina_shah_2017.toml");
@@ -80,19 +81,30 @@ impl Problems {
         self.scenario.approach.duration
     }
 
-    /// Free tumbling of the same robot, base and joints turning by up to 0.9 rad/s.
-    pub fn tumbling(
+    /// Free motion of the same robot.
+    pub fn free(
         &self,
+        start: &Motion,
         duration: f64,
         sample: f64,
         (integration, step): (Integration, f64),
     ) -> Result<(Phase, u64), Stopped> {
         let timing = Timing { duration, step, sample, integration };
-        self.run(&mut Free, &Self::start(), &timing)
+        self.run(&mut Free, start, &timing)
     }
 
-    /// Of the tumbling.
-    pub fn start() -> Motion {
+    /// Turning with both arms out, which swing about that, and drifting away.
+    pub fn turning() -> Motion {
+        Motion {
+            base_pose: [0.0; 3],
+            joint_angles: vec![0.15, -0.1, 0.1, PI + 0.1, 0.15, -0.15],
+            base_twist: [0.5, 0.02, -0.01],
+            joint_rates: vec![0.0; 6],
+        }
+    }
+
+    /// Tumbling, base and joints turning by up to 0.9 rad/s.
+    pub fn tumbling() -> Motion {
         Motion {
             base_pose: [0.3, 1.0, -2.0],
             joint_angles: vec![0.7, -1.5, 1.0, 2.4, 1.5, -1.0],

@@ -42,7 +42,7 @@ pub fn approach() -> Result<Work, Problem> {
 pub fn tumbling() -> Result<Work, Problem> {
     let problems = Problems::new()?;
     let duration = 20.0;
-    let run = |how| problems.tumbling(duration, duration, how);
+    let run = |how| problems.free(&Problems::tumbling(), duration, duration, how);
     measure("Free tumbling, 20 s", duration, &run)
 }
 
