@@ -95,6 +95,8 @@ pub const MOMENTUM_KEPT: f64 = 1e-12;
 pub const SAME_MOTION: f64 = 1e-11;
 /// One second of it by Gauss–Legendre steps of 20 ms.
 pub const SAME_MOTION_COARSE: f64 = 1e-10;
+/// One second of a closed loop by several schemes, projected after every step, rad, m and per second.
+pub const CLOSED_LOOP: f64 = 1e-8;
 /// A straight line, m, rad: rounding.
 pub const STRAIGHT: f64 = 1e-13;
 /// One second under held torques by steps of 2 and 50 ms and adaptive ones, rad, m and per second.

@@ -16,9 +16,9 @@ use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
 use planar_capture::impact::{self, After, Workspace};
-use planar_capture::integrate::RungeKutta4;
-use planar_capture::motion::derivative;
-use planar_capture::state::{State, vector_length};
+use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
+use planar_capture::motion::{Canonical, Reduced, derivative};
+use planar_capture::state::{State, halves, halves_mut, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};
 
@@ -208,6 +208,62 @@ pub fn paper(
 #[inline(never)]
 pub fn coast(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
     step(model, &mut Free, time, x)
+}
+
+/// One semi-implicit step in reduced coordinates, with the momentum [l, px, py].
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let mut equation = Reduced {
+        momentum,
+        mass_matrix: &mut [0.0; SIZE * SIZE],
+        generalized_inertia: &mut [0.0; JOINTS * JOINTS],
+        generalized_bias: &mut [0.0; JOINTS],
+        generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+    };
+    let mut torques = [0.0; JOINTS];
+    let mut workspace = [0.0; LENGTH];
+    let mut euler = SemiImplicitEuler::new(&mut workspace);
+    euler.step(time, 0.005, x, |t, x, rate| equation.derivative(model, &mut Free, t, x, rate, &mut torques))?;
+    equation.recover(model, x)
+}
+
+/// One Gauss–Legendre step of free motion, of positions and momenta.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let wrong = Error::Length { quantity: "state vector", expected: LENGTH, found: 0 };
+    let mut canonical = Canonical {
+        inertias: &mut [[0.0; 2]; JOINTS + 1],
+        poses: &mut [[0.0; 3]; JOINTS + 1],
+        twists: &mut [[0.0; 3]; JOINTS + 1],
+        offsets: &mut [[0.0; 2]; JOINTS],
+        ends: &mut [false; JOINTS],
+        rates: &mut [0.0; JOINTS],
+    };
+    let before = *x;
+    let state = State::from_vector(&before, JOINTS).ok_or(wrong)?;
+    canonical.measure(model, &state.base_pose, state.joint_angles)?;
+    canonical.momenta(model, &state, halves_mut(x).ok_or(wrong)?.1)?;
+    let mut workspace = [0.0; GaussLegendre::<f32>::WORKSPACE * LENGTH];
+    let mut gauss = GaussLegendre::new(&mut workspace).ok_or(wrong)?;
+    let mut joint_rates = [0.0; JOINTS];
+    gauss.step(time, 0.05, x, |_, x, rate| {
+        let (_, momenta) = halves(x).ok_or(wrong)?;
+        let at = State::from_vector(x, JOINTS).ok_or(wrong)?;
+        let base_twist = canonical.velocities(model, at.base_pose, at.joint_angles, momenta, &mut joint_rates)?;
+        let now = State { base_twist, joint_rates: &joint_rates, ..at };
+        rate.fill(0.0);
+        now.write(rate);
+        let (velocities, forces, _) = halves_mut(rate).ok_or(wrong)?;
+        velocities.copy_from_slice(forces);
+        forces.fill(0.0);
+        canonical.add_energy_gradient(model, &now, forces)
+    })
 }
 
 /// Momentum, and the tips.
