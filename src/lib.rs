@@ -31,7 +31,7 @@
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
-//! and PNG, `lanes` SIMD lanes as scalars.
+//! and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -109,6 +109,8 @@ pub mod output;
 pub mod posture;
 #[cfg(feature = "std")]
 pub mod record;
+#[cfg(feature = "mcap")]
+pub mod recording;
 #[cfg(feature = "std")]
 pub mod remainder;
 #[cfg(feature = "std")]
