@@ -182,24 +182,24 @@ mod mcap_files {
     use prost::Message;
     use std::collections::{BTreeMap, BTreeSet};
 
-    /// (time in ns, message) of each topic, and each channel's schema.
+    /// (time in ns, message) of each topic; number, name and unit of its fields.
     struct File {
         messages: BTreeMap<String, Vec<(u64, Vec<u8>)>>,
-        schemas: BTreeMap<String, Vec<u8>>,
+        fields: BTreeMap<String, BTreeMap<u32, String>>,
         units: BTreeMap<String, BTreeMap<String, String>>,
     }
 
     fn record(scenario: &Scenario, study: &Study, case: &CaseResult) -> (Vec<u8>, File) {
         let mut bytes = Vec::new();
         write_mcap(scenario, study, case, &mut bytes).expect("written");
-        let mut file = File { messages: BTreeMap::new(), schemas: BTreeMap::new(), units: BTreeMap::new() };
+        let mut file = File { messages: BTreeMap::new(), fields: BTreeMap::new(), units: BTreeMap::new() };
         for message in mcap::MessageStream::new(&bytes).expect("MCAP") {
             let message = message.expect("a message");
             let topic = message.channel.topic.clone();
             let schema = message.channel.schema.clone().expect("a schema");
             assert_eq!((message.channel.message_encoding.as_str(), schema.encoding.as_str()), ("protobuf", "protobuf"));
-            file.schemas.insert(topic.clone(), schema.data.to_vec());
-            file.units.insert(topic.clone(), message.channel.metadata.clone());
+            file.fields.entry(topic.clone()).or_insert_with(|| fields(&schema.data));
+            file.units.entry(topic.clone()).or_insert_with(|| message.channel.metadata.clone());
             file.messages.entry(topic).or_default().push((message.log_time, message.data.to_vec()));
         }
         (bytes, file)
@@ -207,18 +207,22 @@ mod mcap_files {
 
     /// Name and value of each field of a message of numbers.
     fn numbers(file: &File, topic: &str, mut message: &[u8]) -> Vec<(String, f64)> {
-        let schema = prost_types::FileDescriptorSet::decode(&file.schemas[topic][..]).expect("a schema");
-        let fields = &schema.file[0].message_type[0].field;
         let mut found = Vec::new();
         while !message.is_empty() {
             let (tag, kind) = prost::encoding::decode_key(&mut message).expect("a key");
             let mut value = 0.0;
             prost::encoding::double::merge(kind, &mut value, &mut message, prost::encoding::DecodeContext::default())
                 .expect("a double");
-            let field = fields.iter().find(|field| field.number == i32::try_from(tag).ok()).expect("a field");
-            found.push((field.name().to_owned(), value));
+            found.push((file.fields[topic][&tag].clone(), value));
         }
         found
+    }
+
+    /// Number and name of each field of a schema's first message.
+    fn fields(schema: &[u8]) -> BTreeMap<u32, String> {
+        let schema = prost_types::FileDescriptorSet::decode(schema).expect("a schema");
+        let fields = &schema.file[0].message_type[0].field;
+        fields.iter().map(|field| (field.number().try_into().expect("from 1"), field.name().to_owned())).collect()
     }
 
     /// Poses [yaw, x, y] of all frames in the world.
