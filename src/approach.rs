@@ -3,8 +3,11 @@
 use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::event::{Events, NoEvents};
+use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::system::System;
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.
@@ -18,7 +21,9 @@ impl<'a> Approach<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
-        let timing = Timing { duration: scenario.approach.duration, step: scenario.approach.step, sample };
+        let approach = &scenario.approach;
+        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
+        let timing = Timing { duration, step, sample, integration };
         Self { scenario, timing }
     }
 
@@ -33,36 +38,47 @@ impl<'a> Approach<'a> {
     /// # Errors
     /// When and why it stopped.
     pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
-        let trajectory = self.trajectory(rates);
-        let joints = model.joints();
-        match &self.scenario.approach.tracking {
-            Tracking::Exact => self.track_exactly(model, rates, tick),
-            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-                let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-                self.drive(model, &mut law, tick)
-            }
-            Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
-                let mut law = ComputedTorque {
-                    trajectory,
-                    proportional_gain,
-                    derivative_gain,
-                    generalized_inertia: &mut vec![0.0; joints * joints],
-                    generalized_bias: &mut vec![0.0; joints],
-                    generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
-                };
-                self.drive(model, &mut law, tick)
-            }
-        }
+        self.track_until(model, rates, &mut NoEvents, tick)
     }
 
-    fn drive(
+    /// The same, up to the first of the events.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_until(
         &self,
         model: &dyn Model<f64>,
-        law: &mut dyn Control<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
+        let trajectory = self.trajectory(rates);
+        let joints = model.joints();
         let initial = Motion::of(&self.scenario.initial.state());
-        drive(model, law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
+        let actuation = &self.scenario.approach.actuation;
+        let mut drive = |law: &mut dyn Control<f64>| {
+            drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
+        };
+        match &self.scenario.approach.tracking {
+            Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
+            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
+                drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
+            }
+            Tracking::ComputedTorque { proportional_gain, derivative_gain } => drive(&mut ComputedTorque {
+                trajectory,
+                proportional_gain,
+                derivative_gain,
+                generalized_inertia: &mut vec![0.0; joints * joints],
+                generalized_bias: &mut vec![0.0; joints],
+                generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+            }),
+            Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
+                let mut tips = Tips::new(model, self.scenario)?;
+                let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
+                let phase = drive(&mut law)?;
+                Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
+            }
+        }
     }
 
     /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
@@ -74,6 +90,16 @@ impl<'a> Approach<'a> {
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        self.track_exactly_until(model, rates, &mut NoEvents, tick)
+    }
+
+    fn track_exactly_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let joints = model.joints();
@@ -92,7 +118,7 @@ impl<'a> Approach<'a> {
                 _ => vec![0.0; joints],
             },
         };
-        simulate(model, &mut law, &initial, &self.timing, tick)
+        simulate(&System::alone(model), &mut law, &initial, &self.timing, events, tick)
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {

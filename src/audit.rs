@@ -3,6 +3,7 @@
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::state::State;
+use crate::system::Body;
 
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -58,31 +59,33 @@ impl<'a> Audit<'a> {
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>) -> Result<Self, Error> {
+    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let mut inertias = vec![[0.0; 2]; bodies];
         model.body_inertias(&mut inertias)?;
-        let start = model.momentum(state)?;
+        let start = with_bodies(model.momentum(state)?, beside);
         let none = Ratio::default();
         let (poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
         let mut audit = Self { model, inertias, poses, twists, start, linear: none, angular: none, energy: none };
-        audit.record(state, &Done::default())?;
+        audit.record(state, beside, &Done::default())?;
         Ok(audit)
     }
 
-    /// Looks at one state, this having been done to the robot since the start.
+    /// Looks at one state, this having been done to the robot since the start. Momentum and energy are of the robot and the
+    /// bodies beside it together.
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn record(&mut self, state: &State<'_, f64>, done: &Done) -> Result<Momentum<f64>, Error> {
-        let now = self.model.momentum(state)?;
+    pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], done: &Done) -> Result<Momentum<f64>, Error> {
+        let now = with_bodies(self.model.momentum(state)?, beside);
         self.model.body_poses(&state.base_pose, state.joint_angles, &mut self.poses)?;
         self.model.body_twists(state, &mut self.twists)?;
         let (mut linear, mut angular) = (0.0, 0.0);
-        for ([mass, inertia], ([_, x, y], [omega, vx, vy])) in
-            self.inertias.iter().zip(self.poses.iter().zip(&self.twists))
-        {
-            linear += mass * vx.hypot(*vy);
+        let of_robot = self.inertias.iter().zip(self.poses.iter().zip(&self.twists));
+        let of_bodies = beside.iter().map(|body| (body.mass, body.inertia, body.pose, body.twist));
+        let parts = of_robot.map(|([mass, inertia], (pose, twist))| (*mass, *inertia, *pose, *twist));
+        for (mass, inertia, [_, x, y], [omega, vx, vy]) in parts.chain(of_bodies) {
+            linear += mass * vx.hypot(vy);
             angular += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
         }
         let [l, px, py] = done.impulse;
@@ -99,4 +102,15 @@ impl<'a> Audit<'a> {
     pub fn drift(&self) -> Drift {
         Drift { momentum_drift: self.linear.value().max(self.angular.value()), energy_error: self.energy.value() }
     }
+}
+
+/// A robot's momentum and energy with those of the bodies beside it.
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+    for body in bodies {
+        let ([l, px, py], energy) = body.momentum();
+        total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];
+        total.angular_momentum += l;
+        total.kinetic_energy += energy;
+    }
+    total
 }

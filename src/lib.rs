@@ -17,7 +17,12 @@
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
+//! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
+//! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
+//! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
+//! | other integrators | [`integrate`] |
+//! | events that end a phase | `event` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
@@ -47,8 +52,10 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod body;
 #[doc(hidden)]
 pub mod check;
+pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod error;
@@ -78,6 +85,8 @@ pub mod actuators;
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
+pub mod assembly;
+#[cfg(feature = "std")]
 pub mod audit;
 #[cfg(feature = "build")]
 pub mod build;
@@ -90,9 +99,17 @@ pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
+mod equation;
+#[cfg(feature = "std")]
 pub mod evaluation;
+#[cfg(feature = "std")]
+pub mod event;
 #[cfg(feature = "figures")]
 pub mod figures;
+#[cfg(feature = "std")]
+mod flow;
+#[cfg(feature = "std")]
+pub mod gaps;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -102,6 +119,10 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod meeting;
+#[cfg(feature = "std")]
+pub mod miss;
+#[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
@@ -109,6 +130,8 @@ pub mod output;
 pub mod posture;
 #[cfg(feature = "std")]
 pub mod record;
+#[cfg(feature = "std")]
+mod recorder;
 #[cfg(feature = "mcap")]
 pub mod recording;
 #[cfg(feature = "std")]
@@ -117,6 +140,10 @@ pub mod remainder;
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
+#[cfg(feature = "std")]
+pub mod resolved;
+#[cfg(feature = "std")]
+pub mod response;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
@@ -132,6 +159,12 @@ pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;
 #[cfg(feature = "std")]
+pub mod surface;
+#[cfg(feature = "std")]
+pub mod system;
+#[cfg(feature = "std")]
 pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;
+#[cfg(feature = "std")]
+mod watch;

@@ -240,7 +240,7 @@ impl TipGoal {
     }
 
     /// (index in a pose, wanted less found) of what is wanted; the yaw to the nearest turn.
-    fn missing(&self, [yaw, x, y]: &[f64; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
+    pub(crate) fn missing(&self, [yaw, x, y]: &[f64; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
         let turn = |angle: f64| (angle + PI).rem_euclid(TAU) - PI;
         let [turned, right, up] = match self {
             Self::Any => [None; 3],

@@ -1,20 +1,28 @@
 //! A scenario from approach to post-impact: one approach, then an impact and what follows for every case.
 
 use crate::approach::Approach;
+use crate::assembly::{Assembly, Grip};
 use crate::capture::{Capture, capture};
+use crate::contact::Kind;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
+use crate::event::NoEvents;
+use crate::meeting::{Touching, in_time};
+use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling};
+use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling, Tracking};
 use crate::settle::{settle, wheels};
 use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
-use crate::target::Target;
+use crate::system::Body;
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
+
+/// Largest opening of what is held that passes the audit, rad or m, and its rate.
+pub const CONSTRAINT_BOUND: f64 = 1e-10;
 
 /// Makes a model of the robot, in its state before any capture.
 pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn Model<f64>>;
@@ -26,8 +34,10 @@ pub struct Study {
     pub design: Option<Design>,
     /// Where its final joint angles come from, where they were designed.
     pub posture: Option<Posture>,
-    /// The approach, the same in every case.
+    /// The approach: of all cases where contacts come by time, else as far as it would go without any.
     pub approach: Phase,
+    /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
+    pub misses: Vec<Option<Miss>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
@@ -37,6 +47,10 @@ pub struct Study {
 pub struct CaseResult {
     /// Its name.
     pub name: String,
+    /// Its own approach, which ends at the first contact; `None` where that comes by time.
+    pub approach: Option<Phase>,
+    /// The targets at the end of the approach, before they are touched.
+    pub targets: Vec<Body>,
     /// Impact and what follows; `None` where there is nothing to capture.
     pub capture: Option<Captured>,
 }
@@ -46,8 +60,10 @@ pub struct CaseResult {
 pub struct Captured {
     /// Exact and as the paper writes it.
     pub impact: Capture,
-    /// The merged robot from the exact velocities.
+    /// Robot and targets from the exact velocities on.
     pub post_impact: Phase,
+    /// The targets at each of its samples.
+    pub targets: Vec<Vec<Body>>,
     /// What is left at its end; `None` where the joints are free, as in the paper.
     pub remainder: Option<Remainder>,
 }
@@ -101,12 +117,14 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
+    // tips on paths of their own need no joint trajectory
+    let by_tips = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     let posture = match &scenario.approach.final_end_effector_poses {
-        Some(goals) => {
+        Some(goals) if !by_tips => {
             observer.begin("designing final joint angles", 0);
             Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
         }
-        None => None,
+        _ => None,
     };
     let mut designed;
     let scenario = match &posture {
@@ -120,11 +138,11 @@ pub fn study(
     let approach = Approach::new(scenario, sample);
     let design = match (&scenario.approach.end, &posture) {
         (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
-        (EndRates::EndEffectorTwists(wanted), None) => {
+        (EndRates::EndEffectorTwists(wanted), None) if !by_tips => {
             observer.begin("designing end rates", 0);
             Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
-        (EndRates::Rest | EndRates::JointRates(_), _) => None,
+        _ => None,
     };
     let rates = match (&scenario.approach.end, &design) {
         (EndRates::JointRates(rates), _) => rates.clone(),
@@ -136,15 +154,13 @@ pub fn study(
     let cases = scenario
         .cases
         .iter()
-        .map(|case| {
-            let capture = match (&scenario.post_impact, approach.end()) {
-                (Some(after), Some(end)) => Some(run_case(scenario, case, after, end, make, sample, observer)?),
-                _ => None,
-            };
-            Ok(CaseResult { name: case.name.clone(), capture })
+        .map(|case| match (&scenario.post_impact, approach.end()) {
+            (Some(after), Some(end)) => run_case(scenario, case, after, end, make, sample, observer),
+            _ => Ok(CaseResult { name: case.name.clone(), approach: None, targets: Vec::new(), capture: None }),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    Ok(Study { design, posture, approach, cases })
+    let misses = Miss::of(scenario, &approach);
+    Ok(Study { design, posture, approach, misses, cases })
 }
 
 /// Impact and post-impact of one case.
@@ -156,42 +172,58 @@ fn run_case(
     make: MakeModel<'_>,
     sample: f64,
     observer: &mut dyn Observer,
-) -> Result<Captured, StudyError> {
-    let mut model = make();
-    let targets = targets_by_arm(scenario, case, model.arms());
+) -> Result<CaseResult, StudyError> {
     let failed = |source| StudyError::Impact { case: case.name.clone(), source };
-    let impact = capture(&*model, &end.motion, &targets).map_err(failed)?;
-    model.merge(&end.motion.base_pose, &end.motion.joint_angles, &targets).map_err(failed)?;
+    let (targets, touching) = in_time(scenario, case, &end.end_effector_poses);
+    let free = Assembly::new(make(), &end.motion, &targets, &[]).map_err(failed)?;
+    let impact = capture(&free, &end.motion, &targets, &touching).map_err(failed)?;
     let start = Motion {
         base_twist: impact.exact.base_twist_after,
         joint_rates: impact.exact.joint_rates_after.clone(),
         ..end.motion.clone()
     };
-    let timing = Timing { duration: after.duration, step: after.step, sample };
+    let moved = targets.iter().zip(&impact.target_twists);
+    let touched: Vec<_> = moved.map(|(target, twist)| Body { twist: *twist, ..*target }).collect();
+    let grips = grips(&touching);
+    let held = Assembly::new(make(), &start, &touched, &grips).map_err(failed)?;
+    let timing = Timing { duration: after.duration, step: after.step, sample, integration: after.integration };
     observer.begin(&case.name, timing.steps());
-    let wheels = wheels(&scenario.layout, &targets);
+    let wheels = wheels(&scenario.layout, &grips);
     let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };
-    let post_impact = settle(&*model, after, &wheels, &start, sample, &mut || observer.step()).map_err(stopped)?;
+    let post_impact = settle(&held.system(), after, &wheels, &start, &timing, &mut NoEvents, &mut || observer.step())
+        .map_err(stopped)?;
     let remainder = match (&after.control, post_impact.end()) {
         (Settling::None, _) | (_, None) => None,
         (control, Some(end)) => {
             let at_end = |source| stopped(Stopped { time: end.time, source });
-            Some(Remainder::of(&*model, control, &end.motion, &wheels).map_err(at_end)?)
+            let beside = held.pinned(&end.bodies);
+            Some(Remainder::of(&*held.model, &beside, control, &end.motion, &wheels).map_err(at_end)?)
         }
     };
-    Ok(Captured { impact, post_impact, remainder })
+    let at = |now: &Sample| held.targets(&touched, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
+    let flown = post_impact.samples.iter().map(at).collect();
+    let captured = Captured { impact, post_impact, targets: flown, remainder };
+    Ok(CaseResult { name: case.name.clone(), approach: None, targets, capture: Some(captured) })
 }
 
-/// The scenario's targets with the case's twists, in arm order.
-fn targets_by_arm(scenario: &Scenario, case: &Case, arms: usize) -> Vec<Option<Target<f64>>> {
-    let mut by_arm = vec![None; arms];
-    for (target, twist) in scenario.targets.iter().zip(&case.target_twists) {
-        if let Some(place) = by_arm.get_mut(target.arm) {
-            *place =
-                Some(Target { mass: target.mass, inertia: target.inertia, contact: target.contact, twist: *twist });
-        }
+/// The contacts that hold.
+fn grips(touching: &[Touching]) -> Vec<Grip> {
+    let holds = touching.iter().filter(|touch| !matches!(touch.kind, Kind::Bounce { .. }));
+    holds.map(|touch| Grip { target: touch.target, arm: touch.arm, pinned: touch.kind == Kind::Pin }).collect()
+}
+
+impl CaseResult {
+    /// Its approach.
+    #[must_use]
+    pub fn approach<'a>(&'a self, study: &'a Study) -> &'a Phase {
+        self.approach.as_ref().unwrap_or(&study.approach)
     }
-    by_arm
+
+    /// The targets at a time of the approach, s before its end: they fly freely.
+    #[must_use]
+    pub fn targets_before(&self, ago: f64) -> Vec<Body> {
+        self.targets.iter().map(|target| target.after(-ago)).collect()
+    }
 }
 
 impl Study {
@@ -222,6 +254,8 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
     let checks = [
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
+        ("what is held is open by", phase.constraint_errors[0], CONSTRAINT_BOUND),
+        ("what is held opens by", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
     // a NaN is not within its bound
     let out_of_bound =

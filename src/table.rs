@@ -1,7 +1,8 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
 use crate::capture::ImpactResult;
-use crate::scenario::{Scenario, Settling};
+use crate::meeting::Touching;
+use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -58,12 +59,34 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
             arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
         )?;
-        let target = scenario.targets.iter().find(|target| target.arm == i);
-        if let Some((target, [x, y])) = target.and_then(|t| Some((t, t.position?))) {
-            let miss = (pose[1] - target.contact[0] - x).hypot(pose[2] - target.contact[1] - y);
+        let touched = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+        let mut touches = touched.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+        let touch = touches.find(|(_, touch)| touch.arm == i);
+        if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
+        {
+            let miss = (pose[1] - touch.contact[0] - x).hypot(pose[2] - touch.contact[1] - y);
             write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
         }
         writeln!(out)?;
+        if let Some(miss) = study.misses.get(i).and_then(Option::as_ref) {
+            let head =
+                if miss.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
+            writeln!(out, "    {head} {miss}")?;
+        }
+    }
+    if let Some(margin) = phase.singularity_margin {
+        let damped = match scenario.approach.tracking {
+            Tracking::ResolvedMotionRate { singularity_threshold, .. } if margin < singularity_threshold => {
+                format!(
+                    "\n  (below {singularity_threshold} it was damped: the way is through a singular pose, or to one out of reach)"
+                )
+            }
+            _ => String::new(),
+        };
+        writeln!(
+            out,
+            "  generalized Jacobian on the way: smallest/largest singular value {margin:.4} at the least{damped}"
+        )?;
     }
     if !phase.saturation.joints.is_empty() {
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
@@ -84,20 +107,30 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
     let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
     let column = if printed { " as printed" } else { "" };
-    let head = format!("  {:<16} {:<10} {:>10} {:>10} {column:>11}", "case", "arm", "exact", "paper eqs.");
+    let head =
+        format!("  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11}", "case", "arm", "kind", "exact", "paper eqs.");
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let Some(Captured { impact, .. }) = &result.capture else { continue };
-        let (exact, paper) = (impact.exact.impulse_magnitudes(), impact.paper.impulse_magnitudes());
-        for (target, printed) in scenario.targets.iter().zip(&case.printed_impulses) {
-            let of = |values: &[Option<f64>]| values.get(target.arm).copied().flatten();
-            let (Some(exact), Some(paper), Some(arm)) = (of(&exact), of(&paper), scenario.layout.arms.get(target.arm))
-            else {
-                continue;
-            };
+        for contact in &impact.contacts {
+            let Touching { target, arm, kind, .. } = contact.touching;
+            let Some(of) = scenario.layout.arms.get(arm) else { continue };
+            let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
+            let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
+            let printed = case.printed_impulses.get(target).copied().flatten();
             let printed = printed.map_or_else(String::new, |value| format!("{value:.4}"));
-            let row = format!("  {:<16} {:<10} {exact:>10.5} {paper:>10.5} {printed:>11}", case.name, arm.name);
+            let [_, fx, fy] = contact.impulse;
+            let row = format!(
+                "  {:<16} {:<10} {:<7} {:>10.5} {literal:>10} {printed:>11}",
+                case.name,
+                of.name,
+                kind.name(),
+                fx.hypot(fy)
+            );
             writeln!(out, "{}", row.trim_end())?;
+        }
+        if impact.contacts.is_empty() {
+            writeln!(out, "  {:<16} no contact", case.name)?;
         }
     }
     if printed {
@@ -115,7 +148,8 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     )?;
     for case in &study.cases {
         let Some(captured) = &case.capture else { continue };
-        for (model, result) in [("exact", &captured.impact.exact), ("paper", &captured.impact.paper)] {
+        let literal = captured.impact.paper.iter().map(|result| ("paper", result));
+        for (model, result) in std::iter::once(("exact", &captured.impact.exact)).chain(literal) {
             balance(out, case, model, result)?;
         }
     }

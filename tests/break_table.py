@@ -230,8 +230,8 @@ FAULTS = [
     Fault(
         "columns of the time series exchanged",
         "src/record/columns.rs",
-        "&sample.motion.joint_angles",
-        "&sample.motion.joint_rates",
+        "&row.sample.motion.joint_angles",
+        "&row.sample.motion.joint_rates",
     ),
     Fault(
         "audit without an exit code",

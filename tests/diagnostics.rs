@@ -149,6 +149,16 @@ fn arms_are_lists_with_distinct_names() {
     }
 }
 
+/// The scenario's trajectory, end and end rates.
+const STEERED: &str = "\"quartic\"\nfinal_joint_angles = [0.5, 0.6]\nfinal_end_effector_twists = [[0, -0.1, 0]]";
+
+/// Tips on paths of their own in place of that, with one more line.
+macro_rules! steered {
+    ($line:literal) => {
+        concat!("\"quintic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]\n", $line)
+    };
+}
+
 const SCENARIO_EDITS: &[Edit] = &[
     ("\"demo\"", "\"a demo/1\"", 1, &["`name` is \"a demo/1\"", "ASCII letters"]),
     ("\"one_arm\"", "\"one_arms\"", 2, &["`layout` is \"one_arms\"", "did you mean `one_arm`?", ".toml"]),
@@ -196,7 +206,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         "\"quartic\"",
         "\"quartic\"\ntracking = \"p\"",
         8,
-        &["`approach.tracking` is \"p\", expected `pd`, `exact` or `computed_torque`"],
+        &["`approach.tracking` is \"p\", expected `pd`, `exact`, `computed_torque` or `resolved_motion_rate`"],
     ),
     (
         "\"quartic\"",
@@ -236,6 +246,35 @@ const SCENARIO_EDITS: &[Edit] = &[
         8,
         &["`approach.final_end_effector_poses[0]` is [0, 1, 1]", "fewer than three links", "[x, y]"],
     ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\npose_gain = 2",
+        8,
+        &["`approach.pose_gain` is 2", "only `tracking = \"resolved_motion"],
+    ),
+    (
+        STEERED,
+        "\"quartic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]",
+        7,
+        &["`approach.trajectory` is \"quartic\"", "quintic paths"],
+    ),
+    (
+        STEERED,
+        "\"quintic\"\ntracking = \"resolved_motion_rate\"",
+        5,
+        &["missing key `approach.final_end_effector_poses`", "[yaw, x, y] or [x, y] per arm"],
+    ),
+    (
+        STEERED,
+        steered!("final_joint_angles = [0.5, 0.6]"),
+        10,
+        &["final_joint_angles` is [0.5, 0.6]", "tips take them"],
+    ),
+    (STEERED, steered!("final_joint_rates = [0.5, 0.6]"), 10, &["final_joint_rates` is [0.5, 0.6]", "_twists`"]),
+    (STEERED, steered!("derivative_gain = 3"), 10, &["derivative_gain` is 3", "`pose_gain` and `rate_gain`"]),
+    (STEERED, steered!("rate_gain = 0"), 10, &["rate_gain` is 0", "1/s greater than 0"]),
+    (STEERED, steered!("singularity_threshold = 1.5"), 10, &["singularity_threshold` is 1.5", "less than 1"]),
+    (STEERED, steered!("final_end_effector_twists = [[1, 0, 0]]"), 10, &["twists[0]` is [1, 0, 0]", "expected ω = 0"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),
@@ -252,6 +291,51 @@ const SCENARIO_EDITS: &[Edit] = &[
         "\"quartic\"\nsample_time = 30",
         8,
         &["`approach.sample_time` is 30", "at most its duration, 20 s"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"rk5\"",
+        8,
+        &[
+            "`approach.integrator` is \"rk5\", expected `rk4`, `semi_implicit_euler`, `gauss_legendre` or `adaptive`",
+            "`rk4`?",
+        ],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"joints\"",
+        8,
+        &["`approach.coordinates` is \"joints\"", "`full` or `reduced`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"reduced\"\nintegrator = \"gauss_legendre\"",
+        8,
+        &["`approach.coordinates` is \"reduced\"", "keeps the momentum in full coordinates", "another integrator"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntolerance = 1e-9",
+        8,
+        &["`approach.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 0",
+        9,
+        &["`approach.tolerance` is 0", "a tolerance", "greater than 0"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 1e-16",
+        9,
+        &["`approach.tolerance` is 1e-16", "expected 1e-14 to 1e-3", "rounding"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nintegrator = \"gauss_legendre\"\ntolerance = 1e-9",
+        26,
+        &["`post_impact.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
     ),
     ("\"quartic\"", "\"quartic\"\nproportional_gain = [1]", 8, &["`approach.proportional_gain` is [1]", "2 numbers"]),
     (

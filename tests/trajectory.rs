@@ -3,7 +3,7 @@
 mod support;
 
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic};
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Quintic, TipPath, Trajectory, quintic};
 use support::dual::Dual;
 use support::{assert_close, tolerance};
 
@@ -137,4 +137,28 @@ fn runge_kutta_has_order_four() {
     let (coarse, fine, finest) = (error(20), error(40), error(80));
     let order = ((coarse - fine) / (fine - finest)).abs().log2();
     assert!((order - 4.0).abs() < 0.15, "observed order {order}");
+}
+
+/// The paths of tips are that polynomial, part by part, and stand at their ends.
+#[test]
+fn tips_go_along_quintics() {
+    let (twists, start) = ([[0.1, -0.2, 0.3]; 2], [[-0.1, 0.0, 0.2]; 2]);
+    let path = TipPath {
+        initial_poses: &[TO, FROM],
+        initial_twists: &start,
+        final_poses: &[FROM, TO],
+        final_twists: &twists,
+        duration: DURATION,
+    };
+    for i in -1..=21 {
+        let time = f64::from(i);
+        let found = path.tip(1, time).expect("a tip");
+        for part in 0..3 {
+            let tau = (time / DURATION).clamp(0.0, 1.0);
+            let wanted = quintic([FROM[part], TO[part]], [start[1][part], twists[1][part]], DURATION, tau);
+            let found = [found.pose[part], found.twist[part], found.acceleration[part]];
+            assert_close("tip", &found, &[wanted.angle, wanted.rate, wanted.acceleration], 0.0);
+        }
+    }
+    assert_eq!(path.tip(2, 0.0), None);
 }

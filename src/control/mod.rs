@@ -3,15 +3,19 @@
 mod base_inertia;
 mod computed_torque;
 mod exact_tracking;
+mod least_squares;
 mod limited;
 mod proportional_derivative;
+mod resolved_motion_rate;
 mod sampled;
 mod stabilise;
 
+pub(crate) use base_inertia::BaseInertia;
 pub use computed_torque::ComputedTorque;
 pub use exact_tracking::ExactTracking;
 pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
+pub use resolved_motion_rate::{ResolvedMotionRate, TipWorkspace};
 pub use sampled::Sampled;
 pub use stabilise::Stabilise;
 
@@ -43,6 +47,12 @@ pub trait Control<T: Real> {
     /// As [`Control::joint_torques`].
     fn begin_step(&mut self, _time: T, _model: &dyn Model<T>, _state: &State<'_, T>) -> Result<(), Error> {
         Ok(())
+    }
+
+    /// For how many steps from now on the torques are held, asked after [`Control::begin_step`]; `None` for a law that acts
+    /// continuously. An integrator with steps of its own starts anew where they change.
+    fn held_steps(&self) -> Option<u32> {
+        None
     }
 
     /// The torque on the base that goes with the joint torques last asked for; `None` where there is no such actuator.
@@ -78,6 +88,10 @@ impl<T: Real, C: Control<T> + ?Sized> Control<T> for &mut C {
 
     fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
         (**self).begin_step(time, model, state)
+    }
+
+    fn held_steps(&self) -> Option<u32> {
+        (**self).held_steps()
     }
 
     fn base_torque(&self) -> Option<BaseTorque<T>> {

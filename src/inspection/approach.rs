@@ -1,8 +1,9 @@
 //! Approaches that turn the arms too far, too fast or not at all.
 
 use super::number::short;
+use super::targets::distance_and_most;
 use crate::diagnostic::Oddity;
-use crate::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use crate::scenario::{EndRates, Scenario, TipGoal, Tracking, TrajectoryKind};
 use std::f64::consts::TAU;
 
 /// Joints of space robots turn by degrees a second, not by more than a turn, in rad/s.
@@ -11,7 +12,8 @@ const FASTEST: f64 = TAU;
 /// What is odd about the angles, rates and times of an approach.
 pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
     let fixed = [motionless(scenario), hasty(scenario), slack(scenario)];
-    angles(scenario).into_iter().chain(end_rates(scenario)).chain(fixed.into_iter().flatten()).collect()
+    let of_ends = end_rates(scenario).into_iter().chain(out_of_reach(scenario));
+    angles(scenario).into_iter().chain(of_ends).chain(fixed.into_iter().flatten()).collect()
 }
 
 /// The joint that turns furthest, and by how much, in rad.
@@ -44,7 +46,11 @@ pub(super) fn joint_name(scenario: &Scenario, index: usize) -> String {
 }
 
 fn angles(scenario: &Scenario) -> Vec<Oddity> {
-    let (initial, end) = (&scenario.initial.joint_angles, &scenario.approach.final_joint_angles);
+    let initial = &scenario.initial.joint_angles;
+    let end = match scenario.approach.tracking {
+        Tracking::ResolvedMotionRate { .. } => &[][..],
+        _ => &scenario.approach.final_joint_angles,
+    };
     let beyond = |key: &'static str, angles: &[f64]| {
         let beyond: Vec<_> = angles.iter().enumerate().filter(|(_, angle)| angle.abs() > TAU).collect();
         let odd = |(index, angle): &(usize, &f64)| Oddity {
@@ -134,6 +140,31 @@ fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
             .collect()
         }
     }
+}
+
+/// Tip poses beyond what any pose of the arm gives. Whether the arm gets to what is nearer is seen when it is run.
+fn out_of_reach(scenario: &Scenario) -> Vec<Oddity> {
+    let goals = scenario.approach.final_end_effector_poses.iter().flatten().enumerate();
+    let far = goals.filter_map(|(i, goal)| {
+        let (TipGoal::Position([x, y]) | TipGoal::Pose([_, x, y])) = goal else { return None };
+        let (distance, most) = distance_and_most(scenario, i, [*x, *y])?;
+        (distance > most).then(|| Oddity {
+            key: format!("approach.final_end_effector_poses[{i}]"),
+            why: format!(
+                "out of reach, {} m from where the robot's COM is at the end of the approach; no pose of {} brings its tip \
+                 further out than {} m",
+                short(distance),
+                arm_name(scenario, i),
+                short(most)
+            ),
+            help: "places are in m, in the inertial frame; the COM of robot and arms goes its way whatever they do".to_owned(),
+        })
+    });
+    far.collect()
+}
+
+fn arm_name(scenario: &Scenario, arm: usize) -> &str {
+    scenario.layout.arms.get(arm).map_or("this arm", |arm| arm.name.as_str())
 }
 
 fn slack(scenario: &Scenario) -> Option<Oddity> {

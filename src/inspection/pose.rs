@@ -39,7 +39,8 @@ pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
         return None; // it is designed by the run, which says the margin
     }
     let designed = matches!(scenario.approach.end, EndRates::EndEffectorTwists(_));
-    let captures = |i| designed || scenario.targets.iter().any(|target| target.arm == i);
+    let captures =
+        |i| designed || scenario.targets.iter().flat_map(|target| &target.touches).any(|touch| touch.arm == i);
     let arms = scenario.layout.arms.iter().enumerate();
     let arms: Vec<_> = arms.filter(|(i, arm)| captures(*i) && arm.links.len() >= 3 && arm.reach() > 0.0).collect();
     let (_, jacobian) = reduced(&scenario.layout, &scenario.approach.final_joint_angles)?;
@@ -75,6 +76,9 @@ fn singular(scenario: &Scenario) -> Option<Oddity> {
 
 fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
     let EndRates::EndEffectorTwists(twists) = &scenario.approach.end else { return None };
+    if matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. }) {
+        return None; // wishes are counted arm by arm when they are read
+    }
     let joints = scenario.layout.joints();
     (3 * twists.len() > joints).then(|| Oddity {
         key: "approach.final_end_effector_twists".to_owned(),
@@ -84,14 +88,15 @@ fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
     })
 }
 
-/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains; under PD
-/// control it is, at the initial or the final pose, that of
+/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains, and so
+/// does resolved motion rate control away from singular poses; under PD control it is, at the initial or the final pose, that of
 ///
 /// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I: the largest of the damping rates, eigenvalues of I⁻¹ Kd, and
 /// the natural frequencies, roots of those of I⁻¹ Kp.
 pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
     let (proportional_gain, derivative_gain) = match &scenario.approach.tracking {
         Tracking::Exact => return None,
+        Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } => return Some(pose_gain.max(*rate_gain)),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => (proportional_gain, derivative_gain),
         Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
             let largest = |gains: &[f64]| gains.iter().copied().fold(0.0, f64::max);

@@ -6,7 +6,7 @@ use super::pose::{FinalPose, fastest_mode, final_pose};
 use super::robot::{code, digest, freedom};
 use super::targets::of_contact;
 use crate::models;
-use crate::scenario::{Actuation, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
+use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -29,6 +29,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
     match &approach.final_end_effector_poses {
+        Some(goals) if by_tips(scenario) => writeln!(out, "  tips                to {}", wishes(goals))?,
         Some(goals) => writeln!(out, "  final angles        to be designed, for {}", wishes(goals))?,
         None => writeln!(out, "  largest turn        {}", turn(scenario))?,
     }
@@ -58,7 +59,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 fn steps(duration: f64, step: f64) -> String {
-    let steps = Timing { duration, step, sample: step }.steps();
+    let steps = Timing { duration, step, sample: step, ..Timing::default() }.steps();
     format!("{} s in {steps} steps of {} s", short(duration), short(step))
 }
 
@@ -78,6 +79,10 @@ fn start(scenario: &Scenario) -> String {
     }
 }
 
+fn by_tips(scenario: &Scenario) -> bool {
+    matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. })
+}
+
 fn trajectory(scenario: &Scenario) -> String {
     let shape = match scenario.approach.trajectory {
         TrajectoryKind::Quartic => "quartic",
@@ -93,7 +98,8 @@ fn trajectory(scenario: &Scenario) -> String {
             format!("tip twists {} rad/s, m/s", twists.join(", "))
         }
     };
-    format!("{shape}, to {end}")
+    let whose = if by_tips(scenario) { " of the tips" } else { "" };
+    format!("{shape}{whose}, to {end}")
 }
 
 fn wishes(goals: &[TipGoal]) -> String {
@@ -149,6 +155,12 @@ fn law(scenario: &Scenario) -> String {
         Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
             format!("computed torque, {} 1/s², {} 1/s", gains(proportional_gain), gains(derivative_gain))
         }
+        Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => format!(
+            "resolved motion rate, poses {} 1/s, rates {} 1/s, singular values damped below {} of the largest",
+            short(*pose_gain),
+            short(*rate_gain),
+            short(*singularity_threshold)
+        ),
         Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
             format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
@@ -174,15 +186,20 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
     let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
     write!(out, "\n{}", row(head))?;
     for target in &scenario.targets {
-        let arm = scenario.layout.arms.get(target.arm).map_or("", |arm| arm.name.as_str());
+        let names = target.touches.iter().filter_map(|touch| Some(scenario.layout.arms.get(touch.arm)?.name.as_str()));
+        let arm = names.collect::<Vec<_>>().join(", ");
+        let contact = match scenario.contact.detection {
+            Detection::Time => target.touches.iter().map(|touch| point(touch.contact)).collect::<Vec<_>>().join(", "),
+            Detection::Event => "detected".to_owned(),
+        };
         let reach = of_contact(scenario, target);
         let reach = reach.map(|(distance, most)| format!("{} of at most {}", short(distance), short(most)));
         out.write_str(&row([
             &target.name,
-            arm,
+            &arm,
             &short(target.mass),
             &short(target.inertia),
-            &point(target.contact),
+            &contact,
             &target.position.map(point).unwrap_or_default(),
             &reach.unwrap_or_default(),
         ]))?;

@@ -1,7 +1,7 @@
 //! The columns of a time series, once for every kind of file.
 
+use super::Row;
 use crate::scenario::Scenario;
-use crate::simulate::Sample;
 use crate::study::CaseResult;
 use std::fmt;
 
@@ -16,7 +16,7 @@ pub struct Column {
     pub unit: &'static str,
     /// What it belongs to: `state`, `tips`, `momentum` or `energy`.
     pub group: &'static str,
-    value: Box<dyn Fn(&Sample) -> f64>,
+    value: Box<dyn Fn(&Row<'_>) -> f64>,
 }
 
 impl Column {
@@ -28,8 +28,8 @@ impl Column {
 
     /// The quantity at one instant.
     #[must_use]
-    pub fn value(&self, sample: &Sample) -> f64 {
-        (self.value)(sample)
+    pub fn value(&self, row: &Row<'_>) -> f64 {
+        (self.value)(row)
     }
 }
 
@@ -49,25 +49,25 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     let mut list = List::default();
     let joints: Vec<String> =
         arms.iter().flat_map(|arm| (1..=arm.links.len()).map(|k| format!("{}_joint{k}", arm.name))).collect();
-    list.vector("state", "base", POSE, |sample| sample.motion.base_pose);
-    list.each("state", &joints, ("angle", "rad"), |sample| &sample.motion.joint_angles);
-    list.vector("state", "base", TWIST, |sample| sample.motion.base_twist);
-    list.each("state", &joints, ("rate", "rad/s"), |sample| &sample.motion.joint_rates);
-    list.each("state", &joints, ("torque", "N m"), |sample| &sample.joint_torques);
+    list.vector("state", "base", POSE, |row| row.sample.motion.base_pose);
+    list.each("state", &joints, ("angle", "rad"), |row| &row.sample.motion.joint_angles);
+    list.vector("state", "base", TWIST, |row| row.sample.motion.base_twist);
+    list.each("state", &joints, ("rate", "rad/s"), |row| &row.sample.motion.joint_rates);
+    list.each("state", &joints, ("torque", "N m"), |row| &row.sample.joint_torques);
     for (i, arm) in arms.iter().enumerate() {
-        list.vector("tips", &format!("{}_tip", arm.name), POSE, move |sample| sample.end_effector_poses[i]);
+        list.vector("tips", &format!("{}_tip", arm.name), POSE, move |row| row.sample.end_effector_poses[i]);
     }
     for (i, arm) in arms.iter().enumerate() {
-        list.vector("tips", &format!("{}_tip", arm.name), TWIST, move |sample| sample.end_effector_twists[i]);
+        list.vector("tips", &format!("{}_tip", arm.name), TWIST, move |row| row.sample.end_effector_twists[i]);
     }
-    list.vector("momentum", "linear_momentum", [("x", "N s"), ("y", "N s")], |sample| sample.linear_momentum);
-    list.one("momentum", "angular_momentum", "N m s", |sample| sample.angular_momentum);
-    list.one("energy", "kinetic_energy", "J", |sample| sample.kinetic_energy);
-    list.one("energy", "joint_work", "J", |sample| sample.work);
+    list.vector("momentum", "linear_momentum", [("x", "N s"), ("y", "N s")], |row| row.sample.linear_momentum);
+    list.one("momentum", "angular_momentum", "N m s", |row| row.sample.angular_momentum);
+    list.one("energy", "kinetic_energy", "J", |row| row.sample.kinetic_energy);
+    list.one("energy", "joint_work", "J", |row| row.sample.work);
     if has_base_torque(case) {
-        list.one("state", "base_torque", "N m", |sample| sample.base_torque.unwrap_or_default());
-        list.one("energy", "base_work", "J", |sample| sample.base_work);
-        list.one("momentum", "base_impulse", "N m s", |sample| sample.base_impulse);
+        list.one("state", "base_torque", "N m", |row| row.sample.base_torque.unwrap_or_default());
+        list.one("energy", "base_work", "J", |row| row.sample.base_work);
+        list.one("momentum", "base_impulse", "N m s", |row| row.sample.base_impulse);
     }
     list.0
 }
@@ -81,7 +81,7 @@ fn has_base_torque(case: &CaseResult) -> bool {
 struct List(Vec<Column>);
 
 impl List {
-    fn one(&mut self, group: &'static str, name: &str, unit: &'static str, value: impl Fn(&Sample) -> f64 + 'static) {
+    fn one(&mut self, group: &'static str, name: &str, unit: &'static str, value: impl Fn(&Row<'_>) -> f64 + 'static) {
         self.0.push(Column { name: name.to_owned(), unit, group, value: Box::new(value) });
     }
 
@@ -91,10 +91,10 @@ impl List {
         group: &'static str,
         owner: &str,
         parts: [(&str, &'static str); N],
-        value: impl Fn(&Sample) -> [f64; N] + Copy + 'static,
+        value: impl Fn(&Row<'_>) -> [f64; N] + Copy + 'static,
     ) {
         for (i, (part, unit)) in parts.into_iter().enumerate() {
-            self.one(group, &format!("{owner}_{part}"), unit, move |sample| value(sample)[i]);
+            self.one(group, &format!("{owner}_{part}"), unit, move |row| value(row)[i]);
         }
     }
 
@@ -104,10 +104,10 @@ impl List {
         group: &'static str,
         owners: &[String],
         (part, unit): (&str, &'static str),
-        values: impl Fn(&Sample) -> &[f64] + Copy + 'static,
+        values: impl for<'a> Fn(&'a Row<'_>) -> &'a [f64] + Copy + 'static,
     ) {
         for (i, owner) in owners.iter().enumerate() {
-            self.one(group, &format!("{owner}_{part}"), unit, move |sample| values(sample)[i]);
+            self.one(group, &format!("{owner}_{part}"), unit, move |row| values(row)[i]);
         }
     }
 }

@@ -16,7 +16,7 @@ pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl
     let names = ["time [s]".to_owned(), "phase".to_owned()];
     csv.write_record(names.into_iter().chain(columns.iter().map(Column::heading)))?;
     for row in rows(study, case) {
-        let values = columns.iter().map(|column| number(column.value(row.sample)));
+        let values = columns.iter().map(|column| number(column.value(&row)));
         csv.write_record([number(row.time), row.phase.to_owned()].into_iter().chain(values))?;
     }
     csv.flush()

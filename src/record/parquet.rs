@@ -66,7 +66,7 @@ fn arrays(columns: &[Column], rows: &[Row<'_>]) -> Vec<ArrayRef> {
     };
     let phases: DictionaryArray<Int8Type> = rows.iter().map(|row| row.phase).collect();
     let mut arrays: Vec<ArrayRef> = vec![numbers(&|row| row.time), Arc::new(phases)];
-    arrays.extend(columns.iter().map(|column| numbers(&|row| column.value(row.sample))));
+    arrays.extend(columns.iter().map(|column| numbers(&|row| column.value(row))));
     arrays
 }
 

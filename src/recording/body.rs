@@ -3,6 +3,7 @@
 use super::frames;
 use crate::layout::{Layout, Link};
 use crate::scenario::Scenario;
+use crate::surface::Surface;
 use std::f64::consts::TAU;
 
 /// A body's frame, in which it does not move, and its look.
@@ -16,10 +17,10 @@ pub(super) struct Body {
 }
 
 /// A body seen along the plane's normal; m.
-#[derive(Clone, Copy)]
 pub(super) enum Shape {
     Rectangle { centre: [f64; 2], size: [f64; 2] },
     Disc { radius: f64 },
+    Polygon { corners: Vec<[f64; 2]> },
 }
 
 /// Okabe and Ito's, which colour-blind readers tell apart; the same as in the report.
@@ -52,7 +53,10 @@ pub(super) fn bodies(scenario: &Scenario) -> Vec<Body> {
     });
     let targets = scenario.targets.iter().map(|target| Body {
         frame: frames::target(target),
-        shape: Shape::Disc { radius: target.radius },
+        shape: match &target.surface {
+            Surface::Disc { radius } => Shape::Disc { radius: *radius },
+            Surface::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
+        },
         colour: colour(TARGET, 0.5),
         thickness: width,
     });
@@ -90,7 +94,7 @@ fn shape(link: &Link, width: f64) -> Shape {
 impl Shape {
     /// Lines that show place and direction: the edge, and a spoke from the frame's origin along its x axis.
     pub(super) fn lines(&self) -> [Vec<[f64; 2]>; 2] {
-        match *self {
+        match self {
             Self::Rectangle { centre: [x, y], size: [length, width] } => {
                 let corner = |a: f64, b: f64| [x + a * length / 2.0, y + b * width / 2.0];
                 let edge = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
@@ -98,7 +102,12 @@ impl Shape {
             }
             Self::Disc { radius } => {
                 let at = |angle: f64| [radius * angle.cos(), radius * angle.sin()];
-                [(0..=48).map(|i| at(TAU * f64::from(i) / 48.0)).collect(), vec![[0.0; 2], [radius, 0.0]]]
+                [(0..=48).map(|i| at(TAU * f64::from(i) / 48.0)).collect(), vec![[0.0; 2], [*radius, 0.0]]]
+            }
+            Self::Polygon { corners } => {
+                let reach = corners.iter().fold(0.0, |most: f64, [x, _]| most.max(*x));
+                let edge = corners.iter().chain(corners.first()).copied();
+                [edge.collect(), vec![[0.0; 2], [reach, 0.0]]]
             }
         }
     }

@@ -6,8 +6,7 @@
 use super::channel::timestamp;
 use crate::layout::Arm;
 use crate::record::Row;
-use crate::scenario::{Case, Scenario, Target};
-use crate::study::Study;
+use crate::scenario::{Scenario, Target};
 use foxglove::messages::{FrameTransform, FrameTransforms, Quaternion, Vector3};
 
 pub(super) const WORLD: &str = "world";
@@ -27,43 +26,8 @@ pub(super) fn target(target: &Target) -> String {
     format!("targets/{}", target.name)
 }
 
-/// Where and when the targets are taken hold of.
-pub(super) struct Contact<'a> {
-    time: f64,
-    /// [yaw, x, y] of each tip then; rad, m.
-    pub(super) tips: &'a [[f64; 3]],
-    /// [ω, vx, vy] of each target until then; rad/s, m/s.
-    twists: &'a [[f64; 3]],
-}
-
-impl<'a> Contact<'a> {
-    /// The end of the approach.
-    pub(super) fn of(scenario: &Scenario, case: &'a Case, study: &'a Study) -> Self {
-        debug_assert_eq!(scenario.targets.len(), case.target_twists.len());
-        let tips = study.approach.end().map_or(&[][..], |end| &end.end_effector_poses);
-        Self { time: study.approach.duration, tips, twists: &case.target_twists }
-    }
-}
-
-/// Pose [yaw, x, y] of a target's COM, its yaw counted from the contact; `None` where it is not known.
-///
-/// It flies freely until the tip takes hold of it, then goes with the tip, as if welded to it.
-fn target_pose(contact: &Contact<'_>, index: usize, target: &Target, row: &Row<'_>) -> Option<[f64; 3]> {
-    let [yaw, x, y] = *contact.tips.get(target.arm)?;
-    let [rx, ry] = target.contact;
-    if row.phase == "approach" {
-        let [omega, vx, vy] = *contact.twists.get(index)?;
-        let ahead = contact.time - row.time;
-        return Some([-omega * ahead, x - rx - vx * ahead, y - ry - vy * ahead]);
-    }
-    let [now, x, y] = *row.sample.end_effector_poses.get(target.arm)?;
-    let turned = now - yaw;
-    let (sin, cos) = turned.sin_cos();
-    Some([turned, x - (cos * rx - sin * ry), y - (sin * rx + cos * ry)])
-}
-
 /// Where every frame is at one instant.
-pub(super) fn transforms(scenario: &Scenario, contact: &Contact<'_>, row: &Row<'_>) -> FrameTransforms {
+pub(super) fn transforms(scenario: &Scenario, row: &Row<'_>) -> FrameTransforms {
     let motion = &row.sample.motion;
     let mut list = vec![transform(row.time, WORLD, BASE.to_owned(), motion.base_pose)];
     let mut joint_angles = motion.joint_angles.iter();
@@ -79,10 +43,8 @@ pub(super) fn transforms(scenario: &Scenario, contact: &Contact<'_>, row: &Row<'
         }
         list.push(transform(row.time, &parent, tip(arm), [direction, x, y]));
     }
-    for (i, captured) in scenario.targets.iter().enumerate() {
-        if let Some(pose) = target_pose(contact, i, captured, row) {
-            list.push(transform(row.time, WORLD, target(captured), pose));
-        }
+    for (captured, body) in scenario.targets.iter().zip(&row.targets) {
+        list.push(transform(row.time, WORLD, target(captured), body.pose));
     }
     FrameTransforms { transforms: list }
 }

@@ -27,7 +27,6 @@ use crate::scenario::Scenario;
 use crate::study::{CaseResult, Study};
 use channel::Recording;
 use foxglove::messages::{Log, log::Level};
-use frames::Contact;
 use impact::Impact;
 use scalars::Scalars;
 use std::io::{self, Write};
@@ -35,15 +34,10 @@ use std::io::{self, Write};
 /// Writes one case as MCAP.
 ///
 /// # Errors
-/// What the writer says; `InvalidInput` where the scenario has no case of that name.
+/// What the writer says.
 pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut to: impl Write) -> io::Result<()> {
-    let Some(case) = scenario.cases.iter().find(|case| case.name == result.name) else {
-        let message = format!("the scenario has no case `{}`", result.name);
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
-    };
     let mut recording = Recording::new()?;
     recording.metadata("planar_capture", provenance(scenario, result))?;
-    let contact = Contact::of(scenario, case, study);
     let bodies = body::bodies(scenario);
     let scene = recording.channel("/scene")?;
     recording.log(scene, 0.0, &scene::solids(&bodies))?;
@@ -59,10 +53,10 @@ pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut t
             phase = row.phase;
             recording.log(log, row.time, &begins(&row))?;
             if let (Some(captured), "post_impact") = (&result.capture, phase) {
-                Impact { scenario, captured, tips: contact.tips }.write(&mut recording, row.time)?;
+                Impact { scenario, captured, tips: &row.sample.end_effector_poses }.write(&mut recording, row.time)?;
             }
         }
-        recording.log(transforms, row.time, &frames::transforms(scenario, &contact, &row))?;
+        recording.log(transforms, row.time, &frames::transforms(scenario, &row))?;
         for series in &mut series {
             series.log(&mut recording, &row)?;
         }
@@ -78,7 +72,7 @@ struct Series {
 
 impl Series {
     fn log(&mut self, recording: &mut Recording, row: &Row<'_>) -> io::Result<()> {
-        let values = self.columns.iter().map(|column| column.value(row.sample));
+        let values = self.columns.iter().map(|column| column.value(row));
         self.scalars.log(recording, row.time, values)
     }
 }

@@ -5,7 +5,8 @@ use super::channel::timestamp;
 use super::frames::about_z;
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{
-    Color, CubePrimitive, CylinderPrimitive, LinePrimitive, Point3, Pose, Quaternion, SceneEntity, SceneUpdate, Vector3,
+    Color, CubePrimitive, CylinderPrimitive, LinePrimitive, Point3, Pose, Quaternion, SceneEntity, SceneUpdate,
+    TriangleListPrimitive, Vector3,
 };
 
 /// Every body once, fixed in its frame, which carries it along.
@@ -23,9 +24,9 @@ fn solid(body: &Body) -> SceneEntity {
         ..SceneEntity::default()
     };
     let color = Some(color(body.colour));
-    match body.shape {
+    match &body.shape {
         Shape::Rectangle { centre: [x, y], size } => entity.cubes.push(CubePrimitive {
-            pose: Some(pose([0.0, x, y])),
+            pose: Some(pose([0.0, *x, *y])),
             size: Some(Vector3 { x: size[0], y: size[1], z: body.thickness }),
             color,
         }),
@@ -36,8 +37,25 @@ fn solid(body: &Body) -> SceneEntity {
             top_scale: 1.0,
             color,
         }),
+        Shape::Polygon { corners } => entity.triangles.push(TriangleListPrimitive {
+            pose: Some(pose([0.0; 3])),
+            points: walls(corners, body.thickness / 2.0),
+            color,
+            ..TriangleListPrimitive::default()
+        }),
     }
     entity
+}
+
+/// A wall on each edge of a polygon, two triangles each; without faces, which need not be convex.
+fn walls(corners: &[[f64; 2]], height: f64) -> Vec<Point3> {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let wall = |(from, to): (&[f64; 2], &[f64; 2])| {
+        let corner = |[x, y]: &[f64; 2], z: f64| Point3 { x: *x, y: *y, z };
+        let [a, b, c, d] = [corner(from, -height), corner(to, -height), corner(to, height), corner(from, height)];
+        [a, b, c, a, c, d]
+    };
+    edges.flat_map(wall).collect()
 }
 
 /// A line on the body's upper face, two pixels wide.

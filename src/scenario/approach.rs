@@ -1,7 +1,9 @@
 //! The `[approach]` table: how the arms move to the targets.
 
 use super::actuation::Actuation;
+use super::integration::Integration;
 use super::joints::{Joints, check_length};
+use super::resolved;
 use super::{JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
@@ -22,7 +24,7 @@ pub struct Approach {
     /// The shape of the joint trajectories.
     pub trajectory: TrajectoryKind,
     /// Joint angles wanted at the end, arm by arm, in rad. Where tip poses are wanted, the first guess of the angles that
-    /// give them, by default the initial ones.
+    /// give them, by default the initial ones; for resolved motion rate control these, which it does not look at.
     pub final_joint_angles: Vec<f64>,
     /// What is wanted of the tips at the end, one per arm; `None` where joint angles are given.
     pub final_end_effector_poses: Option<Vec<TipGoal>>,
@@ -32,6 +34,8 @@ pub struct Approach {
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
     pub actuation: Actuation,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
 }
 
 /// Where a tip should be at the end of an approach, inertial frame.
@@ -83,6 +87,16 @@ pub enum Tracking {
         /// Kd for each joint in N m s/rad, 0 or more; default 14.
         derivative_gain: Vec<f64>,
     },
+    /// The tips follow straight paths to `final_end_effector_poses`, by feedback of their poses; see
+    /// [`ResolvedMotionRate`](crate::control::ResolvedMotionRate).
+    ResolvedMotionRate {
+        /// K in 1/s, greater than 0; default 2.
+        pose_gain: f64,
+        /// k in 1/s, greater than 0; default 10.
+        rate_gain: f64,
+        /// Singular values below this part of the largest are damped, 0 to 1; default 0.04.
+        singularity_threshold: f64,
+    },
     /// τ = I (θ̈d + Kd (θ̇d − θ̇) + Kp (θd − θ)) + c, by inverse dynamics of the measured state.
     ComputedTorque {
         /// Kp for each joint in 1/s², 0 or more; default 49.
@@ -93,7 +107,7 @@ pub enum Tracking {
 }
 
 impl Approach {
-    pub(super) const KEYS: [&'static str; 12] = [
+    pub(super) const KEYS: [&'static str; 18] = [
         "duration",
         "step",
         "trajectory",
@@ -104,12 +118,22 @@ impl Approach {
         "tracking",
         "proportional_gain",
         "derivative_gain",
+        resolved::KEYS[0],
+        resolved::KEYS[1],
+        resolved::KEYS[2],
         Actuation::KEYS[0],
         Actuation::KEYS[1],
+        Integration::KEYS[0],
+        Integration::KEYS[1],
+        Integration::KEYS[2],
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
+        if Law::of(table) == Some(Law::Tips) {
+            return resolved::approach(table, joints, initial);
+        }
         let times = duration_and_step(table);
+        resolved::reject_gains(table);
         let trajectory = table
             .require("trajectory", "`quartic`, `quartic_as_printed`, `cycloidal` or `quintic`")
             .and_then(|value| value.choice(&TrajectoryKind::CHOICES));
@@ -135,6 +159,7 @@ impl Approach {
             }
             _ => Actuation::from_table(table, times, joints),
         };
+        let integration = Integration::from_table(table);
         let (duration, step) = times?;
         Some(Self {
             duration,
@@ -145,6 +170,7 @@ impl Approach {
             end: end?,
             tracking: tracking?,
             actuation: actuation?,
+            integration: integration?,
         })
     }
 }
@@ -164,7 +190,7 @@ impl EndRates {
         let [rates, twists] = NAMES.map(|key| table.get(key));
         let end = match (&rates, &twists) {
             (Some(rates), _) => joints.numbers(rates, &JOINT_RATE).map(Self::JointRates),
-            (None, Some(twists)) => end_effector_twists(twists, joints),
+            (None, Some(twists)) => end_effector_twists(twists, joints).map(Self::EndEffectorTwists),
             (None, None) => None,
         };
         match (trajectory?, rates, twists) {
@@ -191,7 +217,7 @@ impl EndRates {
     }
 }
 
-fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {
+pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {
     const WANTED: &str = "one [yaw, x, y] or [x, y] per arm in rad, m, m, or [] for an arm that may end anywhere";
     let arms = joints.layout.map(|layout| &layout.arms);
     let items = value.items(WANTED)?;
@@ -223,7 +249,7 @@ fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {
     Some(goals)
 }
 
-fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<EndRates> {
+pub(super) fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<[f64; 3]>> {
     let arms = joints.layout.map(|layout| &layout.arms);
     let wanted = match arms {
         Some(arms) => {
@@ -234,18 +260,17 @@ fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<EndRate
     };
     let items = value.items(&wanted)?;
     check_length(value, items.len(), arms.map(Vec::len), &wanted)?;
-    every(items.iter().map(|item| item.vector(&TWIST))).map(EndRates::EndEffectorTwists)
+    every(items.iter().map(|item| item.vector(&TWIST)))
 }
 
 impl Tracking {
     fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
         let law = match table.get("tracking") {
-            Some(value) => {
-                value.choice(&[("pd", Law::Torques), ("exact", Law::Exact), ("computed_torque", Law::Accelerations)])?
-            }
+            Some(value) => value.choice(&Law::CHOICES)?,
             None => Law::Torques,
         };
         let [error, rate] = match law {
+            Law::Tips => return None, // read by `resolved`
             Law::Torques => [&PROPORTIONAL_GAIN, &DERIVATIVE_GAIN],
             Law::Accelerations => [&ERROR_GAIN, &RATE_GAIN],
             Law::Exact => {
@@ -262,15 +287,33 @@ impl Tracking {
         let (proportional_gain, derivative_gain) = (proportional_gain?, derivative_gain?);
         Some(match law {
             Law::Accelerations => Self::ComputedTorque { proportional_gain, derivative_gain },
-            Law::Torques | Law::Exact => Self::ProportionalDerivative { proportional_gain, derivative_gain },
+            Law::Torques | Law::Exact | Law::Tips => {
+                Self::ProportionalDerivative { proportional_gain, derivative_gain }
+            }
         })
     }
 }
 
 /// What the gains of a law make of an error.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Law {
     Torques,
     Accelerations,
     Exact,
+    Tips,
+}
+
+impl Law {
+    const CHOICES: [(&'static str, Self); 4] = [
+        ("pd", Self::Torques),
+        ("exact", Self::Exact),
+        ("computed_torque", Self::Accelerations),
+        ("resolved_motion_rate", Self::Tips),
+    ];
+
+    /// What the table names; `None` where that is nothing, or no law.
+    fn of(table: &Table<'_>) -> Option<Self> {
+        let value = table.get("tracking")?;
+        Self::CHOICES.iter().find(|(name, _)| value.as_str() == Some(name)).map(|(_, law)| *law)
+    }
 }

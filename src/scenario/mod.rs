@@ -3,16 +3,24 @@
 mod actuation;
 mod approach;
 mod capture;
+mod case;
+mod contact;
+mod integration;
 mod joints;
 mod post_impact;
+mod resolved;
+mod target;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
-pub use capture::{Case, Target};
+pub use case::Case;
+pub use contact::{ContactRules, Detection};
+pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
+pub use target::{Target, Touch, TouchKind};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
@@ -51,6 +59,8 @@ pub struct Scenario {
     pub approach: Approach,
     /// What the arms capture, at most one target per arm; empty for an approach alone.
     pub targets: Vec<Target>,
+    /// How contacts come about.
+    pub contact: ContactRules,
     /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
     pub cases: Vec<Case>,
     /// The motion after the impact; given if and only if there are targets.
@@ -109,7 +119,7 @@ impl Scenario {
         folder: &Path,
         shipped: &[(&str, &str)],
     ) -> Result<(Self, LayoutSource), Report> {
-        const KEYS: [&str; 7] = ["name", "layout", "initial", "approach", "target", "case", "post_impact"];
+        const KEYS: [&str; 8] = ["name", "layout", "initial", "approach", "target", "contact", "case", "post_impact"];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
             let (layout, source) =
@@ -129,13 +139,14 @@ impl Scenario {
             }
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
 
-            let (targets, cases, post_impact) = capture?;
+            let capture::Capture { targets, contact, cases, post_impact } = capture?;
             let scenario = Self {
                 name: name?,
                 layout: layout?,
                 initial: initial?,
                 approach: approach?,
                 targets,
+                contact,
                 cases,
                 post_impact,
             };

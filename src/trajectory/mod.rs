@@ -1,12 +1,14 @@
-//! Joint trajectories of the approach: from the initial angles to the final ones.
+//! Joint trajectories of the approach, from the initial angles to the final ones, and paths of the tips.
 //!
 //! Outside 0 ≤ t ≤ duration a trajectory stays at the nearer end.
 
 mod quintic;
 mod standing;
+mod tip_path;
 
 pub use quintic::{Quintic, quintic};
 pub use standing::Standing;
+pub use tip_path::{DesiredTip, TipPath};
 
 use crate::scalar::{Real, Scalar};
 

@@ -191,6 +191,23 @@ fn odd_scenarios() {
     }
 }
 
+/// Tips that are to be where no pose brings them, whichever law takes them there.
+#[test]
+fn tip_poses_out_of_reach() {
+    let end = "final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]";
+    let steer = |x: &str| {
+        let goals = format!("tracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[{x}, -1.0], [], []]");
+        SCENARIO.replace("\"quartic\"", "\"quintic\"").replace(end, &goals)
+    };
+    assert_eq!(look(&steer("1.8")).warnings.to_string(), "");
+    let wanted = ["`approach.final_end_effector_poses[0]` is [4.8, -1.0]", "out of reach, 4.827 m", "no pose of left"];
+    one_warning(&steer("4.8"), 9, &wanted);
+    let designed = SCENARIO.replace("trajectory", "final_end_effector_poses = [[4.8, -1.0], [], []]\ntrajectory");
+    one_warning(&designed, 7, &wanted);
+    let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
+    one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
+}
+
 /// A solid rod, a dumbbell with all its mass at its ends, and every wheel are bodies that there are.
 #[test]
 fn the_bound_on_inertias_is_that_of_bodies() {

@@ -5,7 +5,8 @@
 #![forbid(unsafe_code)]
 
 use planar_capture::control::{
-    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, Sampled, Stabilise,
+    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, ResolvedMotionRate, Sampled, Stabilise,
+    TipWorkspace,
 };
 use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
 use planar_capture::error::Error;
@@ -15,7 +16,7 @@ use planar_capture::integrate::RungeKutta4;
 use planar_capture::motion::derivative;
 use planar_capture::state::{State, vector_length};
 use planar_capture::target::Target;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic};
+use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};
 
 const LENGTH: usize = vector_length(JOINTS);
 const ARMS: usize = 2;
@@ -94,6 +95,43 @@ pub fn computed_step(
     sampled.begin_step(time, model, &state)?;
     step(model, &mut sampled, time, x)?;
     Ok(saturated)
+}
+
+/// One step with the tips on their paths; returns the singularity margin.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn steered_step(
+    model: &Model<f32>,
+    path: TipPath<'_, f32>,
+    time: f32,
+    x: &mut [f32; LENGTH],
+) -> Result<Option<f32>, Error> {
+    let mut law = ResolvedMotionRate {
+        path,
+        wanted: &[[true; 3]; ARMS],
+        held: &[false; JOINTS],
+        reach: &[3.0; ARMS],
+        pose_gain: 2.0,
+        rate_gain: 10.0,
+        error_limit: 0.05,
+        singularity_threshold: 0.04,
+        singularity_margin: None,
+        workspace: TipWorkspace {
+            generalized_inertia: &mut [0.0; JOINTS * JOINTS],
+            generalized_bias: &mut [0.0; JOINTS],
+            generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+            end_effector_jacobian: &mut [0.0; 3 * ARMS * SIZE],
+            end_effector_poses: &mut [[0.0; 3]; ARMS],
+            end_effector_twists: &mut [[0.0; 3]; ARMS],
+            rows: &mut [0.0; 3 * ARMS * JOINTS],
+            right: &mut [0.0; 3 * ARMS],
+            joint_accelerations: &mut [0.0; JOINTS],
+        },
+    };
+    step(model, &mut law, time, x)?;
+    Ok(law.singularity_margin)
 }
 
 /// One step of coming to rest, by joints and thrusters on the base.

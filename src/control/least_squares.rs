@@ -1,0 +1,117 @@
+//! Damped least squares by singular values, without allocation.
+
+use crate::scalar::{Real, Scalar};
+
+/// More than orthogonalisation ever takes: it converges quadratically, in six to ten sweeps.
+const MOST_SWEEPS: u32 = 30;
+
+/// Makes the rows of A (each `columns` long) orthogonal by rotations Q that are applied to b (`right`, one per row) too, so
+/// that `Q A = Σ Vᵀ`; then fills `solution` (columns) with the damped least-squares solution of `A x = b`,
+///
+/// ```text
+/// x = Σᵢ vᵢ (Q b)ᵢ σᵢ / (σᵢ² + λᵢ²),   λᵢ² = (threshold σ_max)² − σᵢ² where that is positive, otherwise 0
+/// ```
+///
+/// which is the shortest solution where no singular value is below `threshold` (0 to 1) times the largest, and at most |b|
+/// over that bound in any case. Returns the smallest singular value over the largest; 0 where A is.
+///
+/// One-sided Jacobi rotations (M. R. Hestenes, *Inversion of matrices by biorthogonalization and related results*, 1958): no
+/// squares of the matrix are formed, so that small singular values keep their digits in `f32` too. The damping that begins
+/// at a threshold is Y. Nakamura's and H. Hanafusa's (*Inverse kinematic solutions with singularity robustness*, 1986), for
+/// each singular direction alone.
+pub(super) fn solve<T: Real>(rows: &mut [T], right: &mut [T], columns: usize, threshold: T, solution: &mut [T]) -> T {
+    let columns = columns.max(1);
+    for _ in 0..MOST_SWEEPS {
+        if !sweep(rows, right, columns) {
+            break;
+        }
+    }
+    let size = |row: &[T]| row.iter().fold(T::ZERO, |sum, entry| sum + *entry * *entry);
+    let sizes = || rows.chunks_exact(columns).map(size);
+    let largest = sizes().fold(T::ZERO, |most, size| if size > most { size } else { most });
+    let smallest = sizes().fold(largest, |least, size| if size < least { size } else { least });
+    solution.fill(T::ZERO);
+    let floor = threshold * threshold * largest;
+    if largest == T::ZERO {
+        return T::ZERO;
+    }
+    for (row, right) in rows.chunks_exact(columns).zip(right.iter()) {
+        let size = size(row);
+        let bounded = if size > floor { size } else { floor };
+        if bounded > T::ZERO {
+            let part = *right / bounded;
+            for (place, entry) in solution.iter_mut().zip(row) {
+                *place += *entry * part;
+            }
+        }
+    }
+    Scalar::sqrt(smallest / largest)
+}
+
+/// Rotates every pair of rows into orthogonality once; says whether there was anything to do.
+fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
+    let mut changed = false;
+    for i in 0..right.len() {
+        let Some((before, rest)) = rows.split_at_mut_checked((i + 1) * columns) else { return changed };
+        let Some((_, first)) = before.split_at_mut_checked(i * columns) else { return changed };
+        let Some((b_before, b_rest)) = right.split_at_mut_checked(i + 1) else { return changed };
+        let Some(b_first) = b_before.last_mut() else { return changed };
+        for (second, b_second) in rest.chunks_exact_mut(columns.max(1)).zip(b_rest) {
+            let (mut alpha, mut beta, mut gamma) = (T::ZERO, T::ZERO, T::ZERO);
+            for (a, b) in first.iter().zip(second.iter()) {
+                alpha += *a * *a;
+                beta += *b * *b;
+                gamma += *a * *b;
+            }
+            if !(gamma.abs() > T::EPSILON * Scalar::sqrt(alpha * beta)) {
+                continue;
+            }
+            changed = true;
+            let zeta = (beta - alpha) / (gamma + gamma);
+            let tangent = T::ONE / (zeta.abs() + Scalar::sqrt(T::ONE + zeta * zeta));
+            let tangent = if zeta < T::ZERO { -tangent } else { tangent };
+            let cosine = T::ONE / Scalar::sqrt(T::ONE + tangent * tangent);
+            let sine = cosine * tangent;
+            let pairs = first.iter_mut().zip(second.iter_mut());
+            for (a, b) in pairs.chain(core::iter::once((&mut *b_first, b_second))) {
+                (*a, *b) = (cosine * *a - sine * *b, sine * *a + cosine * *b);
+            }
+        }
+    }
+    changed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::solve;
+
+    const A: [f64; 8] = [1.0, 2.0, 3.0, 4.0, -2.0, 0.5, 1.0, -1.0];
+
+    /// Against the normal equations, by hand: x = Aᵀ (A Aᵀ)⁻¹ b.
+    #[test]
+    fn the_shortest_solution() {
+        let (mut a, mut b, mut x) = (A, [3.0, -1.0], [0.0_f64; 4]);
+        let margin = solve(&mut a, &mut b, 4, 0.02, &mut x);
+        // A Aᵀ = [[30, −2], [−2, 6.25]], inverse times b = (3, −1)
+        let determinant: f64 = 30.0 * 6.25 - 4.0;
+        let y = [(6.25 * 3.0 - 2.0) / determinant, (2.0 * 3.0 - 30.0) / determinant];
+        for (column, x) in x.iter().enumerate() {
+            assert!((x - (A[column] * y[0] + A[4 + column] * y[1])).abs() < 1e-15, "{x}");
+        }
+        let (half, root) = (36.25 / 2.0, (36.25_f64 * 36.25 / 4.0 - determinant).sqrt());
+        assert!((margin - ((half - root) / (half + root)).sqrt()).abs() < 1e-15, "{margin}");
+    }
+
+    /// Rows that are nearly the same: what only their difference can give is held back, the rest is not.
+    #[test]
+    fn a_singular_direction_is_damped_alone() {
+        let small = 1e-4;
+        let (mut a, mut b, mut x) = ([1.0, 0.0, 1.0, small], [1.0, 1.0 + small], [0.0_f64; 2]);
+        let margin = solve(&mut a, &mut b, 2, 0.1, &mut x);
+        assert!((margin - small / 2.0).abs() < 1e-8, "{margin}");
+        // undamped it is (1, 1): along the small singular vector, (0, 1) nearly, σ²/(0.1 σ_max)² = 0.0025² of it is left
+        assert!((x[0] - 1.0).abs() < 1e-4 && x[1].abs() < 1e-4, "{x:?}");
+        assert_eq!(solve(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x), 0.0);
+        assert_eq!(x, [0.0; 2]);
+    }
+}
