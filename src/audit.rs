@@ -15,6 +15,17 @@ pub struct Drift {
     pub energy_error: f64,
 }
 
+impl Drift {
+    /// The worse of both, number by number.
+    #[must_use]
+    pub fn worse(&self, other: &Self) -> Self {
+        Self {
+            momentum_drift: self.momentum_drift.max(other.momentum_drift),
+            energy_error: self.energy_error.max(other.energy_error),
+        }
+    }
+}
+
 /// What was done to the robot since the start of a phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Done {

@@ -95,6 +95,8 @@ pub mod capture;
 #[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]
+mod course;
+#[cfg(feature = "std")]
 pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;

@@ -22,14 +22,24 @@ fn is_wheel(arm: &Arm) -> bool {
     matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
-/// Runs robot and targets from `start` on, for a time or up to an event; `wheels` as [`wheels`] says.
+/// What a scenario wants after an impact, for what its tips hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Settle<'a> {
+    /// The law.
+    pub after: &'a PostImpact,
+    /// Which joints turn wheels, see [`wheels`].
+    pub wheels: &'a [bool],
+    /// The joint angles of the capture, rad, which some laws hold.
+    pub angles: &'a [f64],
+}
+
+/// Runs robot and targets from `start` on, for a time or up to an event.
 ///
 /// # Errors
 /// When and why it stopped.
 pub fn settle(
     system: &System<'_>,
-    after: &PostImpact,
-    wheels: &[bool],
+    Settle { after, wheels, angles }: Settle<'_>,
     start: &Motion,
     timing: &Timing,
     events: &mut dyn Events,
@@ -39,7 +49,7 @@ pub fn settle(
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     let (mut held, mut damped, mut stabilised);
-    let standing = Standing { angles: &start.joint_angles };
+    let standing = Standing { angles };
     let no_stiffness = vec![0.0; model.joints()];
     let law: &mut dyn Control<f64> = match &after.control {
         Settling::None => &mut Free,

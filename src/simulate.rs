@@ -147,6 +147,30 @@ impl Phase {
     pub fn end(&self) -> Option<&Sample> {
         self.samples.last()
     }
+
+    /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
+    #[must_use]
+    pub fn then(mut self, next: Self) -> Self {
+        let (work, base_work, base_impulse) =
+            self.end().map_or((0.0, 0.0, 0.0), |end| (end.work, end.base_work, end.base_impulse));
+        self.samples.extend(next.samples.into_iter().map(|sample| Sample {
+            time: self.duration + sample.time,
+            work: work + sample.work,
+            base_work: base_work + sample.base_work,
+            base_impulse: base_impulse + sample.base_impulse,
+            ..sample
+        }));
+        let joints = self.saturation.joints.iter_mut().zip(next.saturation.joints);
+        joints.for_each(|(sum, part)| *sum += part);
+        self.saturation.base += next.saturation.base;
+        Self {
+            event: next.event.map(|(event, time)| (event, self.duration + time)),
+            duration: self.duration + next.duration,
+            drift: self.drift.worse(&next.drift),
+            constraint_errors: std::array::from_fn(|i| self.constraint_errors[i].max(next.constraint_errors[i])),
+            ..self
+        }
+    }
 }
 
 /// Why a phase stopped, and when.

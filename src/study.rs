@@ -1,19 +1,15 @@
 //! A scenario from approach to post-impact: one approach, then an impact and what follows for every case.
 
 use crate::approach::Approach;
-use crate::assembly::{Assembly, Grip};
-use crate::capture::{Capture, capture};
-use crate::contact::Kind;
+use crate::capture::{Capture, ImpactResult};
+use crate::course::Course;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
-use crate::event::NoEvents;
-use crate::meeting::{Touching, in_time};
 use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling, Tracking};
-use crate::settle::{settle, wheels};
-use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
+use crate::scenario::{Detection, EndRates, Scenario, Tracking};
+use crate::simulate::{Phase, Stopped};
 use crate::system::Body;
 
 /// Largest momentum drift of a phase that passes the audit.
@@ -23,6 +19,9 @@ pub const ENERGY_BOUND: f64 = 1e-6;
 
 /// Largest opening of what is held that passes the audit, rad or m, and its rate.
 pub const CONSTRAINT_BOUND: f64 = 1e-10;
+
+/// Deepest that a tip may be inside a target that it does not hold, m.
+pub const PENETRATION_BOUND: f64 = 1e-6;
 
 /// Makes a model of the robot, in its state before any capture.
 pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn Model<f64>>;
@@ -51,8 +50,32 @@ pub struct CaseResult {
     pub approach: Option<Phase>,
     /// The targets at the end of the approach, before they are touched.
     pub targets: Vec<Body>,
-    /// Impact and what follows; `None` where there is nothing to capture.
+    /// Tips and targets that were to meet and did not, where contacts are found by detection.
+    pub closest: Vec<Closest>,
+    /// Impact and what follows; `None` where there is nothing to capture, or no tip met its target.
     pub capture: Option<Captured>,
+}
+
+/// An impact in the course of the motion after another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Further {
+    /// Since the first impact, s.
+    pub time: f64,
+    /// The impact.
+    pub impact: Capture,
+}
+
+/// How near a tip came to a target that it never touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// From its outline, m.
+    pub distance: f64,
+    /// Since the start of the approach, s, to the time between samples.
+    pub time: f64,
 }
 
 /// A capture and the motion after it.
@@ -64,6 +87,10 @@ pub struct Captured {
     pub post_impact: Phase,
     /// The targets at each of its samples.
     pub targets: Vec<Vec<Body>>,
+    /// Impacts after the first one, where contacts are found by detection.
+    pub further: Vec<Further>,
+    /// By how much a tip was inside a target that it does not hold, at most, m.
+    pub penetration: f64,
     /// What is left at its end; `None` where the joints are free, as in the paper.
     pub remainder: Option<Remainder>,
 }
@@ -80,6 +107,34 @@ pub enum StudyError {
     /// The approach stopped.
     #[error("the approach stopped {0}")]
     Approach(Stopped),
+    /// A tip is inside its target when the approach begins.
+    #[error(
+        "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
+         detection begin apart"
+    )]
+    Inside {
+        /// The case's name.
+        case: String,
+        /// The arm's.
+        arm: String,
+        /// The target's.
+        target: String,
+        /// m.
+        depth: f64,
+    },
+    /// Contacts follow each other without end.
+    #[error(
+        "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \
+         modelled"
+    )]
+    Chatter {
+        /// The case's name.
+        case: String,
+        /// How many there were.
+        impacts: usize,
+        /// Since the first, s.
+        time: f64,
+    },
     /// An impact could not be solved.
     #[error("the impact of case `{case}` could not be solved: {source}")]
     Impact {
@@ -155,64 +210,26 @@ pub fn study(
         .cases
         .iter()
         .map(|case| match (&scenario.post_impact, approach.end()) {
-            (Some(after), Some(end)) => run_case(scenario, case, after, end, make, sample, observer),
-            _ => Ok(CaseResult { name: case.name.clone(), approach: None, targets: Vec::new(), capture: None }),
+            (Some(after), Some(end)) => {
+                let course = Course { scenario, case, after, make, sample };
+                match scenario.contact.detection {
+                    Detection::Time => course.in_time(&end.motion, &end.end_effector_poses, observer),
+                    Detection::Event => course.by_detection(&rates, observer),
+                }
+            }
+            _ => Ok(CaseResult::alone(&case.name)),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let misses = Miss::of(scenario, &approach);
     Ok(Study { design, posture, approach, misses, cases })
 }
 
-/// Impact and post-impact of one case.
-fn run_case(
-    scenario: &Scenario,
-    case: &Case,
-    after: &PostImpact,
-    end: &Sample,
-    make: MakeModel<'_>,
-    sample: f64,
-    observer: &mut dyn Observer,
-) -> Result<CaseResult, StudyError> {
-    let failed = |source| StudyError::Impact { case: case.name.clone(), source };
-    let (targets, touching) = in_time(scenario, case, &end.end_effector_poses);
-    let free = Assembly::new(make(), &end.motion, &targets, &[]).map_err(failed)?;
-    let impact = capture(&free, &end.motion, &targets, &touching).map_err(failed)?;
-    let start = Motion {
-        base_twist: impact.exact.base_twist_after,
-        joint_rates: impact.exact.joint_rates_after.clone(),
-        ..end.motion.clone()
-    };
-    let moved = targets.iter().zip(&impact.target_twists);
-    let touched: Vec<_> = moved.map(|(target, twist)| Body { twist: *twist, ..*target }).collect();
-    let grips = grips(&touching);
-    let held = Assembly::new(make(), &start, &touched, &grips).map_err(failed)?;
-    let timing = Timing { duration: after.duration, step: after.step, sample, integration: after.integration };
-    observer.begin(&case.name, timing.steps());
-    let wheels = wheels(&scenario.layout, &grips);
-    let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };
-    let post_impact = settle(&held.system(), after, &wheels, &start, &timing, &mut NoEvents, &mut || observer.step())
-        .map_err(stopped)?;
-    let remainder = match (&after.control, post_impact.end()) {
-        (Settling::None, _) | (_, None) => None,
-        (control, Some(end)) => {
-            let at_end = |source| stopped(Stopped { time: end.time, source });
-            let beside = held.pinned(&end.bodies);
-            Some(Remainder::of(&*held.model, &beside, control, &end.motion, &wheels).map_err(at_end)?)
-        }
-    };
-    let at = |now: &Sample| held.targets(&touched, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
-    let flown = post_impact.samples.iter().map(at).collect();
-    let captured = Captured { impact, post_impact, targets: flown, remainder };
-    Ok(CaseResult { name: case.name.clone(), approach: None, targets, capture: Some(captured) })
-}
-
-/// The contacts that hold.
-fn grips(touching: &[Touching]) -> Vec<Grip> {
-    let holds = touching.iter().filter(|touch| !matches!(touch.kind, Kind::Bounce { .. }));
-    holds.map(|touch| Grip { target: touch.target, arm: touch.arm, pinned: touch.kind == Kind::Pin }).collect()
-}
-
 impl CaseResult {
+    /// An approach to nothing.
+    fn alone(name: &str) -> Self {
+        Self { name: name.to_owned(), approach: None, targets: Vec::new(), closest: Vec::new(), capture: None }
+    }
+
     /// Its approach.
     #[must_use]
     pub fn approach<'a>(&'a self, study: &'a Study) -> &'a Phase {
@@ -232,22 +249,38 @@ impl Study {
     pub fn objections(&self) -> Vec<String> {
         let mut found = phase_objections("approach", &self.approach);
         for case in &self.cases {
-            let Some(captured) = &case.capture else { continue };
-            let exact = &captured.impact.exact;
-            let jump = exact.relative_momentum_jump;
-            if jump > MOMENTUM_BOUND {
-                found.push(format!("{}: the exact impact changes the momentum by {jump:.2e} of it", case.name));
+            if let Some(own) = &case.approach {
+                found.extend(phase_objections(&format!("{}, approach", case.name), own));
             }
-            if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+            let Some(captured) = &case.capture else { continue };
+            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            found.extend(impacts.flat_map(|impact| impact_objections(&case.name, &impact.exact)));
+            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
+            if captured.penetration > PENETRATION_BOUND {
                 found.push(format!(
-                    "{}: the exact impact raises the kinetic energy from {} J to {} J",
-                    case.name, exact.kinetic_energy_before, exact.kinetic_energy_after
+                    "{}: a tip is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    case.name, captured.penetration
                 ));
             }
-            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
         }
         found
     }
+}
+
+fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
+    let mut found = Vec::new();
+    let jump = exact.relative_momentum_jump;
+    // a NaN is not within its bound
+    if jump.partial_cmp(&MOMENTUM_BOUND).is_none_or(std::cmp::Ordering::is_gt) {
+        found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
+    }
+    if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+        found.push(format!(
+            "{case}: the exact impact raises the kinetic energy from {} J to {} J",
+            exact.kinetic_energy_before, exact.kinetic_energy_after
+        ));
+    }
+    found
 }
 
 fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {

@@ -1,6 +1,6 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
-use crate::capture::{ContactResult, ImpactResult};
+use crate::capture::{Capture, ContactResult, ImpactResult};
 use crate::meeting::Touching;
 use crate::miss::Miss;
 use crate::remainder::Remainder;
@@ -36,19 +36,46 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
         let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
         value["approach"]["missed"] = study.misses.iter().map(parts).collect();
     }
-    if let Some(captured) = &case.capture {
-        value["impact"] = json!({
-            "exact": impact(&captured.impact.exact),
-            "paper": captured.impact.paper.as_ref().map(impact),
-            "contacts": captured.impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
+    if !case.closest.is_empty() {
+        let closest = case.closest.iter().map(|pair| {
+            json!({
+                "target": scenario.targets.get(pair.target).map(|target| &target.name),
+                "arm": scenario.layout.arms.get(pair.arm).map(|arm| &arm.name),
+                "distance": pair.distance,
+                "time": pair.time,
+            })
         });
-        if captured.impact.restitution_scale < 1.0 {
-            value["impact"]["restitution_scale"] = json!(captured.impact.restitution_scale);
-        }
+        value["closest"] = json!(closest.collect::<Vec<_>>());
+    }
+    if let Some(captured) = &case.capture {
+        value["impact"] = capture(scenario, &captured.impact);
         value["post_impact"] = phase(&captured.post_impact, false);
+        if !captured.further.is_empty() {
+            let further = captured.further.iter().map(|one| {
+                let mut value = capture(scenario, &one.impact);
+                value["time"] = json!(one.time);
+                value
+            });
+            value["post_impact"]["impacts"] = json!(further.collect::<Vec<_>>());
+        }
+        if captured.penetration > 0.0 {
+            value["post_impact"]["penetration"] = json!(captured.penetration);
+        }
         if let Some(left) = &captured.remainder {
             value["post_impact"]["remainder"] = remainder(left);
         }
+    }
+    value
+}
+
+fn capture(scenario: &Scenario, impact: &Capture) -> Value {
+    let mut value = json!({
+        "exact": result(&impact.exact),
+        "paper": impact.paper.as_ref().map(result),
+        "contacts": impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
+    });
+    if impact.restitution_scale < 1.0 {
+        value["restitution_scale"] = json!(impact.restitution_scale);
     }
     value
 }
@@ -126,7 +153,7 @@ fn remainder(left: &Remainder) -> Value {
     })
 }
 
-fn impact(result: &ImpactResult) -> Value {
+fn result(result: &ImpactResult) -> Value {
     json!({
         "joint_rates_after": result.joint_rates_after,
         "base_twist_after": result.base_twist_after,

@@ -22,7 +22,7 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt
         balances(out, scenario, study)?;
         remainders(out, study)?;
     }
-    Ok(())
+    missed(out, scenario, study)
 }
 
 fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
@@ -49,7 +49,11 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         )?;
     }
     let [yaw, x, y] = end.motion.base_pose;
-    writeln!(out, "\nAfter the approach of {} s", phase.duration)?;
+    let meanwhile = match scenario.contact.detection {
+        Detection::Time => "",
+        Detection::Event => ", were there no contact",
+    };
+    writeln!(out, "\nAfter the approach of {} s{meanwhile}", phase.duration)?;
     writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
     for (i, (arm, (pose, twist))) in
         scenario.layout.arms.iter().zip(end.end_effector_poses.iter().zip(&end.end_effector_twists)).enumerate()
@@ -106,35 +110,60 @@ fn spare(joints: isize) -> String {
 fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
     writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
     let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
-    let column = if printed { " as printed" } else { "" };
+    let detected = scenario.contact.detection == Detection::Event;
+    let column = match (detected, printed) {
+        (true, _) => "at [s]",
+        (false, true) => "as printed",
+        (false, false) => "",
+    };
     let head =
         format!("  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11}", "case", "arm", "kind", "exact", "paper eqs.");
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
-        let Some(Captured { impact, .. }) = &result.capture else { continue };
-        for contact in &impact.contacts {
-            let Touching { target, arm, kind, .. } = contact.touching;
-            let Some(of) = scenario.layout.arms.get(arm) else { continue };
-            let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
-            let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
-            let printed = case.printed_impulses.get(target).copied().flatten();
-            let printed = printed.map_or_else(String::new, |value| format!("{value:.4}"));
-            let [_, fx, fy] = contact.impulse;
-            let row = format!(
-                "  {:<16} {:<10} {:<7} {:>10.5} {literal:>10} {printed:>11}",
-                case.name,
-                of.name,
-                kind.name(),
-                fx.hypot(fy)
-            );
-            writeln!(out, "{}", row.trim_end())?;
+        let Some(captured) = &result.capture else { continue };
+        let first = result.approach(study).duration;
+        let later = captured.further.iter().map(|one| (first + one.time, &one.impact));
+        for (time, impact) in std::iter::once((first, &captured.impact)).chain(later) {
+            for contact in &impact.contacts {
+                let Touching { target, arm, kind, .. } = contact.touching;
+                let Some(of) = scenario.layout.arms.get(arm) else { continue };
+                let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
+                let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
+                let printed = case.printed_impulses.get(target).copied().flatten();
+                let last = match (detected, printed) {
+                    (true, _) => format!("{time:.4}"),
+                    (false, Some(value)) => format!("{value:.4}"),
+                    (false, None) => String::new(),
+                };
+                let [_, fx, fy] = contact.impulse;
+                let (exact, kind) = (fx.hypot(fy), kind.name());
+                let row =
+                    format!("  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11}", case.name, of.name);
+                writeln!(out, "{}", row.trim_end())?;
+            }
         }
-        if impact.contacts.is_empty() {
+        if captured.impact.contacts.is_empty() {
             writeln!(out, "  {:<16} no contact", case.name)?;
         }
     }
-    if printed {
+    if printed && !detected {
         writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; README says more)")?;
+    }
+    Ok(())
+}
+
+/// Tips and targets that were to meet and did not.
+fn missed(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+    for case in &study.cases {
+        for pair in &case.closest {
+            let arm = scenario.layout.arms.get(pair.arm).map_or("", |arm| arm.name.as_str());
+            let target = scenario.targets.get(pair.target).map_or("", |target| target.name.as_str());
+            writeln!(
+                out,
+                "\n{}: the tip of {arm} never meets {target}; at {:.2} s it is {:.4} m from it",
+                case.name, pair.time, pair.distance
+            )?;
+        }
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use planar_capture::event::NoEvents;
 use planar_capture::models;
 use planar_capture::remainder::Remainder;
 use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
-use planar_capture::settle::{settle, wheels};
+use planar_capture::settle::{Settle, settle, wheels};
 use planar_capture::simulate::{Motion, Phase, Timing};
 use planar_capture::study::Captured;
 use planar_capture::summary::summary;
@@ -154,8 +154,8 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
         base_twist: s.base_twist,
         joint_rates: s.joint_rates.clone(),
     };
-    let phase =
-        settle(&System::alone(&*model), &after, &wheels, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    let wanted = Settle { after: &after, wheels: &wheels, angles: &s.joint_angles };
+    let phase = settle(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     let end = phase.end().expect("an end").motion.clone();
     let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
     (phase, left, wheels)
