@@ -124,10 +124,10 @@ def check_mcap(path, headings, rows, summary, origin):
     starts = [0] + [times[i] for i in range(1, len(rows)) if rows[i][1] != rows[i - 1][1]]
     assert [time for time, _ in messages["/log"]] == starts
     if impact:
-        ((time, message),) = messages["/impact"]
+        time, message = messages["/impact"][0]
         assert [time] == starts[1:]
         assert message.kinetic_energy_after == impact["exact"]["kinetic_energy_after"]
-        impulses = [value for impulse in impact["exact"]["impulses"] if impulse for value in impulse]
+        impulses = [value for impulse in impact["exact"]["impulses"] for value in impulse or (0.0, 0.0, 0.0)]
         assert [getattr(message, f.name) for f in message.DESCRIPTOR.fields if "_impulse_" in f.name] == impulses
     return max(strays(messages["/tf"], headings, rows), default=0.0)
 

@@ -178,7 +178,7 @@ mod mcap_files {
     use planar_capture::record::columns;
     use planar_capture::recording::write_mcap;
     use planar_capture::scenario::Scenario;
-    use planar_capture::study::{CaseResult, Study};
+    use planar_capture::study::{CaseResult, Further, Study};
     use planar_capture::surface::Surface;
     use prost::Message;
     use std::collections::{BTreeMap, BTreeSet};
@@ -368,6 +368,38 @@ mod mcap_files {
                 &[fx / fx.hypot(fy), fy / fx.hypot(fy)],
                 tolerance::TRANSFORMS,
             );
+        }
+    }
+
+    /// Bounces come in rows, and not every arm is part of each.
+    #[test]
+    fn tell_of_every_impact() {
+        let scenario = scenario("raina_shah_2017");
+        let mut study = run(&scenario);
+        let captured = study.cases[0].capture.as_mut().expect("a capture");
+        let mut second = captured.impact.clone();
+        second.exact.impulses[0] = None;
+        captured.further.push(Further { time: 10.0, impact: second });
+        let captured = study.cases[0].capture.as_ref().expect("a capture");
+        let (_, file) = record(&scenario, &study, &study.cases[0]);
+        let times = |topic: &str| file.messages[topic].iter().map(|(time, _)| *time).collect::<Vec<_>>();
+        assert_eq!(times("/impact"), [20_000_000_000, 30_000_000_000]);
+        assert_eq!(times("/impulses"), times("/impact"));
+        let sample = captured.post_impact.samples.iter().find(|sample| sample.time >= 10.0).expect("it goes on");
+        for (message, arms, tips) in [
+            (0, &["arm1", "arm2"][..], &captured.post_impact.samples[0].end_effector_poses),
+            (1, &["arm2"], &sample.end_effector_poses),
+        ] {
+            let scene = SceneUpdate::decode(&file.messages["/impulses"][message].1[..]).expect("a scene");
+            assert_eq!(scene.entities.iter().map(|entity| entity.id.as_str()).collect::<Vec<_>>(), arms);
+            let place = scene.entities.last().expect("an arrow").arrows[0].pose.expect("a pose").position.expect("one");
+            assert_eq!([place.x, place.y], tips[1][1..], "it starts at the tip");
+            let numbers: BTreeMap<_, _> =
+                numbers(&file, "/impact", &file.messages["/impact"][message].1).into_iter().collect();
+            let [n, fx, fy] = captured.impact.exact.impulses[0].filter(|_| message == 0).unwrap_or_default();
+            for (part, value) in [("n", n), ("fx", fx), ("fy", fy)] {
+                assert_eq!(numbers[&format!("arm1_impulse_{part}")].to_bits(), value.to_bits());
+            }
         }
     }
 

@@ -30,7 +30,7 @@ pub struct Row<'a> {
 
 /// The approach, then the motion after the impact, where there is one.
 ///
-/// At the impact there are two rows of the same time, before and after it.
+/// At each impact there are two rows of the same time, before and after it.
 pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = Row<'a>> {
     let approach = case.approach(study);
     let before = approach.samples.iter().map(move |sample| Row {

@@ -1,12 +1,11 @@
-//! What the exact impact did: arrows and numbers.
+//! What exact impacts did: arrows and numbers.
 
-use super::channel::{Recording, timestamp};
+use super::channel::{Channel, Recording, timestamp};
 use super::frames::WORLD;
 use super::scalars::Scalars;
 use super::scene::{color, pose};
+use crate::capture::ImpactResult;
 use crate::layout::Arm;
-use crate::scenario::Scenario;
-use crate::study::Captured;
 use foxglove::messages::{ArrowPrimitive, Duration, SceneEntity, SceneUpdate, TextPrimitive};
 use std::io;
 
@@ -15,35 +14,55 @@ const RED: [f64; 4] = [0.7, 0.15, 0.12, 1.0];
 const SHOWN: i32 = 4;
 /// Length of the longest arrow over the reach of the arms.
 const LONGEST: f64 = 0.25;
+/// Fields of `/impact`: of each arm, then of all.
+const IMPULSE: [(&str, &str); 3] = [("n", "N m s"), ("fx", "N s"), ("fy", "N s")];
+const RESULTS: [(&str, &str); 5] = [
+    ("angular_momentum_jump", "N m s"),
+    ("linear_momentum_jump_x", "N s"),
+    ("linear_momentum_jump_y", "N s"),
+    ("kinetic_energy_before", "J"),
+    ("kinetic_energy_after", "J"),
+];
 
-/// An impact, and where it is.
-pub(super) struct Impact<'a> {
-    pub(super) scenario: &'a Scenario,
-    pub(super) captured: &'a Captured,
-    /// [yaw, x, y] of each tip; rad, m.
-    pub(super) tips: &'a [[f64; 3]],
+/// Where impacts go: `/impulses` and `/impact`.
+pub(super) struct Impacts<'a> {
+    arms: &'a [Arm],
+    arrows: Channel<SceneUpdate>,
+    numbers: Scalars,
 }
 
-impl Impact<'_> {
-    /// `/impulses` and `/impact`.
-    pub(super) fn write(&self, recording: &mut Recording, time: f64) -> io::Result<()> {
+impl<'a> Impacts<'a> {
+    pub(super) fn new(recording: &mut Recording, arms: &'a [Arm]) -> io::Result<Self> {
+        let of_arm = |arm: &Arm| IMPULSE.map(|(part, unit)| (format!("{}_impulse_{part}", arm.name), unit));
+        let of_all = RESULTS.map(|(name, unit)| (name.to_owned(), unit));
+        let fields: Vec<_> = arms.iter().flat_map(of_arm).chain(of_all).collect();
+        let fields: Vec<_> = fields.iter().map(|(name, unit)| (name.as_str(), *unit)).collect();
         let arrows = recording.channel("/impulses")?;
-        recording.log(arrows, time, &self.arrows(time))?;
-        let fields = self.numbers();
-        let names: Vec<_> = fields.iter().map(|(name, unit, _)| (name.as_str(), *unit)).collect();
-        let scalars = Scalars::new(recording, "impact", &names)?;
-        scalars.log(recording, time, fields.iter().map(|(_, _, value)| *value))
+        Ok(Self { arms, arrows, numbers: Scalars::new(recording, "impact", &fields)? })
+    }
+
+    /// One impact, with the poses [yaw, x, y] of the tips then; an arm that touches nothing has an impulse of 0.
+    pub(super) fn log(
+        &self,
+        recording: &mut Recording,
+        time: f64,
+        impact: &ImpactResult,
+        tips: &[[f64; 3]],
+    ) -> io::Result<()> {
+        recording.log(self.arrows, time, &self.arrows(time, impact, tips))?;
+        let impulses = impact.impulses.iter().flat_map(|impulse| impulse.unwrap_or_default());
+        let energies = [impact.kinetic_energy_before, impact.kinetic_energy_after];
+        self.numbers.log(recording, time, impulses.chain(impact.momentum_jump).chain(energies))
     }
 
     /// The impulse on the robot at each contact: as an arrow its force part, the longest as long as is easy to see.
-    fn arrows(&self, time: f64) -> SceneUpdate {
-        let impulses = &self.captured.impact.exact.impulses;
-        let magnitudes = self.captured.impact.exact.impulse_magnitudes();
+    fn arrows(&self, time: f64, impact: &ImpactResult, tips: &[[f64; 3]]) -> SceneUpdate {
+        let impulses = &impact.impulses;
+        let magnitudes = impact.impulse_magnitudes();
         let largest = magnitudes.iter().flatten().copied().fold(0.0, f64::max);
-        let arms = &self.scenario.layout.arms;
-        let reach = arms.iter().map(Arm::reach).fold(0.0, f64::max);
+        let reach = self.arms.iter().map(Arm::reach).fold(0.0, f64::max);
         let entity = |(i, arm): (usize, &Arm)| {
-            let [_, x, y] = *self.tips.get(i)?;
+            let [_, x, y] = *tips.get(i)?;
             let ([_, fx, fy], size) = ((*impulses.get(i)?)?, (*magnitudes.get(i)?)?);
             let length = if largest > 0.0 { LONGEST * reach * size / largest } else { 0.0 };
             Some(SceneEntity {
@@ -70,29 +89,7 @@ impl Impact<'_> {
                 ..SceneEntity::default()
             })
         };
-        let entities = arms.iter().enumerate().filter_map(entity).collect();
+        let entities = self.arms.iter().enumerate().filter_map(entity).collect();
         SceneUpdate { deletions: Vec::new(), entities }
-    }
-
-    /// Name, unit and value of each.
-    fn numbers(&self) -> Vec<(String, &'static str, f64)> {
-        let exact = &self.captured.impact.exact;
-        let mut list = Vec::new();
-        for (arm, impulse) in self.scenario.layout.arms.iter().zip(&exact.impulses) {
-            for ((part, unit), value) in
-                [("n", "N m s"), ("fx", "N s"), ("fy", "N s")].into_iter().zip(impulse.iter().flatten())
-            {
-                list.push((format!("{}_impulse_{part}", arm.name), unit, *value));
-            }
-        }
-        let [l, px, py] = exact.momentum_jump;
-        list.extend([
-            ("angular_momentum_jump".to_owned(), "N m s", l),
-            ("linear_momentum_jump_x".to_owned(), "N s", px),
-            ("linear_momentum_jump_y".to_owned(), "N s", py),
-            ("kinetic_energy_before".to_owned(), "J", exact.kinetic_energy_before),
-            ("kinetic_energy_after".to_owned(), "J", exact.kinetic_energy_after),
-        ]);
-        list
     }
 }

@@ -5,14 +5,14 @@
 //! | `/tf` | `foxglove.FrameTransforms` | every row of the time series |
 //! | `/scene` | `foxglove.SceneUpdate`: base, links, targets, each fixed in its frame | at 0 |
 //! | `/outlines/FRAME` | `foxglove.PointCloud`: the same as points, for viewers that draw no scenes (Rerun) | at 0 |
-//! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a while | at the impact |
+//! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a while | at each impact |
 //! | `/state`, `/tips`, `/momentum`, `/energy` | the time series' columns, by [group](crate::record::Column::group) | every row |
-//! | `/impact` | what the exact impact did | at the impact |
+//! | `/impact` | what the exact impact did | at each impact |
 //! | `/log` | `foxglove.Log`: which phase begins | at its start |
 //!
 //! Everything is protobuf. The metadata of a channel of numbers gives the unit of each field; a record `planar_capture`
 //! says what the file comes from. Time is `log_time`, from 0 at the start of the approach, to the nearest nanosecond;
-//! the two rows at the impact have the same.
+//! the two rows at an impact have the same.
 
 mod body;
 mod channel;
@@ -22,12 +22,13 @@ mod points;
 mod scalars;
 mod scene;
 
+use crate::capture::ImpactResult;
 use crate::record::{Column, Row, columns, provenance, rows};
 use crate::scenario::Scenario;
 use crate::study::{CaseResult, Study};
 use channel::Recording;
 use foxglove::messages::{Log, log::Level};
-use impact::Impact;
+use impact::Impacts;
 use scalars::Scalars;
 use std::io::{self, Write};
 
@@ -47,13 +48,18 @@ pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut t
     }
     let (log, transforms) = (recording.channel("/log")?, recording.channel("/tf")?);
     let mut series = series(&mut recording, scenario, result)?;
+    let arms = &scenario.layout.arms;
+    let impacts = result.capture.as_ref().map(|_| Impacts::new(&mut recording, arms)).transpose()?;
+    let mut ahead = impacts_of(study, result).peekable();
     let mut phase = "";
     for row in rows(study, result) {
         if row.phase != phase {
             phase = row.phase;
             recording.log(log, row.time, &begins(&row))?;
-            if let (Some(captured), "post_impact") = (&result.capture, phase) {
-                Impact { scenario, captured, tips: &row.sample.end_effector_poses }.write(&mut recording, row.time)?;
+        }
+        if let (Some(impacts), "post_impact") = (&impacts, phase) {
+            while let Some((time, impact)) = ahead.next_if(|(time, _)| *time <= row.time) {
+                impacts.log(&mut recording, time, impact, &row.sample.end_effector_poses)?;
             }
         }
         recording.log(transforms, row.time, &frames::transforms(scenario, &row))?;
@@ -62,6 +68,15 @@ pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut t
         }
     }
     to.write_all(&recording.finish()?)
+}
+
+/// The exact impacts of a case, each with its time since the start of the approach, s.
+fn impacts_of<'a>(study: &Study, result: &'a CaseResult) -> impl Iterator<Item = (f64, &'a ImpactResult)> {
+    let start = result.approach(study).duration;
+    result.capture.iter().flat_map(move |captured| {
+        let further = captured.further.iter().map(move |one| (start + one.time, &one.impact.exact));
+        std::iter::once((start, &captured.impact.exact)).chain(further)
+    })
 }
 
 /// The columns of one group, as a channel.
