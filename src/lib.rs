@@ -36,7 +36,7 @@
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
-//! and PNG, `lanes` SIMD lanes as scalars.
+//! and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -136,6 +136,8 @@ pub mod posture;
 pub mod record;
 #[cfg(feature = "std")]
 mod recorder;
+#[cfg(feature = "mcap")]
+pub mod recording;
 #[cfg(feature = "std")]
 pub mod remainder;
 #[cfg(feature = "std")]
