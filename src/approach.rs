@@ -3,6 +3,7 @@
 use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::limits::{Excesses, Watched};
 use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
@@ -84,7 +85,7 @@ impl<'a> Approach<'a> {
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let joints = model.joints();
-        let mut law = ExactTracking {
+        let law = ExactTracking {
             trajectory: self.trajectory(rates),
             generalized_inertia: &mut vec![0.0; joints * joints],
             generalized_bias: &mut vec![0.0; joints],
@@ -99,7 +100,10 @@ impl<'a> Approach<'a> {
                 _ => vec![0.0; joints],
             },
         };
-        simulate(model, &mut law, &initial, &self.timing, tick)
+        let limits = &self.scenario.approach.actuation.joint_limits;
+        let mut watched = Watched { law, limits, excesses: Excesses::default() };
+        let phase = simulate(model, &mut watched, &initial, &self.timing, tick)?;
+        Ok(watched.finish(phase))
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {

@@ -12,11 +12,16 @@ pub struct Drift {
     pub momentum_drift: f64,
     /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing moves.
     pub energy_error: f64,
+    /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over the
+    /// largest distance of a body's COM from it.
+    pub center_of_mass_drift: f64,
 }
 
-/// What was done to the robot since the start of a phase.
+/// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Done {
+    /// How long it is since the start, s.
+    pub time: f64,
     /// By joint torques and from outside, J.
     pub work: f64,
     /// From outside: [l, px, py], angular momentum about the inertial origin; N m s, N s.
@@ -30,9 +35,11 @@ pub struct Audit<'a> {
     poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
     start: Momentum<f64>,
+    center: [f64; 2],
     linear: Ratio,
     angular: Ratio,
     energy: Ratio,
+    motion: Ratio,
 }
 
 /// The largest deviation over the largest scale.
@@ -64,8 +71,21 @@ impl<'a> Audit<'a> {
         model.body_inertias(&mut inertias)?;
         let start = model.momentum(state)?;
         let none = Ratio::default();
-        let (poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
-        let mut audit = Self { model, inertias, poses, twists, start, linear: none, angular: none, energy: none };
+        let (mut poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
+        model.body_poses(&state.base_pose, state.joint_angles, &mut poses)?;
+        let center = center_of_mass(&inertias, &poses);
+        let mut audit = Self {
+            model,
+            inertias,
+            poses,
+            twists,
+            start,
+            center,
+            linear: none,
+            angular: none,
+            energy: none,
+            motion: none,
+        };
         audit.record(state, &Done::default())?;
         Ok(audit)
     }
@@ -91,12 +111,32 @@ impl<'a> Audit<'a> {
         self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - done.work, now.kinetic_energy);
+        let mass: f64 = self.inertias.iter().map(|[mass, _]| mass).sum();
+        let [x, y] = center_of_mass(&self.inertias, &self.poses);
+        let [from_x, from_y] = self.center;
+        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * done.time);
+        let extent = self.poses.iter().fold(0.0, |most: f64, [_, to_x, to_y]| most.max((to_x - x).hypot(to_y - y)));
+        self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);
         Ok(now)
     }
 
     /// The phase so far.
     #[must_use]
     pub fn drift(&self) -> Drift {
-        Drift { momentum_drift: self.linear.value().max(self.angular.value()), energy_error: self.energy.value() }
+        Drift {
+            momentum_drift: self.linear.value().max(self.angular.value()),
+            energy_error: self.energy.value(),
+            center_of_mass_drift: self.motion.value(),
+        }
     }
+}
+
+/// [x, y] of the bodies together, from their masses and poses.
+fn center_of_mass(inertias: &[[f64; 2]], poses: &[[f64; 3]]) -> [f64; 2] {
+    let (mut mass, mut moments) = (0.0, [0.0; 2]);
+    for ([part, _], [_, x, y]) in inertias.iter().zip(poses) {
+        mass += part;
+        moments = [moments[0] + part * x, moments[1] + part * y];
+    }
+    moments.map(|moment| moment / mass)
 }

@@ -103,6 +103,8 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod limits;
+#[cfg(feature = "std")]
 pub mod miss;
 #[cfg(feature = "std")]
 pub mod models;

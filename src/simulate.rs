@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::integrate::RungeKutta4;
+use crate::limits::Excesses;
 use crate::motion::derivative;
 use crate::state::{Effort, State, vector_length};
 
@@ -118,6 +119,8 @@ pub struct Phase {
     pub saturation: Saturation,
     /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
     pub singularity_margin: Option<f64>,
+    /// Joints beyond their limits; `None` where there are no limits.
+    pub excesses: Option<Excesses>,
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.
@@ -190,7 +193,8 @@ pub fn simulate(
         let time = time_of(i);
         let state = State::from_vector(&x, joints).ok_or(Stopped { time, source: wrong_length })?;
         let effort = Effort::from_vector(&x).unwrap_or_default();
-        let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let work = effort.joint_work + effort.base_work;
+        let done = Done { time, work, impulse: [effort.base_impulse, 0.0, 0.0] };
         let momentum = audit.record(&state, &done).map_err(at(time))?;
         if i < steps {
             control.begin_step(time, model, &state).map_err(at(time))?;
@@ -231,5 +235,12 @@ pub fn simulate(
             tick();
         }
     }
-    Ok(Phase { duration: timing.duration, samples, drift: audit.drift(), saturation, singularity_margin: None })
+    Ok(Phase {
+        duration: timing.duration,
+        samples,
+        drift: audit.drift(),
+        saturation,
+        singularity_margin: None,
+        excesses: None,
+    })
 }

@@ -2,6 +2,7 @@
 
 use crate::capture::ImpactResult;
 use crate::layout::Layout;
+use crate::limits::{Excess, Excesses};
 use crate::miss::Miss;
 use crate::remainder::Remainder;
 use crate::simulate::Phase;
@@ -63,8 +64,13 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     }
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
+    value["center_of_mass_drift"] = json!(phase.drift.center_of_mass_drift);
     if let Some(margin) = phase.singularity_margin {
         value["singularity_margin"] = json!(margin);
+    }
+    if let Some(Excesses { joint_angle, joint_rate }) = &phase.excesses {
+        value["limits"] =
+            json!({"joint_angle": joint_angle.as_ref().map(excess), "joint_rate": joint_rate.as_ref().map(excess)});
     }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);
@@ -75,6 +81,10 @@ fn phase(phase: &Phase, tips: bool) -> Value {
         value["base_saturated"] = json!(phase.saturation.base);
     }
     value
+}
+
+fn excess(excess: &Excess) -> Value {
+    json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
 }
 
 fn remainder(left: &Remainder) -> Value {

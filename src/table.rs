@@ -1,7 +1,9 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
+use crate::audit::Drift;
 use crate::capture::ImpactResult;
 use crate::scenario::{Scenario, Settling, Tracking};
+use crate::simulate::Phase;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -87,7 +89,22 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     if !phase.saturation.joints.is_empty() {
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
     }
-    writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
+    excesses(out, "  ", phase)?;
+    let Drift { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
+    writeln!(
+        out,
+        "  momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, centre-of-mass drift {center_of_mass_drift:.1e}"
+    )
+}
+
+/// How the joints kept their limits, where they have any.
+fn excesses(out: &mut String, indent: &str, phase: &Phase) -> std::fmt::Result {
+    let Some(excesses) = &phase.excesses else { return Ok(()) };
+    let sentences = excesses.sentences();
+    if sentences.is_empty() {
+        return writeln!(out, "{indent}all joints within their limits");
+    }
+    sentences.iter().try_for_each(|sentence| writeln!(out, "{indent}{sentence}"))
 }
 
 /// What there is to choose beside the wanted poses.
@@ -143,14 +160,17 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         Some(control) => format!("control `{}`", control.name()),
     };
     writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, robot and targets as one, {torques}")?;
-    writeln!(out, "  {:<16} {:>10} {:>15} {:>13}", "case", "time [s]", "momentum drift", "energy error")?;
+    let [momentum, energy, motion] = ["momentum drift", "energy error", "COM drift"];
+    writeln!(out, "  {:<16} {:>10} {momentum:>15} {energy:>13} {motion:>10}", "case", "time [s]")?;
     for case in &study.cases {
         let Some(Captured { post_impact, .. }) = &case.capture else { continue };
+        let Drift { momentum_drift, energy_error, center_of_mass_drift } = post_impact.drift;
         writeln!(
             out,
-            "  {:<16} {:>10} {:>15.1e} {:>13.1e}",
-            case.name, post_impact.duration, post_impact.drift.momentum_drift, post_impact.drift.energy_error
+            "  {:<16} {:>10} {momentum_drift:>15.1e} {energy_error:>13.1e} {center_of_mass_drift:>10.1e}",
+            case.name, post_impact.duration
         )?;
+        excesses(out, "    ", post_impact)?;
     }
     Ok(())
 }

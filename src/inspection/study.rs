@@ -47,7 +47,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
-        let Actuation { torque_limits, steps_per_sample } = &after.actuation;
+        let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
         if after.control != Settling::None {
             let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
             writeln!(out, "  control afterwards  {}{actuation}", settling(&after.control))?;
@@ -124,7 +124,7 @@ fn tracking(scenario: &Scenario) -> String {
         }
         None => law,
     };
-    let Actuation { torque_limits, steps_per_sample } = &scenario.approach.actuation;
+    let Actuation { torque_limits, steps_per_sample, .. } = &scenario.approach.actuation;
     format!("{law}{}", actuation(torque_limits.as_deref(), *steps_per_sample))
 }
 

@@ -208,6 +208,18 @@ fn tip_poses_out_of_reach() {
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
 }
 
+/// Ends beyond the joints' limits; a start there is refused.
+#[test]
+fn ends_beyond_limits() {
+    let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
+    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
+    let wanted =
+        ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
+    one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
+    let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
+    one_warning(&with("joint_rates = 0.009"), 11, &wanted);
+}
+
 /// A solid rod, a dumbbell with all its mass at its ends, and every wheel are bodies that there are.
 #[test]
 fn the_bound_on_inertias_is_that_of_bodies() {
