@@ -2,8 +2,9 @@
 
 use super::approach::{joint_name, largest_turn, peak_rate};
 use super::number::{count, list, point, short};
-use super::pose::{FinalPose, fastest_mode, final_pose};
+use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
+use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
 use crate::scenario::{Actuation, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
@@ -50,7 +51,10 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
         if after.control != Settling::None {
             let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
-            writeln!(out, "  control afterwards  {}{actuation}", settling(&after.control))?;
+            let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
+                format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
+            });
+            writeln!(out, "  control afterwards  {}{mode}{actuation}", settling(&after.control))?;
         }
         targets(out, scenario)?;
         cases(out, scenario)?;

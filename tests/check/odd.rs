@@ -138,6 +138,25 @@ const ODD_SCENARIOS: &[Edit] = &[
         "inertia = 1.0",
         "inertia = 2.6",
         14,
+    // control afterwards
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 1e6",
+        24,
+        &["`post_impact.step` is left at its default: a step of 0.005 s", "fastest joint motion", "or less"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nstep = 0.4\ncontrol = \"damping\"",
+        26,
+        &["`post_impact.step` is 0.4", "fastest joint motion"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nsample_time = 2\ncontrol = \"stabilise\"",
+        26,
+        &["`post_impact.sample_time` is 2", "torques are held for 2 s", "within 2 s", "0.4 s or less"],
+    ),
         &["`target[0].inertia` is 2.6", "2.5 kg m²", "mass · radius²", "sphere", "1"],
     ),
     (
@@ -214,6 +233,28 @@ fn ends_beyond_limits() {
     let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
     assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
     let wanted =
+/// The bound on the modes after the impact: with a target in its hand a robot resists any joint rates more, not less.
+#[test]
+fn a_merged_robot_is_no_stiffer() {
+    use planar_capture::state::State;
+    use planar_capture::target::Target;
+    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "dual_arm_3r").expect("a layout");
+    let layout = planar_capture::layout::Layout::parse(text, "it").expect("a layout");
+    let mut model = planar_capture::models::generated(&layout).expect("generated code");
+    let angles = [-0.5, -1.4, 0.1, 2.6, -1.4, 0.2];
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.3, 0.4], twist: [0.0; 3] };
+    let inertia = |model: &dyn planar_capture::dynamics::Model<f64>| {
+        let state = State { base_pose: [0.0; 3], joint_angles: &angles, base_twist: [0.0; 3], joint_rates: &[0.0; 6] };
+        let (mut inertia, mut bias, mut jacobian) = ([0.0; 36], [0.0; 6], [0.0; 36]);
+        model.reduced_dynamics(&state, &mut inertia, &mut bias, &mut jacobian).expect("an inertia");
+        nalgebra::SMatrix::<f64, 6, 6>::from_row_slice(&inertia)
+    };
+    let before = inertia(&*model);
+    model.merge(&[0.0; 3], &angles, &[Some(target), None]).expect("merged");
+    let more = (inertia(&*model) - before).symmetric_eigenvalues();
+    assert!(more.min() > -1e-12 && more.max() > 1.0, "{more}");
+}
+
         ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
     one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
     let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
