@@ -110,7 +110,7 @@ impl<'a> Approach<'a> {
         let ends = Ends {
             initial_angles: &self.scenario.initial.joint_angles,
             final_angles: &self.scenario.approach.final_joint_angles,
-            duration: self.timing.duration,
+            duration: self.scenario.approach.trajectory_time(),
         };
         match self.scenario.approach.trajectory {
             TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),

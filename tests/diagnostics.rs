@@ -247,6 +247,20 @@ const SCENARIO_EDITS: &[Edit] = &[
         &["`approach.final_end_effector_poses[0]` is [0, 1, 1]", "fewer than three links", "[x, y]"],
     ),
     (
+        "20.0",
+        "20.0\ntrajectory_duration = 30",
+        7,
+        &["`approach.trajectory_duration` is 30", "at most its duration, 20 s"],
+    ),
+    ("20.0", "20.0\ntrajectory_duration = 0", 7, &["`approach.trajectory_duration` is 0", "in s greater than 0"]),
+    ("20.0", "20.0\ntrajectory_duration = 10", 7, &["is 10: the arms are to move on", "`final_joint_rates` of zeros"]),
+    (
+        STEERED,
+        steered!("trajectory_duration = 10\nfinal_end_effector_twists = [[0, 1, 0]]"),
+        10,
+        &["`approach.trajectory_duration` is 10", "`final_end_effector_twists` of zeros"],
+    ),
+    (
         "[approach]",
         "[limits]\njoint_angles = [1, -1]\n[approach]",
         6,

@@ -30,7 +30,7 @@ pub(super) fn peak_rate(scenario: &Scenario) -> f64 {
         TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted | TrajectoryKind::Quintic => 1.875,
         TrajectoryKind::Cycloidal => 2.0,
     };
-    shape * largest_turn(scenario).1 / scenario.approach.duration
+    shape * largest_turn(scenario).1 / scenario.approach.trajectory_time()
 }
 
 /// `joint 2 of arm1`, by the index over all arms.
@@ -85,13 +85,18 @@ fn motionless(scenario: &Scenario) -> Option<Oddity> {
 }
 
 fn hasty(scenario: &Scenario) -> Option<Oddity> {
-    if scenario.approach.final_end_effector_poses.is_some() {
+    let approach = &scenario.approach;
+    if approach.final_end_effector_poses.is_some() {
         return None; // how far the joints turn is not known yet
     }
     let peak = peak_rate(scenario);
     let (joint, turn) = largest_turn(scenario);
     (peak > FASTEST).then(|| Oddity {
-        key: "approach.duration".to_owned(),
+        key: if approach.trajectory_duration.is_some() {
+            "approach.trajectory_duration".to_owned()
+        } else {
+            "approach.duration".to_owned()
+        },
         why: format!(
             "{} turns by {} rad in that time, at up to {} rad/s: more than a turn a second",
             joint_name(scenario, joint),
@@ -100,7 +105,7 @@ fn hasty(scenario: &Scenario) -> Option<Oddity> {
         ),
         help: format!(
             "durations are in s; {} s or more is slower than that",
-            short(scenario.approach.duration * peak / FASTEST)
+            short(approach.trajectory_time() * peak / FASTEST)
         ),
     })
 }

@@ -103,7 +103,9 @@ fn trajectory(scenario: &Scenario) -> String {
         }
     };
     let whose = if by_tips(scenario) { " of the tips" } else { "" };
-    format!("{shape}{whose}, to {end}")
+    let then = scenario.approach.trajectory_duration;
+    let then = then.map_or_else(String::new, |time| format!(" in {} s, and there until the end", short(time)));
+    format!("{shape}{whose}, to {end}{then}")
 }
 
 fn wishes(goals: &[TipGoal]) -> String {

@@ -103,6 +103,12 @@ const ODD_SCENARIOS: &[Edit] = &[
     // rates, times and gains
     ("duration = 20.0", "duration = 0.2", 6, &["`approach.duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"]),
     (
+        "duration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01",
+        "trajectory_duration = 0.2\nduration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.0",
+        6,
+        &["`approach.trajectory_duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"],
+    ),
+    (
         "rates = [0.01",
         "rates = [10",
         9,
@@ -132,12 +138,6 @@ const ODD_SCENARIOS: &[Edit] = &[
         7,
         &["proportional_gain` is 0", "nothing pulls", "49"],
     ),
-    // targets
-    ("mass = 10.0\ninertia = 1.0", "mass = 600\ninertia = 60", 13, &["`target[0].mass` is 600", "the robot", "539 kg"]),
-    (
-        "inertia = 1.0",
-        "inertia = 2.6",
-        14,
     // control afterwards
     (
         "duration = 50.0",
@@ -157,6 +157,12 @@ const ODD_SCENARIOS: &[Edit] = &[
         26,
         &["`post_impact.sample_time` is 2", "torques are held for 2 s", "within 2 s", "0.4 s or less"],
     ),
+    // targets
+    ("mass = 10.0\ninertia = 1.0", "mass = 600\ninertia = 60", 13, &["`target[0].mass` is 600", "the robot", "539 kg"]),
+    (
+        "inertia = 1.0",
+        "inertia = 2.6",
+        14,
         &["`target[0].inertia` is 2.6", "2.5 kg m²", "mass · radius²", "sphere", "1"],
     ),
     (
@@ -227,12 +233,6 @@ fn tip_poses_out_of_reach() {
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
 }
 
-/// Ends beyond the joints' limits; a start there is refused.
-#[test]
-fn ends_beyond_limits() {
-    let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
-    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
-    let wanted =
 /// The bound on the modes after the impact: with a target in its hand a robot resists any joint rates more, not less.
 #[test]
 fn a_merged_robot_is_no_stiffer() {
@@ -255,6 +255,12 @@ fn a_merged_robot_is_no_stiffer() {
     assert!(more.min() > -1e-12 && more.max() > 1.0, "{more}");
 }
 
+/// Ends beyond the joints' limits; a start there is refused.
+#[test]
+fn ends_beyond_limits() {
+    let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
+    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
+    let wanted =
         ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
     one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
     let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
