@@ -3,10 +3,12 @@
 use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::event::{Events, NoEvents};
 use crate::limits::{Excesses, Watched};
 use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::system::System;
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.
@@ -20,7 +22,9 @@ impl<'a> Approach<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
-        let timing = Timing { duration: scenario.approach.duration, step: scenario.approach.step, sample };
+        let approach = &scenario.approach;
+        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
+        let timing = Timing { duration, step, sample, integration };
         Self { scenario, timing }
     }
 
@@ -35,42 +39,47 @@ impl<'a> Approach<'a> {
     /// # Errors
     /// When and why it stopped.
     pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+        self.track_until(model, rates, &mut NoEvents, tick)
+    }
+
+    /// The same, up to the first of the events.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
         let trajectory = self.trajectory(rates);
         let joints = model.joints();
+        let initial = Motion::of(&self.scenario.initial.state());
+        let actuation = &self.scenario.approach.actuation;
+        let mut drive = |law: &mut dyn Control<f64>| {
+            drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
+        };
         match &self.scenario.approach.tracking {
-            Tracking::Exact => self.track_exactly(model, rates, tick),
+            Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-                let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-                self.drive(model, &mut law, tick)
+                drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
             }
-            Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
-                let mut law = ComputedTorque {
-                    trajectory,
-                    proportional_gain,
-                    derivative_gain,
-                    generalized_inertia: &mut vec![0.0; joints * joints],
-                    generalized_bias: &mut vec![0.0; joints],
-                    generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
-                };
-                self.drive(model, &mut law, tick)
-            }
+            Tracking::ComputedTorque { proportional_gain, derivative_gain } => drive(&mut ComputedTorque {
+                trajectory,
+                proportional_gain,
+                derivative_gain,
+                generalized_inertia: &mut vec![0.0; joints * joints],
+                generalized_bias: &mut vec![0.0; joints],
+                generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+            }),
             Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
                 let mut tips = Tips::new(model, self.scenario)?;
                 let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
-                let phase = self.drive(model, &mut law, tick)?;
+                let phase = drive(&mut law)?;
                 Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
             }
         }
-    }
-
-    fn drive(
-        &self,
-        model: &dyn Model<f64>,
-        law: &mut dyn Control<f64>,
-        tick: &mut dyn FnMut(),
-    ) -> Result<Phase, Stopped> {
-        let initial = Motion::of(&self.scenario.initial.state());
-        drive(model, law, &self.scenario.approach.actuation, &initial, &self.timing, tick)
     }
 
     /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
@@ -82,6 +91,16 @@ impl<'a> Approach<'a> {
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        self.track_exactly_until(model, rates, &mut NoEvents, tick)
+    }
+
+    fn track_exactly_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let joints = model.joints();
@@ -102,7 +121,7 @@ impl<'a> Approach<'a> {
         };
         let limits = &self.scenario.approach.actuation.joint_limits;
         let mut watched = Watched { law, limits, excesses: Excesses::default() };
-        let phase = simulate(model, &mut watched, &initial, &self.timing, tick)?;
+        let phase = simulate(&System::alone(model), &mut watched, &initial, &self.timing, events, tick)?;
         Ok(watched.finish(phase))
     }
 

@@ -3,6 +3,7 @@
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::state::State;
+use crate::system::Body;
 
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,6 +16,18 @@ pub struct Drift {
     /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over the
     /// largest distance of a body's COM from it.
     pub center_of_mass_drift: f64,
+}
+
+impl Drift {
+    /// The worse of all, number by number.
+    #[must_use]
+    pub fn worse(&self, other: &Self) -> Self {
+        Self {
+            momentum_drift: self.momentum_drift.max(other.momentum_drift),
+            energy_error: self.energy_error.max(other.energy_error),
+            center_of_mass_drift: self.center_of_mass_drift.max(other.center_of_mass_drift),
+        }
+    }
 }
 
 /// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes its way.
@@ -65,15 +78,15 @@ impl<'a> Audit<'a> {
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>) -> Result<Self, Error> {
+    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let mut inertias = vec![[0.0; 2]; bodies];
         model.body_inertias(&mut inertias)?;
-        let start = model.momentum(state)?;
+        let start = with_bodies(model.momentum(state)?, beside);
         let none = Ratio::default();
         let (mut poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
         model.body_poses(&state.base_pose, state.joint_angles, &mut poses)?;
-        let center = center_of_mass(&inertias, &poses);
+        let (center, _) = center_of_mass(masses(&inertias, &poses, beside));
         let mut audit = Self {
             model,
             inertias,
@@ -86,23 +99,25 @@ impl<'a> Audit<'a> {
             energy: none,
             motion: none,
         };
-        audit.record(state, &Done::default())?;
+        audit.record(state, beside, &Done::default())?;
         Ok(audit)
     }
 
-    /// Looks at one state, this having been done to the robot since the start.
+    /// Looks at one state, this having been done to the robot since the start. Momentum and energy are of the robot and the
+    /// bodies beside it together.
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn record(&mut self, state: &State<'_, f64>, done: &Done) -> Result<Momentum<f64>, Error> {
-        let now = self.model.momentum(state)?;
+    pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], done: &Done) -> Result<Momentum<f64>, Error> {
+        let now = with_bodies(self.model.momentum(state)?, beside);
         self.model.body_poses(&state.base_pose, state.joint_angles, &mut self.poses)?;
         self.model.body_twists(state, &mut self.twists)?;
         let (mut linear, mut angular) = (0.0, 0.0);
-        for ([mass, inertia], ([_, x, y], [omega, vx, vy])) in
-            self.inertias.iter().zip(self.poses.iter().zip(&self.twists))
-        {
-            linear += mass * vx.hypot(*vy);
+        let of_robot = self.inertias.iter().zip(self.poses.iter().zip(&self.twists));
+        let of_bodies = beside.iter().map(|body| (body.mass, body.inertia, body.pose, body.twist));
+        let parts = of_robot.map(|([mass, inertia], (pose, twist))| (*mass, *inertia, *pose, *twist));
+        for (mass, inertia, [_, x, y], [omega, vx, vy]) in parts.chain(of_bodies) {
+            linear += mass * vx.hypot(vy);
             angular += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
         }
         let [l, px, py] = done.impulse;
@@ -111,11 +126,11 @@ impl<'a> Audit<'a> {
         self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - done.work, now.kinetic_energy);
-        let mass: f64 = self.inertias.iter().map(|[mass, _]| mass).sum();
-        let [x, y] = center_of_mass(&self.inertias, &self.poses);
+        let bodies = masses(&self.inertias, &self.poses, beside);
+        let ([x, y], mass) = center_of_mass(bodies.clone());
+        let extent = bodies.fold(0.0, |most: f64, (_, [to_x, to_y])| most.max((to_x - x).hypot(to_y - y)));
         let [from_x, from_y] = self.center;
         let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * done.time);
-        let extent = self.poses.iter().fold(0.0, |most: f64, [_, to_x, to_y]| most.max((to_x - x).hypot(to_y - y)));
         self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);
         Ok(now)
     }
@@ -131,12 +146,32 @@ impl<'a> Audit<'a> {
     }
 }
 
-/// [x, y] of the bodies together, from their masses and poses.
-fn center_of_mass(inertias: &[[f64; 2]], poses: &[[f64; 3]]) -> [f64; 2] {
-    let (mut mass, mut moments) = (0.0, [0.0; 2]);
-    for ([part, _], [_, x, y]) in inertias.iter().zip(poses) {
-        mass += part;
-        moments = [moments[0] + part * x, moments[1] + part * y];
+/// Mass (kg) and place [x, y] (m) of every body of a robot, and of those beside it.
+fn masses<'a>(
+    inertias: &'a [[f64; 2]],
+    poses: &'a [[f64; 3]],
+    beside: &'a [Body],
+) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
+    let of_robot = inertias.iter().zip(poses).map(|([mass, _], [_, x, y])| (*mass, [*x, *y]));
+    of_robot.chain(beside.iter().map(|body| (body.mass, [body.pose[1], body.pose[2]])))
+}
+
+/// [x, y] of bodies together, m, and their mass, kg.
+fn center_of_mass(bodies: impl Iterator<Item = (f64, [f64; 2])>) -> ([f64; 2], f64) {
+    let sums = bodies.fold(([0.0; 2], 0.0), |(moment, mass), (part, [x, y])| {
+        ([moment[0] + part * x, moment[1] + part * y], mass + part)
+    });
+    let (moment, mass) = sums;
+    (moment.map(|moment| moment / mass), mass)
+}
+
+/// A robot's momentum and energy with those of the bodies beside it.
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+    for body in bodies {
+        let ([l, px, py], energy) = body.momentum();
+        total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];
+        total.angular_momentum += l;
+        total.kinetic_energy += energy;
     }
-    moments.map(|moment| moment / mass)
+    total
 }

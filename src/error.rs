@@ -33,4 +33,30 @@ pub enum Error {
         /// What it had to exceed.
         limit: f64,
     },
+    /// An iteration that does not come to an end.
+    #[error("{what} do not settle: they still change by {change:e} in round {rounds}")]
+    Unsettled {
+        /// What is iterated.
+        what: &'static str,
+        /// Rounds made.
+        rounds: usize,
+        /// Largest change in the last of them.
+        change: f64,
+    },
+    /// An adaptive integrator that makes no way.
+    #[error("the tolerance {tolerance:e} cannot be kept: steps of {step:e} s are still too long")]
+    Tolerance {
+        /// What was asked for, relative and per unit.
+        tolerance: f64,
+        /// s.
+        step: f64,
+    },
+    /// Reduced coordinates where there is more than the robot.
+    #[error(
+        "reduced coordinates are for a robot alone, found {count} bodies or holds beside it, expected `coordinates = \"full\"`"
+    )]
+    Beside {
+        /// How many bodies there are.
+        count: usize,
+    },
 }

@@ -19,6 +19,10 @@
 //! | (18) PD control | [`control::ProportionalDerivative`] |
 //! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
+//! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
+//! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
+//! | other integrators | [`integrate`] |
+//! | events that end a phase | `event` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
@@ -48,8 +52,10 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
+pub mod body;
 #[doc(hidden)]
 pub mod check;
+pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod error;
@@ -79,6 +85,8 @@ pub mod actuators;
 #[cfg(feature = "std")]
 pub mod approach;
 #[cfg(feature = "std")]
+pub mod assembly;
+#[cfg(feature = "std")]
 pub mod audit;
 #[cfg(feature = "build")]
 pub mod build;
@@ -87,13 +95,23 @@ pub mod capture;
 #[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]
+mod course;
+#[cfg(feature = "std")]
 pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
+mod equation;
+#[cfg(feature = "std")]
 pub mod evaluation;
+#[cfg(feature = "std")]
+pub mod event;
 #[cfg(feature = "figures")]
 pub mod figures;
+#[cfg(feature = "std")]
+mod flow;
+#[cfg(feature = "std")]
+pub mod gaps;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -105,6 +123,8 @@ pub mod layout;
 #[cfg(feature = "std")]
 pub mod limits;
 #[cfg(feature = "std")]
+pub mod meeting;
+#[cfg(feature = "std")]
 pub mod miss;
 #[cfg(feature = "std")]
 pub mod models;
@@ -115,6 +135,8 @@ pub mod posture;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "std")]
+mod recorder;
+#[cfg(feature = "std")]
 pub mod remainder;
 #[cfg(feature = "std")]
 pub mod report;
@@ -122,6 +144,8 @@ pub mod report;
 pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod resolved;
+#[cfg(feature = "std")]
+pub mod response;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
@@ -137,6 +161,12 @@ pub mod study;
 #[cfg(feature = "std")]
 pub mod summary;
 #[cfg(feature = "std")]
+pub mod surface;
+#[cfg(feature = "std")]
+pub mod system;
+#[cfg(feature = "std")]
 pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;
+#[cfg(feature = "std")]
+mod watch;

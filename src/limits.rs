@@ -80,6 +80,22 @@ impl Excesses {
         }
     }
 
+    /// These, and those of a phase that goes on from the end of one of `duration` (s): the larger of each.
+    #[must_use]
+    pub fn then(self, next: Self, duration: f64) -> Self {
+        let larger = |before: Option<Excess>, after: Option<Excess>| {
+            let after = after.map(|excess| Excess { time: duration + excess.time, ..excess });
+            match (before, after) {
+                (Some(before), Some(after)) => Some(if after.size() > before.size() { after } else { before }),
+                (before, after) => before.or(after),
+            }
+        };
+        Self {
+            joint_angle: larger(self.joint_angle, next.joint_angle),
+            joint_rate: larger(self.joint_rate, next.joint_rate),
+        }
+    }
+
     /// What is beyond its limit, in words.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {

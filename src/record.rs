@@ -17,9 +17,10 @@ pub fn write_csv(layout: &Layout, study: &Study, case: &CaseResult, to: impl Wri
     let base_torque =
         case.capture.iter().filter_map(|captured| captured.post_impact.end()).any(|end| end.base_torque.is_some());
     csv.write_record(header(layout, base_torque))?;
-    write_phase(&mut csv, "approach", 0.0, &study.approach, base_torque)?;
+    let approach = case.approach(study);
+    write_phase(&mut csv, "approach", 0.0, approach, base_torque)?;
     if let Some(captured) = &case.capture {
-        write_phase(&mut csv, "post_impact", study.approach.duration, &captured.post_impact, base_torque)?;
+        write_phase(&mut csv, "post_impact", approach.duration, &captured.post_impact, base_torque)?;
     }
     csv.flush()
 }

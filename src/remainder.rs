@@ -1,9 +1,11 @@
 //! What is left of the motion when a robot has settled after a capture.
 
+use crate::audit::with_bodies;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scenario::Settling;
 use crate::simulate::Motion;
+use crate::system::Body;
 
 /// The motion that remains, robot and targets as one.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,16 +29,24 @@ pub struct Remainder {
 }
 
 impl Remainder {
-    /// Of the merged robot in this motion, where `wheels` says which joints turn wheels.
+    /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn wheels.
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn of(model: &dyn Model<f64>, control: &Settling, motion: &Motion, wheels: &[bool]) -> Result<Self, Error> {
+    pub fn of(
+        model: &dyn Model<f64>,
+        held: &[Body],
+        control: &Settling,
+        motion: &Motion,
+        wheels: &[bool],
+    ) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let (mut inertias, mut poses) = (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies]);
         model.body_inertias(&mut inertias)?;
         model.body_poses(&motion.base_pose, &motion.joint_angles, &mut poses)?;
-        let total = model.momentum(&motion.state())?;
+        inertias.extend(held.iter().map(|body| [body.mass, body.inertia]));
+        poses.extend(held.iter().map(|body| body.pose));
+        let total = with_bodies(model.momentum(&motion.state())?, held);
         let mass: f64 = inertias.iter().map(|[mass, _]| mass).sum();
         let center = [1, 2].map(|axis: usize| {
             let moments = inertias.iter().zip(&poses).map(|([mass, _], pose)| mass * pose[axis]);

@@ -1,44 +1,55 @@
 //! The motion after an impact, under the law that a scenario names.
 
 use crate::actuators::drive;
+use crate::assembly::Grip;
 use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
-use crate::dynamics::Model;
+use crate::event::Events;
 use crate::layout::{Arm, Layout};
 use crate::scenario::{PostImpact, Settling};
 use crate::simulate::{Motion, Phase, Stopped, Timing};
-use crate::target::Target;
+use crate::system::System;
 use crate::trajectory::Standing;
 
-/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold no
-/// target.
+/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.
 #[must_use]
-pub fn wheels(layout: &Layout, targets: &[Option<Target<f64>>]) -> Vec<bool> {
-    let free = targets.iter().map(Option::is_none).chain(std::iter::repeat(true));
-    let arms = layout.arms.iter().zip(free);
-    arms.flat_map(|(arm, free)| std::iter::repeat_n(free && is_wheel(arm), arm.links.len())).collect()
+pub fn wheels(layout: &Layout, grips: &[Grip]) -> Vec<bool> {
+    let arms = layout.arms.iter().enumerate();
+    let free = |i: usize| grips.iter().all(|grip| grip.arm != i);
+    arms.flat_map(|(i, arm)| std::iter::repeat_n(free(i) && is_wheel(arm), arm.links.len())).collect()
 }
 
 fn is_wheel(arm: &Arm) -> bool {
     matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
-/// Runs the merged robot from `start` on; `wheels` as [`wheels`] says.
+/// What a scenario wants after an impact, for what its tips hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Settle<'a> {
+    /// The law.
+    pub after: &'a PostImpact,
+    /// Which joints turn wheels, see [`wheels`].
+    pub wheels: &'a [bool],
+    /// The joint angles of the capture, rad, which some laws hold.
+    pub angles: &'a [f64],
+}
+
+/// Runs robot and targets from `start` on, for a time or up to an event.
 ///
 /// # Errors
 /// When and why it stopped.
 pub fn settle(
-    model: &dyn Model<f64>,
-    after: &PostImpact,
-    wheels: &[bool],
+    system: &System<'_>,
+    Settle { after, wheels, angles }: Settle<'_>,
     start: &Motion,
-    sample: f64,
+    timing: &Timing,
+    events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let timing = Timing { duration: after.duration, step: after.step, sample };
+    let model = system.model;
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     let (mut held, mut damped, mut stabilised);
-    let standing = Standing { angles: &start.joint_angles };
+    let standing = Standing { angles };
     let no_stiffness = vec![0.0; model.joints()];
     let law: &mut dyn Control<f64> = match &after.control {
         Settling::None => &mut Free,
@@ -63,5 +74,5 @@ pub fn settle(
             &mut stabilised
         }
     };
-    drive(model, law, &after.actuation, start, &timing, tick)
+    drive(system, law, &after.actuation, start, timing, events, tick)
 }

@@ -1,13 +1,16 @@
-//! One phase in time: fixed Runge–Kutta steps under a control law, audited at every step.
+//! One phase in time: steps of any integrator under a control law, audited at every step, up to its end or an event.
 
-use crate::audit::{Audit, Done, Drift};
+use crate::audit::Drift;
 use crate::control::Control;
-use crate::dynamics::Model;
 use crate::error::Error;
-use crate::integrate::RungeKutta4;
+use crate::event::Events;
+use crate::flow::Flow;
 use crate::limits::Excesses;
-use crate::motion::derivative;
-use crate::state::{Effort, State, vector_length};
+use crate::recorder::Recorder;
+use crate::scenario::Integration;
+use crate::state::State;
+use crate::system::{Body, System};
+use crate::watch::Watch;
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,17 +76,22 @@ pub struct Sample {
     pub base_work: f64,
     /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
     pub base_impulse: f64,
+    /// The bodies beside the robot, in the system's order.
+    pub bodies: Vec<Body>,
 }
 
 /// How one phase is cut into steps and samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timing {
     /// s.
     pub duration: f64,
-    /// Wanted step, s; the nearest that divides the duration is taken.
+    /// Wanted step, s; the nearest that divides the duration is taken. An adaptive integrator has steps of its own: it is
+    /// looked at and audited so often.
     pub step: f64,
     /// Time between samples, s, at least one step; the last instant is always sampled.
     pub sample: f64,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
 }
 
 impl Timing {
@@ -109,14 +117,18 @@ impl Timing {
 /// A phase that was run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Phase {
-    /// s.
+    /// s; up to the event where there was one.
     pub duration: f64,
+    /// Which event ended it, and when, s; `None` where the time was over.
+    pub event: Option<(usize, f64)>,
     /// The first, one per sampling time, and the last.
     pub samples: Vec<Sample>,
     /// The audit of every step.
     pub drift: Drift,
     /// How long the actuators were at their limits.
     pub saturation: Saturation,
+    /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
+    pub constraint_errors: [f64; 2],
     /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
@@ -132,23 +144,43 @@ pub struct Saturation {
     pub base: f64,
 }
 
-impl Saturation {
-    /// Adds a step (s) to what is saturated as it begins.
-    fn count(&mut self, control: &dyn Control<f64>, step: f64) {
-        let flags = control.saturated();
-        self.joints.resize(flags.len(), 0.0);
-        for (time, saturated) in self.joints.iter_mut().zip(flags) {
-            *time += if *saturated { step } else { 0.0 };
-        }
-        self.base += if control.base_torque().is_some_and(|base| base.saturated) { step } else { 0.0 };
-    }
-}
-
 impl Phase {
     /// The last instant.
     #[must_use]
     pub fn end(&self) -> Option<&Sample> {
         self.samples.last()
+    }
+
+    /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
+    #[must_use]
+    pub fn then(mut self, next: Self) -> Self {
+        let (work, base_work, base_impulse) =
+            self.end().map_or((0.0, 0.0, 0.0), |end| (end.work, end.base_work, end.base_impulse));
+        self.samples.extend(next.samples.into_iter().map(|sample| Sample {
+            time: self.duration + sample.time,
+            work: work + sample.work,
+            base_work: base_work + sample.base_work,
+            base_impulse: base_impulse + sample.base_impulse,
+            ..sample
+        }));
+        let joints = self.saturation.joints.iter_mut().zip(next.saturation.joints);
+        joints.for_each(|(sum, part)| *sum += part);
+        self.saturation.base += next.saturation.base;
+        Self {
+            event: next.event.map(|(event, time)| (event, self.duration + time)),
+            duration: self.duration + next.duration,
+            drift: self.drift.worse(&next.drift),
+            constraint_errors: std::array::from_fn(|i| self.constraint_errors[i].max(next.constraint_errors[i])),
+            singularity_margin: match [self.singularity_margin, next.singularity_margin] {
+                [Some(before), Some(after)] => Some(before.min(after)),
+                [before, after] => before.or(after),
+            },
+            excesses: match (self.excesses, next.excesses) {
+                (Some(before), Some(after)) => Some(before.then(after, self.duration)),
+                (before, after) => before.or(after),
+            },
+            ..self
+        }
     }
 }
 
@@ -162,85 +194,52 @@ pub struct Stopped {
     pub source: Error,
 }
 
-/// Runs one phase; `tick` is called once per step.
+/// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
 ///
 /// # Errors
-/// The time and the reason where the model or the law has no answer (singular, not finite).
+/// The time and the reason where the model or the law has no answer (singular, not finite), and where the integrator has
+/// none.
 pub fn simulate(
-    model: &dyn Model<f64>,
+    system: &System<'_>,
     control: &mut dyn Control<f64>,
     initial: &Motion,
     timing: &Timing,
+    events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let joints = model.joints();
-    let length = vector_length(joints);
-    let mut x = vec![0.0; length];
-    initial.state().write(&mut x);
-    let mut torques = vec![0.0; joints];
-    let mut workspace = vec![0.0; 3 * length];
+    let mut x = system.vector(&initial.state());
     let at = |time| move |source| Stopped { time, source };
-    let wrong_length = Error::Length { quantity: "state vector", expected: length, found: x.len() };
-    let mut integrator = RungeKutta4::new(&mut workspace).ok_or(Stopped { time: 0.0, source: wrong_length })?;
-    let mut audit = Audit::new(model, &initial.state()).map_err(at(0.0))?;
+    let mut flow = Flow::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let mut watch = Watch::new(system, events);
+    let mut phase = Recorder::new(system, &initial.state()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
-    let step = time_of(1);
-    let mut samples = Vec::new();
-    let mut saturation = Saturation::default();
-    for i in 0..=steps {
-        let time = time_of(i);
-        let state = State::from_vector(&x, joints).ok_or(Stopped { time, source: wrong_length })?;
-        let effort = Effort::from_vector(&x).unwrap_or_default();
-        let work = effort.joint_work + effort.base_work;
-        let done = Done { time, work, impulse: [effort.base_impulse, 0.0, 0.0] };
-        let momentum = audit.record(&state, &done).map_err(at(time))?;
-        if i < steps {
-            control.begin_step(time, model, &state).map_err(at(time))?;
+    let (mut before, mut rate) = (x.clone(), x.clone());
+    for i in 0..steps {
+        let span @ [time, end] = [time_of(i), time_of(i + 1)];
+        phase.look(control, time, &x, true, i % stride == 0).map_err(at(time))?;
+        if watch.is_idle() {
+            flow.advance(control, span, &mut x).map_err(at(time))?;
+        } else {
+            if i == 0 {
+                flow.rate(control, time, &x, &mut rate).map_err(at(time))?;
+                watch.start(time, end - time, &x, &rate).map_err(at(time))?;
+            }
+            before.copy_from_slice(&x);
+            flow.advance(control, span, &mut x).map_err(at(time))?;
+            flow.rate(control, end, &x, &mut rate).map_err(at(end))?;
+            let mut within = |t: f64, into: &mut Vec<f64>| flow.within(control, [time, t], &before, into);
+            if let Some((event, when)) = watch.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
+                within(when, &mut x).map_err(at(when))?;
+                phase.count(when - time);
+                phase.look(control, when, &x, false, true).map_err(at(when))?;
+                return Ok(phase.end(when, Some((event, when))));
+            }
         }
-        if i % stride == 0 || i == steps {
-            control.joint_torques(time, model, &state, &mut torques).map_err(at(time))?;
-            let mut sample = Sample {
-                time,
-                motion: Motion::of(&state),
-                joint_torques: torques.clone(),
-                end_effector_poses: vec![[0.0; 3]; model.arms()],
-                end_effector_twists: vec![[0.0; 3]; model.arms()],
-                linear_momentum: momentum.linear_momentum,
-                angular_momentum: momentum.angular_momentum,
-                kinetic_energy: momentum.kinetic_energy,
-                work: effort.joint_work,
-                base_torque: control.base_torque().map(|base| base.torque),
-                base_work: effort.base_work,
-                base_impulse: effort.base_impulse,
-            };
-            model
-                .end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)
-                .and_then(|()| model.end_effector_twists(&state, &mut sample.end_effector_twists))
-                .map_err(at(time))?;
-            samples.push(sample);
-        }
-        if i < steps {
-            let mut first = true;
-            integrator
-                .step(time, step, &mut x, |t, x, rate| {
-                    derivative(model, control, t, x, rate, &mut torques)?;
-                    if std::mem::take(&mut first) {
-                        saturation.count(control, step);
-                    }
-                    Ok(())
-                })
-                .map_err(at(time))?;
-            tick();
-        }
+        phase.count(end - time);
+        tick();
     }
-    Ok(Phase {
-        duration: timing.duration,
-        samples,
-        drift: audit.drift(),
-        saturation,
-        singularity_margin: None,
-        excesses: None,
-    })
+    phase.look(control, timing.duration, &x, false, true).map_err(at(timing.duration))?;
+    Ok(phase.end(timing.duration, None))
 }

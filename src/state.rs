@@ -31,10 +31,34 @@ impl<'a, T> Forces<'a, T> {
     }
 }
 
-/// Number of entries of the vector that is integrated: pose, angles, twist, rates, [`Effort`].
+/// Number of entries of the vector that is integrated: `[base_pose, joint_angles, base_twist, joint_rates, effort]`, the
+/// last an [`Effort`].
+///
+/// A vector may be longer by 6 for each free body beside the robot, their poses after the joint angles and their twists
+/// after the joint rates: the first half are positions, the second their rates, whatever there is.
 #[must_use]
 pub const fn vector_length(joints: usize) -> usize {
     2 * (3 + joints) + 3
+}
+
+/// Where the second half of an integrated vector begins.
+const fn half(length: usize) -> usize {
+    length.saturating_sub(3) / 2
+}
+
+/// The positions of an integrated vector and their rates; `None` where the vector is not two halves and an effort.
+pub fn halves<T>(vector: &[T]) -> Option<(&[T], &[T])> {
+    let (state, _) = vector.split_last_chunk::<3>()?;
+    let (positions, rates) = state.split_at_checked(half(vector.len()))?;
+    (positions.len() == rates.len()).then_some((positions, rates))
+}
+
+/// Positions, rates and what follows them in an integrated vector, to be changed; `None` as [`halves`].
+pub fn halves_mut<T>(vector: &mut [T]) -> Option<(&mut [T], &mut [T], &mut [T; 3])> {
+    let places = half(vector.len());
+    let (state, effort) = vector.split_last_chunk_mut::<3>()?;
+    let (positions, rates) = state.split_at_mut_checked(places)?;
+    (positions.len() == rates.len()).then_some((positions, rates, effort))
 }
 
 /// What the actuators have done, integrated beside the state.
@@ -57,20 +81,22 @@ impl<T: Copy> Effort<T> {
 }
 
 impl<'a, T: Copy> State<'a, T> {
-    /// The state in an integrated vector `[base_pose, joint_angles, base_twist, joint_rates, …]`;
-    /// `None` where the vector is too short.
+    /// The state in an integrated vector, see [`vector_length`]; `None` where the vector is too short.
     pub fn from_vector(vector: &'a [T], joints: usize) -> Option<Self> {
-        let (base_pose, rest) = vector.split_first_chunk::<3>()?;
-        let (joint_angles, rest) = rest.split_at_checked(joints)?;
-        let (base_twist, rest) = rest.split_first_chunk::<3>()?;
+        let (positions, rates) = halves(vector)?;
+        let (base_pose, rest) = positions.split_first_chunk::<3>()?;
+        let joint_angles = rest.get(..joints)?;
+        let (base_twist, rest) = rates.split_first_chunk::<3>()?;
         let joint_rates = rest.get(..joints)?;
         Some(Self { base_pose: *base_pose, joint_angles, base_twist: *base_twist, joint_rates })
     }
 
-    /// Writes the state to the head of an integrated vector; entries beyond it keep their values.
+    /// Writes the state to its places in an integrated vector; the other entries keep their values.
     pub fn write(&self, vector: &mut [T]) {
-        let values = self.base_pose.iter().chain(self.joint_angles).chain(&self.base_twist).chain(self.joint_rates);
-        for (place, value) in vector.iter_mut().zip(values) {
+        let (positions, rates) = vector.split_at_mut(half(vector.len()));
+        let of_positions = self.base_pose.iter().chain(self.joint_angles);
+        let of_rates = self.base_twist.iter().chain(self.joint_rates);
+        for (place, value) in positions.iter_mut().zip(of_positions).chain(rates.iter_mut().zip(of_rates)) {
             *place = *value;
         }
     }

@@ -1,17 +1,17 @@
 //! A scenario from approach to post-impact: one approach, then an impact and what follows for every case.
 
 use crate::approach::Approach;
-use crate::capture::{Capture, capture};
+use crate::capture::{Capture, ImpactResult};
+use crate::course::Course;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
 use crate::limits::Excesses;
 use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
-use crate::scenario::{Case, EndRates, PostImpact, Scenario, Settling, Tracking};
-use crate::settle::{settle, wheels};
-use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
-use crate::target::Target;
+use crate::scenario::{Detection, EndRates, Scenario, Tracking};
+use crate::simulate::{Phase, Stopped};
+use crate::system::Body;
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
@@ -19,6 +19,12 @@ pub const MOMENTUM_BOUND: f64 = 1e-9;
 pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
+
+/// Largest opening of what is held that passes the audit, rad or m, and its rate.
+pub const CONSTRAINT_BOUND: f64 = 1e-10;
+
+/// Deepest that a tip may be inside a target that it does not hold, m.
+pub const PENETRATION_BOUND: f64 = 1e-6;
 
 /// Makes a model of the robot, in its state before any capture.
 pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn Model<f64>>;
@@ -30,7 +36,7 @@ pub struct Study {
     pub design: Option<Design>,
     /// Where its final joint angles come from, where they were designed.
     pub posture: Option<Posture>,
-    /// The approach, the same in every case.
+    /// The approach: of all cases where contacts come by time, else as far as it would go without any.
     pub approach: Phase,
     /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
     pub misses: Vec<Option<Miss>>,
@@ -43,8 +49,36 @@ pub struct Study {
 pub struct CaseResult {
     /// Its name.
     pub name: String,
-    /// Impact and what follows; `None` where there is nothing to capture.
+    /// Its own approach, which ends at the first contact; `None` where that comes by time.
+    pub approach: Option<Phase>,
+    /// The targets at the end of the approach, before they are touched.
+    pub targets: Vec<Body>,
+    /// Tips and targets that were to meet and did not, where contacts are found by detection.
+    pub closest: Vec<Closest>,
+    /// Impact and what follows; `None` where there is nothing to capture, or no tip met its target.
     pub capture: Option<Captured>,
+}
+
+/// An impact in the course of the motion after another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Further {
+    /// Since the first impact, s.
+    pub time: f64,
+    /// The impact.
+    pub impact: Capture,
+}
+
+/// How near a tip came to a target that it never touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// From its outline, m.
+    pub distance: f64,
+    /// Since the start of the approach, s, to the time between samples.
+    pub time: f64,
 }
 
 /// A capture and the motion after it.
@@ -52,8 +86,14 @@ pub struct CaseResult {
 pub struct Captured {
     /// Exact and as the paper writes it.
     pub impact: Capture,
-    /// The merged robot from the exact velocities.
+    /// Robot and targets from the exact velocities on.
     pub post_impact: Phase,
+    /// The targets at each of its samples.
+    pub targets: Vec<Vec<Body>>,
+    /// Impacts after the first one, where contacts are found by detection.
+    pub further: Vec<Further>,
+    /// By how much a tip was inside a target that it does not hold, at most, m.
+    pub penetration: f64,
     /// What is left at its end; `None` where the joints are free, as in the paper.
     pub remainder: Option<Remainder>,
 }
@@ -70,6 +110,34 @@ pub enum StudyError {
     /// The approach stopped.
     #[error("the approach stopped {0}")]
     Approach(Stopped),
+    /// A tip is inside its target when the approach begins.
+    #[error(
+        "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
+         detection begin apart"
+    )]
+    Inside {
+        /// The case's name.
+        case: String,
+        /// The arm's.
+        arm: String,
+        /// The target's.
+        target: String,
+        /// m.
+        depth: f64,
+    },
+    /// Contacts follow each other without end.
+    #[error(
+        "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \
+         modelled"
+    )]
+    Chatter {
+        /// The case's name.
+        case: String,
+        /// How many there were.
+        impacts: usize,
+        /// Since the first, s.
+        time: f64,
+    },
     /// An impact could not be solved.
     #[error("the impact of case `{case}` could not be solved: {source}")]
     Impact {
@@ -144,63 +212,38 @@ pub fn study(
     let cases = scenario
         .cases
         .iter()
-        .map(|case| {
-            let capture = match (&scenario.post_impact, approach.end()) {
-                (Some(after), Some(end)) => Some(run_case(scenario, case, after, end, make, sample, observer)?),
-                _ => None,
-            };
-            Ok(CaseResult { name: case.name.clone(), capture })
+        .map(|case| match (&scenario.post_impact, approach.end()) {
+            (Some(after), Some(end)) => {
+                let course = Course { scenario, case, after, make, sample };
+                match scenario.contact.detection {
+                    Detection::Time => course.in_time(&end.motion, &end.end_effector_poses, observer),
+                    Detection::Event => course.by_detection(&rates, observer),
+                }
+            }
+            _ => Ok(CaseResult::alone(&case.name)),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let misses = Miss::of(scenario, &approach);
     Ok(Study { design, posture, approach, misses, cases })
 }
 
-/// Impact and post-impact of one case.
-fn run_case(
-    scenario: &Scenario,
-    case: &Case,
-    after: &PostImpact,
-    end: &Sample,
-    make: MakeModel<'_>,
-    sample: f64,
-    observer: &mut dyn Observer,
-) -> Result<Captured, StudyError> {
-    let mut model = make();
-    let targets = targets_by_arm(scenario, case, model.arms());
-    let failed = |source| StudyError::Impact { case: case.name.clone(), source };
-    let impact = capture(&*model, &end.motion, &targets).map_err(failed)?;
-    model.merge(&end.motion.base_pose, &end.motion.joint_angles, &targets).map_err(failed)?;
-    let start = Motion {
-        base_twist: impact.exact.base_twist_after,
-        joint_rates: impact.exact.joint_rates_after.clone(),
-        ..end.motion.clone()
-    };
-    let timing = Timing { duration: after.duration, step: after.step, sample };
-    observer.begin(&case.name, timing.steps());
-    let wheels = wheels(&scenario.layout, &targets);
-    let stopped = |source| StudyError::PostImpact { case: case.name.clone(), source };
-    let post_impact = settle(&*model, after, &wheels, &start, sample, &mut || observer.step()).map_err(stopped)?;
-    let remainder = match (&after.control, post_impact.end()) {
-        (Settling::None, _) | (_, None) => None,
-        (control, Some(end)) => {
-            let at_end = |source| stopped(Stopped { time: end.time, source });
-            Some(Remainder::of(&*model, control, &end.motion, &wheels).map_err(at_end)?)
-        }
-    };
-    Ok(Captured { impact, post_impact, remainder })
-}
-
-/// The scenario's targets with the case's twists, in arm order.
-fn targets_by_arm(scenario: &Scenario, case: &Case, arms: usize) -> Vec<Option<Target<f64>>> {
-    let mut by_arm = vec![None; arms];
-    for (target, twist) in scenario.targets.iter().zip(&case.target_twists) {
-        if let Some(place) = by_arm.get_mut(target.arm) {
-            *place =
-                Some(Target { mass: target.mass, inertia: target.inertia, contact: target.contact, twist: *twist });
-        }
+impl CaseResult {
+    /// An approach to nothing.
+    fn alone(name: &str) -> Self {
+        Self { name: name.to_owned(), approach: None, targets: Vec::new(), closest: Vec::new(), capture: None }
     }
-    by_arm
+
+    /// Its approach.
+    #[must_use]
+    pub fn approach<'a>(&'a self, study: &'a Study) -> &'a Phase {
+        self.approach.as_ref().unwrap_or(&study.approach)
+    }
+
+    /// The targets at a time of the approach, s before its end: they fly freely.
+    #[must_use]
+    pub fn targets_before(&self, ago: f64) -> Vec<Body> {
+        self.targets.iter().map(|target| target.after(-ago)).collect()
+    }
 }
 
 impl Study {
@@ -209,22 +252,38 @@ impl Study {
     pub fn objections(&self) -> Vec<String> {
         let mut found = phase_objections("approach", &self.approach);
         for case in &self.cases {
-            let Some(captured) = &case.capture else { continue };
-            let exact = &captured.impact.exact;
-            let jump = exact.relative_momentum_jump;
-            if jump > MOMENTUM_BOUND {
-                found.push(format!("{}: the exact impact changes the momentum by {jump:.2e} of it", case.name));
+            if let Some(own) = &case.approach {
+                found.extend(phase_objections(&format!("{}, approach", case.name), own));
             }
-            if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+            let Some(captured) = &case.capture else { continue };
+            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            found.extend(impacts.flat_map(|impact| impact_objections(&case.name, &impact.exact)));
+            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
+            if captured.penetration > PENETRATION_BOUND {
                 found.push(format!(
-                    "{}: the exact impact raises the kinetic energy from {} J to {} J",
-                    case.name, exact.kinetic_energy_before, exact.kinetic_energy_after
+                    "{}: a tip is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    case.name, captured.penetration
                 ));
             }
-            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
         }
         found
     }
+}
+
+fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
+    let mut found = Vec::new();
+    let jump = exact.relative_momentum_jump;
+    // a NaN is not within its bound
+    if jump.partial_cmp(&MOMENTUM_BOUND).is_none_or(std::cmp::Ordering::is_gt) {
+        found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
+    }
+    if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+        found.push(format!(
+            "{case}: the exact impact raises the kinetic energy from {} J to {} J",
+            exact.kinetic_energy_before, exact.kinetic_energy_after
+        ));
+    }
+    found
 }
 
 fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
@@ -232,6 +291,8 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
         ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
+        ("what is held is open by", phase.constraint_errors[0], CONSTRAINT_BOUND),
+        ("what is held opens by", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
     // a NaN is not within its bound
     let out_of_bound =

@@ -1,27 +1,29 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
-use crate::capture::ImpactResult;
-use crate::layout::Layout;
+use crate::capture::{Capture, ContactResult, ImpactResult};
 use crate::limits::{Excess, Excesses};
+use crate::meeting::Touching;
 use crate::miss::Miss;
 use crate::remainder::Remainder;
+use crate::scenario::Scenario;
 use crate::simulate::Phase;
 use crate::study::{CaseResult, Study};
 use serde_json::{Value, json};
 
 /// The whole summary; every number is finite and reads back as the same number.
 #[must_use]
-pub fn summary(scenario: &str, layout: &Layout, dynamics: &str, study: &Study) -> Value {
+pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
+    let layout = &scenario.layout;
     json!({
-        "scenario": scenario,
+        "scenario": scenario.name,
         "layout": {"name": layout.name, "sha256": layout.sha256()},
         "dynamics": dynamics,
-        "cases": study.cases.iter().map(|case| case_value(study, case)).collect::<Vec<_>>(),
+        "cases": study.cases.iter().map(|case| case_value(scenario, study, case)).collect::<Vec<_>>(),
     })
 }
 
-fn case_value(study: &Study, case: &CaseResult) -> Value {
-    let mut value = json!({"name": case.name, "approach": phase(&study.approach, true)});
+fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
+    let mut value = json!({"name": case.name, "approach": phase(case.approach(study), true)});
     if let Some(posture) = &study.posture {
         value["approach"]["designed"] = json!({
             "final_joint_angles": posture.joint_angles,
@@ -35,15 +37,46 @@ fn case_value(study: &Study, case: &CaseResult) -> Value {
         let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
         value["approach"]["missed"] = study.misses.iter().map(parts).collect();
     }
-    if let Some(captured) = &case.capture {
-        value["impact"] = json!({
-            "exact": impact(&captured.impact.exact),
-            "paper": impact(&captured.impact.paper),
+    if !case.closest.is_empty() {
+        let closest = case.closest.iter().map(|pair| {
+            json!({
+                "target": scenario.targets.get(pair.target).map(|target| &target.name),
+                "arm": scenario.layout.arms.get(pair.arm).map(|arm| &arm.name),
+                "distance": pair.distance,
+                "time": pair.time,
+            })
         });
+        value["closest"] = json!(closest.collect::<Vec<_>>());
+    }
+    if let Some(captured) = &case.capture {
+        value["impact"] = capture(scenario, &captured.impact);
         value["post_impact"] = phase(&captured.post_impact, false);
+        if !captured.further.is_empty() {
+            let further = captured.further.iter().map(|one| {
+                let mut value = capture(scenario, &one.impact);
+                value["time"] = json!(one.time);
+                value
+            });
+            value["post_impact"]["impacts"] = json!(further.collect::<Vec<_>>());
+        }
+        if captured.penetration > 0.0 {
+            value["post_impact"]["penetration"] = json!(captured.penetration);
+        }
         if let Some(left) = &captured.remainder {
             value["post_impact"]["remainder"] = remainder(left);
         }
+    }
+    value
+}
+
+fn capture(scenario: &Scenario, impact: &Capture) -> Value {
+    let mut value = json!({
+        "exact": result(&impact.exact),
+        "paper": impact.paper.as_ref().map(result),
+        "contacts": impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
+    });
+    if impact.restitution_scale < 1.0 {
+        value["restitution_scale"] = json!(impact.restitution_scale);
     }
     value
 }
@@ -65,6 +98,9 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
     value["center_of_mass_drift"] = json!(phase.drift.center_of_mass_drift);
+    if phase.constraint_errors.iter().any(|error| *error > 0.0) {
+        value["constraint_errors"] = json!(phase.constraint_errors);
+    }
     if let Some(margin) = phase.singularity_margin {
         value["singularity_margin"] = json!(margin);
     }
@@ -87,6 +123,33 @@ fn excess(excess: &Excess) -> Value {
     json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
 }
 
+/// One contact, with names for numbers.
+fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
+    let Touching { target, arm, kind, offset, miss } = result.touching;
+    let response = &result.response;
+    let mut value = json!({
+        "target": scenario.targets.get(target).map(|target| &target.name),
+        "arm": scenario.layout.arms.get(arm).map(|arm| &arm.name),
+        "kind": kind.name(),
+        "offset": offset,
+        "miss": miss,
+        "impulse": result.impulse,
+        "relative_twist": response.relative_twist,
+        "direction": response.direction,
+        "effective_masses": response.effective_masses,
+        "impulse_index": response.impulse_index,
+        "impulse_ellipse": {
+            "semi_axes": response.impulse_ellipse.semi_axes,
+            "direction": response.impulse_ellipse.direction,
+        },
+        "extended_inverse_inertia": response.inverse_inertia.0,
+    });
+    if let Some(duration) = scenario.contact.duration {
+        value["mean_force"] = json!(result.impulse.map(|part| part / duration));
+    }
+    value
+}
+
 fn remainder(left: &Remainder) -> Value {
     json!({
         "control": left.control,
@@ -100,7 +163,7 @@ fn remainder(left: &Remainder) -> Value {
     })
 }
 
-fn impact(result: &ImpactResult) -> Value {
+fn result(result: &ImpactResult) -> Value {
     json!({
         "joint_rates_after": result.joint_rates_after,
         "base_twist_after": result.base_twist_after,

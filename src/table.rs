@@ -2,7 +2,8 @@
 
 use crate::audit::Drift;
 use crate::capture::ImpactResult;
-use crate::scenario::{Scenario, Settling, Tracking};
+use crate::meeting::Touching;
+use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::simulate::Phase;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
@@ -23,7 +24,7 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt
         balances(out, scenario, study)?;
         remainders(out, study)?;
     }
-    Ok(())
+    missed(out, scenario, study)
 }
 
 fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
@@ -50,7 +51,11 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         )?;
     }
     let [yaw, x, y] = end.motion.base_pose;
-    writeln!(out, "\nAfter the approach of {} s", phase.duration)?;
+    let meanwhile = match scenario.contact.detection {
+        Detection::Time => "",
+        Detection::Event => ", were there no contact",
+    };
+    writeln!(out, "\nAfter the approach of {} s{meanwhile}", phase.duration)?;
     writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
     for (i, (arm, (pose, twist))) in
         scenario.layout.arms.iter().zip(end.end_effector_poses.iter().zip(&end.end_effector_twists)).enumerate()
@@ -60,9 +65,12 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
             arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
         )?;
-        let target = scenario.targets.iter().find(|target| target.arm == i);
-        if let Some((target, [x, y])) = target.and_then(|t| Some((t, t.position?))) {
-            let miss = (pose[1] - target.contact[0] - x).hypot(pose[2] - target.contact[1] - y);
+        let touched = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+        let mut touches = touched.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+        let touch = touches.find(|(_, touch)| touch.arm == i);
+        if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
+        {
+            let miss = (pose[1] - touch.contact[0] - x).hypot(pose[2] - touch.contact[1] - y);
             write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
         }
         writeln!(out)?;
@@ -119,25 +127,60 @@ fn spare(joints: isize) -> String {
 fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
     writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
     let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
-    let column = if printed { " as printed" } else { "" };
-    let head = format!("  {:<16} {:<10} {:>10} {:>10} {column:>11}", "case", "arm", "exact", "paper eqs.");
+    let detected = scenario.contact.detection == Detection::Event;
+    let column = match (detected, printed) {
+        (true, _) => "at [s]",
+        (false, true) => "as printed",
+        (false, false) => "",
+    };
+    let head =
+        format!("  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11}", "case", "arm", "kind", "exact", "paper eqs.");
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
-        let Some(Captured { impact, .. }) = &result.capture else { continue };
-        let (exact, paper) = (impact.exact.impulse_magnitudes(), impact.paper.impulse_magnitudes());
-        for (target, printed) in scenario.targets.iter().zip(&case.printed_impulses) {
-            let of = |values: &[Option<f64>]| values.get(target.arm).copied().flatten();
-            let (Some(exact), Some(paper), Some(arm)) = (of(&exact), of(&paper), scenario.layout.arms.get(target.arm))
-            else {
-                continue;
-            };
-            let printed = printed.map_or_else(String::new, |value| format!("{value:.4}"));
-            let row = format!("  {:<16} {:<10} {exact:>10.5} {paper:>10.5} {printed:>11}", case.name, arm.name);
-            writeln!(out, "{}", row.trim_end())?;
+        let Some(captured) = &result.capture else { continue };
+        let first = result.approach(study).duration;
+        let later = captured.further.iter().map(|one| (first + one.time, &one.impact));
+        for (time, impact) in std::iter::once((first, &captured.impact)).chain(later) {
+            for contact in &impact.contacts {
+                let Touching { target, arm, kind, .. } = contact.touching;
+                let Some(of) = scenario.layout.arms.get(arm) else { continue };
+                let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
+                let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
+                let printed = case.printed_impulses.get(target).copied().flatten();
+                let last = match (detected, printed) {
+                    (true, _) => format!("{time:.4}"),
+                    (false, Some(value)) => format!("{value:.4}"),
+                    (false, None) => String::new(),
+                };
+                let [_, fx, fy] = contact.impulse;
+                let (exact, kind) = (fx.hypot(fy), kind.name());
+                let row =
+                    format!("  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11}", case.name, of.name);
+                writeln!(out, "{}", row.trim_end())?;
+            }
+        }
+        if captured.impact.contacts.is_empty() {
+            writeln!(out, "  {:<16} no contact", case.name)?;
         }
     }
-    if printed {
+    if printed && !detected {
         writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; README says more)")?;
+    }
+    Ok(())
+}
+
+/// Tips and targets that were to meet and did not.
+fn missed(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+    for case in &study.cases {
+        for pair in &case.closest {
+            let arm = scenario.layout.arms.get(pair.arm).map_or("", |arm| arm.name.as_str());
+            let target = scenario.targets.get(pair.target).map_or("", |target| target.name.as_str());
+            writeln!(
+                out,
+                "\n{}: the tip of {arm} never meets {target}; at {:.2} s it is {:.4} m from it",
+                case.name, pair.time, pair.distance
+            )?;
+        }
     }
     Ok(())
 }
@@ -151,7 +194,8 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     )?;
     for case in &study.cases {
         let Some(captured) = &case.capture else { continue };
-        for (model, result) in [("exact", &captured.impact.exact), ("paper", &captured.impact.paper)] {
+        let literal = captured.impact.paper.iter().map(|result| ("paper", result));
+        for (model, result) in std::iter::once(("exact", &captured.impact.exact)).chain(literal) {
             balance(out, case, model, result)?;
         }
     }

@@ -5,12 +5,13 @@ mod support;
 use assert_cmd::Command;
 use planar_capture::audit::{Audit, Done};
 use planar_capture::layout::Layout;
-use planar_capture::limits::{Excess, JointLimits};
+use planar_capture::limits::{Excess, Excesses, JointLimits};
 use planar_capture::models;
 use planar_capture::scenario::{Scenario, Settling, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::state::State;
 use planar_capture::summary::summary;
+use planar_capture::system::Body;
 use std::fs;
 use support::{assert_close, file, run, scenario, tolerance};
 use tempfile::TempDir;
@@ -33,15 +34,57 @@ fn the_centre_of_mass_goes_its_way() {
     let mass: f64 = inertias.iter().map(|[m, _]| m).sum();
     let com = [1, 2].map(|i: usize| inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum::<f64>() / mass);
     let extent = poses.iter().map(|p| (p[1] - com[0]).hypot(p[2] - com[1])).fold(0.0, f64::max);
-    let mut audit = Audit::new(&*model, &state(1.0, 2.0)).expect("a state");
+    let mut audit = Audit::new(&*model, &state(1.0, 2.0), &[]).expect("a state");
     let later = Done { time: 10.0, ..Done::default() };
-    audit.record(&state(6.0, 0.0), &later).expect("a state");
+    audit.record(&state(6.0, 0.0), &[], &later).expect("a state");
     assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
-    audit.record(&state(6.003, -0.004), &later).expect("a state");
+    audit.record(&state(6.003, -0.004), &[], &later).expect("a state");
     assert_close("beside it", &[audit.drift().center_of_mass_drift], &[0.005 / extent], tolerance::IDENTITY);
 }
 
-/// Steps that are far too long: momentum and the way of the centre of mass are lost, and the audit says so.
+/// A body beside the robot counts with its mass, and is part of the extent.
+#[test]
+fn bodies_beside_the_robot_count() {
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = models::generated(&layout).expect("generated code");
+    let joint_angles = [0.3, -1.2, 0.7];
+    let state =
+        State { base_pose: [0.0; 3], joint_angles: &joint_angles, base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
+    let (mut inertias, mut poses) = ([[0.0; 2]; 4], [[0.0; 3]; 4]);
+    model.body_inertias(&mut inertias).expect("inertias");
+    model.body_poses(&[0.0; 3], &joint_angles, &mut poses).expect("poses");
+    let body = |y: f64| Body { mass: 40.0, inertia: 2.0, pose: [0.0, 100.0, y], twist: [0.0, 0.0, 0.3] };
+    let mass: f64 = 40.0 + inertias.iter().map(|[m, _]| m).sum::<f64>();
+    let com = [1, 2].map(|i: usize| {
+        let robot: f64 = inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum();
+        (robot + 40.0 * body(0.0).pose[i]) / mass
+    });
+    let mut audit = Audit::new(&*model, &state, &[body(0.0)]).expect("a state");
+    let later = Done { time: 2.0, ..Done::default() };
+    audit.record(&state, &[body(0.6)], &later).expect("a state");
+    assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
+    audit.record(&state, &[body(0.7)], &later).expect("a state");
+    let extent = (100.0 - com[0]).hypot(0.7 - com[1] - 40.0 * 0.7 / mass);
+    assert_close(
+        "beside it",
+        &[audit.drift().center_of_mass_drift],
+        &[40.0 * 0.1 / mass / extent],
+        tolerance::IDENTITY,
+    );
+}
+
+/// Of a phase and one that goes on from its end the larger excess counts, at its time since the start of the first.
+#[test]
+fn excesses_of_phases_that_follow_each_other() {
+    let excess = |value, time| Some(Excess { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
+    let first = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: None };
+    let second = Excesses { joint_angle: excess(1.2, 3.0), joint_rate: excess(1.1, 0.5) };
+    let both = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: excess(1.1, 10.5) };
+    assert_eq!(first.clone().then(second.clone(), 10.0), both);
+    assert_eq!(second.then(first, 10.0), Excesses { joint_angle: excess(1.5, 12.0), joint_rate: excess(1.1, 0.5) });
+}
+
+/// The audit says so where the way of the centre of mass is lost.
 #[test]
 fn a_centre_of_mass_that_strays_is_objected_to() {
     let mut study = run(&scenario("redysim_single_arm_3r"));

@@ -139,7 +139,10 @@ fn the_table_is_the_summary() {
             let of = |model: &str| value["impact"][model]["impulse_magnitudes"][arm].as_f64().expect("an impulse");
             let printed = if *case == "case2" { "0.0131" } else { "0.0873" };
             let wanted = [format!("{:.5}", of("exact")), format!("{:.5}", of("paper")), printed.to_owned()];
-            assert_eq!(rows(case, name), [[&[(*case).to_owned(), (*name).to_owned()], &wanted[..]].concat()]);
+            assert_eq!(
+                rows(case, name),
+                [[&[(*case).to_owned(), (*name).to_owned(), "rigid".to_owned()], &wanted[..]].concat()]
+            );
         }
         for model in ["exact", "paper"] {
             let impact = &value["impact"][model];

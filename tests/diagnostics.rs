@@ -331,6 +331,51 @@ const SCENARIO_EDITS: &[Edit] = &[
         8,
         &["`approach.sample_time` is 30", "at most its duration, 20 s"],
     ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"rk5\"",
+        8,
+        &[
+            "`approach.integrator` is \"rk5\", expected `rk4`, `semi_implicit_euler`, `gauss_legendre` or `adaptive`",
+            "`rk4`?",
+        ],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"joints\"",
+        8,
+        &["`approach.coordinates` is \"joints\"", "`full` or `reduced`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"reduced\"\nintegrator = \"gauss_legendre\"",
+        8,
+        &["`approach.coordinates` is \"reduced\"", "keeps the momentum in full coordinates", "another integrator"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntolerance = 1e-9",
+        8,
+        &["`approach.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 0",
+        9,
+        &["`approach.tolerance` is 0", "a tolerance", "greater than 0"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 1e-16",
+        9,
+        &["`approach.tolerance` is 1e-16", "expected 1e-14 to 1e-3", "rounding"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nintegrator = \"gauss_legendre\"\ntolerance = 1e-9",
+        26,
+        &["`post_impact.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
+    ),
     ("\"quartic\"", "\"quartic\"\nproportional_gain = [1]", 8, &["`approach.proportional_gain` is [1]", "2 numbers"]),
     (
         "[0.1, 0.2]\n[approach]",

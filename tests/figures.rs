@@ -147,7 +147,9 @@ mod drawn {
         // robot and targets together: the same before and after, and what the literal equations make of it
         let momentum = &of("momentum_case1").panels[1].series;
         assert!(momentum[0].points.iter().all(|(_, l)| (l - 0.4).abs() < 1e-9), "two targets of 1 kg m² at 0.2 rad/s");
-        let jump = study.cases[0].capture.as_ref().expect("a capture").impact.paper.momentum_jump[0];
+        let jump =
+            study.cases[0].capture.as_ref().expect("a capture").impact.paper.as_ref().expect("literal").momentum_jump
+                [0];
         assert!((momentum[1].points[0].1 - (0.4 + jump)).abs() < 1e-9);
         // the pictures' last joints and tips, by another way
         let end = study.approach.end().expect("an end");

@@ -177,10 +177,10 @@ fn a_target_needs_a_link_to_hold_it() {
 #[test]
 fn a_study_is_the_same_with_generic_dynamics() {
     let scenario = support::scenario("redysim_single_arm_3r");
-    let wanted = summary(&scenario.name, &scenario.layout, "either", &support::run(&scenario));
+    let wanted = summary(&scenario, "either", &support::run(&scenario));
     let model = generic(&scenario.layout);
     let found = study(&scenario, &|| model.clone_box(), 0.05, &mut support::Silent).expect("a study");
-    let found = summary(&scenario.name, &scenario.layout, "either", &found);
+    let found = summary(&scenario, "either", &found);
     let end = |summary: &Value, key: &str| support::numbers(&summary["cases"][0]["approach"][key]);
     for key in ["base_pose", "joint_angles", "base_twist", "joint_rates", "end_effector_poses"] {
         assert_close(key, &end(&found, key), &end(&wanted, key), tolerance::SAME_STUDY);

@@ -2,13 +2,15 @@
 
 mod support;
 
+use planar_capture::event::NoEvents;
 use planar_capture::models;
 use planar_capture::remainder::Remainder;
-use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
-use planar_capture::settle::{settle, wheels};
-use planar_capture::simulate::{Motion, Phase};
+use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
+use planar_capture::settle::{Settle, settle, wheels};
+use planar_capture::simulate::{Motion, Phase, Timing};
 use planar_capture::study::Captured;
 use planar_capture::summary::summary;
+use planar_capture::system::System;
 use proptest::prelude::*;
 use support::sample::{Sample, config, sample};
 use support::{assert_close, run, scenario, tolerance};
@@ -106,7 +108,7 @@ fn a_weak_base_torque_takes_longer() {
     }
     assert!(cases.iter().any(|captured| captured.post_impact.saturation.base > 1.0));
     let study = run(&scenario);
-    let value = summary("it", &scenario.layout, "generated", &study);
+    let value = summary(&scenario, "generated", &study);
     let after = &value["cases"][0]["post_impact"];
     assert_eq!(after["remainder"]["control"], "stabilise");
     assert_eq!(after["remainder"]["base_rate"], after["base_twist"][0]);
@@ -116,7 +118,7 @@ fn a_weak_base_torque_takes_longer() {
 #[test]
 fn without_control_nothing_is_said_of_it() {
     let scenario = scenario("raina_shah_2017");
-    let value = summary("it", &scenario.layout, "generated", &run(&scenario));
+    let value = summary(&scenario, "generated", &run(&scenario));
     let after = value["cases"][0]["post_impact"].as_object().expect("a phase");
     let keys: Vec<_> = after.keys().map(String::as_str).collect();
     let motion = ["duration", "base_pose", "base_twist", "joint_angles", "joint_rates"];
@@ -143,16 +145,19 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
     let wheels = wheels(&layout, &[]);
     let control =
         Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };
-    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default() };
+    let integration = Integration::default();
+    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
+    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
     let start = Motion {
         base_pose: s.base_pose,
         joint_angles: s.joint_angles.clone(),
         base_twist: s.base_twist,
         joint_rates: s.joint_rates.clone(),
     };
-    let phase = settle(&*model, &after, &wheels, &start, 1.0, &mut || ()).expect("a phase");
+    let wanted = Settle { after: &after, wheels: &wheels, angles: &s.joint_angles };
+    let phase = settle(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     let end = phase.end().expect("an end").motion.clone();
-    let left = Remainder::of(&*model, &after.control, &end, &wheels).expect("a remainder");
+    let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
     (phase, left, wheels)
 }
 

@@ -76,7 +76,7 @@ fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, stud
         let path = folder.join(format!("{}.csv", case.name));
         files.push(Staged::new(&path, |to| write_csv(&scenario.layout, study, case, to))?);
     }
-    let summary = summary(&scenario.name, &scenario.layout, arguments.dynamics.name(), study);
+    let summary = summary(scenario, arguments.dynamics.name(), study);
     files.push(Staged::new(&folder.join("summary.json"), |to| {
         serde_json::to_writer_pretty(&mut *to, &summary)?;
         writeln!(to)

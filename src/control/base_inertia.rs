@@ -6,7 +6,7 @@ use crate::scalar::Real;
 
 /// `I_b = L D Lᵀ`, 3 × 3, written out: it is solved with several right sides, and has no path that panics.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BaseInertia<T> {
+pub(crate) struct BaseInertia<T> {
     /// D.
     pivots: [T; 3],
     /// Of L, below its diagonal: (2, 1), (3, 1), (3, 2).
@@ -18,7 +18,7 @@ impl<T: Real> BaseInertia<T> {
     ///
     /// # Errors
     /// [`Error::Singular`] where a pivot is no larger than rounding beside its diagonal entry.
-    pub(super) fn new([[xx, ..], [yx, yy, _], [zx, zy, zz]]: &[[T; 3]; 3]) -> Result<Self, Error> {
+    pub(crate) fn new([[xx, ..], [yx, yy, _], [zx, zy, zz]]: &[[T; 3]; 3]) -> Result<Self, Error> {
         let check = |value: T, scale: T| pivot("the base inertia I_b", value / scale);
         check(*xx, *xx)?;
         let (a, b) = (*yx / *xx, *zx / *xx);
@@ -31,7 +31,7 @@ impl<T: Real> BaseInertia<T> {
     }
 
     /// `I_b⁻¹ right`.
-    pub(super) fn solve(&self, right: [T; 3]) -> [T; 3] {
+    pub(crate) fn solve(&self, right: [T; 3]) -> [T; 3] {
         let Self { pivots: [first, second, third], lower: [yx, zx, zy] } = *self;
         let middle = right[1] - yx * right[0];
         let last = (right[2] - zx * right[0] - zy * middle) / third;

@@ -43,6 +43,10 @@ impl<T: Real, C: Control<T>> Control<T> for Limited<'_, T, C> {
         self.law.begin_step(time, model, state)
     }
 
+    fn held_steps(&self) -> Option<u32> {
+        self.law.held_steps()
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.law.base_torque()
     }

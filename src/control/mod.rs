@@ -10,6 +10,7 @@ mod resolved_motion_rate;
 mod sampled;
 mod stabilise;
 
+pub(crate) use base_inertia::BaseInertia;
 pub use computed_torque::ComputedTorque;
 pub use exact_tracking::ExactTracking;
 pub use limited::Limited;
@@ -48,6 +49,12 @@ pub trait Control<T: Real> {
         Ok(())
     }
 
+    /// For how many steps from now on the torques are held, asked after [`Control::begin_step`]; `None` for a law that acts
+    /// continuously. An integrator with steps of its own starts anew where they change.
+    fn held_steps(&self) -> Option<u32> {
+        None
+    }
+
     /// The torque on the base that goes with the joint torques last asked for; `None` where there is no such actuator.
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         None
@@ -81,6 +88,10 @@ impl<T: Real, C: Control<T> + ?Sized> Control<T> for &mut C {
 
     fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
         (**self).begin_step(time, model, state)
+    }
+
+    fn held_steps(&self) -> Option<u32> {
+        (**self).held_steps()
     }
 
     fn base_torque(&self) -> Option<BaseTorque<T>> {

@@ -44,6 +44,10 @@ impl<T: Real, C: Control<T>> Control<T> for Sampled<'_, T, C> {
         Ok(())
     }
 
+    fn held_steps(&self) -> Option<u32> {
+        Some(self.steps_left.saturating_add(1))
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.law.base_torque()
     }

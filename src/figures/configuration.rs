@@ -1,23 +1,27 @@
 //! Pictures of the robot: at the start, at the impact, and while it moves with what it holds.
 
 use super::figure::{Axis, Figure, Panel, Series, Span};
-use super::robot::{expected, place, robot, target};
+use super::robot::{expected, robot, target};
 use super::style::Colour;
 use crate::scenario::Scenario;
-use crate::simulate::{Phase, Sample};
-use crate::study::Study;
+use crate::simulate::Sample;
+use crate::study::{Captured, Study};
+use crate::system::Body;
 
 /// Number of pictures of the motion after an impact.
 const PICTURES: usize = 6;
 
 /// At the start and at the end of the approach.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
-    let (Some(start), Some(end)) = (study.approach.samples.first(), study.approach.end()) else { return Vec::new() };
+    // at the contact of the first case, where that is found by detection
+    let (approach, targets) =
+        study.cases.first().map_or((&study.approach, &[][..]), |case| (case.approach(study), &case.targets));
+    let (Some(start), Some(end)) = (approach.samples.first(), approach.end()) else { return Vec::new() };
     let mut before = expected_targets(scenario);
     before.extend(robot(&scenario.layout, &start.motion));
     let mut at_impact = expected_targets(scenario);
     at_impact.extend(robot(&scenario.layout, &end.motion));
-    at_impact.extend(held(scenario, end, end));
+    at_impact.extend(drawn_targets(scenario, targets, end));
     let one = |name: &str, caption: &str, series| Figure {
         name: name.to_owned(),
         caption: caption.to_owned(),
@@ -33,13 +37,14 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 }
 
 /// At equal times from the impact to the end.
-pub(super) fn after_impact(scenario: &Scenario, study: &Study, case: &str, phase: &Phase) -> Option<Figure> {
-    let contact = study.approach.end()?;
+pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &Captured) -> Option<Figure> {
+    let phase = &captured.post_impact;
     let last = phase.samples.len().checked_sub(1)?;
-    let shown = (0..PICTURES).filter_map(|k| phase.samples.get(last * k / (PICTURES - 1)));
-    let drawn = shown.map(|sample| {
+    let places = (0..PICTURES).map(|k| last * k / (PICTURES - 1));
+    let shown = places.filter_map(|i| Some((phase.samples.get(i)?, captured.targets.get(i)?)));
+    let drawn = shown.map(|(sample, targets)| {
         let mut series = robot(&scenario.layout, &sample.motion);
-        series.extend(held(scenario, contact, sample));
+        series.extend(drawn_targets(scenario, targets, sample));
         (Some(format!("{} s after the impact", (sample.time * 1e3).round() / 1e3)), series)
     });
     Some(Figure {
@@ -50,23 +55,20 @@ pub(super) fn after_impact(scenario: &Scenario, study: &Study, case: &str, phase
     })
 }
 
-/// The targets at the tips that hold them: as they were at the contact, turned with the link since.
-fn held(scenario: &Scenario, contact: &Sample, now: &Sample) -> Vec<Series> {
+/// The targets where they are, each with a line to its tip where that is at its outline.
+fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample) -> Vec<Series> {
     let mut series = Vec::new();
-    for (i, object) in scenario.targets.iter().enumerate() {
-        let poses = (contact.end_effector_poses.get(object.arm), now.end_effector_poses.get(object.arm));
-        let (Some([start, ..]), Some([yaw, x, y])) = poses else { continue };
-        let [rx, ry] = object.contact;
-        let centre = place([*x, *y], yaw - start, [-rx, -ry]);
+    for (i, (object, body)) in scenario.targets.iter().zip(targets).enumerate() {
         let colour = Colour::of(scenario.layout.arms.len() + i);
-        series.extend(target(&object.name, colour, centre.into(), object.radius, [*x, *y]));
+        let tips = object.touches.iter().filter_map(|touch| now.end_effector_poses.get(touch.arm));
+        series.extend(target(object, colour, body.pose, tips.map(|[_, x, y]| [*x, *y])));
     }
     series
 }
 
 fn expected_targets(scenario: &Scenario) -> Vec<Series> {
     let placed = scenario.targets.iter().filter_map(|target| Some((target, target.position?)));
-    placed.map(|(target, position)| expected("expected targets", position, target.radius)).collect()
+    placed.map(|(target, position)| expected("expected targets", target, position)).collect()
 }
 
 /// Panels of one scale that hold everything.

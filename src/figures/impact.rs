@@ -3,6 +3,7 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
+use crate::meeting::Touching;
 use crate::scenario::Scenario;
 use crate::study::Study;
 
@@ -41,17 +42,20 @@ pub(super) fn velocities(scenario: &Scenario, study: &Study) -> Option<Figure> {
 
 fn contacts(scenario: &Scenario, study: &Study) -> Vec<Contact> {
     let mut contacts = Vec::new();
-    let Some(end) = study.approach.end() else { return contacts };
-    for (case, result) in scenario.cases.iter().zip(&study.cases) {
-        let Some(captured) = &result.capture else { continue };
-        for (target, before) in scenario.targets.iter().zip(&case.target_twists) {
-            let after = captured.impact.exact.target_twists_after.get(target.arm).copied().flatten();
-            let (Some(tip), Some(after)) = (end.end_effector_twists.get(target.arm), after) else { continue };
+    for result in &study.cases {
+        let (Some(captured), Some(end)) = (&result.capture, result.approach(study).end()) else { continue };
+        for contact in &captured.impact.contacts {
+            let Touching { target: i, arm, offset: [rx, ry], .. } = contact.touching;
+            let (Some(target), Some(before)) = (scenario.targets.get(i), result.targets.get(i)) else { continue };
+            let after = captured.impact.target_twists.get(i).copied();
+            let (Some(tip), Some(after)) = (end.end_effector_twists.get(arm), after) else { continue };
             // v + ω × r
-            let [rx, ry] = target.contact;
             let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];
-            let name = format!("{}, {}", case.name, target.name);
-            contacts.push(Contact { name, twists: [*tip, at_contact(*before), at_contact(after)] });
+            let name = match (target.touches.len(), scenario.layout.arms.get(arm)) {
+                (2.., Some(arm)) => format!("{}, {} at {}", result.name, target.name, arm.name),
+                _ => format!("{}, {}", result.name, target.name),
+            };
+            contacts.push(Contact { name, twists: [*tip, at_contact(before.twist), at_contact(after)] });
         }
     }
     contacts.reverse(); // the first is to be on top

@@ -31,9 +31,9 @@ pub fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     figures.extend(approach::figures(scenario, study));
     figures.extend(impact::velocities(scenario, study));
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
-        figures.push(momentum::figure(scenario, study, case, result.capture.as_ref()));
+        figures.push(momentum::figure(scenario, study, result));
         if let Some(captured) = &result.capture {
-            figures.extend(post_impact::figures(scenario, study, case, captured));
+            figures.extend(post_impact::figures(scenario, case, captured));
         }
     }
     figures

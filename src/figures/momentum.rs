@@ -3,22 +3,23 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Dash};
 use super::time::CURVE;
-use crate::scenario::{Case, Scenario};
+use crate::scenario::Scenario;
 use crate::simulate::Phase;
-use crate::study::{Captured, Study};
-use crate::target::Target;
+use crate::study::{CaseResult, Study};
 
 /// Part of the momentum that the moving bodies could have which an axis shows at least: less of it is rounding.
 const LEAST_PART: f64 = 0.01;
 
 /// [l, px, py] over the whole case; dashed, what the paper's literal equations would leave of it.
-pub(super) fn figure(scenario: &Scenario, study: &Study, case: &Case, captured: Option<&Captured>) -> Figure {
-    let free = targets_before(scenario, study, case);
-    let contact = study.approach.duration;
+pub(super) fn figure(scenario: &Scenario, study: &Study, result: &CaseResult) -> Figure {
+    let captured = result.capture.as_ref();
+    let approach = result.approach(study);
+    let free = targets_before(result);
+    let contact = approach.duration;
     let duration = contact + captured.map_or(0.0, |captured| captured.post_impact.duration);
     let least = least(scenario, study);
     let curve = |label: &str, component: usize, colour: Colour, dash: Dash| {
-        let mut points = part(&study.approach, 0.0, component, free[component]);
+        let mut points = part(approach, 0.0, component, free[component]);
         if let Some(captured) = captured {
             points.extend(part(&captured.post_impact, contact, component, 0.0));
         }
@@ -26,8 +27,8 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &Case, captured: 
     };
     let literal = |label: &str, component: usize, colour: Colour| {
         let captured = captured?;
-        let before = part(&study.approach, 0.0, component, free[component]).pop()?.1;
-        let left = before + captured.impact.paper.momentum_jump[component];
+        let before = part(approach, 0.0, component, free[component]).pop()?.1;
+        let left = before + captured.impact.paper.as_ref()?.momentum_jump[component];
         let mark = Mark::Line(Dash::DashDot, CURVE);
         Some(Series {
             label: Some(format!("{label}, literal eqs.")),
@@ -45,8 +46,8 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &Case, captured: 
     let linear = [("px", 1, Colour::Blue, Dash::Solid), ("py", 2, Colour::Vermillion, Dash::Dashed)];
     let angular = [("l", 0, Colour::Blue, Dash::Solid)];
     Figure::column(
-        &format!("momentum_{}", case.name),
-        &format!("Momentum of robot and targets together, about the inertial origin, {}.", case.name),
+        &format!("momentum_{}", result.name),
+        &format!("Momentum of robot and targets together, about the inertial origin, {}.", result.name),
         vec![panel("Linear momentum [N s]", least[1], &linear), panel("Angular momentum [N m s]", least[0], &angular)],
     )
 }
@@ -61,18 +62,9 @@ fn part(phase: &Phase, start: f64, component: usize, more: f64) -> Vec<(f64, f64
 }
 
 /// [l, px, py] of the free targets, which is the same at all times before the impact.
-fn targets_before(scenario: &Scenario, study: &Study, case: &Case) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    let Some(end) = study.approach.end() else { return sum };
-    for (object, twist) in scenario.targets.iter().zip(&case.target_twists) {
-        let Some(tip) = end.end_effector_poses.get(object.arm) else { continue };
-        let target = Target { mass: object.mass, inertia: object.inertia, contact: object.contact, twist: *twist };
-        let (momentum, _) = target.momentum(&target.position(tip), twist);
-        for (sum, part) in sum.iter_mut().zip(momentum) {
-            *sum += part;
-        }
-    }
-    sum
+fn targets_before(result: &CaseResult) -> [f64; 3] {
+    let each = result.targets.iter().map(|target| target.momentum().0);
+    each.fold([0.0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
 /// [angular, linear]: a part of what the robot would have if all its kinetic energy were in one motion.

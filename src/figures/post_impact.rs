@@ -4,12 +4,12 @@ use super::configuration;
 use super::figure::Figure;
 use super::time::{base, joints, panel, tips};
 use crate::scenario::{Case, Scenario};
-use crate::study::{Captured, Study};
+use crate::study::Captured;
 
 const TIME: &str = "Time after the impact [s]";
 
 /// Joints, base and tips over time, and pictures of the robot with what it holds.
-pub(super) fn figures(scenario: &Scenario, study: &Study, case: &Case, captured: &Captured) -> Vec<Figure> {
+pub(super) fn figures(scenario: &Scenario, case: &Case, captured: &Captured) -> Vec<Figure> {
     let (layout, phase, name) = (&scenario.layout, &captured.post_impact, &case.name);
     let angles = joints(layout, phase, |s| &s.motion.joint_angles);
     let rates = joints(layout, phase, |s| &s.motion.joint_rates);
@@ -37,6 +37,6 @@ pub(super) fn figures(scenario: &Scenario, study: &Study, case: &Case, captured:
             ],
         ),
     ];
-    figures.extend(configuration::after_impact(scenario, study, name, phase));
+    figures.extend(configuration::after_impact(scenario, name, captured));
     figures
 }

@@ -2,8 +2,11 @@
 
 use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Shape};
+use crate::assembly::turned;
 use crate::layout::{Arm, Layout};
+use crate::scenario::Target;
 use crate::simulate::Motion;
+use crate::surface::Surface;
 use std::f64::consts::TAU;
 
 const LINK: f64 = 3.0;
@@ -44,22 +47,47 @@ fn chain<'a>(arm: &Arm, base: [f64; 3], joint_angles: &mut impl Iterator<Item = 
     points
 }
 
-/// A target about its COM, with the spot at which it is held.
-pub(super) fn target(label: &str, colour: Colour, centre: [f64; 2], radius: f64, spot: [f64; 2]) -> Vec<Series> {
-    vec![
-        circle(label, colour, Dash::Solid, centre, radius),
-        // a spoke shows how the target turns
-        line(label, colour, Dash::Solid, OUTLINE, vec![centre.into(), spot.into()]),
-    ]
+/// How near to a target's outline a tip is drawn as touching it, in sizes of the target: contacts are taken where the tips
+/// are, which may be off the outline.
+const TOUCHING: f64 = 0.5;
+
+/// A target's outline and a spoke to each tip at it, or along its x axis: they show how it turns.
+pub(super) fn target(
+    target: &Target,
+    colour: Colour,
+    pose: [f64; 3],
+    tips: impl Iterator<Item = [f64; 2]>,
+) -> Vec<Series> {
+    let [_, x, y] = pose;
+    let size = target.surface.reach();
+    let near = |tip: &[f64; 2]| {
+        let own = turned([tip[0] - x, tip[1] - y], -pose[0]);
+        target.surface.gap(own).distance.abs() <= TOUCHING * size
+    };
+    let mut spots: Vec<[f64; 2]> = tips.filter(near).collect();
+    if spots.is_empty() {
+        spots.push(place([x, y], pose[0], [size, 0.0]).into());
+    }
+    let mut series = vec![outline(&target.name, colour, Dash::Solid, &target.surface, pose)];
+    let spoke = |spot: [f64; 2]| line(&target.name, colour, Dash::Solid, OUTLINE, vec![(x, y), spot.into()]);
+    series.extend(spots.into_iter().map(spoke));
+    series
 }
 
 /// Where a target was expected.
-pub(super) fn expected(label: &str, centre: [f64; 2], radius: f64) -> Series {
-    circle(label, Colour::Grey, Dash::Dashed, centre, radius)
+pub(super) fn expected(label: &str, target: &Target, [x, y]: [f64; 2]) -> Series {
+    outline(label, Colour::Grey, Dash::Dashed, &target.surface, [target.yaw, x, y])
 }
 
-fn circle(label: &str, colour: Colour, dash: Dash, centre: [f64; 2], radius: f64) -> Series {
-    let points = (0..=48).map(|i| place(centre, TAU * f64::from(i) / 48.0, [radius, 0.0])).collect();
+fn outline(label: &str, colour: Colour, dash: Dash, surface: &Surface, [yaw, x, y]: [f64; 3]) -> Series {
+    let points = match surface {
+        Surface::Disc { radius } => {
+            (0..=48).map(|i| place([x, y], TAU * f64::from(i) / 48.0, [*radius, 0.0])).collect()
+        }
+        Surface::Polygon { corners } => {
+            corners.iter().chain(corners.first()).map(|corner| place([x, y], yaw, *corner)).collect()
+        }
+    };
     line(label, colour, dash, OUTLINE, points)
 }
 
@@ -68,7 +96,7 @@ fn line(label: &str, colour: Colour, dash: Dash, width: f64, points: Vec<(f64, f
 }
 
 /// A point given in a frame at `origin`, turned by `angle`.
-pub(super) fn place(origin: [f64; 2], angle: f64, point: [f64; 2]) -> (f64, f64) {
+fn place(origin: [f64; 2], angle: f64, point: [f64; 2]) -> (f64, f64) {
     let ((sin, cos), [x, y]) = (angle.sin_cos(), point);
     (origin[0] + cos * x - sin * y, origin[1] + sin * x + cos * y)
 }

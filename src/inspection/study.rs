@@ -7,7 +7,7 @@ use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
-use crate::scenario::{Actuation, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
+use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -63,7 +63,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 fn steps(duration: f64, step: f64) -> String {
-    let steps = Timing { duration, step, sample: step }.steps();
+    let steps = Timing { duration, step, sample: step, ..Timing::default() }.steps();
     format!("{} s in {steps} steps of {} s", short(duration), short(step))
 }
 
@@ -192,15 +192,20 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
     let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
     write!(out, "\n{}", row(head))?;
     for target in &scenario.targets {
-        let arm = scenario.layout.arms.get(target.arm).map_or("", |arm| arm.name.as_str());
+        let names = target.touches.iter().filter_map(|touch| Some(scenario.layout.arms.get(touch.arm)?.name.as_str()));
+        let arm = names.collect::<Vec<_>>().join(", ");
+        let contact = match scenario.contact.detection {
+            Detection::Time => target.touches.iter().map(|touch| point(touch.contact)).collect::<Vec<_>>().join(", "),
+            Detection::Event => "detected".to_owned(),
+        };
         let reach = of_contact(scenario, target);
         let reach = reach.map(|(distance, most)| format!("{} of at most {}", short(distance), short(most)));
         out.write_str(&row([
             &target.name,
-            arm,
+            &arm,
             &short(target.mass),
             &short(target.inertia),
-            &point(target.contact),
+            &contact,
             &target.position.map(point).unwrap_or_default(),
             &reach.unwrap_or_default(),
         ]))?;

@@ -2,10 +2,12 @@
 
 use super::number::{point, short};
 use super::places::{center_of_mass, places};
+use crate::assembly::turned;
 use crate::diagnostic::Oddity;
 use crate::layout::Layout;
 use crate::models;
-use crate::scenario::{Scenario, Target};
+use crate::scenario::{Detection, Scenario, Target, Touch};
+use crate::surface::Surface;
 use std::f64::consts::TAU;
 
 /// Contact is made on a target's rim: to this part of the radius.
@@ -14,10 +16,11 @@ const RIM: f64 = 0.05;
 /// What is odd about the targets, one by one.
 pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
     let targets = scenario.targets.iter().enumerate();
+    let in_time = scenario.contact.detection == Detection::Time;
     let each = targets.flat_map(|(i, target)| {
         let found = [
             heavy(scenario, target),
-            off_rim(target),
+            if in_time { off_rim(target) } else { None },
             inertia(target),
             on_a_wheel(scenario, target),
             out_of_reach(scenario, target),
@@ -40,17 +43,28 @@ fn heavy(scenario: &Scenario, target: &Target) -> Option<Odd> {
 }
 
 fn off_rim(target: &Target) -> Option<Odd> {
-    let distance = target.contact[0].hypot(target.contact[1]);
-    ((distance - target.radius).abs() > RIM * target.radius).then(|| {
-        let why = format!("{} m from the COM, but the radius is {} m", short(distance), short(target.radius));
-        let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
-        ("contact", why, help.to_owned())
-    })
+    let size = target.surface.reach();
+    let apart = |touch: &Touch| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
+    let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
+    let [distance, side] = match apart(touch) {
+        outside if outside > 0.0 => [short(outside), "outside".to_owned()],
+        inside => [short(-inside), "inside".to_owned()],
+    };
+    let why = match target.surface {
+        Surface::Disc { radius } => {
+            let [x, y] = touch.contact;
+            format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
+        }
+        Surface::Polygon { .. } => format!("{distance} m {side} the polygon"),
+    };
+    let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
+    Some(("contact", why, help.to_owned()))
 }
 
 fn inertia(target: &Target) -> Option<Odd> {
     // whichever is meant to be its size
-    let size = target.radius.max(target.contact[0].hypot(target.contact[1]));
+    let [x, y] = target.contact();
+    let size = target.surface.reach().max(x.hypot(y));
     let ring = target.mass * size * size;
     (target.inertia > ring * (1.0 + 1e-9)).then(|| {
         let why = format!("more than a ring of its mass and size has, {} kg m²: mass · radius²", short(ring));
@@ -61,7 +75,8 @@ fn inertia(target: &Target) -> Option<Odd> {
 }
 
 fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
-    let arm = scenario.layout.arms.get(target.arm).filter(|arm| arm.reach() == 0.0)?;
+    let mut arms = target.touches.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm));
+    let arm = arms.find(|arm| arm.reach() == 0.0)?;
     let why = format!("`{}` has no length, it is a reaction wheel, which takes hold of nothing", arm.name);
     let longer: Vec<_> =
         scenario.layout.arms.iter().filter(|arm| arm.reach() > 0.0).map(|arm| arm.name.as_str()).collect();
@@ -70,8 +85,9 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
 
 /// [`distance_and_most`] of the contact point; `None` also where the target's place is not given.
 pub(super) fn of_contact(scenario: &Scenario, target: &Target) -> Option<(f64, f64)> {
-    let [x, y] = target.position?;
-    distance_and_most(scenario, target.arm, [x + target.contact[0], y + target.contact[1]])
+    let [x, y] = target.position.filter(|_| scenario.contact.detection == Detection::Time)?;
+    let [rx, ry] = target.contact();
+    distance_and_most(scenario, target.arm(), [x + rx, y + ry])
 }
 
 /// The distance of a point from the robot's COM at the end of the approach, and the most at which the arm can have its tip,

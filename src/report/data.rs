@@ -2,21 +2,26 @@
 
 use crate::capture::ImpactResult;
 use crate::layout::Layout;
-use crate::scenario::{Case, Scenario};
+use crate::scenario::Scenario;
 use crate::simulate::{Phase, Sample};
 use crate::study::{CaseResult, Study};
+use crate::surface::Surface;
+use crate::system::Body;
 use serde_json::{Value, json};
 
 /// Everything that the page needs of a study.
 pub fn data(scenario: &Scenario, study: &Study) -> Value {
-    let cases = scenario.cases.iter().zip(&study.cases).map(|(case, result)| one_case(scenario, case, study, result));
+    let cases = study.cases.iter().map(|result| one_case(study, result));
     json!({
         "scenario": scenario.name,
         "layout": robot(&scenario.layout),
         "approach": phase(&study.approach),
         "targets": scenario.targets.iter().map(|target| json!({
-            "name": target.name, "arm": target.arm, "mass": target.mass, "inertia": target.inertia,
-            "contact": target.contact, "radius": target.radius,
+            "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.surface.reach(),
+            "polygon": match &target.surface {
+                Surface::Disc { .. } => None,
+                Surface::Polygon { corners } => Some(corners),
+            },
         })).collect::<Vec<_>>(),
         "cases": cases.collect::<Vec<_>>(),
         "objections": study.objections(),
@@ -42,17 +47,29 @@ fn robot(layout: &Layout) -> Value {
     })
 }
 
-fn one_case(scenario: &Scenario, case: &Case, study: &Study, result: &CaseResult) -> Value {
-    let mut value = json!({"name": result.name, "target_twists": case.target_twists});
-    if let (Some(captured), Some(end)) = (&result.capture, study.approach.end()) {
+fn one_case(study: &Study, result: &CaseResult) -> Value {
+    let bodies = |targets: &[Body]| -> Vec<_> {
+        targets.iter().map(|target| json!({"pose": target.pose, "twist": target.twist})).collect()
+    };
+    let mut value = json!({"name": result.name, "targets": bodies(&result.targets)});
+    if let Some(own) = &result.approach {
+        value["approach"] = phase(own);
+    }
+    if let (Some(captured), Some(end)) = (&result.capture, result.approach(study).end()) {
         value["impact"] = json!({
-            "time": study.approach.duration,
+            "time": result.approach(study).duration,
             "tips": end.end_effector_poses.iter().map(short).collect::<Vec<_>>(),
             "exact": impact(&captured.impact.exact),
-            "paper": impact(&captured.impact.paper),
+            "paper": captured.impact.paper.as_ref().map(impact),
         });
         value["post_impact"] = phase(&captured.post_impact);
-        value["targets_alone"] = targets_alone(scenario, case, end);
+        let column = |i: usize, part: usize| {
+            let of = |targets: &Vec<Body>| targets.get(i).map_or(0.0, |target| target.pose[part]);
+            captured.targets.iter().map(|targets| digits(of(targets))).collect::<Vec<_>>()
+        };
+        let poses = (0..result.targets.len()).map(|i| [column(i, 0), column(i, 1), column(i, 2)]);
+        value["post_impact"]["targets"] = json!(poses.collect::<Vec<_>>());
+        value["targets_alone"] = targets_alone(&result.targets);
     }
     value
 }
@@ -66,17 +83,13 @@ fn impact(result: &ImpactResult) -> Value {
     })
 }
 
-/// Momentum [l, px, py] and energy of the targets before they are taken hold of, which nothing changes.
-fn targets_alone(scenario: &Scenario, case: &Case, contact: &Sample) -> Value {
+/// Momentum [l, px, py] and energy of the targets before they are touched, which nothing changes.
+fn targets_alone(targets: &[Body]) -> Value {
     let (mut momentum, mut energy) = ([0.0; 3], 0.0);
-    for (target, [omega, vx, vy]) in scenario.targets.iter().zip(&case.target_twists) {
-        let Some([_, x, y]) = contact.end_effector_poses.get(target.arm) else { continue };
-        let [rx, ry] = [x - target.contact[0], y - target.contact[1]];
-        let (m, inertia) = (target.mass, target.inertia);
-        momentum[0] += inertia * omega + m * (rx * vy - ry * vx);
-        momentum[1] += m * vx;
-        momentum[2] += m * vy;
-        energy += 0.5 * (inertia * omega * omega + m * (vx * vx + vy * vy));
+    for target in targets {
+        let (part, own) = target.momentum();
+        momentum = std::array::from_fn(|i| momentum[i] + part[i]);
+        energy += own;
     }
     json!({"momentum": momentum, "kinetic_energy": energy})
 }

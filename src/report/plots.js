@@ -124,7 +124,7 @@ function impactTable() {
 function audit() {
   const [one] = current(), shown = element("audit");
   const of = (name, phase) => (phase ? [`${name}: momentum drift ${phase.momentum_drift.toExponential(1)}, energy error ${phase.energy_error.toExponential(1)}`] : []);
-  shown.textContent = [...of("approach", study.approach), ...of("after the impact", one.post_impact), ...study.objections].join(" · ");
+  shown.textContent = [...of("approach", one.approach || study.approach), ...of("after the impact", one.post_impact), ...study.objections].join(" · ");
   shown.className = study.objections.length ? "bad" : "";
 }
 

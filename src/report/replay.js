@@ -13,20 +13,22 @@ const plus = ([a, b], [c, d]) => [a + c, b + d];
 
 /** One case on one axis of time: columns of both phases put end to end. */
 function timeline(one) {
-  const phases = [study.approach, ...(one.post_impact ? [one.post_impact] : [])];
+  const approach = one.approach || study.approach;
+  const phases = [approach, ...(one.post_impact ? [one.post_impact] : [])];
   const join = (key) => {
     const merge = (parts) =>
       Array.isArray(parts[0][0]) ? parts[0].map((_, i) => merge(parts.map((part) => part[i]))) : parts.flat();
     return merge(phases.map((phase) => phase[key]));
   };
-  const starts = [0, study.approach.duration];
+  const starts = [0, approach.duration];
   const time = phases.flatMap((phase, i) => phase.time.map((t) => t + starts[i]));
   const columns = { time };
   for (const key of ["base_pose", "base_twist", "joint_angles", "joint_rates", "joint_torques", "tips",
     "linear_momentum", "angular_momentum", "kinetic_energy"]) columns[key] = join(key);
-  columns.impact = one.post_impact ? study.approach.duration : Infinity;
+  columns.contact = approach.duration;
+  columns.impact = one.post_impact ? approach.duration : Infinity;
   columns.end = phases.reduce((sum, phase) => sum + phase.duration, 0);
-  columns.before = study.approach.time.length;
+  columns.before = approach.time.length;
   return columns;
 }
 
@@ -40,12 +42,12 @@ function place(line, time) {
   return low;
 }
 
-/** A column's value between its samples. */
-function between(line, column, time) {
+/** A column's value between its samples, the first of which is the line's number `first`. */
+function between(line, column, time, first = 0) {
   const i = place(line, time), j = Math.min(i + 1, line.time.length - 1);
   const span = line.time[j] - line.time[i];
   const part = span > 0 ? Math.min((time - line.time[i]) / span, 1) : 0;
-  return column[i] + part * (column[j] - column[i]);
+  return column[i - first] + part * (column[j - first] - column[i - first]);
 }
 
 /** Where every body is. */
@@ -67,21 +69,17 @@ function configuration(line, time) {
   return { yaw, base: [x, y], arms };
 }
 
-/** Pose of each target's COM: it drifts until the tip takes hold of it, then goes with the tip. */
-function targetPoses(one, now, time) {
-  return study.targets.map((target, i) => {
-    if (!one.impact) return null;
-    const [yaw, x, y] = one.impact.tips[target.arm];
-    const twist = one.target_twists[i];
-    const held = time >= one.impact.time;
-    if (!held) {
-      const ago = time - one.impact.time;
-      return { angle: twist[0] * ago, point: [x - target.contact[0] + twist[1] * ago, y - target.contact[1] + twist[2] * ago] };
+/** Pose of each target's COM: it flies freely until it is touched, then as it was computed. */
+function targetPoses(one, line, time) {
+  return one.targets.map(({ pose: [yaw, x, y], twist: [omega, vx, vy] }, i) => {
+    if (one.impact && time >= one.impact.time) {
+      const since = line.before, columns = one.post_impact.targets[i];
+      const at = (column) => between(line, column, time, since);
+      const [angle, px, py] = columns.map(at);
+      return { angle, point: [px, py] };
     }
-    const arm = now.arms[target.arm];
-    const turned = arm.angles[arm.angles.length - 1] - yaw;
-    const tip = arm.points[arm.points.length - 1];
-    return { angle: turned, point: plus(tip, rotate([-target.contact[0], -target.contact[1]], turned)) };
+    const ago = time - line.contact;
+    return { angle: yaw + omega * ago, point: [x + vx * ago, y + vy * ago] };
   });
 }
 
@@ -109,7 +107,7 @@ function bounds(one, line) {
     add(now.base, Math.hypot(...base));
     now.arms.forEach((arm) => arm.points.forEach((point) => add(point, 0.05)));
     // a target far away before its capture does not shrink the robot to a dot
-    if (time >= line.impact - 2) targetPoses(one, now, time).forEach((pose, k) => pose && add(pose.point, study.targets[k].radius));
+    if (time >= line.impact - 2) targetPoses(one, line, time).forEach((pose, k) => pose && add(pose.point, study.targets[k].radius));
   }
   return box;
 }
@@ -133,7 +131,7 @@ function draw() {
 
   grid(screen, scale, centre, width, height);
   if (element("traces").checked) traces(line, screen);
-  targetPoses(one, now, state.time).forEach((pose, i) => pose && drawTarget(study.targets[i], pose, screen, scale, i));
+  targetPoses(one, line, state.time).forEach((pose, i) => pose && drawTarget(study.targets[i], pose, screen, scale, i));
   drawBase(now, screen, scale);
   now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale));
   if (one.impact) impulses(one, line, now, screen, scale);
@@ -213,8 +211,17 @@ function drawArm(arm, now, colour, screen, scale) {
 function drawTarget(target, pose, screen, scale, i) {
   const middle = screen(pose.point);
   pen.lineWidth = 1.5;
-  circle(middle, Math.max(3, target.radius * scale), "rgba(120,120,120,0.18)", "#6d6d6d");
-  for (const quarter of [0, 1]) {
+  if (target.polygon) {
+    pen.beginPath();
+    for (const corner of target.polygon) pen.lineTo(...screen(plus(pose.point, rotate(corner, pose.angle))));
+    pen.closePath();
+    pen.fillStyle = "rgba(120,120,120,0.18)"; pen.fill();
+    pen.strokeStyle = "#6d6d6d"; pen.stroke();
+    circle(middle, 3, "#6d6d6d");
+  } else {
+    circle(middle, Math.max(3, target.radius * scale), "rgba(120,120,120,0.18)", "#6d6d6d");
+  }
+  for (const quarter of target.polygon ? [] : [0, 1]) {
     const arm = rotate([target.radius, 0], pose.angle + quarter * Math.PI / 2);
     pen.strokeStyle = quarter ? "#c2c2c2" : "#6d6d6d";
     stroke([screen(plus(pose.point, [-arm[0], -arm[1]])), screen(plus(pose.point, arm))]);

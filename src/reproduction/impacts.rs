@@ -33,7 +33,7 @@ fn impulses(runs: &[Run; 3]) -> String {
             let mut row = vec![format!("case {}, contact {}", case + 1, contact + 1), number(*printed, 4)];
             for captured in &all {
                 let Some(captured) = captured.get(case) else { continue };
-                for result in [&captured.impact.exact, &captured.impact.paper] {
+                for result in std::iter::once(&captured.impact.exact).chain(&captured.impact.paper) {
                     let magnitude = result.impulse_magnitudes().get(contact).copied().flatten();
                     row.push(number(magnitude.unwrap_or_default(), 4));
                 }
@@ -57,7 +57,8 @@ fn impulses(runs: &[Run; 3]) -> String {
 fn balance(run: &Run) -> String {
     let mut rows = Vec::new();
     for (case, captured) in captures(run) {
-        for (model, result) in [("exact", &captured.impact.exact), ("literal", &captured.impact.paper)] {
+        let literal = captured.impact.paper.iter().map(|result| ("literal", result));
+        for (model, result) in std::iter::once(("exact", &captured.impact.exact)).chain(literal) {
             let mut row = vec![format!("{case}, {model}")];
             row.extend([result.kinetic_energy_before, result.kinetic_energy_after].map(|energy| number(energy, 6)));
             row.extend(result.momentum_jump.map(jump));
@@ -74,15 +75,15 @@ fn differences(run: &Run) -> String {
         result.target_twists_after.iter().flatten().flatten().copied().collect()
     };
     let rows: Vec<Vec<String>> = captures(run)
-        .map(|(case, Captured { impact: both, .. })| {
-            let (exact, literal) = (&both.exact, &both.paper);
-            vec![
+        .filter_map(|(case, Captured { impact: both, .. })| {
+            let (exact, literal) = (&both.exact, both.paper.as_ref()?);
+            Some(vec![
                 case.to_owned(),
                 number(most(&exact.joint_rates_after, &literal.joint_rates_after), 5),
                 number((exact.base_twist_after[0] - literal.base_twist_after[0]).abs(), 5),
                 number(most(&exact.base_twist_after[1..], &literal.base_twist_after[1..]), 5),
                 number(most(&targets(exact), &targets(literal)), 5),
-            ]
+            ])
         })
         .collect();
     let head = ["", "a joint rate [rad/s]", "base ω [rad/s]", "base v [m/s]", "a target's twist [rad/s, m/s]"];

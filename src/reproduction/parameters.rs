@@ -45,12 +45,19 @@ fn targets(run: &Run) -> String {
     let [mass, radius, inertia] = TARGET;
     let mut rows = Vec::new();
     for (target, [x, y]) in run.scenario.targets.iter().zip(LOCATIONS) {
-        let Some([_, tip_x, tip_y]) = end.end_effector_poses.get(target.arm) else { continue };
-        let place = [tip_x - target.contact[0], tip_y - target.contact[1]];
+        let Some([_, tip_x, tip_y]) = end.end_effector_poses.get(target.arm()) else { continue };
+        let [rx, ry] = target.contact();
+        let place = [tip_x - rx, tip_y - ry];
         rows.push(vec![
             target.name.clone(),
             format!("{mass} kg, {radius} m, {inertia} kg m², at {}", point([x, y], 1)),
-            format!("{} kg, {} m, {} kg m², taken at {}", target.mass, target.radius, target.inertia, point(place, 4)),
+            format!(
+                "{} kg, {} m, {} kg m², taken at {}",
+                target.mass,
+                target.surface.reach(),
+                target.inertia,
+                point(place, 4)
+            ),
             number((place[0] - x).hypot(place[1] - y), 4),
         ]);
     }

@@ -50,7 +50,7 @@ fn steps_per_sample(value: &Value<'_>, times: Option<(f64, f64)>) -> Option<u32>
     let sample_time = value.number(&SAMPLE_TIME)?;
     let (duration, step) = times?;
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
-    let step = duration / Timing { duration, step, sample: step }.steps() as f64;
+    let step = duration / Timing { duration, step, sample: step, ..Timing::default() }.steps() as f64;
     let steps = (sample_time / step).round();
     if sample_time > duration * (1.0 + WHOLE) {
         value.reject(&format!("longer than the phase, expected at most its duration, {duration} s"));

@@ -1,6 +1,7 @@
 //! The `[approach]` table: how the arms move to the targets.
 
 use super::actuation::Actuation;
+use super::integration::Integration;
 use super::joints::{Joints, check_length};
 use super::resolved;
 use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
@@ -36,6 +37,8 @@ pub struct Approach {
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
     pub actuation: Actuation,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
 }
 
 /// Where a tip should be at the end of an approach, inertial frame.
@@ -113,7 +116,7 @@ impl Approach {
         self.trajectory_duration.unwrap_or(self.duration)
     }
 
-    pub(super) const KEYS: [&'static str; 16] = [
+    pub(super) const KEYS: [&'static str; 19] = [
         "duration",
         "step",
         "trajectory_duration",
@@ -130,6 +133,9 @@ impl Approach {
         resolved::KEYS[2],
         Actuation::KEYS[0],
         Actuation::KEYS[1],
+        Integration::KEYS[0],
+        Integration::KEYS[1],
+        Integration::KEYS[2],
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
@@ -169,6 +175,7 @@ impl Approach {
             }
             _ => Actuation::from_table(table, times, joints),
         };
+        let integration = Integration::from_table(table);
         let (duration, step) = times?;
         Some(Self {
             duration,
@@ -180,6 +187,7 @@ impl Approach {
             end: end?,
             tracking: tracking?,
             actuation: actuation?,
+            integration: integration?,
         })
     }
 }
@@ -226,7 +234,8 @@ impl EndRates {
     }
 }
 
-/// The time of the trajectory, `None` where it is that of the phase; `rest` is whether it ends at rest, and `by` how it would.
+/// The time of the trajectory, `Some(None)` where it is that of the phase; `rest` is whether it ends at rest, and `by` how it would.
+#[allow(clippy::option_option, reason = "nothing where it is wrong, and nothing given")]
 pub(super) fn trajectory_duration(
     table: &Table<'_>,
     times: Option<(f64, f64)>,

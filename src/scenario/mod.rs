@@ -3,18 +3,25 @@
 mod actuation;
 mod approach;
 mod capture;
+mod case;
+mod contact;
+mod integration;
 mod joints;
 mod limits;
 mod post_impact;
 mod resolved;
+mod target;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
-pub use capture::{Case, Target};
+pub use case::Case;
+pub use contact::{ContactRules, Detection};
+pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
+pub use target::{Target, Touch, TouchKind};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
@@ -55,6 +62,8 @@ pub struct Scenario {
     pub approach: Approach,
     /// What the arms capture, at most one target per arm; empty for an approach alone.
     pub targets: Vec<Target>,
+    /// How contacts come about.
+    pub contact: ContactRules,
     /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
     pub cases: Vec<Case>,
     /// The motion after the impact; given if and only if there are targets.
@@ -113,7 +122,8 @@ impl Scenario {
         folder: &Path,
         shipped: &[(&str, &str)],
     ) -> Result<(Self, LayoutSource), Report> {
-        const KEYS: [&str; 8] = ["name", "layout", "initial", "limits", "approach", "target", "case", "post_impact"];
+        const KEYS: [&str; 9] =
+            ["name", "layout", "initial", "limits", "approach", "target", "contact", "case", "post_impact"];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
             let (layout, source) =
@@ -140,14 +150,22 @@ impl Scenario {
             }
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
 
-            let (targets, cases, mut post_impact) = capture?;
+            let capture::Capture { targets, contact, cases, mut post_impact } = capture?;
             let (mut approach, limits) = (approach?, limits?);
             if let Some(after) = &mut post_impact {
                 after.actuation.joint_limits.clone_from(&limits);
             }
             approach.actuation.joint_limits = limits;
-            let scenario =
-                Self { name: name?, layout: layout?, initial: initial?, approach, targets, cases, post_impact };
+            let scenario = Self {
+                name: name?,
+                layout: layout?,
+                initial: initial?,
+                approach,
+                targets,
+                contact,
+                cases,
+                post_impact,
+            };
             Some((scenario, source?))
         })
     }

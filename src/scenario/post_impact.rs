@@ -2,6 +2,7 @@
 
 use super::actuation::Actuation;
 use super::duration_and_step;
+use super::integration::Integration;
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table};
 
@@ -22,6 +23,8 @@ pub struct PostImpact {
     pub control: Settling,
     /// Torque limits and sample time of the control law; none of them without a law.
     pub actuation: Actuation,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
 }
 
 /// What the joints do after a capture.
@@ -113,7 +116,7 @@ impl Choice {
     fn reject_others(self, table: &Table<'_>) {
         let (others, why): (&[&str], _) = match self {
             Self::None => (
-                &PostImpact::KEYS[3..],
+                &PostImpact::KEYS[6..],
                 "without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it",
             ),
             Self::Hold => (&["base_gain", "base_torque_limit"], "only `control = \"stabilise\"` acts on the base"),
@@ -132,9 +135,12 @@ impl Choice {
 }
 
 impl PostImpact {
-    pub(super) const KEYS: [&'static str; 9] = [
+    pub(super) const KEYS: [&'static str; 12] = [
         "duration",
         "step",
+        Integration::KEYS[0],
+        Integration::KEYS[1],
+        Integration::KEYS[2],
         "control",
         "proportional_gain",
         "derivative_gain",
@@ -151,7 +157,8 @@ impl PostImpact {
             Some(Settling::None) => Some(Actuation::default()),
             _ => Actuation::from_table(table, times, joints),
         };
+        let integration = Integration::from_table(table);
         let (duration, step) = times?;
-        Some(Self { duration, step, control: control?, actuation: actuation? })
+        Some(Self { duration, step, control: control?, actuation: actuation?, integration: integration? })
     }
 }

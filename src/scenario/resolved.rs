@@ -5,6 +5,7 @@ use super::approach::{
     Approach, EndRates, TipGoal, Tracking, TrajectoryKind, end_effector_twists, tip_goals, trajectory_duration,
 };
 use super::duration_and_step;
+use super::integration::Integration;
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table, Value};
 
@@ -54,6 +55,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         None => Some(0.04),
     };
     let actuation = Actuation::from_table(table, times, joints);
+    let integration = Integration::from_table(table);
     let (duration, step) = times?;
     Some(Approach {
         duration,
@@ -69,6 +71,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
             singularity_threshold: threshold?,
         },
         actuation: actuation?,
+        integration: integration?,
     })
 }
 

@@ -70,6 +70,37 @@ pub const STEERED_ACCELERATION: f64 = 1e-8;
 pub const TIME_SERIES: f64 = 1e-11;
 /// A quarter of a second of free motion by Runge–Kutta steps of 0.25 ms, relative: its error is O(step⁴).
 pub const INTEGRATED: f64 = 1e-8;
+/// A central difference of the energy of step 1e-5, relative: its square, and rounding over the step.
+pub const ENERGY_GRADIENT: f64 = 1e-8;
+/// Times of events, s, and how far values are then from zero: they are found to 1e-13.
+pub const EVENT_TIME: f64 = 1e-12;
+/// Time of an event that touches zero by a nanometre, s: there the value falls by 2e-5 m/s, and rounding of a path of 600 steps
+/// is 1e-12 m.
+pub const GRAZING: f64 = 1e-7;
+/// The same steps to the same instant, the last of another length, rad, m and per second; 1e-11 by an interpolant.
+pub const SAME_STEPS: f64 = 1e-10;
+/// A measured order of convergence against the order: the next term of the error. 0.07 measured, of rk4 at 0.05 s.
+pub const ORDER: f64 = 0.15;
+/// The same of a difference of two solutions, whose leading terms partly cancel.
+pub const ORDER_OF_DIFFERENCE: f64 = 0.5;
+/// Error of an adaptive run of two seconds in units of its tolerance: the tolerance is of one step.
+pub const ADAPTIVE: f64 = 1.0;
+/// Rounding of a motion of two seconds, rad, m and per second.
+pub const ROUNDED_MOTION: f64 = 2e-13;
+/// Samples between adaptive steps at 1e-10 against steps that end there, rad, m and per second.
+pub const DENSE: f64 = 1e-9;
+/// Momentum drift in reduced coordinates, relative: rounding of a 3 × 3 solve, 4e-16 measured.
+pub const MOMENTUM_RECOVERED: f64 = 1e-14;
+/// Momentum drift of 4,000 Gauss–Legendre steps, relative: rounding of each, 7e-14 measured.
+pub const MOMENTUM_KEPT: f64 = 1e-12;
+/// Four seconds of the same free motion in full and in reduced coordinates at 1e-13, rad, m and per second.
+pub const SAME_MOTION: f64 = 1e-11;
+/// One second of it by Gauss–Legendre steps of 20 ms.
+pub const SAME_MOTION_COARSE: f64 = 1e-10;
+/// A straight line, m, rad: rounding.
+pub const STRAIGHT: f64 = 1e-13;
+/// One second under held torques by steps of 2 and 50 ms and adaptive ones, rad, m and per second.
+pub const SAMPLED: f64 = 1e-9;
 
 /// A layout from a URDF against numbers worked out by hand, and a mount angle through sine, cosine and arctangent.
 pub const URDF: f64 = 1e-14;

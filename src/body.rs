@@ -1,0 +1,35 @@
+//! A rigid body beside the robot.
+
+use crate::scalar::Scalar;
+
+/// A free rigid body, in inertial axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body<T> {
+    /// kg.
+    pub mass: T,
+    /// About its COM, kg m².
+    pub inertia: T,
+    /// [yaw, x, y] of its COM, inertial frame; rad, m.
+    pub pose: [T; 3],
+    /// [ω, vx, vy] of its COM; rad/s, m/s.
+    pub twist: [T; 3],
+}
+
+impl<T: Scalar> Body<T> {
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy; N m s, N s, J.
+    #[must_use]
+    pub fn momentum(&self) -> ([T; 3], T) {
+        let ([_, x, y], [omega, vx, vy]) = (self.pose, self.twist);
+        let (px, py) = (self.mass * vx, self.mass * vy);
+        let angular = self.inertia * omega + (x * py - y * px);
+        let twice = self.inertia * omega * omega + (px * vx + py * vy);
+        ([angular, px, py], T::constant(0.5) * twice)
+    }
+
+    /// Where it flies in a time (s) without forces.
+    #[must_use]
+    pub fn after(&self, time: T) -> Self {
+        let ([yaw, x, y], [omega, vx, vy]) = (self.pose, self.twist);
+        Self { pose: [yaw + omega * time, x + vx * time, y + vy * time], ..*self }
+    }
+}

@@ -1,0 +1,111 @@
+//! The impact of any mixture of contacts.
+
+use super::complementarity::solve_contacts;
+use super::row::dot;
+use super::rows::Rows;
+use crate::body::Body;
+use crate::check::{finite_state, length};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// Enough to find a scale to rounding.
+const HALVINGS: usize = 60;
+
+/// Where the results of an impact go.
+#[derive(Debug)]
+pub struct After<'a, T> {
+    /// rad/s.
+    pub joint_rates: &'a mut [T],
+    /// [ω, vx, vy] of each body's COM.
+    pub body_twists: &'a mut [[T; 3]],
+    /// [n, fx, fy] on the robot at each contact's tip, inertial axes, N m s, N s.
+    pub impulses: &'a mut [[T; 3]],
+}
+
+/// What an impact gave back of what its bounces ask for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rebound<T> {
+    /// By what all restitutions were multiplied, so that no energy is created: 1 but for several bounces with different
+    /// restitutions at once.
+    pub restitution_scale: T,
+}
+
+/// All contacts of an instant at once. Returns the base twist after it.
+///
+/// Poisson's law, after Glocker & Pfeiffer (*Multiple impacts with friction in rigid multibody systems*, 1995), without
+/// friction: in the compression all rigid and pinned contacts close and the bounces push, p ≥ 0, until none approaches
+/// any more; in the restitution each bounce gives back at least its restitution times that impulse, and the others stay
+/// closed. With u = A v before, u⁺ = u + W p after:
+///
+/// | rows | compression | restitution, further impulse p₂ |
+/// |---|---|---|
+/// | rigid, pinned | u⁺ = 0 | u⁺ = 0 |
+/// | bounces | p ≥ 0, u⁺ ≥ 0, p u⁺ = 0 | p₂ ≥ e p, u⁺ ≥ 0, (p₂ − e p) u⁺ = 0 |
+///
+/// Momentum of robot and bodies together is conserved to rounding. Energy never grows where all bounces have one e. With
+/// different ones the law could create some; then all are scaled by the largest factor that does not, which is returned.
+/// A single bounce is Newton's law too: u⁺ = −e u. A bounce that separates takes no impulse.
+///
+/// # Errors
+/// [`Error::Length`], [`Error::NotFinite`]; [`Error::Singular`] where contacts depend on each other, as two rigid ones on
+/// arms that have too few joints for a loop.
+pub fn impact<T: Real>(
+    model: &dyn Model<T>,
+    state: &State<'_, T>,
+    bodies: &[Body<T>],
+    mut rows: Rows<'_, T>,
+    after: &mut After<'_, T>,
+) -> Result<([T; 3], Rebound<T>), Error> {
+    finite_state(state)?;
+    length("joint_rates_after", model.joints(), after.joint_rates.len())?;
+    length("body_twists_after", bodies.len(), after.body_twists.len())?;
+    length("impulses", rows.contacts().len(), after.impulses.len())?;
+    after.joint_rates.copy_from_slice(state.joint_rates);
+    for (twist, body) in after.body_twists.iter_mut().zip(bodies) {
+        *twist = body.twist;
+    }
+    let [before, compression, total, shifted, given] = core::mem::take(&mut rows.vectors);
+    model.end_effector_twists(state, rows.tips)?;
+    for (velocity, row) in before.iter_mut().zip(rows.rows()) {
+        *velocity = row.velocity_of(rows.tips, after.body_twists);
+    }
+    solve_contacts(rows.matrix, before, rows.bilateral, rows.factors, compression)?;
+    // fills `total` for all restitutions times a scale; returns the energy that it would create, times two
+    let mut restitute = |scale: T| -> Result<T, Error> {
+        for ((given, impulse), row) in given.iter_mut().zip(compression.iter()).zip(rows.rows()) {
+            *given = *impulse + row.restitution.map_or(T::ZERO, |e| scale * e * *impulse);
+        }
+        let products = || rows.matrix.chunks_exact(before.len().max(1));
+        for ((shifted, before), row) in shifted.iter_mut().zip(before.iter()).zip(products()) {
+            *shifted = *before + dot(row, given);
+        }
+        solve_contacts(rows.matrix, shifted, rows.bilateral, rows.factors, total)?;
+        for (total, given) in total.iter_mut().zip(given.iter()) {
+            *total += *given;
+        }
+        let (mut created, mut sizes) = (T::ZERO, T::ZERO);
+        for ((impulse, before), row) in total.iter().zip(before.iter()).zip(products()) {
+            let change = dot(row, total);
+            created += *impulse * (*before + *before + change);
+            sizes += (*impulse * *before).abs() + (*impulse * change).abs();
+        }
+        Ok(created - sizes * T::EPSILON * T::constant(16.0))
+    };
+    let mut scale = T::ONE;
+    if restitute(scale)? > T::ZERO {
+        let (mut none, mut some) = (T::ZERO, T::ONE);
+        for _ in 0..HALVINGS {
+            let middle = (none + some) * T::constant(0.5);
+            let bound = if restitute(middle)? > T::ZERO { &mut some } else { &mut none };
+            *bound = middle;
+        }
+        scale = none;
+        restitute(scale)?;
+    }
+    let mut base_twist = state.base_twist;
+    rows.add_responses(total, &mut base_twist, after.joint_rates, after.body_twists.as_flattened_mut());
+    rows.wrenches_into(total, after.impulses);
+    Ok((base_twist, Rebound { restitution_scale: scale }))
+}

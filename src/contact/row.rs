@@ -1,0 +1,61 @@
+//! One row of a contact.
+
+use super::{Contact, Kind, Other};
+use crate::scalar::Real;
+
+/// A wrench direction between a tip and what it touches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<T> {
+    pub(super) arm: usize,
+    pub(super) other: Other,
+    /// [n, fx, fy] on the robot at the tip.
+    pub(super) wrench: [T; 3],
+    /// The same about the origin of what is touched, on which it acts with the other sign.
+    pub(super) at_other: [T; 3],
+    /// Of the contact point from that origin along the force, m: rx fx + ry fy.
+    pub(super) reach: T,
+    /// `None` for a row that pulls as well as it pushes.
+    pub(super) restitution: Option<T>,
+}
+
+impl<T: Real> Row<T> {
+    /// Its velocity u, or acceleration, for these of the tips and of the bodies: rad/s for a moment, m/s for a force.
+    pub(super) fn velocity_of(&self, tips: &[[T; 3]], bodies: &[[T; 3]]) -> T {
+        let other = match self.other {
+            Other::Body(i) => bodies.get(i),
+            Other::Tip(arm) => tips.get(arm),
+        };
+        let part = |wrench: &[T; 3], twist: Option<&[T; 3]>| twist.map_or(T::ZERO, |twist| dot(wrench, twist));
+        part(&self.wrench, tips.get(self.arm)) - part(&self.at_other, other)
+    }
+}
+
+impl<T: Real> Contact<T> {
+    /// Its rows: 3, 2 or 1.
+    pub(super) fn rows(&self) -> impl Iterator<Item = Row<T>> + use<T> {
+        let (zero, one) = (T::ZERO, T::ONE);
+        let (wrenches, count, restitution) = match self.kind {
+            Kind::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3, None),
+            Kind::Pin => ([[zero, one, zero], [zero, zero, one], [zero; 3]], 2, None),
+            Kind::Bounce { normal: [x, y], restitution } => {
+                ([[zero, x, y], [zero; 3], [zero; 3]], 1, Some(restitution))
+            }
+        };
+        let Self { arm, other, offset: [rx, ry], .. } = *self;
+        wrenches.into_iter().take(count).map(move |wrench| {
+            let [n, fx, fy] = wrench;
+            Row {
+                arm,
+                other,
+                wrench,
+                at_other: [n + (rx * fy - ry * fx), fx, fy],
+                reach: rx * fx + ry * fy,
+                restitution,
+            }
+        })
+    }
+}
+
+pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
+}

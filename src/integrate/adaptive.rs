@@ -1,0 +1,163 @@
+//! Verner's pair of orders 9 and 8 with steps of its own, by the crate `differential-equations`: nothing of that crate is
+//! known outside this file.
+
+use crate::error::Error;
+use differential_equations::error::Error as SolverError;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::methods::{Adaptive as Steps, ExplicitRungeKutta, Ordinary};
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use std::cell::{Cell, RefCell};
+use std::fmt;
+
+/// f of ẋ = f(t, x), into its last argument.
+pub type Derivative<'a> = dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error> + 'a;
+
+/// 16 stages, 26 with those of the interpolant.
+type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Vec<f64>, 9, 16, 26>;
+
+/// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
+///
+/// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and go
+/// on beyond the times that are asked for: what is there between two steps comes from the interpolant. Each accepted step
+/// takes 26 evaluations, each rejected one 15. Of the crate's methods this one has an interpolant as good as its steps.
+pub struct Adaptive {
+    solver: Solver,
+    tolerance: f64,
+    /// Beyond it f may be another, s.
+    end: f64,
+    /// Step wanted before it was cut to end at `end`, s.
+    wanted: f64,
+}
+
+impl fmt::Debug for Adaptive {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Adaptive").field("tolerance", &self.tolerance).field("end", &self.end).finish_non_exhaustive()
+    }
+}
+
+impl Adaptive {
+    /// Smallest tolerance: beyond it rounding is larger.
+    pub const LEAST_TOLERANCE: f64 = 1e-14;
+
+    /// With this tolerance, relative and per unit; to be [started](Self::start).
+    #[must_use]
+    pub fn new(tolerance: f64) -> Self {
+        let solver = Solver::rkv989e().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
+        Self { solver, tolerance, end: 0.0, wanted: 0.0 }
+    }
+
+    /// Tries this step first, in s, where the solver would look for one.
+    #[must_use]
+    pub fn try_first(self, step: f64) -> Self {
+        Self { wanted: step, ..self }
+    }
+
+    /// Starts at `x`; f holds until `end`. Where it was started before, the last step's length is tried first.
+    ///
+    /// # Errors
+    /// What `derivative` says.
+    pub fn start(&mut self, time: f64, end: f64, x: &[f64], derivative: &mut Derivative<'_>) -> Result<(), Error> {
+        let least = f64::EPSILON * time.abs().max(end.abs()).max(f64::MIN_POSITIVE);
+        self.end = end.max(time + 4.0 * least);
+        self.solver.h0 = self.wanted.min(self.end - time); // 0: the solver looks for one
+        let problem = Problem::new(derivative);
+        let result = self.solver.init(&problem, time, self.end, &x.to_vec());
+        self.wanted = self.solver.h();
+        problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))
+    }
+
+    /// Steps until x is known at `time`, no later than the end, and writes it to `into`.
+    ///
+    /// Before every step `restore` may change the x that it starts from, and says whether it did.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`] where steps become too short, and what `derivative` and `restore` say.
+    pub fn advance(
+        &mut self,
+        time: f64,
+        into: &mut [f64],
+        derivative: &mut Derivative<'_>,
+        restore: &mut dyn FnMut(&mut [f64]) -> Result<bool, Error>,
+    ) -> Result<(), Error> {
+        let rounding = 4.0 * f64::EPSILON * self.end.abs();
+        while time > self.solver.t() + rounding {
+            let mut x = self.solver.y().clone();
+            if restore(&mut x)? {
+                self.start(self.solver.t(), self.end, &x, derivative)?;
+            }
+            self.step(derivative)?;
+        }
+        self.interpolate(time, into)
+    }
+
+    fn interpolate(&mut self, time: f64, into: &mut [f64]) -> Result<(), Error> {
+        let (before, now) = (self.solver.t_prev(), self.solver.t());
+        if time >= now || before >= now {
+            into.copy_from_slice(self.solver.y());
+            return Ok(());
+        }
+        let x = self.solver.interpolate(time.max(before)).map_err(|_| self.stuck())?;
+        into.copy_from_slice(&x);
+        Ok(())
+    }
+
+    /// One accepted step.
+    fn step(&mut self, derivative: &mut Derivative<'_>) -> Result<(), Error> {
+        let start = self.solver.t();
+        loop {
+            let left = self.end - start;
+            let cut = self.solver.h() > left;
+            if cut {
+                self.wanted = self.solver.h();
+                self.solver.set_h(left);
+            }
+            let problem = Problem::new(derivative);
+            let result = self.solver.step(&problem);
+            problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))?;
+            if self.solver.t() > start {
+                self.wanted = if cut { self.wanted.max(self.solver.h()) } else { self.solver.h() };
+                return Ok(());
+            }
+            if start + self.solver.h() <= start {
+                return Err(self.stuck());
+            }
+        }
+    }
+
+    fn stuck(&self) -> Error {
+        Error::Tolerance { tolerance: self.tolerance, step: self.solver.h() }
+    }
+}
+
+/// f as the crate wants it: it cannot fail there, so that the first failure is kept.
+struct Problem<'a, 'd> {
+    derivative: RefCell<&'a mut Derivative<'d>>,
+    failure: Cell<Option<Error>>,
+}
+
+impl<'a, 'd> Problem<'a, 'd> {
+    fn new(derivative: &'a mut Derivative<'d>) -> Self {
+        Self { derivative: RefCell::new(derivative), failure: Cell::new(None) }
+    }
+
+    /// The failure of f before that of the solver, which is `None`.
+    fn result<X>(self, result: Result<X, SolverError<f64, Vec<f64>>>) -> Result<(), Option<Error>> {
+        match (self.failure.get(), result) {
+            (Some(failure), _) => Err(Some(failure)),
+            (None, Err(_)) => Err(None),
+            (None, Ok(_)) => Ok(()),
+        }
+    }
+}
+
+impl ODE<f64, Vec<f64>> for Problem<'_, '_> {
+    fn diff(&self, time: f64, x: &Vec<f64>, rate: &mut Vec<f64>) {
+        if self.failure.get().is_some() {
+            return rate.fill(0.0);
+        }
+        if let Err(failure) = (*self.derivative.borrow_mut())(time, x, rate) {
+            self.failure.set(Some(failure));
+            rate.fill(0.0);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The equation of motion in reduced coordinates: the base twist follows from the momentum.
+
+use super::solve::solve;
+use crate::control::{BaseInertia, Control};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::{Effort, State, halves, halves_mut, vector_length};
+
+/// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
+///
+/// `I_b t_b = [l − c_o × p; p] − I_bm θ̇`,
+///
+/// with the momentum of the start and what a base torque gave since, so that the momentum strays by rounding alone,
+/// whatever the integrator does. Joints accelerate by eq. (2), `I θ̈ + c = τ − I_bmᵀ I_b⁻¹ F_b`: the generalized bias c
+/// at the recovered twist has all that a momentum does.
+///
+/// Vectors are those of [`vector_length`], of a robot alone; the entries of the base twist are not integrated but written by
+/// [`recover`](Self::recover) after every step. Everything but the momentum is working space.
+#[derive(Debug)]
+pub struct Reduced<'a, T> {
+    /// [l, px, py] when the effort was zero, about the inertial origin; N m s, N s.
+    pub momentum: [T; 3],
+    /// (3 + joints)².
+    pub mass_matrix: &'a mut [T],
+    /// joints².
+    pub generalized_inertia: &'a mut [T],
+    /// joints.
+    pub generalized_bias: &'a mut [T],
+    /// 3 arms × joints.
+    pub generalized_jacobian: &'a mut [T],
+}
+
+impl<T: Real> Reduced<'_, T> {
+    /// As [`derivative`](super::derivative) does in full coordinates; `torques` (joints) is left with the torques at this
+    /// time.
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and what model and law say.
+    pub fn derivative(
+        &mut self,
+        model: &dyn Model<T>,
+        control: &mut dyn Control<T>,
+        time: T,
+        x: &[T],
+        rate: &mut [T],
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let wrong =
+            Error::Length { quantity: "state vector", expected: vector_length(model.joints()), found: rate.len() };
+        let (state, base_inertia) = self.state(model, x)?;
+        control.joint_torques(time, model, &state, torques)?;
+        let base_torque = control.base_torque().map_or(T::ZERO, |base| base.torque);
+        let (generalized_inertia, jacobian) = (&mut *self.generalized_inertia, &mut *self.generalized_jacobian);
+        model.reduced_dynamics(&state, generalized_inertia, self.generalized_bias, jacobian)?;
+
+        let (velocities, accelerations, effort) = halves_mut(rate).ok_or(wrong)?;
+        let (base, joints) = velocities.split_first_chunk_mut::<3>().ok_or(wrong)?;
+        *base = state.base_twist;
+        let (of_base, joint_accelerations) = accelerations.split_first_chunk_mut::<3>().ok_or(wrong)?;
+        *of_base = [T::ZERO; 3];
+        if joints.len() != state.joint_rates.len() || joint_accelerations.len() != torques.len() {
+            return Err(wrong);
+        }
+        joints.copy_from_slice(state.joint_rates);
+        let by_base = base_inertia.solve([base_torque, T::ZERO, T::ZERO]);
+        let rows = self.mass_matrix.chunks_exact(3 + torques.len()).skip(3);
+        let known = torques.iter().zip(self.generalized_bias.iter());
+        for ((place, row), (torque, bias)) in joint_accelerations.iter_mut().zip(rows).zip(known) {
+            *place = *torque - *bias - dot(row, &by_base);
+        }
+        solve("the generalized inertia I", self.generalized_inertia, joint_accelerations)?;
+        let [omega, ..] = state.base_twist;
+        *effort = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
+        Ok(())
+    }
+
+    /// Writes the base twist to its place.
+    ///
+    /// # Errors
+    /// As [`Self::derivative`].
+    pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
+        let base_twist = self.state(model, x)?.0.base_twist;
+        if let Some(place) = halves_mut(x).and_then(|(_, rates, _)| rates.first_chunk_mut::<3>()) {
+            *place = base_twist;
+        }
+        Ok(())
+    }
+
+    /// The state with the base twist that the momentum asks for, and the base's block of the mass matrix, factored.
+    fn state<'x>(&mut self, model: &dyn Model<T>, x: &'x [T]) -> Result<(State<'x, T>, BaseInertia<T>), Error> {
+        let joints = model.joints();
+        let wrong = Error::Length { quantity: "state vector", expected: vector_length(joints), found: x.len() };
+        if x.len() != vector_length(joints) || halves(x).is_none() {
+            return Err(wrong);
+        }
+        let state = State::from_vector(x, joints).ok_or(wrong)?;
+        let impulse = Effort::from_vector(x).ok_or(wrong)?.base_impulse;
+        model.mass_matrix(&state.base_pose, state.joint_angles, self.mass_matrix)?;
+        let [l, px, py] = self.momentum;
+        let [_, base_x, base_y] = state.base_pose;
+        let mut right = [l + impulse - (base_x * py - base_y * px), px, py];
+        let mut inertia = [[T::ZERO; 3]; 3];
+        let rows = self.mass_matrix.chunks_exact(3 + joints);
+        for ((place, right), row) in inertia.iter_mut().zip(&mut right).zip(rows) {
+            let Some((base, joints)) = row.split_first_chunk::<3>() else { continue };
+            *place = *base;
+            *right -= dot(joints, state.joint_rates);
+        }
+        let inertia = BaseInertia::new(&inertia)?;
+        Ok((State { base_twist: inertia.solve(right), ..state }, inertia))
+    }
+}
+
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
+}

@@ -1,0 +1,40 @@
+//! `[contact]`: how contacts come about and how long they last.
+
+use crate::diagnostic::{Quantity, Table};
+
+const DURATION: Quantity = Quantity::positive("the duration of a contact", "s");
+
+/// When tips and targets meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Detection {
+    /// At the end of the approach, wherever the tips are, as in the paper: the default.
+    #[default]
+    Time,
+    /// When a tip reaches the surface of its target, which flies freely from the start on.
+    Event,
+}
+
+/// The `[contact]` table.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactRules {
+    /// When tips and targets meet.
+    pub detection: Detection,
+    /// How long an impact takes, s: what turns its impulse into a mean force, and changes nothing else.
+    pub duration: Option<f64>,
+}
+
+impl ContactRules {
+    pub(super) const KEYS: [&'static str; 2] = ["detection", "duration"];
+
+    pub(super) fn from_table(table: &Table<'_>) -> Option<Self> {
+        let detection = match table.get("detection") {
+            Some(value) => value.choice(&[("time", Detection::Time), ("event", Detection::Event)]),
+            None => Some(Detection::Time),
+        };
+        let duration = match table.get("duration") {
+            Some(value) => value.number(&DURATION).map(Some),
+            None => Some(None),
+        };
+        Some(Self { detection: detection?, duration: duration? })
+    }
+}

@@ -1,0 +1,248 @@
+//! `[[target]]`: what the arms touch, and how.
+
+use super::joints::check_length;
+use super::{Detection, POSITION, TWIST};
+use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::layout::Layout;
+use crate::surface::Surface;
+use std::collections::HashSet;
+
+const MASS: Quantity = Quantity::positive("a mass", "kg");
+const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
+const RADIUS: Quantity = Quantity::positive("a radius", "m");
+const YAW: Quantity = Quantity::any("a yaw", "rad");
+const RESTITUTION: Quantity = Quantity::non_negative("a restitution, 0 to 1,", "m/s per m/s");
+const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m")];
+
+/// A free body that arms touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Unique in the scenario.
+    pub name: String,
+    /// Which arms touch it, at least one; no arm touches two targets.
+    pub touches: Vec<Touch>,
+    /// Mass in kg, greater than 0.
+    pub mass: f64,
+    /// Moment of inertia about the COM in kg m², greater than 0.
+    pub inertia: f64,
+    /// Its outline, in its own frame.
+    pub surface: Surface,
+    /// Of bounces, 0 to 1; default 0.
+    pub restitution: f64,
+    /// Twist of the COM before the impact [ω, vx, vy] in rad/s, m/s, m/s; default zero.
+    pub twist: [f64; 3],
+    /// Of its frame, rad, default 0: at the impact, or at the start where contacts are found by detection.
+    pub yaw: f64,
+    /// [x, y] of the COM in m, inertial frame: where it was expected at the impact, for reporting the miss only; where
+    /// contacts are found by detection, where it is at the start.
+    pub position: Option<[f64; 2]>,
+}
+
+/// An arm that touches a target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Index of the arm.
+    pub arm: usize,
+    /// From the target's COM to the contact point at the impact, [x, y] in m, inertial axes; zero where it is found by
+    /// detection.
+    pub contact: [f64; 2],
+    /// What the contact does.
+    pub kind: TouchKind,
+}
+
+/// What a contact of a tip does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TouchKind {
+    /// Takes hold, so that tip and target are one from then on.
+    Rigid,
+    /// Takes hold of a point, about which the target turns freely.
+    Pin,
+    /// Bounces off without friction.
+    Bounce,
+    /// Does nothing: the grasp fails.
+    None,
+}
+
+impl TouchKind {
+    pub(super) const CHOICES: [(&'static str, Self); 4] =
+        [("rigid", Self::Rigid), ("pin", Self::Pin), ("bounce", Self::Bounce), ("none", Self::None)];
+
+    /// As in a scenario.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rigid => "rigid",
+            Self::Pin => "pin",
+            Self::Bounce => "bounce",
+            Self::None => "none",
+        }
+    }
+
+    /// One for all touches, or a list of as many.
+    pub(super) fn list(value: &Value<'_>, touches: Option<usize>) -> Option<Vec<Self>> {
+        if !value.is_array() {
+            let kind = value.choice(&Self::CHOICES)?;
+            return Some(vec![kind; touches.unwrap_or(1)]);
+        }
+        let wanted = "one kind per arm, `rigid`, `pin`, `bounce` or `none`";
+        let items = value.items(wanted)?;
+        check_length(value, items.len(), touches, wanted)?;
+        every(items.iter().map(|item| item.choice(&Self::CHOICES)))
+    }
+}
+
+impl Target {
+    pub(super) const KEYS: [&'static str; 12] = [
+        "name",
+        "arm",
+        "mass",
+        "inertia",
+        "contact",
+        "radius",
+        "polygon",
+        "kind",
+        "restitution",
+        "twist",
+        "yaw",
+        "position",
+    ];
+
+    /// The arm that touches it, the first where there are several.
+    #[must_use]
+    pub fn arm(&self) -> usize {
+        self.touches.first().map_or(0, |touch| touch.arm)
+    }
+
+    /// Where that arm touches it, from its COM, m.
+    #[must_use]
+    pub fn contact(&self) -> [f64; 2] {
+        self.touches.first().map_or([0.0; 2], |touch| touch.contact)
+    }
+
+    pub(super) fn from_table(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Self> {
+        let name = table.text("name", "a name");
+        let arms = table
+            .require("arm", "the name of an arm of the layout, or a list of such names")
+            .and_then(|value| arms(&value, layout?));
+        let count = arms.as_ref().map(Vec::len);
+        let contacts = contacts(table, count, detection);
+        let kinds = match table.get("kind") {
+            Some(value) => TouchKind::list(&value, count),
+            None => count.map(|count| vec![TouchKind::Rigid; count]),
+        };
+        let mass = table.number("mass", &MASS);
+        let inertia = table.number("inertia", &INERTIA);
+        let surface = surface(table);
+        let restitution = match table.get("restitution") {
+            Some(value) => restitution(&value),
+            None => Some(0.0),
+        };
+        let twist = table.vector_or("twist", &TWIST, [0.0; 3]);
+        let yaw = table.number_or("yaw", &YAW, 0.0);
+        let wanted = "[x, y] of its COM at the start in m, from where it flies to the contact";
+        let position = match detection {
+            Detection::Event => table.require("position", wanted).and_then(|value| value.vector(&POSITION)).map(Some),
+            Detection::Time => table.get("position").map_or(Some(None), |value| value.vector(&POSITION).map(Some)),
+        };
+        let touches: Vec<_> = arms?
+            .into_iter()
+            .zip(contacts?)
+            .zip(kinds?)
+            .map(|((arm, contact), kind)| Touch { arm, contact, kind })
+            .collect();
+        let surface = surface?;
+        if detection == Detection::Time
+            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact == [0.0; 2])
+            && let (Surface::Disc { .. }, Some(value)) = (&surface, table.get("contact"))
+        {
+            value.reject("a bounce at the COM has no outward normal, expected a point on the rim");
+            return None;
+        }
+        Some(Self {
+            name: name?.to_owned(),
+            touches,
+            mass: mass?,
+            inertia: inertia?,
+            surface,
+            restitution: restitution?,
+            twist: twist?,
+            yaw: yaw?,
+            position: position?,
+        })
+    }
+}
+
+/// A restitution: no more than 1 comes back.
+pub(super) fn restitution(value: &Value<'_>) -> Option<f64> {
+    let restitution = value.number(&RESTITUTION)?;
+    if restitution > 1.0 {
+        value.expected("a restitution, 0 (nothing comes back) to 1 (all of it)", None);
+        return None;
+    }
+    Some(restitution)
+}
+
+/// The indices of one arm or several.
+fn arms(value: &Value<'_>, layout: &Layout) -> Option<Vec<usize>> {
+    if !value.is_array() {
+        return arm_index(value, layout).map(|arm| vec![arm]);
+    }
+    let items = value.items("the name of an arm, or a list of names")?;
+    if items.is_empty() {
+        value.reject("nobody touches the target, expected the names of one arm or more");
+        return None;
+    }
+    let arms = every(items.iter().map(|item| arm_index(item, layout)))?;
+    if arms.iter().collect::<HashSet<_>>().len() < arms.len() {
+        value.reject("an arm touches a target once, expected different arms");
+        return None;
+    }
+    Some(arms)
+}
+
+/// The index of the arm with that name.
+fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
+    let names: Vec<_> = layout.arms.iter().map(|arm| arm.name.as_str()).collect();
+    let index = names.iter().position(|name| value.as_str() == Some(name));
+    if index.is_none() {
+        let help = format!("these are the arms of the layout `{}`", layout.name);
+        value.expected_one_of(&names, Some(&help));
+    }
+    index
+}
+
+/// `contact`: one point, or one for each of several arms.
+fn contacts(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Option<Vec<[f64; 2]>> {
+    if detection == Detection::Event {
+        if let Some(value) = table.get("contact") {
+            value.reject("contacts are found where tip and surface meet (`contact.detection`), expected no such key");
+            return None;
+        }
+        return arms.map(|arms| vec![[0.0; 2]; arms]);
+    }
+    let value = table.require("contact", "[rx, ry] in m, or a list of those, one per arm")?;
+    let items = value.items("[rx, ry] in m, or a list of those, one per arm")?;
+    if !items.first().is_some_and(Value::is_array) {
+        let contact = value.vector(&CONTACT)?;
+        check_length(&value, 1, arms, "a list of contact points [rx, ry] in m, one per arm")?;
+        return Some(vec![contact]);
+    }
+    check_length(&value, items.len(), arms, "one contact point [rx, ry] in m per arm")?;
+    every(items.iter().map(|item| item.vector(&CONTACT)))
+}
+
+/// `radius` or `polygon`.
+fn surface(table: &Table<'_>) -> Option<Surface> {
+    match (table.get("radius"), table.get("polygon")) {
+        (Some(_), Some(polygon)) => {
+            polygon.reject("`radius` is there too, expected one of the two");
+            None
+        }
+        (_, None) => table.number("radius", &RADIUS).map(|radius| Surface::Disc { radius }),
+        (None, Some(value)) => {
+            let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
+            let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;
+            Surface::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()
+        }
+    }
+}

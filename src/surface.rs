@@ -1,0 +1,192 @@
+//! Outlines of targets, and how far a point is from them.
+
+/// The outline of a rigid body in its own frame, COM at the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// A circle about the COM.
+    Disc {
+        /// m, greater than 0.
+        radius: f64,
+    },
+    /// Straight edges; made by [`Surface::polygon`].
+    Polygon {
+        /// [x, y] in m, anticlockwise, at least three.
+        corners: Vec<[f64; 2]>,
+    },
+}
+
+/// Why corners are no outline.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoPolygon {
+    /// Fewer than three.
+    #[error("a polygon has three corners or more, found {0}")]
+    TooFew(usize),
+    /// Two edges cross or touch.
+    #[error("edges {0} and {1} of the polygon meet, expected corners in their order around it")]
+    Crossing(usize, usize),
+    /// An edge of no length, or all corners on a line.
+    #[error("the polygon encloses nothing, expected corners that are not all on a line, each once")]
+    Flat,
+}
+
+/// How a point lies to an outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Distance to the outline, m; negative inside.
+    pub distance: f64,
+    /// Outward normal of the nearest point of the outline, unit length.
+    pub normal: [f64; 2],
+}
+
+impl Surface {
+    /// A polygon of these corners, in one or the other direction.
+    ///
+    /// # Errors
+    /// [`NoPolygon`].
+    pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, NoPolygon> {
+        if corners.len() < 3 {
+            return Err(NoPolygon::TooFew(corners.len()));
+        }
+        let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
+        let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if area.abs() <= 1e-12 * size * size || edges(&corners).any(|(a, b)| a == b) {
+            return Err(NoPolygon::Flat);
+        }
+        let all: Vec<_> = edges(&corners).collect();
+        for (i, first) in all.iter().enumerate() {
+            let others = all.iter().enumerate().skip(i + 2).filter(|(j, _)| !(i == 0 && *j == all.len() - 1));
+            if let Some((j, _)) = others.into_iter().find(|(_, second)| meet(*first, **second)) {
+                return Err(NoPolygon::Crossing(i + 1, j + 1));
+            }
+        }
+        if area < 0.0 {
+            corners.reverse();
+        }
+        Ok(Self::Polygon { corners })
+    }
+
+    /// How a point of the body's frame lies to the outline.
+    #[must_use]
+    pub fn gap(&self, [x, y]: [f64; 2]) -> Gap {
+        match self {
+            Self::Disc { radius } => {
+                let distance = x.hypot(y);
+                let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
+                Gap { distance: distance - radius, normal }
+            }
+            Self::Polygon { corners } => of_polygon(corners, [x, y]),
+        }
+    }
+
+    /// The largest distance of the outline from the COM, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        match self {
+            Self::Disc { radius } => *radius,
+            Self::Polygon { corners } => corners.iter().fold(0.0, |most, [x, y]| x.hypot(*y).max(most)),
+        }
+    }
+}
+
+fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> Gap {
+    let mut inside = false;
+    let mut at_corner = false;
+    let mut nearest = Gap { distance: f64::INFINITY, normal: [1.0, 0.0] };
+    for (a, b) in edges(corners) {
+        let (along, to) = (minus(b, a), minus(point, a));
+        let length = along[0].hypot(along[1]);
+        let part = (dot(to, along) / (length * length)).clamp(0.0, 1.0);
+        let away = [to[0] - part * along[0], to[1] - part * along[1]];
+        let distance = away[0].hypot(away[1]);
+        if distance < nearest.distance {
+            // off a corner the normal is the way from it; at the outline itself there is only the edge's own
+            at_corner = (part == 0.0 || part == 1.0) && distance > 1e-9 * length;
+            let of_edge = [along[1] / length, -along[0] / length];
+            nearest = Gap { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
+        }
+        // a ray along +x crosses the edge
+        if (a[1] > point[1]) != (b[1] > point[1]) && point[0] < a[0] + (point[1] - a[1]) / along[1] * along[0] {
+            inside = !inside;
+        }
+    }
+    if !inside {
+        return nearest;
+    }
+    // from inside, a re-entrant corner lies outwards
+    let normal = if at_corner { nearest.normal.map(|x| -x) } else { nearest.normal };
+    Gap { distance: -nearest.distance, normal }
+}
+
+fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().copied().zip(next.copied())
+}
+
+fn minus([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> [f64; 2] {
+    [ax - bx, ay - by]
+}
+
+fn cross([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
+    ax * by - ay * bx
+}
+
+fn dot([ax, ay]: [f64; 2], [bx, by]: [f64; 2]) -> f64 {
+    ax * bx + ay * by
+}
+
+/// Whether two edges have a point in common.
+fn meet((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
+    let side = |from: [f64; 2], to: [f64; 2], point: [f64; 2]| cross(minus(to, from), minus(point, from));
+    let [of_c, of_d, of_a, of_b] = [side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)];
+    if of_c == 0.0 && of_d == 0.0 {
+        // on one line: where they are along it
+        let along = |point| dot(minus(point, a), minus(b, a));
+        let (low, high) = (along(c).min(along(d)), along(c).max(along(d)));
+        return low <= along(b) && high >= 0.0;
+    }
+    of_c * of_d <= 0.0 && of_a * of_b <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plus_shape() -> Surface {
+        let quarter = [[1.0, -1.0], [3.0, -1.0], [3.0, 1.0]];
+        let turn = |[x, y]: [f64; 2], k: usize| (0..k).fold([x, y], |[x, y], _| [-y, x]);
+        let corners = (0..4).flat_map(|k| quarter.map(|corner| turn(corner, k))).collect();
+        Surface::polygon(corners).expect("an outline with edges on one line")
+    }
+
+    #[test]
+    fn gaps_of_a_plus() {
+        let cases = [
+            ([4.0, 0.0], 1.0, [1.0, 0.0]),
+            ([2.5, 0.0], -0.5, [1.0, 0.0]),
+            ([0.0, -3.5], 0.5, [0.0, -1.0]),
+            // off an outer corner, and inside at a re-entrant one
+            ([3.3, 1.4], 0.5, [0.6, 0.8]),
+            ([0.7, 0.6], -0.5, [0.6, 0.8]),
+        ];
+        for (point, distance, normal) in cases {
+            let gap = plus_shape().gap(point);
+            assert!((gap.distance - distance).abs() < 1e-14, "{point:?}: {gap:?}");
+            assert!(minus(gap.normal, normal).iter().all(|x| x.abs() < 1e-14), "{point:?}: {gap:?}");
+        }
+    }
+
+    #[test]
+    fn corners_the_other_way_round_are_the_same_outline() {
+        let corners = vec![[0.0, 0.0], [0.0, 1.0], [2.0, 1.0], [2.0, 0.0]];
+        let gap = Surface::polygon(corners).expect("a rectangle").gap([1.0, 1.25]);
+        assert_eq!(gap, Gap { distance: 0.25, normal: [0.0, 1.0] });
+    }
+
+    #[test]
+    fn what_is_no_outline() {
+        let of = |corners: &[[f64; 2]]| Surface::polygon(corners.to_vec()).expect_err("no outline");
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoPolygon::TooFew(2));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoPolygon::Flat);
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoPolygon::Crossing(1, 3));
+    }
+}

@@ -1,0 +1,114 @@
+//! What moves in one phase: a robot, and the free bodies that it holds or may meet.
+
+use crate::contact::{Closure, Contact, Hold, Workspace};
+use crate::control::Control;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::motion::derivative;
+use crate::state::{State, halves, vector_length};
+
+/// A rigid body beside the robot.
+pub type Body = crate::body::Body<f64>;
+
+/// A robot and free bodies, as they are when a phase begins.
+#[derive(Clone, Copy)]
+pub struct System<'a> {
+    /// The robot.
+    pub model: &'a dyn Model<f64>,
+    /// The bodies beside it: held as the closures say, free where none does.
+    pub bodies: &'a [Body],
+    /// Holds of tips on the bodies, and on what other tips hold.
+    pub closures: &'a [Closure<f64>],
+}
+
+impl<'a> System<'a> {
+    /// A robot alone.
+    #[must_use]
+    pub fn alone(model: &'a dyn Model<f64>) -> Self {
+        Self { model, bodies: &[], closures: &[] }
+    }
+
+    /// The integrated vector at the start, from the robot's state.
+    #[must_use]
+    pub fn vector(&self, state: &State<'_, f64>) -> Vec<f64> {
+        let joints = self.model.joints();
+        let mut x = vec![0.0; vector_length(joints) + 6 * self.bodies.len()];
+        state.write(&mut x);
+        let half = 3 + joints + 3 * self.bodies.len();
+        for (i, body) in self.bodies.iter().enumerate() {
+            let place = 3 + joints + 3 * i;
+            for (start, values) in [(place, body.pose), (half + place, body.twist)] {
+                if let Some(entries) = x.get_mut(start..start + 3) {
+                    entries.copy_from_slice(&values);
+                }
+            }
+        }
+        x
+    }
+
+    /// The bodies at an integrated vector.
+    #[must_use]
+    pub fn bodies_at(&self, x: &[f64]) -> Vec<Body> {
+        let skip = 3 + self.model.joints();
+        let part = |half: &[f64], i: usize| {
+            half.get(skip + 3 * i..).and_then(|rest| rest.first_chunk::<3>()).copied().unwrap_or_default()
+        };
+        let (positions, rates) = halves(x).unwrap_or_default();
+        let each = self.bodies.iter().enumerate();
+        each.map(|(i, body)| Body { pose: part(positions, i), twist: part(rates, i), ..*body }).collect()
+    }
+
+    /// d/dt of the integrated vector under a control law; `torques` is left with its torques.
+    ///
+    /// # Errors
+    /// What model and law say; [`Error::Singular`] where holds depend on each other.
+    pub fn derivative(
+        &self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        x: &[f64],
+        rate: &mut [f64],
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        derivative(self.model, control, time, x, rate, torques)?;
+        if self.closures.is_empty() {
+            return Ok(());
+        }
+        self.with_space(|hold, space| hold.constrain(x, rate, space))
+    }
+
+    /// After a step: closes what rounding and the step have opened of the holds.
+    ///
+    /// # Errors
+    /// As [`System::derivative`].
+    pub fn restore(&self, x: &mut [f64]) -> Result<(), Error> {
+        if self.closures.is_empty() {
+            return Ok(());
+        }
+        self.with_space(|hold, space| hold.restore(x, space))
+    }
+
+    /// By how much the holds are open: the largest error of a yaw (rad) or a coordinate (m), and of their rates.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub fn constraint_errors(&self, x: &[f64]) -> Result<[f64; 2], Error> {
+        if self.closures.is_empty() {
+            return Ok([0.0; 2]);
+        }
+        self.with_space(|hold, space| hold.errors(x, space))
+    }
+
+    fn with_space<R>(&self, run: impl FnOnce(&Hold<'_, f64>, &mut Workspace<'_, f64>) -> R) -> R {
+        let hold = Hold { model: self.model, bodies: self.bodies, closures: self.closures };
+        let (joints, arms) = (self.model.joints(), self.model.arms());
+        let mut space = Workspace {
+            contacts: &mut vec![Contact::any(); self.closures.len()],
+            numbers: &mut vec![0.0; hold.workspace_length()],
+            forces: &mut vec![0.0; hold.rows()],
+            jacobian: &mut vec![0.0; 3 * arms * (3 + joints)],
+            tips: &mut vec![[0.0; 3]; arms],
+        };
+        run(&hold, &mut space)
+    }
+}

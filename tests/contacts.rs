@@ -1,0 +1,132 @@
+//! Contacts of all kinds: against the rigid capture, in free motion with holds, and what the laws promise.
+
+mod support;
+
+use planar_capture::body::Body;
+use planar_capture::contact::{After, Closure, Contact, Kind, Other, Rows, impact, workspace_length};
+use planar_capture::control::Free;
+use planar_capture::dynamics::{Kinematics, Merge};
+use planar_capture::event::NoEvents;
+use planar_capture::generated::dual_arm_3r::Model;
+use planar_capture::impact as rigid;
+use planar_capture::simulate::{Motion, Timing, simulate};
+use planar_capture::state::State;
+use planar_capture::system::System;
+use planar_capture::target::Target;
+use support::{assert_close, tolerance};
+
+const ANGLES: [f64; 6] = [0.3, -1.2, 0.7, 2.1, 1.4, -0.6];
+const RATES: [f64; 6] = [0.4, -0.2, 0.9, -0.5, 0.3, 0.8];
+
+fn state() -> State<'static, f64> {
+    State { base_pose: [0.9, 1.5, -2.5], joint_angles: &ANGLES, base_twist: [0.2, -0.3, 0.1], joint_rates: &RATES }
+}
+
+/// What is after an impact: base, joints, bodies, impulses.
+type Outcome = ([f64; 3], [f64; 6], Vec<[f64; 3]>, Vec<[f64; 3]>);
+
+fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], contacts: &[Contact<f64>]) -> Outcome {
+    let mut numbers = vec![0.0; workspace_length(6, 2, bodies.len(), Rows::count(contacts))];
+    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers).expect("rows");
+    let (mut rates, mut twists) = ([0.0; 6], vec![[0.0; 3]; bodies.len()]);
+    let mut impulses = vec![[0.0; 3]; contacts.len()];
+    let mut after = After { joint_rates: &mut rates, body_twists: &mut twists, impulses: &mut impulses };
+    let (base, _) = impact(model, state, bodies, rows, &mut after).expect("an impact");
+    (base, rates, twists, impulses)
+}
+
+fn tips(state: &State<'_, f64>) -> [[f64; 3]; 2] {
+    let mut tips = [[0.0; 3]; 2];
+    Kinematics::end_effector_poses(&Model::<f64>::default(), &state.base_pose, state.joint_angles, &mut tips)
+        .expect("poses");
+    tips
+}
+
+/// Each tip takes hold of a body: the same as the capture solved in full coordinates.
+#[test]
+fn rigid_contacts_are_the_rigid_capture() {
+    let (model, state) = (Model::<f64>::default(), state());
+    let target =
+        |scale: f64| Target { mass: 12.0 * scale, inertia: 3.0 * scale, contact: [0.3, -0.4], twist: [-0.7, 0.2, 0.6] };
+    let targets = [Some(target(1.0)), Some(target(40.0))];
+    let (mut rates, mut twists, mut impulses) = ([0.0; 6], [[0.0; 3]; 2], [[0.0; 3]; 2]);
+    let mut after = rigid::After { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
+    let base = rigid::exact(&model, &state, &targets, &mut after).expect("an impact");
+
+    let bodies: Vec<_> = targets
+        .iter()
+        .flatten()
+        .map(|t| Body { mass: t.mass, inertia: t.inertia, pose: [0.0; 3], twist: t.twist })
+        .collect();
+    let contacts = [0, 1].map(|i| Contact { arm: i, other: Other::Body(i), offset: [0.3, -0.4], kind: Kind::Rigid });
+    let found = solve(&model, &state, &bodies, &contacts);
+    assert_close("base twist", &found.0, &base, tolerance::SAME_IMPACT);
+    assert_close("joint rates", &found.1, &rates, tolerance::SAME_IMPACT);
+    assert_close("target twists", found.2.as_flattened(), twists.as_flattened(), tolerance::SAME_IMPACT);
+    assert_close("impulses", found.3.as_flattened(), impulses.as_flattened(), tolerance::SAME_IMPACT);
+}
+
+/// A body held by constraint forces moves as the link that it is merged with.
+#[test]
+fn a_rigid_hold_is_a_merged_link() {
+    let state = state();
+    let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
+    let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], kind: Kind::Rigid };
+    let tip = tips(&state)[1];
+    let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
+    let model = Model::<f64>::default();
+    let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
+    let start = Motion { base_twist, joint_rates: rates.to_vec(), ..Motion::of(&state) };
+    let held = [Body { twist: twists[0], ..body }];
+    let closures = [Closure::new(&contact, &tip, &body.pose).expect("a hold")];
+    let system = System { model: &model, bodies: &held, closures: &closures };
+    let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+
+    let mut merged = model.clone();
+    let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
+    Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
+    let as_one =
+        simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+    let (a, b) = (by_forces.end().expect("an end"), as_one.end().expect("an end"));
+    assert_close("base pose", &a.motion.base_pose, &b.motion.base_pose, 1e-9);
+    assert_close("joint angles", &a.motion.joint_angles, &b.motion.joint_angles, 1e-9);
+    assert_close("joint rates", &a.motion.joint_rates, &b.motion.joint_rates, 1e-9);
+    println!("{:?} {:?}", by_forces.drift, as_one.drift);
+}
+
+#[test]
+fn a_loop_stays_closed() {
+    let state = state();
+    let [left, right] = tips(&state);
+    let com = [(left[1] + right[1]) / 2.0 + 0.2, (left[2] + right[2]) / 2.0];
+    let body = Body { mass: 200.0, inertia: 150.0, pose: [0.0, com[0], com[1]], twist: [0.3, 0.1, -0.2] };
+    for kinds in [[Kind::Rigid, Kind::Rigid], [Kind::Pin, Kind::Rigid], [Kind::Pin, Kind::Pin]] {
+        let contacts: Vec<_> = [left, right]
+            .iter()
+            .zip(kinds)
+            .enumerate()
+            .map(|(arm, (tip, kind))| Contact {
+                arm,
+                other: Other::Body(0),
+                offset: [tip[1] - com[0], tip[2] - com[1]],
+                kind,
+            })
+            .collect();
+        let model = Model::<f64>::default();
+        let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
+        let start = Motion { base_twist, joint_rates: rates.to_vec(), ..Motion::of(&state) };
+        let held = [Body { twist: twists[0], ..body }];
+        let closures: Vec<_> = contacts
+            .iter()
+            .zip([left, right])
+            .map(|(c, tip)| Closure::new(c, &tip, &body.pose).expect("a hold"))
+            .collect();
+        let system = System { model: &model, bodies: &held, closures: &closures };
+        let timing = Timing { duration: 10.0, step: 0.005, sample: 0.05, ..Timing::default() };
+        let phase = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+        println!("{kinds:?} {:?}", phase.drift);
+        let end = phase.end().expect("an end");
+        let x = System { bodies: &end.bodies, ..system }.vector(&end.motion.state());
+        println!("{:?}", system.constraint_errors(&x));
+    }
+}
