@@ -123,6 +123,8 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod limits;
+#[cfg(feature = "std")]
 pub mod meeting;
 #[cfg(feature = "std")]
 pub mod miss;

@@ -2,8 +2,9 @@
 
 use super::approach::{joint_name, largest_turn, peak_rate};
 use super::number::{count, list, point, short};
-use super::pose::{FinalPose, fastest_mode, final_pose};
+use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
+use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
 use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
@@ -47,10 +48,13 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
-        let Actuation { torque_limits, steps_per_sample } = &after.actuation;
+        let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
         if after.control != Settling::None {
             let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
-            writeln!(out, "  control afterwards  {}{actuation}", settling(&after.control))?;
+            let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
+                format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
+            });
+            writeln!(out, "  control afterwards  {}{mode}{actuation}", settling(&after.control))?;
         }
         targets(out, scenario)?;
         cases(out, scenario)?;
@@ -99,7 +103,9 @@ fn trajectory(scenario: &Scenario) -> String {
         }
     };
     let whose = if by_tips(scenario) { " of the tips" } else { "" };
-    format!("{shape}{whose}, to {end}")
+    let then = scenario.approach.trajectory_duration;
+    let then = then.map_or_else(String::new, |time| format!(" in {} s, and there until the end", short(time)));
+    format!("{shape}{whose}, to {end}{then}")
 }
 
 fn wishes(goals: &[TipGoal]) -> String {
@@ -124,7 +130,7 @@ fn tracking(scenario: &Scenario) -> String {
         }
         None => law,
     };
-    let Actuation { torque_limits, steps_per_sample } = &scenario.approach.actuation;
+    let Actuation { torque_limits, steps_per_sample, .. } = &scenario.approach.actuation;
     format!("{law}{}", actuation(torque_limits.as_deref(), *steps_per_sample))
 }
 
