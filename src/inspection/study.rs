@@ -7,7 +7,9 @@ use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
-use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
+use crate::scenario::{
+    Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TouchKind, Tracking, TrajectoryKind,
+};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -214,11 +216,30 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
-    writeln!(out, "\n  {}, target twists [ω, vx, vy] in rad/s, m/s", count(scenario.cases.len(), "case"))?;
+    writeln!(
+        out,
+        "\n  {}, target twists [ω, vx, vy] in rad/s, m/s, and what the contacts do",
+        count(scenario.cases.len(), "case")
+    )?;
     for case in &scenario.cases {
-        let pairs = scenario.targets.iter().zip(&case.target_twists);
-        let twists: Vec<_> = pairs.map(|(target, twist)| format!("{} {}", target.name, list(twist))).collect();
-        writeln!(out, "  {:<12} {}", case.name, twists.join(", "))?;
+        let each = scenario.targets.iter().zip(&case.target_twists).zip(case.kinds.iter().zip(&case.restitutions));
+        let targets: Vec<_> = each
+            .map(|((target, twist), (kinds, restitution))| {
+                format!("{} {} {}", target.name, list(twist), contacts(kinds, *restitution))
+            })
+            .collect();
+        writeln!(out, "  {:<12} {}", case.name, targets.join(", "))?;
     }
     Ok(())
+}
+
+/// `rigid`, or `rigid and pin`, or `bounce (0.5)`.
+fn contacts(kinds: &[TouchKind], restitution: f64) -> String {
+    let alike = kinds.iter().all(|kind| Some(kind) == kinds.first());
+    let shown = if alike { kinds.get(..1).unwrap_or_default() } else { kinds };
+    let names = shown.iter().map(|kind| match kind {
+        TouchKind::Bounce => format!("bounce ({})", short(restitution)),
+        kind => kind.name().to_owned(),
+    });
+    names.collect::<Vec<_>>().join(" and ")
 }
