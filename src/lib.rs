@@ -23,7 +23,11 @@
 //! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
 //! | events that end a phase | `event` |
+//! | contacts of any kind at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
+//! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`] |
+//! | contacts found by detection | `gaps` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
+//! | closed loops, pinned targets | [`contact::Hold`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions

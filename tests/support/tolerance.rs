@@ -204,3 +204,9 @@ pub const HEAVY_BASE: f64 = 1e-12;
 /// Poses by a recording's chain of transforms against the model's: rounding of four turns at a few metres, and of
 /// 20 s of a target's flight. Below 1e-14 measured.
 pub const TRANSFORMS: f64 = 1e-13;
+/// By how much a hold is open after it was closed again, rad or m, and its rate: rounding at some metres, 2e-14 measured.
+pub const HOLD: f64 = 1e-12;
+/// Momentum and energy of a closed loop in 2 s of steps of 5 ms at up to 0.9 rad/s: RK4, 3e-7 measured near a singular pose.
+pub const HELD_DRIFT: f64 = 1e-5;
+/// A body held by constraint forces against the same merged with its link, 4 s later: RK4 at 5 ms on both, 2e-10 measured.
+pub const MERGED_MOTION: f64 = 1e-9;
