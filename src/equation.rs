@@ -50,6 +50,10 @@ struct CanonicalSpace {
     rates: Vec<f64>,
     /// With rates in the place of momenta.
     x: Vec<f64>,
+    /// What the last step left, with rates and …
+    left: Vec<f64>,
+    /// … with momenta.
+    carried: Vec<f64>,
     mass_matrix: Vec<f64>,
     bias: Vec<f64>,
     /// 3 + joints.
@@ -107,7 +111,7 @@ impl<'a> Equation<'a> {
         Ok(Self { form: Form::Reduced(space), ..Self::full(system) })
     }
 
-    /// In canonical variables: between [`Self::to_momenta`] and [`Self::to_rates`].
+    /// In canonical variables: between [`Self::put_momenta`] and [`Self::put_rates`].
     ///
     /// # Errors
     /// What the model says.
@@ -122,6 +126,8 @@ impl<'a> Equation<'a> {
             ends: vec![false; joints],
             rates: vec![0.0; joints],
             x: x.to_vec(),
+            left: Vec::new(),
+            carried: Vec::new(),
             mass_matrix: vec![0.0; size * size],
             bias: vec![0.0; size],
             results: vec![0.0; size],
@@ -154,8 +160,9 @@ impl<'a> Equation<'a> {
         }
     }
 
-    /// d/dt of positions, momenta and effort: `ṗ = M v̇ + c + ∂T/∂q`, with whatever forces there are in `v̇`. Bodies beside the
-    /// robot keep their twists: their masses are constant.
+    /// d/dt of positions, momenta and effort: `ṗ = f + ∂T/∂q`, with the torques for f, so that what no force acts on stays as it
+    /// is to the last bit. Where there are bodies beside the robot and forces between them, these are in the accelerations:
+    /// `f = M v̇ + c`; the bodies keep twists for momenta, for their masses are constant.
     ///
     /// # Errors
     /// What model and law say.
@@ -175,32 +182,51 @@ impl<'a> Equation<'a> {
         replace(&mut canonical, system, beside.x, beside.results, Direction::ToRates)?;
         system.derivative(control, time, beside.x, rate, torques)?;
         let now = state(beside.x, joints)?;
-        model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
-        model.bias(&now, beside.bias)?;
         let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: rate.len() };
-        let accelerations = halves_mut(rate).and_then(|(_, rates, _)| rates.get_mut(..3 + joints)).ok_or(wrong)?;
-        let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());
-        for (result, (row, bias)) in beside.results.iter_mut().zip(rows) {
-            *result = row.iter().zip(accelerations.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
+        let (_, rates, [.., base_torque]) = halves_mut(rate).ok_or(wrong)?;
+        let places = rates.get_mut(..3 + joints).ok_or(wrong)?;
+        if system.bodies.is_empty() && system.closures.is_empty() {
+            let (base, of_joints) = places.split_first_chunk_mut::<3>().ok_or(wrong)?;
+            *base = [*base_torque, 0.0, 0.0];
+            of_joints.copy_from_slice(torques);
+        } else {
+            model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
+            model.bias(&now, beside.bias)?;
+            let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());
+            for (result, (row, bias)) in beside.results.iter_mut().zip(rows) {
+                *result = row.iter().zip(places.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
+            }
+            places.copy_from_slice(beside.results);
         }
-        accelerations.copy_from_slice(beside.results);
-        canonical.add_energy_gradient(model, &now, accelerations)
+        canonical.add_energy_gradient(model, &now, places)
     }
 
-    /// Puts canonical momenta in the place of rates.
+    /// Puts canonical momenta in the place of rates: those that the last step ended with, where nobody changed `x` since, for
+    /// there and back would round.
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn to_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
-        self.replace(x, Direction::ToMomenta)
+    pub(crate) fn put_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        match &self.form {
+            Form::Canonical(space) if space.left == x => x.copy_from_slice(&space.carried),
+            _ => self.replace(x, Direction::ToMomenta)?,
+        }
+        Ok(())
     }
 
-    /// Puts rates in the place of canonical momenta.
+    /// Puts rates in the place of canonical momenta, and keeps the momenta for the next step.
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn to_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
-        self.replace(x, Direction::ToRates)
+    pub(crate) fn put_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        let momenta = x.to_vec();
+        self.replace(x, Direction::ToRates)?;
+        if let Form::Canonical(space) = &mut self.form {
+            space.left.clear();
+            space.left.extend_from_slice(x);
+            space.carried = momenta;
+        }
+        Ok(())
     }
 
     fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {

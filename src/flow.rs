@@ -65,19 +65,18 @@ impl<'a> Flow<'a> {
         &mut self,
         control: &mut dyn Control<f64>,
         [time, end]: [f64; 2],
-        x: &mut Vec<f64>,
+        x: &mut [f64],
     ) -> Result<(), Error> {
         let Self { equation, stepper: Stepper::Adaptive { solver, until, .. }, duration, .. } = self else {
             return self.fixed(control, [time, end], x);
         };
-        // half a step of tolerance: the times are multiples of the step, rounded
-        if until.is_none_or(|until| until < 0.5 * (time + end)) {
-            let held = control.held_steps().map(|steps| time + f64::from(steps) * (end - time));
-            let last = held.map_or(*duration, |held| held.min(*duration)).max(end);
-            // what is left of a step that the phase's end cuts is no step
-            *until = Some(if *duration - last < 0.5 * (end - time) { *duration } else { last });
-            let first = until.unwrap_or(*duration);
-            solver.start(time, first, x, &mut |t, x, rate| equation.derivative(control, t, x, rate))?;
+        // times are multiples of the step, rounded: half a step tells them apart
+        let half = 0.5 * (end - time);
+        if until.is_none_or(|until| until < time + half) {
+            let held = control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
+            let next = if held > *duration - half { *duration } else { held.max(end) };
+            *until = Some(next);
+            solver.start(time, next, x, &mut |t, x, rate| equation.derivative(control, t, x, rate))?;
         }
         let system = equation.system();
         let mut restore = |x: &mut [f64]| {
@@ -142,9 +141,9 @@ impl<'a> Flow<'a> {
             }
             Stepper::GaussLegendre => {
                 let mut gauss = GaussLegendre::new(&mut self.workspace).ok_or(wrong)?;
-                equation.to_momenta(x)?;
+                equation.put_momenta(x)?;
                 gauss.step(time, step, x, |t, x, rate| equation.canonical_derivative(control, t, x, rate))?;
-                equation.to_rates(x)?;
+                equation.put_rates(x)?;
             }
             Stepper::RungeKutta4 | Stepper::Adaptive { .. } => {
                 let mut runge_kutta = RungeKutta4::new(&mut self.workspace).ok_or(wrong)?;

@@ -1,7 +1,7 @@
 //! Contacts that push but do not pull.
 
 use super::cholesky::{Set, has, solve};
-use super::row::dot;
+use super::row::{copy, dot};
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -25,7 +25,7 @@ pub(super) fn solve_contacts<T: Real>(
     // bounces join one by one: two that say the same never both do
     let mut active: Set = bilateral;
     for _ in 0..MOST_EXCHANGES {
-        factors.copy_from_slice(matrix);
+        copy(matrix, factors);
         for (impulse, velocity) in impulses.iter_mut().zip(velocities) {
             *impulse = -*velocity;
         }
