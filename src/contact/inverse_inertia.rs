@@ -107,6 +107,9 @@ impl<T: Real> InverseInertia<T> {
         let smaller = (a * c - b * b) / larger;
         // the longer axis is the eigenvector of the smaller eigenvalue
         let direction = half * Scalar::atan2(-b, -difference);
+        // along y from either side of it: b may be −0, or too small to show
+        let end = T::constant(core::f64::consts::FRAC_PI_2);
+        let direction = if direction > -end { direction } else { end };
         ImpulseEllipse { semi_axes: [smaller.recip(), larger.recip()], direction }
     }
 
