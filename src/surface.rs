@@ -49,7 +49,7 @@ impl Surface {
         }
         let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
         let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        if area.abs() <= 1e-12 * size * size || edges(&corners).any(|(a, b)| a == b) {
+        if edges(&corners).any(|(a, b)| a == b) {
             return Err(NoPolygon::Flat);
         }
         let all: Vec<_> = edges(&corners).collect();
@@ -58,6 +58,10 @@ impl Surface {
             if let Some((j, _)) = others.into_iter().find(|(_, second)| meet(*first, **second)) {
                 return Err(NoPolygon::Crossing(i + 1, j + 1));
             }
+        }
+        // a crossing may cancel the area, and says more
+        if area.abs() <= 1e-12 * size * size {
+            return Err(NoPolygon::Flat);
         }
         if area < 0.0 {
             corners.reverse();
@@ -188,5 +192,6 @@ mod tests {
         assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoPolygon::TooFew(2));
         assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoPolygon::Flat);
         assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoPolygon::Crossing(1, 3));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), NoPolygon::Crossing(1, 3));
     }
 }

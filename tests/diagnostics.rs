@@ -663,3 +663,179 @@ fn suggestions() {
     assert_eq!(nearest("Mass", ["mass", "inertia"]), Some("mass"));
     assert_eq!(nearest("colour", ["mass", "inertia"]), None);
 }
+
+/// Two arms on one target, in two cases.
+const CONTACTS: &str = r#"name = "demo"
+layout = "two_arms"
+[initial]
+joint_angles = [0.1, 0.2, 0.1, 0.2]
+[approach]
+duration = 20.0
+trajectory = "cycloidal"
+final_joint_angles = [0.5, 0.6, 0.5, 0.6]
+[contact]
+detection = "time"
+duration = 0.05
+[[target]]
+name = "panel"
+arm = ["left", "right"]
+kind = ["rigid", "pin"]
+mass = 10.0
+inertia = 1.0
+contact = [[0.5, 0.2], [-0.5, 0.2]]
+polygon = [[-1.0, -0.2], [1.0, -0.2], [1.0, 0.2], [-1.0, 0.2]]
+restitution = 0.5
+[[case]]
+name = "as_it_is"
+[[case]]
+name = "other"
+kinds = { panel = ["pin", "bounce"] }
+restitutions = { panel = 0.9 }
+[post_impact]
+duration = 50.0
+"#;
+
+fn two_arms() -> String {
+    let right = LAYOUT[LAYOUT.find("[[arm]]").unwrap_or(0)..].replace("\"left\"", "\"right\"");
+    LAYOUT.replace("\"one_arm\"", "\"two_arms\"") + &right
+}
+
+/// The target's outline.
+const OUTLINE: &str = "[[-1.0, -0.2], [1.0, -0.2], [1.0, 0.2], [-1.0, 0.2]]";
+const BOTH_ARMS: &str = "[\"left\", \"right\"]";
+const POINTS: &str = "[[0.5, 0.2], [-0.5, 0.2]]";
+
+/// One more target before the cases, of this arm.
+macro_rules! with_ball {
+    ($arm:literal) => {
+        concat!(
+            "[[target]]\nname = \"ball\"\narm = ",
+            $arm,
+            "\nmass = 1\ninertia = 1\nradius = 1\ncontact = [1, 0]\n[[case]]"
+        )
+    };
+}
+
+const CONTACT_EDITS: &[Edit] = &[
+    ("\"time\"", "\"events\"", 10, &["`contact.detection` is \"events\", expected `time` or `event`", "mean `event`?"]),
+    ("\"time\"", "true", 10, &["`contact.detection` is true, expected `time` or `event`"]),
+    (
+        "duration = 0.05",
+        "duration = 0",
+        11,
+        &["`contact.duration` is 0, expected the duration of a contact in s", "than 0"],
+    ),
+    ("duration = 0.05", "duraton = 1", 11, &["`contact.duraton` (1)", "did you mean `duration`?"]),
+    ("[contact]", "[[contact]]", 9, &["`contact` is a list of tables", "write `[contact]`"]),
+    (BOTH_ARMS, "[\"left\", \"rihgt\"]", 14, &["`target[0].arm[1]` is \"rihgt\", expected `left`", "mean `right`?"]),
+    (BOTH_ARMS, "[\"left\", \"left\"]", 14, &["`target[0].arm` is [\"left\", \"left\"]", "different arms"]),
+    (BOTH_ARMS, "[]", 14, &["`target[0].arm` is []", "expected the names of one arm or more"]),
+    (BOTH_ARMS, "2", 14, &["`target[0].arm` is 2, expected `left` or `right`", "arms of the layout `two_arms`"]),
+    (BOTH_ARMS, "[1, \"left\"]", 14, &["`target[0].arm[0]` is 1, expected `left` or `right`"]),
+    (
+        "[[case]]",
+        with_ball!("\"right\""),
+        23,
+        &["`target[1].arm` is \"right\": `right` is in `target[0].arm`", "one target"],
+    ),
+    ("[[case]]", with_ball!("[\"left\"]"), 23, &["`target[1].arm` is [\"left\"]: `left` is in `target[0].arm`"]),
+    (
+        "[\"rigid\", \"pin\"]",
+        "\"rigd\"",
+        15,
+        &["`target[0].kind` is \"rigd\", expected `rigid`, `pin`", "mean `rigid`?"],
+    ),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\"]", 15, &["`target[0].kind` is [\"rigid\"]", "each of the 2 arms", "found 1"]),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\", 4]", 15, &["`target[0].kind[1]` is 4, expected `rigid`, `pin`, `bounce` or"]),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\", \"weld\"]", 15, &["`target[0].kind[1]` is \"weld\", expected `rigid`"]),
+    (
+        POINTS,
+        "[0.5, 0.2]",
+        18,
+        &["`target[0].contact` is [0.5, 0.2]", "[rx, ry] in m for each of the 2 arms", "found 1"],
+    ),
+    (POINTS, "[[0.5, 0.2]]", 18, &["`target[0].contact` is [[0.5, 0.2]]", "each of the 2 arms", "found 1"]),
+    (POINTS, "[]", 18, &["`target[0].contact` is []", "[rx, ry] in m for each of the 2 arms", "found 0"]),
+    (POINTS, "[[0.5, 0.2], [-0.5]]", 18, &["`target[0].contact[1]` is [-0.5], expected [rx, ry] in m"]),
+    (POINTS, "[[0.5, 0.2], 3]", 18, &["`target[0].contact[1]` is 3, expected [rx, ry] in m"]),
+    (POINTS, "[3, [0.5, 0.2]]", 18, &["`target[0].contact[0]` is 3, expected [rx, ry] in m"]),
+    (POINTS, "0.5", 18, &["`target[0].contact` is 0.5, expected [rx, ry] in m, or a list of those, one per arm"]),
+    ("contact = [[0.5, 0.2], [-0.5, 0.2]]\n", "", 12, &["missing key `target[0].contact`", "one per arm"]),
+    (
+        "polygon =",
+        "radius = 1.0\npolygon =",
+        20,
+        &["`target[0].polygon` is", "`radius` is there too, expected one of the two"],
+    ),
+    ("polygon =", "poligon =", 19, &["unknown key `target[0].poligon`", "did you mean `polygon`?"]),
+    (OUTLINE, "1.0", 19, &["`target[0].polygon` is 1.0, expected a list of corners [x, y] in m", "COM at the origin"]),
+    (OUTLINE, "[[-1, 0], [1, 0]]", 19, &["`target[0].polygon` is [[-1, 0], [1, 0]]", "three corners or more, found 2"]),
+    (OUTLINE, "[[-1, 0], [1, 0], [0, 0]]", 19, &["encloses nothing", "not all on a line"]),
+    (OUTLINE, "[[-1, -1], [1, 1], [1, -1], [-1, 1]]", 19, &["edges 1 and 3", "expected corners in their order"]),
+    (OUTLINE, "[[-1, 0], [1, 1], [1]]", 19, &["`target[0].polygon[2]` is [1], expected [x, y] in m"]),
+    (OUTLINE, "[[0, 0], [2, 0], [2, 1], [0, 1]]", 19, &["the COM", "is outside, expected corners around [0, 0]"]),
+    ("restitution = 0.5", "restitution = 1.5", 20, &["`target[0].restitution` is 1.5", "0 (nothing comes back) to 1"]),
+    (
+        "restitution = 0.5",
+        "restitution = -0.5",
+        20,
+        &["`target[0].restitution` is -0.5", "0 (nothing comes back) to 1"],
+    ),
+    ("restitution = 0.5", "restitution = nan", 20, &["`target[0].restitution` is nan", "finite"]),
+    ("restitution = 0.5", "restitution = \"half\"", 20, &["is \"half\", expected a restitution", "without quotes"]),
+    ("restitution = 0.5", "yaw = 90", 20, &["`target[0].yaw` is 90", "looks like degrees"]),
+    ("restitution = 0.5", "position = [1]", 20, &["`target[0].position` is [1], expected [x, y] in m"]),
+    (
+        "[\"pin\", \"bounce\"]",
+        "[\"pin\"]",
+        25,
+        &["`case[1].kinds.panel` is [\"pin\"]", "each of the 2 arms", "found 1"],
+    ),
+    ("[\"pin\", \"bounce\"]", "\"bouncy\"", 25, &["`case[1].kinds.panel` is \"bouncy\"", "did you mean `bounce`?"]),
+    ("[\"pin\", \"bounce\"]", "[\"pin\", 1]", 25, &["`case[1].kinds.panel[1]` is 1, expected `rigid`"]),
+    (
+        "{ panel = [\"pin\", \"bounce\"] }",
+        "\"pin\"",
+        25,
+        &["`case[1].kinds` is \"pin\", expected a table with `panel`"],
+    ),
+    ("{ panel = [\"pin\", \"bounce\"] }", "{ pannel = \"pin\" }", 25, &["`case[1].kinds.pannel`", "mean `panel`?"]),
+    ("{ panel = 0.9 }", "{ panel = 9 }", 26, &["`case[1].restitutions.panel` is 9, expected a restitution"]),
+    ("{ panel = 0.9 }", "0.9", 26, &["`case[1].restitutions` is 0.9, expected a table with `panel`"]),
+    ("{ panel = 0.9 }", "{ pane = 0.9 }", 26, &["`case[1].restitutions.pane` (0.9)", "did you mean `panel`?"]),
+    ("restitutions", "restitution", 26, &["`case[1].restitution`", "did you mean `restitutions`?"]),
+];
+
+/// Where contacts are found by detection.
+const DETECTION_EDITS: &[Edit] = &[
+    ("position = [3, 0]\n", "", 12, &["missing key `target[0].position`", "[x, y] of its COM at the start in m"]),
+    ("[3, 0]", "3", 18, &["`target[0].position` is 3, expected [x, y] in m"]),
+    (
+        "[3, 0]",
+        "[3, 0]\ncontact = [1, 0]",
+        19,
+        &["`target[0].contact` is [1, 0]", "`contact.detection`", "no such key"],
+    ),
+];
+
+#[test]
+fn broken_contacts() {
+    let layout = two_arms();
+    let parse = |text: &str| Scenario::parse(text, "demo.toml", Path::new(""), &[("two_arms", &layout)]);
+    let valid = parse(CONTACTS).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(valid.cases[1].restitutions, [0.9]);
+    check(CONTACTS, "demo.toml", CONTACT_EDITS, parse);
+    let detected =
+        CONTACTS.replace("\"time\"", "\"event\"").replace(&format!("contact = {POINTS}"), "position = [3, 0]");
+    let valid = parse(&detected).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(valid.targets[0].position, Some([3.0, 0.0]));
+    check(&detected, "demo.toml", DETECTION_EDITS, parse);
+
+    // two problems, as both lists are too long; and a key that neither outline has
+    let report = |text: &str| parse(text).err().map(|r| (r.count(), r.to_string())).unwrap_or_default();
+    let (count, shown) = report(&CONTACTS.replace(BOTH_ARMS, "\"left\""));
+    assert!(count == 2 && shown.matches("for the one arm that touches it, found 2").count() == 2, "{shown}");
+    let (count, shown) = report(&CONTACTS.replace(&format!("polygon = {OUTLINE}\n"), ""));
+    assert!(count == 1 && shown.contains("missing key `target[0].radius`"), "{shown}");
+    assert!(shown.contains("demo.toml:12:1") && shown.contains("the corners of a `polygon`"), "{shown}");
+}

@@ -30,7 +30,7 @@ struct Suspect {
 }
 
 impl Quantity {
-    /// Any finite number; `what` is the name with its article, "a mass".
+    /// Any finite number; `what` is the name with its article, "a mass", and `unit` empty for a number without one.
     #[must_use]
     pub const fn any(what: &'static str, unit: &'static str) -> Self {
         Self { what, unit, least: Least::None, suspect: None }
@@ -92,7 +92,8 @@ impl Display for Quantity {
             Least::Zero => " of 0 or more",
             Least::AboveZero => " greater than 0",
         };
-        write!(f, "{} in {}{range}", self.what, self.unit)
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) };
+        write!(f, "{}{unit}{range}", self.what)
     }
 }
 

@@ -6,7 +6,7 @@ use super::contact::ContactRules;
 use super::joints::Joints;
 use super::post_impact::PostImpact;
 use super::target::Target;
-use crate::diagnostic::{Table, Value, every};
+use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
 use std::collections::HashSet;
 
@@ -30,7 +30,9 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
     Table::reject_repeats(&tables, "name", str::eq, "target names must differ");
     Table::reject_repeats(&tables, "arm", str::eq, "an arm captures at most one target");
     let targets = every(tables.iter().map(|table| Target::from_table(table, layout, detection)));
-    let shared = targets.as_deref().and_then(|targets| shared_arm(targets, &tables));
+    if let (Some(targets), Some(layout)) = (&targets, layout) {
+        reject_shared_arms(targets, &tables, layout);
+    }
 
     // what the cases say of the targets can be looked at only where each of these has a name of its own
     let target_names = every(tables.iter().map(|table| table.get("name")?.as_str()))
@@ -61,22 +63,24 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
     if cases.is_empty() {
         cases.push(Case::only(name?, &targets));
     }
-    if shared.is_some() {
-        return None;
-    }
     Some(Capture { targets, contact: contact?, cases, post_impact: post_impact? })
 }
 
-/// Notes an arm that touches two targets, where one of them names several arms.
-fn shared_arm(targets: &[Target], tables: &[Table<'_>]) -> Option<()> {
-    let mut taken = HashSet::new();
-    for (target, table) in targets.iter().zip(tables) {
-        let again = target.touches.iter().any(|touch| !taken.insert(touch.arm));
-        let value = table.get("arm").filter(|_| again)?;
-        if tables.iter().filter_map(|table| table.get("arm")).any(|value| Value::is_array(&value)) {
-            value.reject("an arm captures at most one target");
-            return Some(());
+/// Notes each target with an arm of an earlier one, where one of the two names several arms: single names are told apart as
+/// they stand.
+fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout) {
+    let values: Vec<_> = tables.iter().map(|table| table.get("arm")).collect();
+    for (i, (target, value)) in targets.iter().zip(&values).enumerate() {
+        let touches = |arm: usize| target.touches.iter().any(|touch| touch.arm == arm);
+        for (earlier, first) in targets.iter().zip(&values).take(i) {
+            let shared = earlier.touches.iter().find(|touch| touches(touch.arm));
+            let arm = shared.and_then(|touch| layout.arms.get(touch.arm));
+            if let (Some(arm), Some(first), Some(value)) = (arm, first, value)
+                && (first.is_array() || value.is_array())
+            {
+                let (name, path) = (&arm.name, first.path());
+                value.reject(&format!("`{name}` is in `{path}` too, but an arm captures at most one target"));
+            }
         }
     }
-    None
 }

@@ -6,12 +6,14 @@ use crate::diagnostic::{Quantity, Table, Value, every};
 use crate::layout::Layout;
 use crate::surface::Surface;
 use std::collections::HashSet;
+use std::f64::consts::PI;
 
 const MASS: Quantity = Quantity::positive("a mass", "kg");
 const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
 const RADIUS: Quantity = Quantity::positive("a radius", "m");
-const YAW: Quantity = Quantity::any("a yaw", "rad");
-const RESTITUTION: Quantity = Quantity::non_negative("a restitution, 0 to 1,", "m/s per m/s");
+const YAW: Quantity = Quantity::any("a yaw", "rad").not_degrees(4.0 * PI);
+const RESTITUTION: Quantity = Quantity::any("a restitution, 0 (nothing comes back) to 1 (all of it)", "");
+const CONTACTS: &str = "[rx, ry] in m, or a list of those, one per arm";
 const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m")];
 
 /// A free body that arms touch.
@@ -84,9 +86,9 @@ impl TouchKind {
             let kind = value.choice(&Self::CHOICES)?;
             return Some(vec![kind; touches.unwrap_or(1)]);
         }
-        let wanted = "one kind per arm, `rigid`, `pin`, `bounce` or `none`";
-        let items = value.items(wanted)?;
-        check_length(value, items.len(), touches, wanted)?;
+        let wanted = for_each(touches, "`rigid`, `pin`, `bounce` or `none`");
+        let items = value.items(&wanted)?;
+        check_length(value, items.len(), touches, &wanted)?;
         every(items.iter().map(|item| item.choice(&Self::CHOICES)))
     }
 }
@@ -175,8 +177,8 @@ impl Target {
 /// A restitution: no more than 1 comes back.
 pub(super) fn restitution(value: &Value<'_>) -> Option<f64> {
     let restitution = value.number(&RESTITUTION)?;
-    if restitution > 1.0 {
-        value.expected("a restitution, 0 (nothing comes back) to 1 (all of it)", None);
+    if !(0.0..=1.0).contains(&restitution) {
+        value.expected(&RESTITUTION.to_string(), None);
         return None;
     }
     Some(restitution)
@@ -220,29 +222,62 @@ fn contacts(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Opt
         }
         return arms.map(|arms| vec![[0.0; 2]; arms]);
     }
-    let value = table.require("contact", "[rx, ry] in m, or a list of those, one per arm")?;
-    let items = value.items("[rx, ry] in m, or a list of those, one per arm")?;
-    if !items.first().is_some_and(Value::is_array) {
+    let value = table.require("contact", CONTACTS)?;
+    let items = value.items(CONTACTS)?;
+    let wanted = for_each(arms, "a contact point [rx, ry] in m");
+    if !items.iter().any(Value::is_array) && (arms == Some(1) || !items.is_empty()) {
         let contact = value.vector(&CONTACT)?;
-        check_length(&value, 1, arms, "a list of contact points [rx, ry] in m, one per arm")?;
+        check_length(&value, 1, arms, &wanted)?;
         return Some(vec![contact]);
     }
-    check_length(&value, items.len(), arms, "one contact point [rx, ry] in m per arm")?;
+    check_length(&value, items.len(), arms, &wanted)?;
     every(items.iter().map(|item| item.vector(&CONTACT)))
+}
+
+/// What is wanted in a list, and how often.
+fn for_each(arms: Option<usize>, what: &str) -> String {
+    match arms {
+        Some(1) => format!("{what} for the one arm that touches it"),
+        Some(arms) => format!("{what} for each of the {arms} arms that touch it"),
+        None => format!("{what} for each arm that touches it"),
+    }
 }
 
 /// `radius` or `polygon`.
 fn surface(table: &Table<'_>) -> Option<Surface> {
     match (table.get("radius"), table.get("polygon")) {
+        (None, None) => {
+            // unless one of them is misspelt, which was said
+            if !table.is_misspelt("polygon") {
+                let _ = table.require("radius", &format!("{RADIUS}, or the corners of a `polygon` in its place"));
+            }
+            None
+        }
         (Some(_), Some(polygon)) => {
             polygon.reject("`radius` is there too, expected one of the two");
             None
         }
-        (_, None) => table.number("radius", &RADIUS).map(|radius| Surface::Disc { radius }),
+        (Some(_), None) => table.number("radius", &RADIUS).map(|radius| Surface::Disc { radius }),
         (None, Some(value)) => {
             let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
             let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;
-            Surface::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()
+            let surrounded = surrounded(&corners);
+            let surface = Surface::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
+            if !surrounded {
+                value.reject("the COM, from which corners are counted, is outside, expected corners around [0, 0]");
+                return None;
+            }
+            Some(surface)
         }
     }
+}
+
+/// Whether the origin is inside the convex hull of some corners, as every COM is: from there the corners are all around.
+fn surrounded(corners: &[[f64; 2]]) -> bool {
+    let mut directions: Vec<f64> =
+        corners.iter().filter(|corner| **corner != [0.0; 2]).map(|[x, y]| y.atan2(*x)).collect();
+    directions.sort_by(f64::total_cmp);
+    let (Some(first), Some(last)) = (directions.first(), directions.last()) else { return false };
+    let between = directions.windows(2).map(|pair| pair[1] - pair[0]);
+    between.fold(first + 2.0 * PI - last, f64::max) < PI
 }
