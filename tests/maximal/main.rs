@@ -11,6 +11,8 @@ mod holds;
 mod impacts;
 mod loops;
 mod product;
+mod responses;
+mod studies;
 mod textbook;
 
 use maximal::body::Body;

@@ -206,12 +206,18 @@ pub const CONTACT_IMPACT: f64 = 2e-12;
 pub const CONTACT_IMPACT_SINGLE: f64 = 2e-3;
 /// Above this margin dependent contacts have to be refused; below, rounding alone may make them seem independent.
 pub const SEEN_MARGIN: f64 = 0.05;
+/// Axes of the ellipse of stopping impulses, relative: the eigenvalues of a square of a matrix of condition below 1e3.
+pub const ELLIPSE: f64 = 1e-9;
 /// Some seconds of motion with holds, adaptively at 1e-12, against maximal coordinates, relative to the largest: both err by
 /// 1e-13 per step, and loops amplify that; 2e-12 measured.
 pub const HELD_MOTION: f64 = 2e-11;
 /// By how much a hold may be open at any step, rad or m, and rad/s or m/s: rounding at some metres. 4e-14 measured;
 /// 1e-10 is promised.
 pub const HELD_CLOSED: f64 = 1e-12;
+/// A tip at the outline of its target when their contact was detected, m: issue 5's own bound for constraints.
+pub const DETECTED: f64 = 1e-10;
+/// Normals at contacts and places of what flies freely, rad, m: rounding of a path of 10,000 steps.
+pub const IN_SERIES: f64 = 1e-11;
 /// A base of 1e14 kg in place of one that nothing moves, rad/s.
 pub const HEAVY_BASE: f64 = 1e-12;
 /// Poses by a recording's chain of transforms against the model's: rounding of four turns at a few metres, and of
