@@ -214,3 +214,55 @@ fn holds_keep_the_order_of_the_integrator() {
         }
     }
 }
+
+/// Centre of mass of robot and target, and momentum [l, px, py], at an integrated vector.
+fn whole(held: &Held, x: &[f64]) -> ([f64; 2], [f64; 3]) {
+    let system = held.assembly.system();
+    let model = system.model;
+    let state = State::from_vector(x, model.joints()).expect("a state");
+    let (mut inertias, mut poses) = (vec![[0.0; 2]; model.joints() + 1], vec![[0.0; 3]; model.joints() + 1]);
+    model.body_inertias(&mut inertias).expect("masses");
+    model.body_poses(&state.base_pose, state.joint_angles, &mut poses).expect("poses");
+    let robot = model.momentum(&state).expect("momentum");
+    let [px, py] = robot.linear_momentum;
+    let (mut masses, mut momentum) = (0.0, [robot.angular_momentum, px, py]);
+    let mut moments = [0.0; 2];
+    let mut add = |mass: f64, [_, x, y]: [f64; 3]| {
+        masses += mass;
+        moments = [moments[0] + mass * x, moments[1] + mass * y];
+    };
+    inertias.iter().zip(&poses).for_each(|([mass, _], pose)| add(*mass, *pose));
+    for body in system.bodies_at(x) {
+        add(body.mass, body.pose);
+        momentum.iter_mut().zip(body.momentum().0).for_each(|(sum, part)| *sum += part);
+    }
+    (moments.map(|moment| moment / masses), momentum)
+}
+
+/// What opened is closed by the least that the masses allow: as by internal forces, without moving the centre of mass or
+/// changing the momentum.
+#[test]
+fn closing_keeps_centre_and_momentum() {
+    for holding in MIXTURES {
+        let held = held(&layout("dual_arm_3r"), &start(), holding);
+        let system = held.assembly.system();
+        let closed = system.vector(&held.motion.state());
+        let half = (closed.len() - 3) / 2;
+        let off = |i: usize| tolerance::OPENED * (3.0 * f64::from(u8::try_from(i).expect("few"))).sin();
+        let mut opened = closed.clone();
+        opened.iter_mut().enumerate().take(half).for_each(|(i, value)| *value += off(i));
+        let ((was, _), mut x) = (whole(&held, &opened), opened.clone());
+        system.restore(&mut x).expect("closed again");
+        let moved = crate::support::difference(&x[..half], &opened[..half]);
+        assert!(moved > 0.1 * tolerance::OPENED, "{moved:e}");
+        assert_close("centre", &whole(&held, &x).0, &was, tolerance::CENTRE);
+        let [open, opening] = system.constraint_errors(&x).expect("errors");
+        assert!(open.max(opening) <= tolerance::HELD_CLOSED, "{holding:?} {open:e} {opening:e}");
+
+        let mut opened = closed.clone();
+        opened.iter_mut().enumerate().skip(half).take(half).for_each(|(i, value)| *value += off(i));
+        let ((_, was), mut x) = (whole(&held, &opened), opened);
+        system.restore(&mut x).expect("closed again");
+        close("momentum", &whole(&held, &x).1, &was, tolerance::IDENTITY);
+    }
+}

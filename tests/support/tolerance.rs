@@ -214,6 +214,10 @@ pub const HELD_MOTION: f64 = 2e-11;
 /// By how much a hold may be open at any step, rad or m, and rad/s or m/s: rounding at some metres. 4e-14 measured;
 /// 1e-10 is promised.
 pub const HELD_CLOSED: f64 = 1e-12;
+/// By what holds are opened to be closed again, rad, m and per second.
+pub const OPENED: f64 = 1e-5;
+/// Centre of mass before and after that, m: the square of the opening times some metres.
+pub const CENTRE: f64 = 1e-9;
 /// A tip at the outline of its target when their contact was detected, m: issue 5's own bound for constraints.
 pub const DETECTED: f64 = 1e-10;
 /// Normals at contacts and places of what flies freely, rad, m: rounding of a path of 10,000 steps.
