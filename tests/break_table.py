@@ -245,6 +245,37 @@ FAULTS = [
         "let mut linear = velocity[0] * quarter_turn(&com);",
         "let mut linear = -velocity[0] * quarter_turn(&com);",
     ),
+    # contacts
+    Fault(
+        "sign of the moment arm of a contact",
+        "src/contact/row.rs",
+        "n + (rx * fy - ry * fx)",
+        "n - (rx * fy - ry * fx)",
+    ),
+    Fault(
+        "holds without the centripetal acceleration of the arms",
+        "src/contact/hold.rs",
+        "        add_centripetal(&state, jacobian, rows.tips);\n",
+        "",
+    ),
+    Fault(
+        "holds without the centripetal acceleration of what is held",
+        "src/contact/hold.rs",
+        "accelerations) + omega * omega * row.reach)",
+        "accelerations) + T::ZERO * omega * row.reach)",
+    ),
+    Fault(
+        "offset of a hold turned the wrong way",
+        "src/contact/closure.rs",
+        "offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw",
+        "offset: [cos * dx - sin * dy, cos * dy + sin * dx], yaw",
+    ),
+    Fault(
+        "restitution ignored",
+        "src/contact/impact.rs",
+        "|e| e * *impulse",
+        "|e| T::ZERO * e * *impulse",
+    ),
     # modules for other crates
     Fault(
         "last part of π/2 forgotten",
