@@ -1,7 +1,8 @@
-//! A control law behind limited and sampled actuators.
+//! A control law behind limited and sampled actuators, of a robot whose joints are watched.
 
 use crate::control::{Control, Limited, Sampled};
 use crate::event::Events;
+use crate::limits::{Excesses, Watched};
 use crate::scenario::Actuation;
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use crate::system::System;
@@ -19,6 +20,8 @@ pub fn drive(
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
+    let mut watched = Watched { law, limits: &actuation.joint_limits, excesses: Excesses::default() };
+    let law: &mut dyn Control<f64> = &mut watched;
     let mut saturated = vec![false; system.model.joints()];
     let mut limited;
     let law: &mut dyn Control<f64> = match &actuation.torque_limits {
@@ -29,8 +32,9 @@ pub fn drive(
         None => law,
     };
     let mut held = vec![0.0; system.model.joints()];
-    match actuation.steps_per_sample {
+    let phase = match actuation.steps_per_sample {
         Some(steps) => simulate(system, &mut Sampled::new(law, steps, &mut held), initial, timing, events, tick),
         None => simulate(system, law, initial, timing, events, tick),
-    }
+    }?;
+    Ok(watched.finish(phase))
 }

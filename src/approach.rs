@@ -4,6 +4,7 @@ use crate::actuators::drive;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::event::{Events, NoEvents};
+use crate::limits::{Excesses, Watched};
 use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
@@ -103,7 +104,7 @@ impl<'a> Approach<'a> {
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let joints = model.joints();
-        let mut law = ExactTracking {
+        let law = ExactTracking {
             trajectory: self.trajectory(rates),
             generalized_inertia: &mut vec![0.0; joints * joints],
             generalized_bias: &mut vec![0.0; joints],
@@ -118,14 +119,17 @@ impl<'a> Approach<'a> {
                 _ => vec![0.0; joints],
             },
         };
-        simulate(&System::alone(model), &mut law, &initial, &self.timing, events, tick)
+        let limits = &self.scenario.approach.actuation.joint_limits;
+        let mut watched = Watched { law, limits, excesses: Excesses::default() };
+        let phase = simulate(&System::alone(model), &mut watched, &initial, &self.timing, events, tick)?;
+        Ok(watched.finish(phase))
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {
         let ends = Ends {
             initial_angles: &self.scenario.initial.joint_angles,
             final_angles: &self.scenario.approach.final_joint_angles,
-            duration: self.timing.duration,
+            duration: self.scenario.approach.trajectory_time(),
         };
         match self.scenario.approach.trajectory {
             TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),

@@ -13,22 +13,28 @@ pub struct Drift {
     pub momentum_drift: f64,
     /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing moves.
     pub energy_error: f64,
+    /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over the
+    /// largest distance of a body's COM from it.
+    pub center_of_mass_drift: f64,
 }
 
 impl Drift {
-    /// The worse of both, number by number.
+    /// The worse of all, number by number.
     #[must_use]
     pub fn worse(&self, other: &Self) -> Self {
         Self {
             momentum_drift: self.momentum_drift.max(other.momentum_drift),
             energy_error: self.energy_error.max(other.energy_error),
+            center_of_mass_drift: self.center_of_mass_drift.max(other.center_of_mass_drift),
         }
     }
 }
 
-/// What was done to the robot since the start of a phase.
+/// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Done {
+    /// How long it is since the start, s.
+    pub time: f64,
     /// By joint torques and from outside, J.
     pub work: f64,
     /// From outside: [l, px, py], angular momentum about the inertial origin; N m s, N s.
@@ -42,9 +48,11 @@ pub struct Audit<'a> {
     poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
     start: Momentum<f64>,
+    center: [f64; 2],
     linear: Ratio,
     angular: Ratio,
     energy: Ratio,
+    motion: Ratio,
 }
 
 /// The largest deviation over the largest scale.
@@ -76,8 +84,21 @@ impl<'a> Audit<'a> {
         model.body_inertias(&mut inertias)?;
         let start = with_bodies(model.momentum(state)?, beside);
         let none = Ratio::default();
-        let (poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
-        let mut audit = Self { model, inertias, poses, twists, start, linear: none, angular: none, energy: none };
+        let (mut poses, twists) = (vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
+        model.body_poses(&state.base_pose, state.joint_angles, &mut poses)?;
+        let (center, _) = center_of_mass(masses(&inertias, &poses, beside));
+        let mut audit = Self {
+            model,
+            inertias,
+            poses,
+            twists,
+            start,
+            center,
+            linear: none,
+            angular: none,
+            energy: none,
+            motion: none,
+        };
         audit.record(state, beside, &Done::default())?;
         Ok(audit)
     }
@@ -105,14 +126,43 @@ impl<'a> Audit<'a> {
         self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - done.work, now.kinetic_energy);
+        let bodies = masses(&self.inertias, &self.poses, beside);
+        let ([x, y], mass) = center_of_mass(bodies.clone());
+        let extent = bodies.fold(0.0, |most: f64, (_, [to_x, to_y])| most.max((to_x - x).hypot(to_y - y)));
+        let [from_x, from_y] = self.center;
+        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * done.time);
+        self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);
         Ok(now)
     }
 
     /// The phase so far.
     #[must_use]
     pub fn drift(&self) -> Drift {
-        Drift { momentum_drift: self.linear.value().max(self.angular.value()), energy_error: self.energy.value() }
+        Drift {
+            momentum_drift: self.linear.value().max(self.angular.value()),
+            energy_error: self.energy.value(),
+            center_of_mass_drift: self.motion.value(),
+        }
     }
+}
+
+/// Mass (kg) and place [x, y] (m) of every body of a robot, and of those beside it.
+fn masses<'a>(
+    inertias: &'a [[f64; 2]],
+    poses: &'a [[f64; 3]],
+    beside: &'a [Body],
+) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
+    let of_robot = inertias.iter().zip(poses).map(|([mass, _], [_, x, y])| (*mass, [*x, *y]));
+    of_robot.chain(beside.iter().map(|body| (body.mass, [body.pose[1], body.pose[2]])))
+}
+
+/// [x, y] of bodies together, m, and their mass, kg.
+fn center_of_mass(bodies: impl Iterator<Item = (f64, [f64; 2])>) -> ([f64; 2], f64) {
+    let sums = bodies.fold(([0.0; 2], 0.0), |(moment, mass), (part, [x, y])| {
+        ([moment[0] + part * x, moment[1] + part * y], mass + part)
+    });
+    let (moment, mass) = sums;
+    (moment.map(|moment| moment / mass), mass)
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.

@@ -1,6 +1,8 @@
 //! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
 
 use crate::assembly::{Assembly, Place};
+use crate::audit::with_bodies;
+use crate::bodies::{bodies, momentum_sizes};
 use crate::contact::{self, Contact, Kind, Other, Rows, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -76,7 +78,7 @@ pub fn capture(
     touching: &[Touching],
 ) -> Result<Capture, Error> {
     let model = &*assembly.model;
-    let (exact, paper) = match rigid_by_arm(assembly, targets, touching) {
+    let (exact, paper) = match rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty()) {
         Some(by_arm) => {
             let by = |literal| rigid(model, before, targets, touching, &by_arm, literal);
             (by(false)?, Some(by(true)?))
@@ -205,7 +207,7 @@ fn of_any_kind(
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
 }
 
-/// Momentum [l, px, py] and energy of robot and targets, and the sum of their parts' magnitudes.
+/// Momentum [l, px, py] and energy of robot and targets, and the sums of their bodies' sizes, [angular, linear].
 struct Total {
     momentum: [f64; 3],
     magnitude: [f64; 2],
@@ -247,23 +249,11 @@ fn balance(
 
 /// Of the robot, with what its links hold, and the targets beside it.
 fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<Total, Error> {
-    let robot = assembly.model.momentum(state)?;
-    let [px, py] = robot.linear_momentum;
-    let mut total = Total {
-        momentum: [robot.angular_momentum, px, py],
-        magnitude: [robot.angular_momentum.abs(), px.hypot(py)],
-        energy: robot.kinetic_energy,
-    };
-    for target in assembly.beside(targets) {
-        let (momentum, energy) = target.momentum();
-        for (sum, part) in total.momentum.iter_mut().zip(momentum) {
-            *sum += part;
-        }
-        total.magnitude[0] += momentum[0].abs();
-        total.magnitude[1] += momentum[1].hypot(momentum[2]);
-        total.energy += energy;
-    }
-    Ok(total)
+    let beside = assembly.beside(targets);
+    let whole = with_bodies(assembly.model.momentum(state)?, &beside);
+    let [px, py] = whole.linear_momentum;
+    let magnitude = momentum_sizes(&bodies(&*assembly.model, state, &beside)?);
+    Ok(Total { momentum: [whole.angular_momentum, px, py], magnitude, energy: whole.kinetic_energy })
 }
 
 /// Values in arm order, `None` where an arm captures nothing.

@@ -23,7 +23,11 @@
 //! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
 //! | events that end a phase | `event` |
+//! | contacts of any kind at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
+//! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`] |
+//! | contacts found by detection | `gaps` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
+//! | closed loops, pinned targets | [`contact::Hold`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions
@@ -36,7 +40,7 @@
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
-//! and PNG, `lanes` SIMD lanes as scalars.
+//! and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -88,6 +92,8 @@ pub mod approach;
 pub mod assembly;
 #[cfg(feature = "std")]
 pub mod audit;
+#[cfg(feature = "std")]
+mod bodies;
 #[cfg(feature = "build")]
 pub mod build;
 #[cfg(feature = "std")]
@@ -121,6 +127,8 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
+pub mod limits;
+#[cfg(feature = "std")]
 pub mod meeting;
 #[cfg(feature = "std")]
 pub mod miss;
@@ -134,6 +142,8 @@ pub mod posture;
 pub mod record;
 #[cfg(feature = "std")]
 mod recorder;
+#[cfg(feature = "mcap")]
+pub mod recording;
 #[cfg(feature = "std")]
 pub mod remainder;
 #[cfg(feature = "std")]

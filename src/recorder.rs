@@ -54,7 +54,8 @@ impl<'a> Recorder<'a> {
         let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
         let state = State::from_vector(x, model.joints()).ok_or(wrong)?;
         let effort = Effort::from_vector(x).unwrap_or_default();
-        let done = Done { work: effort.joint_work + effort.base_work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let work = effort.joint_work + effort.base_work;
+        let done = Done { time, work, impulse: [effort.base_impulse, 0.0, 0.0] };
         let open = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
         let bodies = self.system.bodies_at(x);
@@ -113,6 +114,7 @@ impl<'a> Recorder<'a> {
             saturation,
             constraint_errors,
             singularity_margin: None,
+            excesses: None,
         }
     }
 }

@@ -70,7 +70,7 @@ impl Tips {
             initial_twists,
             final_poses,
             final_twists,
-            duration: scenario.approach.duration,
+            duration: scenario.approach.trajectory_time(),
             wanted,
             held: held.collect(),
             reach: reach.collect(),

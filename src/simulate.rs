@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::event::Events;
 use crate::flow::Flow;
+use crate::limits::Excesses;
 use crate::recorder::Recorder;
 use crate::scenario::Integration;
 use crate::state::State;
@@ -130,6 +131,8 @@ pub struct Phase {
     pub constraint_errors: [f64; 2],
     /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
     pub singularity_margin: Option<f64>,
+    /// Joints beyond their limits; `None` where there are no limits.
+    pub excesses: Option<Excesses>,
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.
@@ -168,6 +171,14 @@ impl Phase {
             duration: self.duration + next.duration,
             drift: self.drift.worse(&next.drift),
             constraint_errors: std::array::from_fn(|i| self.constraint_errors[i].max(next.constraint_errors[i])),
+            singularity_margin: match [self.singularity_margin, next.singularity_margin] {
+                [Some(before), Some(after)] => Some(before.min(after)),
+                [before, after] => before.or(after),
+            },
+            excesses: match (self.excesses, next.excesses) {
+                (Some(before), Some(after)) => Some(before.then(after, self.duration)),
+                (before, after) => before.or(after),
+            },
             ..self
         }
     }

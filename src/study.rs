@@ -5,6 +5,7 @@ use crate::capture::{Capture, ImpactResult};
 use crate::course::Course;
 use crate::design::{Design, DesignError, end_rates};
 use crate::dynamics::Model;
+use crate::limits::Excesses;
 use crate::miss::Miss;
 use crate::posture::{Posture, PostureError, posture};
 use crate::remainder::Remainder;
@@ -14,6 +15,8 @@ use crate::system::Body;
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
+/// Largest drift of the centre of mass in a phase that passes the audit: it is the integral of what the momentum drifts by.
+pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
 
@@ -287,13 +290,14 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
     let checks = [
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
+        ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
         ("what is held is open by", phase.constraint_errors[0], CONSTRAINT_BOUND),
         ("what is held opens by", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
     // a NaN is not within its bound
     let out_of_bound =
         checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
-    out_of_bound
-        .map(|(what, value, bound)| format!("{name}: {what} {value:.2e} is over its bound {bound:.0e}"))
-        .collect()
+    let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));
+    let excesses = phase.excesses.iter().flat_map(Excesses::sentences);
+    drifts.chain(excesses).map(|what| format!("{name}: {what}")).collect()
 }

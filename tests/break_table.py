@@ -229,15 +229,9 @@ FAULTS = [
     ),
     Fault(
         "columns of the time series exchanged",
-        "src/record.rs",
-        """\
-        &motion.base_twist,
-        &motion.joint_rates,
-""",
-        """\
-        &motion.joint_rates,
-        &motion.base_twist,
-""",
+        "src/record/columns.rs",
+        "&row.sample.motion.joint_angles",
+        "&row.sample.motion.joint_rates",
     ),
     Fault(
         "audit without an exit code",

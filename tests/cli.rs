@@ -155,7 +155,13 @@ fn the_table_is_the_summary() {
         }
         let after = &value["post_impact"];
         let short = |key: &str| format!("{:.1e}", after[key].as_f64().expect("a number"));
-        let wanted = [(*case).to_owned(), "50".to_owned(), short("momentum_drift"), short("energy_error")];
+        let wanted = [
+            (*case).to_owned(),
+            "50".to_owned(),
+            short("momentum_drift"),
+            short("energy_error"),
+            short("center_of_mass_drift"),
+        ];
         assert_eq!(rows(case, "50"), [wanted]);
     }
     let approach = &summary["cases"][0]["approach"];

@@ -171,6 +171,29 @@ fn the_shipped_study_meets_its_targets() {
     assert!(run(&support::scenario("raina_shah_2017")).approach.singularity_margin.is_none());
 }
 
+/// Earlier there, they stay; a quintic of the joints does so too.
+#[test]
+fn tips_stay_where_their_paths_end() {
+    let mut scenario = steered(&POSES.map(TipGoal::Pose), &[[0.0; 3]; 2]);
+    scenario.approach.trajectory_duration = Some(14.0);
+    scenario.initial.base_twist = [0.002, 0.001, -0.001]; // the robot drifts on, the tips do not
+    let study = run(&scenario);
+    check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
+    for sample in study.approach.samples.iter().filter(|sample| sample.time >= 14.0) {
+        assert_close("poses", sample.end_effector_poses.as_flattened(), POSES.as_flattened(), tolerance::STEERED);
+    }
+    let mut joints = support::scenario("stabilised_capture");
+    joints.approach.end = EndRates::JointRates(vec![0.0; 6]);
+    joints.approach.tracking = Tracking::Exact;
+    joints.approach.trajectory_duration = Some(12.0);
+    joints.approach.actuation = Actuation::default();
+    joints.cases.truncate(1);
+    let study = run(&joints);
+    for sample in study.approach.samples.iter().filter(|sample| sample.time >= 12.0) {
+        assert_close("angles", &sample.motion.joint_angles, &joints.approach.final_joint_angles, tolerance::STEERED);
+    }
+}
+
 /// Torques that are not enough: the tips fall behind, and come back to their paths.
 #[test]
 fn weak_joints_catch_up() {

@@ -131,7 +131,7 @@ fn the_audit_measures_what_strays() {
         let gained = start * ((1.0 + delta) * (1.0 + delta) - 1.0);
         let largest = (start + gained).max(start);
         audit.record(&state(1.0 + delta), &[], &Done { work: part * gained, ..Done::default() }).expect("a state");
-        let Drift { momentum_drift, energy_error } = audit.drift();
+        let Drift { momentum_drift, energy_error, .. } = audit.drift();
         let wanted = [delta.abs() / (1.0 + delta).max(1.0), (1.0 - part) * gained.abs() / largest];
         assert_close("drift, error", &[momentum_drift, energy_error], &wanted, tolerance::IDENTITY);
     }

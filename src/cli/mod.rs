@@ -5,7 +5,7 @@ mod compare;
 mod dynamics;
 mod eval;
 mod export;
-mod figures;
+mod extra;
 mod generate;
 mod import;
 mod layout;
@@ -69,6 +69,9 @@ enum Problem {
     /// Arguments that do not go together.
     #[error("error: {0}")]
     Usage(&'static str),
+    /// This build lacks what is asked for.
+    #[error("error: {0}")]
+    Lacking(extra::Lacking),
     /// A file in the way that nobody generated.
     #[error("error: {file} is there already and was not generated: name another file, or move it away first")]
     NotGenerated { file: String },
