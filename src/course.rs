@@ -40,7 +40,7 @@ impl Course<'_> {
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
         let (targets, touching) = in_time(self.scenario, self.case, tips);
-        let capture = self.from_impact(end, &targets, &touching, false, observer)?;
+        let capture = self.after_impact(end, &targets, &touching, false, observer)?;
         let name = self.case.name.clone();
         Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
     }
@@ -63,7 +63,7 @@ impl Course<'_> {
         let capture = match (phase.event, phase.end()) {
             (Some((event, _)), Some(end)) => {
                 let touching = self.touching(&pairs, event, &targets, &end.end_effector_poses);
-                Some(self.from_impact(&end.motion, &targets, &touching, true, observer)?)
+                Some(self.after_impact(&end.motion, &targets, &touching, true, observer)?)
             }
             _ => None,
         };
@@ -83,7 +83,7 @@ impl Course<'_> {
     }
 
     /// An impact, the motion after it, and the impacts that interrupt that: of tips and targets that `detected` asks for.
-    fn from_impact(
+    fn after_impact(
         self,
         before: &Motion,
         targets: &[Body],
