@@ -186,12 +186,28 @@ impl Phase {
 
 /// Why a phase stopped, and when.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at t = {time} s: {source} (a shorter step may help)")]
+#[error("at t = {time} s: {source}{}", self.hint())]
 pub struct Stopped {
     /// s, since the start of the phase.
     pub time: f64,
     /// What could not be computed.
     pub source: Error,
+}
+
+impl Stopped {
+    /// Whether what was asked for cannot be, whatever the numbers.
+    #[must_use]
+    pub fn is_misuse(&self) -> bool {
+        matches!(self.source, Error::Beside { .. })
+    }
+
+    fn hint(&self) -> &'static str {
+        match self.source {
+            Error::Beside { .. } => "",
+            Error::Tolerance { .. } => " (a larger one may help)",
+            _ => " (a shorter step may help)",
+        }
+    }
 }
 
 /// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
