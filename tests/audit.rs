@@ -3,15 +3,15 @@
 mod support;
 
 use assert_cmd::Command;
-use planar_capture::audit::{Audit, Done};
 use planar_capture::layout::Layout;
-use planar_capture::limits::{Excess, Excesses, JointLimits};
 use planar_capture::models;
 use planar_capture::scenario::{Scenario, Settling, Tracking};
 use planar_capture::simulate::Phase;
+use planar_capture::simulate::audit::{Audit, Done};
+use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
+use planar_capture::simulate::system::Body;
 use planar_capture::state::State;
 use planar_capture::summary::summary;
-use planar_capture::system::Body;
 use std::fs;
 use support::{assert_close, file, run, scenario, tolerance};
 use tempfile::TempDir;

@@ -2,19 +2,19 @@
 
 mod support;
 
-use planar_capture::actuators::drive;
+use planar_capture::approach::resolved::Tips;
 use planar_capture::control::Control;
 use planar_capture::dynamics::Model;
-use planar_capture::event::NoEvents;
 use planar_capture::layout::Layout;
 use planar_capture::models;
-use planar_capture::resolved::Tips;
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::simulate::actuators::drive;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Timing};
 use planar_capture::state::{Forces, State};
 use planar_capture::study::Study;
 use planar_capture::summary::summary;
-use planar_capture::system::System;
 use planar_capture::trajectory::quintic;
 use proptest::prelude::*;
 use support::sample::{Sample, config, sample};

@@ -2,11 +2,11 @@
 
 mod support;
 
-use planar_capture::audit::{Audit, Done, Drift};
-use planar_capture::capture::ContactResult;
 use planar_capture::contact::Kind;
 use planar_capture::models;
+use planar_capture::simulate::audit::{Audit, Done, Drift};
 use planar_capture::state::State;
+use planar_capture::study::capture::ContactResult;
 use planar_capture::summary::summary;
 use serde_json::Value;
 use support::{assert_close, json, numbers, run, scenario, tolerance};
