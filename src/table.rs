@@ -1,10 +1,10 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
-use crate::audit::Drift;
-use crate::capture::ImpactResult;
-use crate::meeting::Touching;
 use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::simulate::Phase;
+use crate::simulate::audit::Drift;
+use crate::study::capture::ImpactResult;
+use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 

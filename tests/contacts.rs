@@ -6,12 +6,12 @@ use planar_capture::body::Body;
 use planar_capture::contact::{After, Closure, Contact, Kind, Other, Rows, impact, workspace_length};
 use planar_capture::control::Free;
 use planar_capture::dynamics::{Kinematics, Merge};
-use planar_capture::event::NoEvents;
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::impact as rigid;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::system::System;
 use planar_capture::target::Target;
 use support::{assert_close, tolerance};
 

@@ -5,11 +5,11 @@ mod support;
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::event::{Events, Instant, NoEvents};
 use planar_capture::models;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::event::{Events, Instant, NoEvents};
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Phase, Sample, Timing, simulate};
-use planar_capture::system::System;
 use planar_capture::trajectory::Standing;
 use support::{assert_close, difference, scenario, tolerance};
 

@@ -255,7 +255,7 @@ mod mcap_files {
         let (headings, rows) = csv(&scenario, &study, &study.cases[0]);
         let columns = columns(&scenario, &study.cases[0]);
         let topics: BTreeSet<String> = columns.iter().map(|column| format!("/{}", column.group)).collect();
-        assert_eq!(Vec::from_iter(&topics), ["/energy", "/momentum", "/state", "/tips"]);
+        assert_eq!(Vec::from_iter(&topics), ["/energy", "/momentum", "/state", "/targets", "/tips"]);
         for (i, row) in rows.iter().enumerate() {
             let mut found = BTreeMap::new();
             for topic in &topics {

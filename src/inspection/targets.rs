@@ -2,11 +2,11 @@
 
 use super::number::{point, short};
 use super::places::{center_of_mass, places};
-use crate::assembly::turned;
 use crate::diagnostic::Oddity;
 use crate::layout::Layout;
 use crate::models;
 use crate::scenario::{Detection, Scenario, Target, Touch, TouchKind};
+use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 

@@ -1,18 +1,18 @@
 //! The course of one case: impacts, and the motion between them.
 
 use crate::approach::Approach;
-use crate::assembly::{Assembly, Grip};
-use crate::capture::{Capture, capture};
 use crate::contact::Kind;
 use crate::error::Error;
-use crate::gaps::{Flight, Gaps, Pair, gap};
-use crate::meeting::{Touching, contact_kind, in_time};
-use crate::remainder::Remainder;
 use crate::scenario::{Case, PostImpact, Scenario, Settling, Target, TouchKind};
-use crate::settle::{Settle, settle, wheels};
+use crate::simulate::system::Body;
 use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
+use crate::study::assembly::{Assembly, Grip};
+use crate::study::capture::{Capture, capture};
+use crate::study::gaps::{Flight, Gaps, Pair, gap};
+use crate::study::meeting::{Touching, contact_kind, in_time};
+use crate::study::remainder::Remainder;
+use crate::study::settle::{Settle, settle, wheels};
 use crate::study::{Captured, CaseResult, Closest, Further, MakeModel, Observer, StudyError};
-use crate::system::Body;
 
 /// The most impacts of one case.
 const MOST_IMPACTS: usize = 1000;
