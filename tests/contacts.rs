@@ -82,7 +82,7 @@ fn a_rigid_hold_is_a_merged_link() {
     let system = System { model: &model, bodies: &held, closures: &closures };
     let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
-    let mut merged = model.clone();
+    let mut merged = model;
     let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
     Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
     let as_one =

@@ -1,4 +1,5 @@
 //! Parquet and MCAP: the same numbers as the CSV, what a failing disk does, and what a build without them says.
+#![allow(clippy::float_cmp, reason = "what is written is what is computed, bit by bit")]
 
 mod support;
 
