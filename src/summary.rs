@@ -1,12 +1,12 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
-use crate::capture::{Capture, ContactResult, ImpactResult};
-use crate::limits::{Excess, Excesses};
-use crate::meeting::Touching;
-use crate::miss::Miss;
-use crate::remainder::Remainder;
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
+use crate::simulate::limits::{Excess, Excesses};
+use crate::study::capture::{Capture, ContactResult, ImpactResult};
+use crate::study::meeting::Touching;
+use crate::study::miss::Miss;
+use crate::study::remainder::Remainder;
 use crate::study::{CaseResult, Study};
 use serde_json::{Value, json};
 

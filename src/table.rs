@@ -1,10 +1,10 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
-use crate::audit::Drift;
-use crate::capture::ImpactResult;
-use crate::meeting::Touching;
 use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::simulate::Phase;
+use crate::simulate::audit::Drift;
+use crate::study::capture::ImpactResult;
+use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -65,8 +65,8 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
             arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
         )?;
-        let touched = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
-        let mut touches = touched.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+        let in_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+        let mut touches = in_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
         let touch = touches.find(|(_, touch)| touch.arm == i);
         if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
         {
@@ -133,8 +133,12 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         (false, true) => "as printed",
         (false, false) => "",
     };
-    let head =
-        format!("  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11}", "case", "arm", "kind", "exact", "paper eqs.");
+    let duration = scenario.contact.duration;
+    let force = if duration.is_some() { "mean force [N]" } else { "" };
+    let head = format!(
+        "  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11} {force:>14}",
+        "case", "arm", "kind", "exact", "paper eqs."
+    );
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let Some(captured) = &result.capture else { continue };
@@ -154,8 +158,11 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
                 };
                 let [_, fx, fy] = contact.impulse;
                 let (exact, kind) = (fx.hypot(fy), kind.name());
-                let row =
-                    format!("  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11}", case.name, of.name);
+                let force = duration.map_or_else(String::new, |duration| format!("{:.3}", exact / duration));
+                let row = format!(
+                    "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {force:>14}",
+                    case.name, of.name
+                );
                 writeln!(out, "{}", row.trim_end())?;
             }
         }

@@ -6,12 +6,12 @@ use planar_capture::body::Body;
 use planar_capture::contact::{After, Closure, Contact, Kind, Other, Rows, impact, workspace_length};
 use planar_capture::control::Free;
 use planar_capture::dynamics::{Kinematics, Merge};
-use planar_capture::event::NoEvents;
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::impact as rigid;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::system::System;
 use planar_capture::target::Target;
 use support::{assert_close, tolerance};
 
@@ -82,7 +82,7 @@ fn a_rigid_hold_is_a_merged_link() {
     let system = System { model: &model, bodies: &held, closures: &closures };
     let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
-    let mut merged = model.clone();
+    let mut merged = model;
     let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
     Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
     let as_one =

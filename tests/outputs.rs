@@ -1,4 +1,5 @@
 //! Parquet and MCAP: the same numbers as the CSV, what a failing disk does, and what a build without them says.
+#![allow(clippy::float_cmp, reason = "what is written is what is computed, bit by bit")]
 
 mod support;
 
@@ -255,7 +256,7 @@ mod mcap_files {
         let (headings, rows) = csv(&scenario, &study, &study.cases[0]);
         let columns = columns(&scenario, &study.cases[0]);
         let topics: BTreeSet<String> = columns.iter().map(|column| format!("/{}", column.group)).collect();
-        assert_eq!(Vec::from_iter(&topics), ["/energy", "/momentum", "/state", "/tips"]);
+        assert_eq!(Vec::from_iter(&topics), ["/energy", "/momentum", "/state", "/targets", "/tips"]);
         for (i, row) in rows.iter().enumerate() {
             let mut found = BTreeMap::new();
             for topic in &topics {
@@ -282,8 +283,16 @@ mod mcap_files {
 
     #[test]
     fn put_every_body_where_it_is() {
-        let scenario = scenario("raina_shah_2017");
-        let study = run(&scenario);
+        let mut scenario = scenario("raina_shah_2017");
+        scenario.cases[1].target_twists = vec![[0.3, 0.02, -0.01], [-0.2, 0.0, 0.03]];
+        let mut study = run(&scenario);
+        // the same motion with the first joint's zero elsewhere: a mount angle
+        scenario.layout.arms[0].mount_angle = 0.5;
+        let phases = std::iter::once(&mut study.approach)
+            .chain(study.cases.iter_mut().filter_map(|case| Some(&mut case.capture.as_mut()?.post_impact)));
+        for sample in phases.flat_map(|phase| &mut phase.samples) {
+            sample.motion.joint_angles[0] -= 0.5;
+        }
         let (_, file) = record(&scenario, &study, &study.cases[1]);
         let captured = study.cases[1].capture.as_ref().expect("a capture");
         let samples: Vec<_> = study.approach.samples.iter().chain(&captured.post_impact.samples).collect();

@@ -2,15 +2,15 @@
 
 mod support;
 
-use planar_capture::event::NoEvents;
 use planar_capture::models;
-use planar_capture::remainder::Remainder;
 use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
-use planar_capture::settle::{Settle, settle, wheels};
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Phase, Timing};
 use planar_capture::study::Captured;
+use planar_capture::study::remainder::Remainder;
+use planar_capture::study::settle::{Settle, settle, wheels};
 use planar_capture::summary::summary;
-use planar_capture::system::System;
 use proptest::prelude::*;
 use support::sample::{Sample, config, sample};
 use support::{assert_close, run, scenario, tolerance};

@@ -116,8 +116,11 @@ impl Problem {
     /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way or a check failed.
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Study { source: StudyError::Approach(_) | StudyError::PostImpact { .. }, .. }
-            | Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
+            Self::Study {
+                source: StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. },
+                ..
+            } if !stopped.is_misuse() => 1,
+            Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
             _ => 2,
         }
     }

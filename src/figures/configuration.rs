@@ -5,8 +5,8 @@ use super::robot::{expected, robot, target};
 use super::style::Colour;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
+use crate::simulate::system::Body;
 use crate::study::{Captured, Study};
-use crate::system::Body;
 
 /// Number of pictures of the motion after an impact.
 const PICTURES: usize = 6;

@@ -3,9 +3,9 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
-use crate::meeting::Touching;
 use crate::scenario::Scenario;
 use crate::study::Study;
+use crate::study::meeting::Touching;
 
 /// One contact of one case: twists of the tip, of the target's contact point, and of both after the impact.
 struct Contact {

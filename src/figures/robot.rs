@@ -2,10 +2,10 @@
 
 use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Shape};
-use crate::assembly::turned;
 use crate::layout::{Arm, Layout};
 use crate::scenario::Target;
 use crate::simulate::Motion;
+use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 

@@ -2,11 +2,11 @@
 
 use super::number::{point, short};
 use super::places::{center_of_mass, places};
-use crate::assembly::turned;
 use crate::diagnostic::Oddity;
 use crate::layout::Layout;
 use crate::models;
 use crate::scenario::{Detection, Scenario, Target, Touch, TouchKind};
+use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 
@@ -48,16 +48,13 @@ fn off_rim(target: &Target) -> Option<Odd> {
     let size = target.surface.reach();
     let apart = |touch: &Touch| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
     let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
-    let [distance, side] = match apart(touch) {
-        outside if outside > 0.0 => [short(outside), "outside".to_owned()],
-        inside => [short(-inside), "inside".to_owned()],
-    };
     let why = match target.surface {
         Surface::Disc { radius } => {
             let [x, y] = touch.contact;
             format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
         }
-        Surface::Polygon { .. } => format!("{distance} m {side} the polygon"),
+        Surface::Polygon { .. } if apart(touch) > 0.0 => format!("{} m outside the polygon", short(apart(touch))),
+        Surface::Polygon { .. } => format!("{} m inside the polygon", short(-apart(touch))),
     };
     let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
     Some(("contact", why, help.to_owned()))

@@ -14,7 +14,7 @@ pub struct Column {
     pub name: String,
     /// SI.
     pub unit: &'static str,
-    /// What it belongs to: `state`, `tips`, `momentum` or `energy`.
+    /// What it belongs to: `state`, `tips`, `momentum`, `energy` or `targets`.
     pub group: &'static str,
     value: Box<dyn Fn(&Row<'_>) -> f64>,
 }
@@ -68,6 +68,16 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
         list.one("state", "base_torque", "N m", |row| row.sample.base_torque.unwrap_or_default());
         list.one("energy", "base_work", "J", |row| row.sample.base_work);
         list.one("momentum", "base_impulse", "N m s", |row| row.sample.base_impulse);
+    }
+    // of the COM: no name of theirs can be that of a column of the robot
+    for (i, target) in scenario.targets.iter().enumerate() {
+        let place = move |row: &Row<'_>| row.targets.get(i).copied();
+        list.vector("targets", &format!("{}_com", target.name), POSE, move |row| {
+            place(row).map_or([0.0; 3], |t| t.pose)
+        });
+        list.vector("targets", &format!("{}_com", target.name), TWIST, move |row| {
+            place(row).map_or([0.0; 3], |t| t.twist)
+        });
     }
     list.0
 }

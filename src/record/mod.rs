@@ -12,8 +12,8 @@ pub use parquet::write_parquet;
 
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
+use crate::simulate::system::Body;
 use crate::study::{CaseResult, Study};
-use crate::system::Body;
 
 /// One instant of a case.
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@ use super::channel::{Channel, Recording, timestamp};
 use super::frames::WORLD;
 use super::scalars::Scalars;
 use super::scene::{color, pose};
-use crate::capture::ImpactResult;
 use crate::layout::Arm;
+use crate::study::capture::ImpactResult;
 use foxglove::messages::{ArrowPrimitive, Duration, SceneEntity, SceneUpdate, TextPrimitive};
 use std::io;
 

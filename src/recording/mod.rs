@@ -22,9 +22,9 @@ mod points;
 mod scalars;
 mod scene;
 
-use crate::capture::ImpactResult;
 use crate::record::{Column, Row, columns, provenance, rows};
 use crate::scenario::Scenario;
+use crate::study::capture::ImpactResult;
 use crate::study::{CaseResult, Study};
 use channel::Recording;
 use foxglove::messages::{Log, log::Level};

@@ -1,12 +1,12 @@
 //! What the page shows, as JSON: bodies, motion, targets, momentum and energy over time.
 
-use crate::capture::ImpactResult;
 use crate::layout::Layout;
 use crate::scenario::Scenario;
+use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
+use crate::study::capture::ImpactResult;
 use crate::study::{CaseResult, Study};
 use crate::surface::Surface;
-use crate::system::Body;
 use serde_json::{Value, json};
 
 /// Everything that the page needs of a study.

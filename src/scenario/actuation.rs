@@ -2,8 +2,8 @@
 
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table, Value};
-use crate::limits::JointLimits;
 use crate::simulate::Timing;
+use crate::simulate::limits::JointLimits;
 
 const TORQUE_LIMIT: Quantity = Quantity::non_negative("a torque limit (or one per joint)", "N m");
 const SAMPLE_TIME: Quantity = Quantity::positive("a sample time", "s");

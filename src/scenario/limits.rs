@@ -3,7 +3,7 @@
 use super::joints::{Joints, check_length};
 use super::{Initial, MOST_ANGLE};
 use crate::diagnostic::{Quantity, Table, Value, every};
-use crate::limits::JointLimits;
+use crate::simulate::limits::JointLimits;
 
 pub(super) const KEYS: [&str; 2] = ["joint_angles", "joint_rates"];
 

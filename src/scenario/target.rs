@@ -154,7 +154,7 @@ impl Target {
             .collect();
         let surface = surface?;
         if detection == Detection::Time
-            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact == [0.0; 2])
+            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact.iter().all(|x| *x == 0.0))
             && let (Surface::Disc { .. }, Some(value)) = (&surface, table.get("contact"))
         {
             value.reject("a bounce at the COM has no outward normal, expected a point on the rim");
@@ -275,7 +275,7 @@ fn surface(table: &Table<'_>) -> Option<Surface> {
 /// Whether the origin is inside the convex hull of some corners, as every COM is: from there the corners are all around.
 fn surrounded(corners: &[[f64; 2]]) -> bool {
     let mut directions: Vec<f64> =
-        corners.iter().filter(|corner| **corner != [0.0; 2]).map(|[x, y]| y.atan2(*x)).collect();
+        corners.iter().filter(|[x, y]| x.hypot(*y) > 0.0).map(|[x, y]| y.atan2(*x)).collect();
     directions.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (directions.first(), directions.last()) else { return false };
     let between = directions.windows(2).map(|pair| pair[1] - pair[0]);

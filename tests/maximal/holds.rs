@@ -7,16 +7,16 @@ use crate::maximal::system::System;
 use crate::support::sample::{Sample, config, sample};
 use crate::support::{assert_close, tolerance};
 use crate::{close, layout, robot};
-use planar_capture::assembly::{Assembly, Grip};
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::event::NoEvents;
 use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scenario::{Integration, Scheme};
+use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::{Motion, Phase, Sample as Instant, Timing, simulate};
 use planar_capture::state::State;
+use planar_capture::study::assembly::{Assembly, Grip};
 use proptest::prelude::*;
 
 /// A robot that holds a target of the sample's, in both terms.

@@ -8,15 +8,15 @@ use crate::product::{Outcome, assert_same, both_models, described, kind, strike,
 use crate::support::sample::{Sample, config, sample};
 use crate::support::tolerance;
 use crate::{close, layout, robot, state};
-use planar_capture::assembly::{Assembly, Grip};
-use planar_capture::capture::capture;
 use planar_capture::contact::{self, Other};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
-use planar_capture::meeting::Touching;
 use planar_capture::simulate::Motion;
 use planar_capture::state::State;
+use planar_capture::study::assembly::{Assembly, Grip};
+use planar_capture::study::capture::capture;
+use planar_capture::study::meeting::Touching;
 use proptest::prelude::*;
 
 /// The reference's impact and the bodies after it.

@@ -6,7 +6,6 @@ use crate::maximal::random::{Object, Scene, Touch};
 use crate::maximal::system::System;
 use crate::support::assert_close;
 use planar_capture::body::Body;
-use planar_capture::capture::{Capture, ImpactResult};
 use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_length};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -14,6 +13,7 @@ use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scalar::Real;
 use planar_capture::state::State;
+use planar_capture::study::capture::{Capture, ImpactResult};
 
 /// What an impact leaves, by the product.
 #[derive(Clone, Debug, PartialEq)]

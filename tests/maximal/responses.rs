@@ -69,7 +69,7 @@ fn force_part(inertia: &InverseInertia<f64>) -> Matrix2<f64> {
 fn check_ellipse(inertia: &InverseInertia<f64>) {
     let g = force_part(inertia);
     let eigen = (g * g).symmetric_eigen();
-    let small = if eigen.eigenvalues[0] < eigen.eigenvalues[1] { 0 } else { 1 };
+    let small = usize::from(eigen.eigenvalues[0] >= eigen.eigenvalues[1]);
     let [longer, shorter] = [small, 1 - small].map(|i| 1.0 / eigen.eigenvalues[i].sqrt());
     let ellipse = inertia.impulse_ellipse();
     close("semi-axes", &ellipse.semi_axes, &[longer, shorter], tolerance::ELLIPSE);

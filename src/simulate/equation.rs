@@ -3,8 +3,8 @@
 use crate::control::Control;
 use crate::error::Error;
 use crate::motion::{Canonical, Reduced};
+use crate::simulate::system::System;
 use crate::state::{State, halves, halves_mut};
-use crate::system::System;
 
 /// What is integrated: full or reduced coordinates, or canonical variables.
 pub(crate) struct Equation<'a> {

@@ -1,12 +1,12 @@
 //! One step of a phase, by any scheme and in any coordinates.
 
 use crate::control::Control;
-use crate::equation::Equation;
 use crate::error::Error;
 use crate::integrate::semi_implicit_euler::drift;
 use crate::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
 use crate::scenario::{Coordinates, Integration, Scheme};
-use crate::system::System;
+use crate::simulate::equation::Equation;
+use crate::simulate::system::System;
 
 /// Carries the integrated vector from one instant to another.
 pub(crate) struct Flow<'a> {

@@ -1,8 +1,8 @@
 //! What can end a phase before its time.
 
 use crate::error::Error;
+use crate::simulate::system::{Body, System};
 use crate::state::State;
-use crate::system::{Body, System};
 
 /// One instant of a phase, to be looked at.
 #[derive(Clone, Copy)]

@@ -1,14 +1,18 @@
 //! The approach phase of a scenario: trajectory and tracking put together.
 
-use crate::actuators::drive;
+pub mod design;
+pub mod posture;
+pub mod resolved;
+
+use crate::approach::resolved::Tips;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
-use crate::event::{Events, NoEvents};
-use crate::limits::{Excesses, Watched};
-use crate::resolved::Tips;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
+use crate::simulate::actuators::drive;
+use crate::simulate::event::{Events, NoEvents};
+use crate::simulate::limits::{Excesses, Watched};
+use crate::simulate::system::System;
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
-use crate::system::System;
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.

@@ -2,8 +2,8 @@
 
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::simulate::system::Body;
 use crate::state::State;
-use crate::system::Body;
 
 /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
 ///

@@ -1,13 +1,13 @@
 //! The motion after an impact, under the law that a scenario names.
 
-use crate::actuators::drive;
-use crate::assembly::Grip;
 use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
-use crate::event::Events;
 use crate::layout::{Arm, Layout};
 use crate::scenario::{PostImpact, Settling};
+use crate::simulate::actuators::drive;
+use crate::simulate::event::Events;
+use crate::simulate::system::System;
 use crate::simulate::{Motion, Phase, Stopped, Timing};
-use crate::system::System;
+use crate::study::assembly::Grip;
 use crate::trajectory::Standing;
 
 /// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.

@@ -1,7 +1,7 @@
 //! Final joint angles of the approach, designed from the tip poses that are wanted at contact.
 
 use crate::approach::Approach;
-use crate::design::{Design, DesignError, generalized_jacobian, rates_for};
+use crate::approach::design::{Design, DesignError, generalized_jacobian, rates_for};
 use crate::dynamics::Model;
 use crate::inspection::distance_and_most;
 use crate::scenario::{EndRates, Scenario, TipGoal};

@@ -2,8 +2,8 @@
 
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
+use crate::simulate::system::Body;
 use crate::state::State;
-use crate::system::Body;
 
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,11 +1,11 @@
 //! What is kept of a phase while it runs: samples, audit, saturation.
 
-use crate::audit::{Audit, Done};
 use crate::control::Control;
 use crate::error::Error;
+use crate::simulate::audit::{Audit, Done};
+use crate::simulate::system::System;
 use crate::simulate::{Motion, Phase, Sample, Saturation};
 use crate::state::{Effort, State};
-use crate::system::System;
 
 /// Looks at a phase at the start of every step, and at its end.
 pub(crate) struct Recorder<'a> {

@@ -1,10 +1,10 @@
 //! Contacts found by detection: the gaps between tips and their targets as events.
 
-use crate::assembly::{Assembly, turned};
 use crate::error::Error;
-use crate::event::{Events, Instant};
 use crate::scenario::Scenario;
-use crate::system::Body;
+use crate::simulate::event::{Events, Instant};
+use crate::simulate::system::Body;
+use crate::study::assembly::{Assembly, turned};
 
 /// How the targets move meanwhile.
 #[derive(Clone, Copy)]

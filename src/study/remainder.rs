@@ -1,11 +1,11 @@
 //! What is left of the motion when a robot has settled after a capture.
 
-use crate::audit::with_bodies;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scenario::Settling;
 use crate::simulate::Motion;
-use crate::system::Body;
+use crate::simulate::audit::with_bodies;
+use crate::simulate::system::Body;
 
 /// The motion that remains, robot and targets as one.
 #[derive(Clone, Debug, PartialEq)]

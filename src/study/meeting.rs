@@ -1,9 +1,9 @@
 //! Tips and targets at the instant of an impact: where they touch, and how.
 
-use crate::assembly::turned;
 use crate::contact::Kind;
 use crate::scenario::{Case, Scenario, TouchKind};
-use crate::system::Body;
+use crate::simulate::system::Body;
+use crate::study::assembly::turned;
 
 /// One contact of a tip with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]

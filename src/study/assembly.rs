@@ -4,7 +4,7 @@ use crate::contact::{Closure, Contact, Kind, Other};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::simulate::Motion;
-use crate::system::{Body, System};
+use crate::simulate::system::{Body, System};
 use crate::target::Target;
 
 /// A tip that holds a target.

@@ -1,17 +1,17 @@
 //! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
 
-use crate::assembly::{Assembly, Place};
-use crate::audit::with_bodies;
-use crate::bodies::{bodies, momentum_sizes};
 use crate::contact::{self, Contact, Kind, Other, Rows, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::impact::{self, After, Workspace};
-use crate::meeting::Touching;
-use crate::response::{ContactResponse, response};
 use crate::simulate::Motion;
+use crate::simulate::audit::with_bodies;
+use crate::simulate::bodies::{bodies, momentum_sizes};
+use crate::simulate::system::Body;
 use crate::state::State;
-use crate::system::Body;
+use crate::study::assembly::{Assembly, Place};
+use crate::study::meeting::Touching;
+use crate::study::response::{ContactResponse, response};
 use crate::target::Target;
 
 /// The impact by both models.

@@ -1,11 +1,11 @@
 //! A control law behind limited and sampled actuators, of a robot whose joints are watched.
 
 use crate::control::{Control, Limited, Sampled};
-use crate::event::Events;
-use crate::limits::{Excesses, Watched};
 use crate::scenario::Actuation;
+use crate::simulate::event::Events;
+use crate::simulate::limits::{Excesses, Watched};
+use crate::simulate::system::System;
 use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
-use crate::system::System;
 
 /// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate()`].
 ///

@@ -3,9 +3,9 @@
 use crate::contact::{ImpulseEllipse, InverseInertia, Kind};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::meeting::Touching;
 use crate::simulate::Motion;
-use crate::system::Body;
+use crate::simulate::system::Body;
+use crate::study::meeting::Touching;
 
 /// Before an impact, for the contact by itself: tip and target free to move otherwise.
 #[derive(Clone, Debug, PartialEq)]

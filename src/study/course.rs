@@ -1,18 +1,18 @@
 //! The course of one case: impacts, and the motion between them.
 
 use crate::approach::Approach;
-use crate::assembly::{Assembly, Grip};
-use crate::capture::{Capture, capture};
 use crate::contact::Kind;
 use crate::error::Error;
-use crate::gaps::{Flight, Gaps, Pair, gap};
-use crate::meeting::{Touching, contact_kind, in_time};
-use crate::remainder::Remainder;
 use crate::scenario::{Case, PostImpact, Scenario, Settling, Target, TouchKind};
-use crate::settle::{Settle, settle, wheels};
+use crate::simulate::system::Body;
 use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
+use crate::study::assembly::{Assembly, Grip};
+use crate::study::capture::{Capture, capture};
+use crate::study::gaps::{Flight, Gaps, Pair, gap};
+use crate::study::meeting::{Touching, contact_kind, in_time};
+use crate::study::remainder::Remainder;
+use crate::study::settle::{Settle, settle, wheels};
 use crate::study::{Captured, CaseResult, Closest, Further, MakeModel, Observer, StudyError};
-use crate::system::Body;
 
 /// The most impacts of one case.
 const MOST_IMPACTS: usize = 1000;
@@ -40,7 +40,7 @@ impl Course<'_> {
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
         let (targets, touching) = in_time(self.scenario, self.case, tips);
-        let capture = self.from_impact(end, &targets, &touching, false, observer)?;
+        let capture = self.after_impact(end, &targets, &touching, false, observer)?;
         let name = self.case.name.clone();
         Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
     }
@@ -63,7 +63,7 @@ impl Course<'_> {
         let capture = match (phase.event, phase.end()) {
             (Some((event, _)), Some(end)) => {
                 let touching = self.touching(&pairs, event, &targets, &end.end_effector_poses);
-                Some(self.from_impact(&end.motion, &targets, &touching, true, observer)?)
+                Some(self.after_impact(&end.motion, &targets, &touching, true, observer)?)
             }
             _ => None,
         };
@@ -83,7 +83,7 @@ impl Course<'_> {
     }
 
     /// An impact, the motion after it, and the impacts that interrupt that: of tips and targets that `detected` asks for.
-    fn from_impact(
+    fn after_impact(
         self,
         before: &Motion,
         targets: &[Body],

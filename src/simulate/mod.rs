@@ -1,16 +1,27 @@
 //! One phase in time: steps of any integrator under a control law, audited at every step, up to its end or an event.
 
-use crate::audit::Drift;
+pub mod actuators;
+pub mod audit;
+pub(crate) mod bodies;
+mod equation;
+pub mod event;
+mod flow;
+pub mod limits;
+mod recorder;
+pub mod system;
+mod watch;
+
 use crate::control::Control;
 use crate::error::Error;
-use crate::event::Events;
-use crate::flow::Flow;
-use crate::limits::Excesses;
-use crate::recorder::Recorder;
 use crate::scenario::Integration;
+use crate::simulate::audit::Drift;
+use crate::simulate::event::Events;
+use crate::simulate::flow::Flow;
+use crate::simulate::limits::Excesses;
+use crate::simulate::recorder::Recorder;
+use crate::simulate::system::{Body, System};
+use crate::simulate::watch::Watch;
 use crate::state::State;
-use crate::system::{Body, System};
-use crate::watch::Watch;
 
 /// Where the robot is and how it moves, owned.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,12 +197,28 @@ impl Phase {
 
 /// Why a phase stopped, and when.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at t = {time} s: {source} (a shorter step may help)")]
+#[error("at t = {time} s: {source}{}", self.hint())]
 pub struct Stopped {
     /// s, since the start of the phase.
     pub time: f64,
     /// What could not be computed.
     pub source: Error,
+}
+
+impl Stopped {
+    /// Whether what was asked for cannot be, whatever the numbers.
+    #[must_use]
+    pub fn is_misuse(&self) -> bool {
+        matches!(self.source, Error::Beside { .. })
+    }
+
+    fn hint(&self) -> &'static str {
+        match self.source {
+            Error::Beside { .. } => "",
+            Error::Tolerance { .. } => " (a larger one may help)",
+            _ => " (a shorter step may help)",
+        }
+    }
 }
 
 /// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.

@@ -1,9 +1,9 @@
 //! Looks for events while a phase runs, and finds when they were.
 
 use crate::error::Error;
-use crate::event::{Events, Instant};
+use crate::simulate::event::{Events, Instant};
+use crate::simulate::system::System;
 use crate::state::State;
-use crate::system::System;
 
 /// Event times are found to this, relative to the time or, below one second, in s.
 const ACCURACY: f64 = 1e-13;
