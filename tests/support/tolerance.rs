@@ -197,3 +197,6 @@ pub const MAXIMAL_DRIFT: f64 = 1e-11;
 pub const MAXIMAL_TIE: f64 = 1e-13;
 /// A base of 1e14 kg in place of one that nothing moves, rad/s.
 pub const HEAVY_BASE: f64 = 1e-12;
+/// Values that a figure of a study shows against what they have to be by mechanics: velocities, momentum and energy of
+/// order 1, whose drift and energy error over a phase are 1e-11.
+pub const FIGURE_VALUES: f64 = 1e-9;
