@@ -69,7 +69,7 @@ def ensure(dev: bool = False, reference: bool = False) -> Path:
             raise EnvironmentProblem(
                 f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
             )
-    size = 700 if reference else 400
+    size = 1100 if reference else 400
     say(f"making a Python environment with {files[-1].name} in {place} (once; some {size} MB on disk)")
     place.parent.mkdir(parents=True, exist_ok=True)
     building = Path(tempfile.mkdtemp(prefix="making-", dir=place.parent))

@@ -1,12 +1,12 @@
 //! Every quantity at one instant, by any model of the robot.
 
-use crate::capture::per_arm;
 use crate::check::finite;
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::impact::{self, After};
 use crate::simulate::Motion;
 use crate::state::Forces;
+use crate::study::capture::per_arm;
 use crate::target::Target;
 use serde_json::{Value, json};
 

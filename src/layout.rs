@@ -106,6 +106,19 @@ impl Layout {
         has_letters_of_a_module(name) && !is_keyword(name)
     }
 
+    /// `joint 2 of arm1`, by the index over all arms.
+    #[must_use]
+    pub fn joint_name(&self, index: usize) -> String {
+        let mut left = index;
+        for arm in &self.arms {
+            if left < arm.links.len() {
+                return format!("joint {} of {}", left + 1, arm.name);
+            }
+            left -= arm.links.len();
+        }
+        format!("joint {}", index + 1)
+    }
+
     /// The number of joints of all arms together.
     #[must_use]
     pub fn joints(&self) -> usize {

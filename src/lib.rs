@@ -11,8 +11,8 @@
 //! | (3)–(5) target, contact Jacobian `J_t` | [`target`] |
 //! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
 //! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
-//! | end rates from the generalized Jacobian | `design` |
-//! | final joint angles from wanted tip poses | `posture` |
+//! | end rates from the generalized Jacobian | `approach::design` |
+//! | final joint angles from wanted tip poses | `approach::posture` |
 //! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
@@ -22,8 +22,12 @@
 //! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
 //! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
-//! | events that end a phase | `event` |
+//! | events that end a phase | `simulate::event` |
+//! | contacts of any kind at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
+//! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`] |
+//! | contacts found by detection | `study::gaps` |
 //! | post-impact: the merged robot | [`dynamics::Merge`] |
+//! | closed loops, pinned targets | [`contact::Hold`] |
 //! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions
@@ -36,7 +40,7 @@
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
-//! and PNG, `lanes` SIMD lanes as scalars.
+//! and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as scalars.
 //!
 //! # Example
 //! ```
@@ -81,39 +85,17 @@ mod render;
 mod stage;
 
 #[cfg(feature = "std")]
-pub mod actuators;
-#[cfg(feature = "std")]
 pub mod approach;
-#[cfg(feature = "std")]
-pub mod assembly;
-#[cfg(feature = "std")]
-pub mod audit;
-#[cfg(feature = "std")]
-mod bodies;
 #[cfg(feature = "build")]
 pub mod build;
 #[cfg(feature = "std")]
-pub mod capture;
-#[cfg(feature = "std")]
 pub mod compare;
-#[cfg(feature = "std")]
-mod course;
-#[cfg(feature = "std")]
-pub mod design;
 #[cfg(feature = "std")]
 pub mod diagnostic;
 #[cfg(feature = "std")]
-mod equation;
-#[cfg(feature = "std")]
 pub mod evaluation;
-#[cfg(feature = "std")]
-pub mod event;
 #[cfg(feature = "figures")]
 pub mod figures;
-#[cfg(feature = "std")]
-mod flow;
-#[cfg(feature = "std")]
-pub mod gaps;
 #[cfg(feature = "build")]
 pub mod generate;
 #[cfg(feature = "std")]
@@ -123,33 +105,19 @@ pub mod inspection;
 #[cfg(feature = "std")]
 pub mod layout;
 #[cfg(feature = "std")]
-pub mod meeting;
-#[cfg(feature = "std")]
-pub mod miss;
-#[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "std")]
-pub mod posture;
-#[cfg(feature = "std")]
 pub mod record;
-#[cfg(feature = "std")]
-mod recorder;
-#[cfg(feature = "std")]
-pub mod remainder;
+#[cfg(feature = "mcap")]
+pub mod recording;
 #[cfg(feature = "std")]
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
-pub mod resolved;
-#[cfg(feature = "std")]
-pub mod response;
-#[cfg(feature = "std")]
 pub mod scenario;
-#[cfg(feature = "std")]
-pub mod settle;
 #[cfg(feature = "std")]
 pub mod simulate;
 #[cfg(feature = "std")]
@@ -163,10 +131,6 @@ pub mod summary;
 #[cfg(feature = "std")]
 pub mod surface;
 #[cfg(feature = "std")]
-pub mod system;
-#[cfg(feature = "std")]
 pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;
-#[cfg(feature = "std")]
-mod watch;

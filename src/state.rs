@@ -93,7 +93,7 @@ impl<'a, T: Copy> State<'a, T> {
 
     /// Writes the state to its places in an integrated vector; the other entries keep their values.
     pub fn write(&self, vector: &mut [T]) {
-        let (positions, rates) = vector.split_at_mut(half(vector.len()));
+        let Some((positions, rates)) = vector.split_at_mut_checked(half(vector.len())) else { return };
         let of_positions = self.base_pose.iter().chain(self.joint_angles);
         let of_rates = self.base_twist.iter().chain(self.joint_rates);
         for (place, value) in positions.iter_mut().zip(of_positions).chain(rates.iter_mut().zip(of_rates)) {

@@ -1,11 +1,12 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
-use crate::capture::{Capture, ContactResult, ImpactResult};
-use crate::meeting::Touching;
-use crate::miss::Miss;
-use crate::remainder::Remainder;
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
+use crate::simulate::limits::{Excess, Excesses};
+use crate::study::capture::{Capture, ContactResult, ImpactResult};
+use crate::study::meeting::Touching;
+use crate::study::miss::Miss;
+use crate::study::remainder::Remainder;
 use crate::study::{CaseResult, Study};
 use serde_json::{Value, json};
 
@@ -92,11 +93,16 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     }
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
+    value["center_of_mass_drift"] = json!(phase.drift.center_of_mass_drift);
     if phase.constraint_errors.iter().any(|error| *error > 0.0) {
         value["constraint_errors"] = json!(phase.constraint_errors);
     }
     if let Some(margin) = phase.singularity_margin {
         value["singularity_margin"] = json!(margin);
+    }
+    if let Some(Excesses { joint_angle, joint_rate }) = &phase.excesses {
+        value["limits"] =
+            json!({"joint_angle": joint_angle.as_ref().map(excess), "joint_rate": joint_rate.as_ref().map(excess)});
     }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);
@@ -107,6 +113,10 @@ fn phase(phase: &Phase, tips: bool) -> Value {
         value["base_saturated"] = json!(phase.saturation.base);
     }
     value
+}
+
+fn excess(excess: &Excess) -> Value {
+    json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
 }
 
 /// One contact, with names for numbers.

@@ -49,7 +49,7 @@ impl Surface {
         }
         let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
         let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-        if area.abs() <= 1e-12 * size * size || edges(&corners).any(|(a, b)| a == b) {
+        if area.abs() <= 1e-12 * size * size || edges(&corners).any(|(a, b)| minus(a, b).iter().all(|x| *x == 0.0)) {
             return Err(NoPolygon::Flat);
         }
         let all: Vec<_> = edges(&corners).collect();
@@ -100,7 +100,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> Gap {
         let distance = away[0].hypot(away[1]);
         if distance < nearest.distance {
             // off a corner the normal is the way from it; at the outline itself there is only the edge's own
-            at_corner = (part == 0.0 || part == 1.0) && distance > 1e-9 * length;
+            at_corner = (part <= 0.0 || part >= 1.0) && distance > 1e-9 * length;
             let of_edge = [along[1] / length, -along[0] / length];
             nearest = Gap { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
         }

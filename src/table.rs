@@ -1,8 +1,10 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
-use crate::capture::ImpactResult;
-use crate::meeting::Touching;
 use crate::scenario::{Detection, Scenario, Settling, Tracking};
+use crate::simulate::Phase;
+use crate::simulate::audit::Drift;
+use crate::study::capture::ImpactResult;
+use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
@@ -63,8 +65,8 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
             arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
         )?;
-        let touched = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
-        let mut touches = touched.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+        let in_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+        let mut touches = in_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
         let touch = touches.find(|(_, touch)| touch.arm == i);
         if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
         {
@@ -95,7 +97,22 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     if !phase.saturation.joints.is_empty() {
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
     }
-    writeln!(out, "  momentum drift {:.1e}, energy error {:.1e}", phase.drift.momentum_drift, phase.drift.energy_error)
+    excesses(out, "  ", phase)?;
+    let Drift { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
+    writeln!(
+        out,
+        "  momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, centre-of-mass drift {center_of_mass_drift:.1e}"
+    )
+}
+
+/// How the joints kept their limits, where they have any.
+fn excesses(out: &mut String, indent: &str, phase: &Phase) -> std::fmt::Result {
+    let Some(excesses) = &phase.excesses else { return Ok(()) };
+    let sentences = excesses.sentences();
+    if sentences.is_empty() {
+        return writeln!(out, "{indent}all joints within their limits");
+    }
+    sentences.iter().try_for_each(|sentence| writeln!(out, "{indent}{sentence}"))
 }
 
 /// What there is to choose beside the wanted poses.
@@ -116,8 +133,12 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         (false, true) => "as printed",
         (false, false) => "",
     };
-    let head =
-        format!("  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11}", "case", "arm", "kind", "exact", "paper eqs.");
+    let duration = scenario.contact.duration;
+    let force = if duration.is_some() { "mean force [N]" } else { "" };
+    let head = format!(
+        "  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11} {force:>14}",
+        "case", "arm", "kind", "exact", "paper eqs."
+    );
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let Some(captured) = &result.capture else { continue };
@@ -137,8 +158,11 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
                 };
                 let [_, fx, fy] = contact.impulse;
                 let (exact, kind) = (fx.hypot(fy), kind.name());
-                let row =
-                    format!("  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11}", case.name, of.name);
+                let force = duration.map_or_else(String::new, |duration| format!("{:.3}", exact / duration));
+                let row = format!(
+                    "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {force:>14}",
+                    case.name, of.name
+                );
                 writeln!(out, "{}", row.trim_end())?;
             }
         }
@@ -177,9 +201,12 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     )?;
     for case in &study.cases {
         let Some(captured) = &case.capture else { continue };
-        let literal = captured.impact.paper.iter().map(|result| ("paper", result));
-        for (model, result) in std::iter::once(("exact", &captured.impact.exact)).chain(literal) {
-            balance(out, case, model, result)?;
+        let later = captured.further.iter().map(|one| &one.impact);
+        for impact in std::iter::once(&captured.impact).chain(later) {
+            balance(out, case, "exact", &impact.exact)?;
+            if let Some(literal) = &impact.paper {
+                balance(out, case, "paper", literal)?;
+            }
         }
     }
     let torques = match scenario.post_impact.as_ref().map(|after| &after.control) {
@@ -187,14 +214,21 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         Some(control) => format!("control `{}`", control.name()),
     };
     writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, {torques}")?;
-    writeln!(out, "  {:<16} {:>10} {:>15} {:>13}", "case", "time [s]", "momentum drift", "energy error")?;
+    let [momentum, energy, motion] = ["momentum drift", "energy error", "COM drift"];
+    writeln!(out, "  {:<16} {:>10} {momentum:>15} {energy:>13} {motion:>10}", "case", "time [s]")?;
     for case in &study.cases {
         let Some(Captured { post_impact, .. }) = &case.capture else { continue };
+        let Drift { momentum_drift, energy_error, center_of_mass_drift } = post_impact.drift;
         writeln!(
             out,
-            "  {:<16} {:>10} {:>15.1e} {:>13.1e}",
-            case.name, post_impact.duration, post_impact.drift.momentum_drift, post_impact.drift.energy_error
+            "  {:<16} {:>10} {momentum_drift:>15.1e} {energy_error:>13.1e} {center_of_mass_drift:>10.1e}",
+            case.name, post_impact.duration
         )?;
+        let [open, opening] = post_impact.constraint_errors;
+        if open > 0.0 {
+            writeln!(out, "    what is held is open by {open:.1e} (rad, m) at most, and opens by {opening:.1e} 1/s")?;
+        }
+        excesses(out, "    ", post_impact)?;
     }
     Ok(())
 }

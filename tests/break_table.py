@@ -199,25 +199,25 @@ FAULTS = [
     ),
     Fault(
         "sign of the work in the audit",
-        "src/audit.rs",
+        "src/simulate/audit.rs",
         "now.kinetic_energy - self.start.kinetic_energy - done.work",
         "now.kinetic_energy - self.start.kinetic_energy + done.work",
     ),
     Fault(
         "scale of the audit twice too large",
-        "src/audit.rs",
+        "src/simulate/audit.rs",
         "if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }",
         "if self.scale > 0.0 { self.deviation / (2.0 * self.scale) } else { 0.0 }",
     ),
     Fault(
         "angular momentum left out of the drift",
-        "src/audit.rs",
+        "src/simulate/audit.rs",
         "self.linear.value().max(self.angular.value())",
         "self.linear.value()",
     ),
     Fault(
         "sign in the angular scale of the audit",
-        "src/audit.rs",
+        "src/simulate/audit.rs",
         "mass * (x * vy - y * vx).abs()",
         "mass * (x * vy + y * vx).abs()",
     ),
@@ -229,15 +229,9 @@ FAULTS = [
     ),
     Fault(
         "columns of the time series exchanged",
-        "src/record.rs",
-        """\
-        &motion.base_twist,
-        &motion.joint_rates,
-""",
-        """\
-        &motion.joint_rates,
-        &motion.base_twist,
-""",
+        "src/record/columns.rs",
+        "&row.sample.motion.joint_angles",
+        "&row.sample.motion.joint_rates",
     ),
     Fault(
         "audit without an exit code",

@@ -155,7 +155,13 @@ fn the_table_is_the_summary() {
         }
         let after = &value["post_impact"];
         let short = |key: &str| format!("{:.1e}", after[key].as_f64().expect("a number"));
-        let wanted = [(*case).to_owned(), "50".to_owned(), short("momentum_drift"), short("energy_error")];
+        let wanted = [
+            (*case).to_owned(),
+            "50".to_owned(),
+            short("momentum_drift"),
+            short("energy_error"),
+            short("center_of_mass_drift"),
+        ];
         assert_eq!(rows(case, "50"), [wanted]);
     }
     let approach = &summary["cases"][0]["approach"];
@@ -297,6 +303,20 @@ fn a_twist_out_of_reach_is_refused_with_its_numbers() {
 }
 
 /// Steps that are far too long: the audit objects, and the exit code says so.
+/// What an integrator cannot do is said with what would help: bad input where it never can, a stopped study where a step can.
+#[test]
+fn integrators_say_what_they_cannot_do() {
+    let held = fs::read_to_string(file("scenarios/large_target.toml")).expect("the scenario");
+    let held = held.replacen("[post_impact]", "[post_impact]\ncoordinates = \"reduced\"", 1);
+    let (code, _, err, _) = run_text(&held);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("reduced coordinates are for a robot alone") && !err.contains("shorter step"), "{err}");
+    let stiff = paper().replacen("step = 0.005", "step = 0.5\nintegrator = \"gauss_legendre\"", 1);
+    let (code, _, err, _) = run_text(&stiff);
+    assert_eq!(code, 1, "{err}");
+    assert!(err.contains("do not settle") && err.contains("a shorter step may help"), "{err}");
+}
+
 #[test]
 fn the_audit_decides_the_exit_code() {
     let (code, out, err, folder) = run_text(&paper().replace("step = 0.005", "step = 0.05"));

@@ -3,14 +3,16 @@
 
 mod support;
 
+use planar_capture::contact::{Closure, Contact, Kind, Other};
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
 use planar_capture::dynamics::Model;
-use planar_capture::event::NoEvents;
 use planar_capture::models;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Motion, Phase, Sample, Timing, simulate};
-use planar_capture::system::{Body, System};
 use planar_capture::trajectory::{Cycloidal, Ends, Standing};
+use std::f64::consts::PI;
 use support::{assert_close, difference, scenario, tolerance};
 
 const FULL: Coordinates = Coordinates::Full;
@@ -163,22 +165,64 @@ fn both_coordinates_take_a_base_torque() {
 fn bodies_beside_the_robot() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
-    let system = System { model: &*model, bodies: &[body] };
+    let system = System { model: &*model, bodies: &[body], closures: &[] };
     let run = |scheme, coordinates| {
         let integration = Integration { scheme, coordinates };
         let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
         simulate(&system, &mut Free, &tumbling(), &timing, &mut NoEvents, &mut || ())
     };
     let refused = run(Scheme::RungeKutta4, REDUCED).expect_err("a body is beside the robot").to_string();
-    assert!(refused.contains("1 bodies beside it") && refused.contains("`coordinates = \"full\"`"), "{refused}");
+    assert!(refused.contains("found 1 bodies") && refused.contains("`coordinates = \"full\"`"), "{refused}");
     let alone = self::run(&mut Free, 1.0, 0.02, Scheme::GaussLegendre, FULL);
     for scheme in [Scheme::GaussLegendre, ADAPTIVE] {
         let phase = run(scheme, FULL).expect("a phase");
         let end = end(&phase);
         assert_close("pose", &end.bodies[0].pose, &[0.8, 1.8, 3.5], tolerance::STRAIGHT);
-        assert_eq!(end.bodies[0].twist, body.twist);
+        assert_close("twist", &end.bodies[0].twist, &body.twist, 0.0);
         assert_close("robot", &values(&end.motion), &values(&self::end(&alone).motion), tolerance::SAME_MOTION_COARSE);
     }
+}
+
+/// A body in both hands, one clamped and one on a pin, while a law moves the joints: the loop stays closed, the momentum stays,
+/// and all schemes agree.
+#[test]
+fn a_closed_loop_by_every_scheme() {
+    let model = model();
+    let start = Motion { joint_rates: vec![0.0; 6], ..tumbling() };
+    let [omega, vx, vy] = start.base_twist;
+    let mut tips = [[0.0; 3]; 2];
+    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut tips).expect("tips");
+    // all of it moves as one
+    let pose @ [_, x, y] = [0.4, 0.5 * (tips[0][1] + tips[1][1]), 0.5 * (tips[0][2] + tips[1][2])];
+    let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);
+    let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [omega, vx - omega * ry, vy + omega * rx] };
+    let hold = |arm: usize, kind| {
+        let contact = Contact { arm, other: Other::Body(0), offset: [0.0; 2], kind };
+        Closure::new(&contact, &tips[arm], &pose).expect("a hold")
+    };
+    let closures = [hold(0, Kind::Rigid), hold(1, Kind::Pin)];
+    let system = System { model: &*model, bodies: &[body], closures: &closures };
+    let wanted: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
+    let run = |scheme, step| {
+        let timing =
+            Timing { duration: 1.0, step, sample: 1.0, integration: Integration { scheme, coordinates: FULL } };
+        let mut law = ProportionalDerivative {
+            trajectory: Standing { angles: &wanted },
+            proportional_gain: &[5.0; 6],
+            derivative_gain: &[3.0; 6],
+        };
+        simulate(&system, &mut law, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+    };
+    let reference = run(Scheme::RungeKutta4, 0.002);
+    for (scheme, step) in [(Scheme::GaussLegendre, 0.02), (ADAPTIVE, 0.02), (Scheme::RungeKutta4, 0.004)] {
+        let phase = run(scheme, step);
+        let motion = |phase: &Phase| [&values(&end(phase).motion)[..], &end(phase).bodies[0].pose].concat();
+        assert_close(&format!("{scheme:?}"), &motion(&phase), &motion(&reference), tolerance::CLOSED_LOOP);
+        let open = phase.constraint_errors[0];
+        assert!(open < 1e-10 && phase.drift.momentum_drift < 1e-9, "{scheme:?}: {open:e} {:?}", phase.drift);
+    }
+    let moved = difference(&end(&reference).motion.joint_angles, &start.joint_angles);
+    assert!(moved > 0.01, "{moved} rad");
 }
 
 /// Held torques: the adaptive integrator starts anew at every sample, and agrees with short steps.
@@ -199,17 +243,20 @@ fn sampled_torques_and_adaptive_steps() {
     let reference = phases[0].samples.pop().expect("an end");
     for phase in &phases[1..] {
         assert_close("motion", &values(&end(phase).motion), &values(&reference.motion), tolerance::SAMPLED);
-        assert_eq!(end(phase).time, 1.0);
+        assert_close("time", &[end(phase).time], &[1.0], 0.0);
     }
 }
 
-/// Gauss–Legendre steps over 1,000 s: momenta to rounding, and an energy error that does not grow, where that of
-/// Runge–Kutta steps with as many evaluations does.
+/// Gauss–Legendre steps over 1,000 s of turning with both arms out, which swing about that: momenta to rounding, and an energy
+/// error that does not grow, where that of Runge–Kutta steps grows with the time.
 #[test]
 fn a_thousand_seconds() {
-    let mut start = tumbling();
-    start.base_twist = start.base_twist.map(|rate| 0.25 * rate);
-    start.joint_rates.iter_mut().for_each(|rate| *rate *= 0.25);
+    let start = Motion {
+        base_pose: [0.0; 3],
+        joint_angles: vec![0.15, -0.1, 0.1, PI + 0.1, 0.15, -0.15],
+        base_twist: [0.5, 0.02, -0.01],
+        joint_rates: vec![0.0; 6],
+    };
     let model = model();
     let run = |scheme, step| {
         let integration = Integration { scheme, coordinates: FULL };
@@ -222,10 +269,10 @@ fn a_thousand_seconds() {
         let error = |sample: &Sample| (sample.kinetic_energy - energy).abs() / energy;
         phase.samples.chunks(251).map(|part| part.iter().map(error).fold(0.0, f64::max)).collect()
     };
-    let (gauss, runge_kutta) = (run(Scheme::GaussLegendre, 0.25), run(Scheme::RungeKutta4, 0.05));
+    let (gauss, runge_kutta) = (run(Scheme::GaussLegendre, 0.25), run(Scheme::RungeKutta4, 0.1));
     assert!(gauss.drift.momentum_drift < tolerance::MOMENTUM_KEPT, "{:?}", gauss.drift);
     assert!(runge_kutta.drift.momentum_drift > 1e4 * tolerance::MOMENTUM_KEPT, "{:?}", runge_kutta.drift);
     let [kept, strayed] = [&gauss, &runge_kutta].map(errors);
-    assert!(kept[0] < 1e-6 && kept[3] < 1.5 * kept[0], "{kept:?}");
-    assert!(strayed[3] > 2.0 * strayed[0], "{strayed:?}");
+    assert!(kept[0] < 1e-8 && kept[3] < 1.3 * kept[0], "{kept:?}");
+    assert!(strayed[3] > 3.0 * strayed[0], "{strayed:?}");
 }

@@ -2,8 +2,8 @@
 
 mod support;
 
+use planar_capture::approach::posture::{Posture, PostureError, posture};
 use planar_capture::models;
-use planar_capture::posture::{Posture, PostureError, posture};
 use planar_capture::scenario::{EndRates, Scenario, TipGoal, Tracking};
 use planar_capture::study::{Study, StudyError, study};
 use support::{Silent, assert_close, run, scenario, tolerance};

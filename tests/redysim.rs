@@ -2,7 +2,10 @@
 
 mod support;
 
-use support::{assert_close, run, scenario, tolerance};
+use planar_capture::models::SHIPPED;
+use planar_capture::scenario::Scenario;
+use std::path::Path;
+use support::{assert_close, numbers, run, scenario, tolerance};
 
 /// Time, then base x, y, yaw, then the joint angles: the order of ReDySim's files.
 fn check(name: &str, rows: &[&[f64]]) {
@@ -73,4 +76,36 @@ fn both_arms() {
             ],
         ],
     );
+}
+
+/// A minute of such approaches by the independent model (DOP853 at 1e-13): trajectories that end earlier, after which their
+/// last angles are held, and other angles. What is read from files is what is run.
+#[test]
+fn a_minute_of_other_approaches() {
+    let reference = support::json("tests/reference/long_approaches.json");
+    for series in reference["series"].as_array().expect("series") {
+        let list = |value: &serde_json::Value| format!("{:?}", numbers(value));
+        let (layout, time) =
+            (series["layout"].as_str().expect("a name"), series["trajectory_duration"].as_f64().expect("s"));
+        let text = format!(
+            "name = \"it\"\nlayout = \"{layout}\"\n[initial]\njoint_angles = {}\n[approach]\nduration = 60.0\n\
+             trajectory_duration = {time:?}\ntrajectory = \"cycloidal\"\nfinal_joint_angles = {}\n",
+            list(&series["initial"]),
+            list(&series["final"])
+        );
+        let scenario = Scenario::parse(&text, "it.toml", Path::new(""), SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+        let study = run(&scenario);
+        assert_eq!(study.objections(), Vec::<String>::new());
+        for state in series["states"].as_array().expect("states") {
+            let at = state["time"].as_f64().expect("s");
+            let sample = study.approach.samples.iter().find(|s| (s.time - at).abs() < 1e-9).expect("a sample");
+            let motion = &sample.motion;
+            let name = |what: &str| format!("{what} of {layout}, {time} s, at {at} s");
+            let bound = tolerance::LONG_APPROACH;
+            assert_close(&name("base"), &motion.base_pose, &numbers(&state["base_pose"]), bound);
+            assert_close(&name("base twist"), &motion.base_twist, &numbers(&state["base_twist"]), bound);
+            assert_close(&name("angles"), &motion.joint_angles, &numbers(&state["joint_angles"]), bound);
+            assert_close(&name("rates"), &motion.joint_rates, &numbers(&state["joint_rates"]), bound);
+        }
+    }
 }

@@ -2,13 +2,15 @@
 
 mod support;
 
-use planar_capture::actuators::drive;
+use planar_capture::approach::resolved::Tips;
 use planar_capture::control::Control;
 use planar_capture::dynamics::Model;
 use planar_capture::layout::Layout;
 use planar_capture::models;
-use planar_capture::resolved::Tips;
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::simulate::actuators::drive;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Timing};
 use planar_capture::state::{Forces, State};
 use planar_capture::study::Study;
@@ -112,8 +114,10 @@ fn errors_decay_with_the_two_gains() {
     start.base_twist = [0.003, 0.002, -0.004];
     let mut tips = Tips::new(&*model, &planned).expect("paths");
     let mut law = tips.law(GAINS, 0.01);
-    let timing = Timing { duration: 4.0, step: 0.0025, sample: 0.1 };
-    let phase = drive(&*model, &mut law, &Actuation::default(), &start, &timing, &mut || ()).expect("a phase");
+    let timing = Timing { duration: 4.0, step: 0.0025, sample: 0.1, ..Timing::default() };
+    let phase =
+        drive(&System::alone(&*model), &mut law, &Actuation::default(), &start, &timing, &mut NoEvents, &mut || ())
+            .expect("a phase");
     let on_path = run(&planned).approach.samples;
     let on_path = |time: f64| on_path.iter().find(|s| (s.time - time).abs() < 1e-9).expect("a sample");
     let [k1, k2] = GAINS;
@@ -162,13 +166,36 @@ fn the_shipped_study_meets_its_targets() {
         assert_close("velocity", &twist[1..], &[v, 0.0], tolerance::STEERED_SAMPLED);
     }
     assert!(study.approach.saturation.joints.iter().all(|time| *time == 0.0), "{:?}", study.approach.saturation);
-    let value = summary("it", &scenario.layout, "generated", &study);
+    let value = summary(&scenario, "generated", &study);
     let approach = &value["cases"][0]["approach"];
     assert_eq!(approach["singularity_margin"].as_f64(), study.approach.singularity_margin);
     assert!(study.approach.singularity_margin.is_some_and(|margin| (0.05..0.2).contains(&margin)));
     let missed = approach["missed"][0][0].as_f64().expect("a number");
     assert!((missed - (2.0 - end.end_effector_poses[0][1])).abs() < 1e-15, "{missed}");
     assert!(run(&support::scenario("raina_shah_2017")).approach.singularity_margin.is_none());
+}
+
+/// Earlier there, they stay; a quintic of the joints does so too.
+#[test]
+fn tips_stay_where_their_paths_end() {
+    let mut scenario = steered(&POSES.map(TipGoal::Pose), &[[0.0; 3]; 2]);
+    scenario.approach.trajectory_duration = Some(14.0);
+    scenario.initial.base_twist = [0.002, 0.001, -0.001]; // the robot drifts on, the tips do not
+    let study = run(&scenario);
+    check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
+    for sample in study.approach.samples.iter().filter(|sample| sample.time >= 14.0) {
+        assert_close("poses", sample.end_effector_poses.as_flattened(), POSES.as_flattened(), tolerance::STEERED);
+    }
+    let mut joints = support::scenario("stabilised_capture");
+    joints.approach.end = EndRates::JointRates(vec![0.0; 6]);
+    joints.approach.tracking = Tracking::Exact;
+    joints.approach.trajectory_duration = Some(12.0);
+    joints.approach.actuation = Actuation::default();
+    joints.cases.truncate(1);
+    let study = run(&joints);
+    for sample in study.approach.samples.iter().filter(|sample| sample.time >= 12.0) {
+        assert_close("angles", &sample.motion.joint_angles, &joints.approach.final_joint_angles, tolerance::STEERED);
+    }
 }
 
 /// Torques that are not enough: the tips fall behind, and come back to their paths.
@@ -223,7 +250,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
     assert!(shown.contains("DID NOT REACH the wanted pose: misses it by") && shown.contains("was damped"), "{shown}");
 }
 
-/// What the law promises at one state, for any robot: ẗ = ẍ_d + (K + k)(t_d − t) + K k e in the wanted rows, `θ̈ = −k θ̇` in
+/// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k θ̇` in
 /// joints that are held. The tips' accelerations are differences of their twists along the motion.
 fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseError> {
     let (_, text) = models::SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("a layout");

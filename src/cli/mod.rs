@@ -5,7 +5,7 @@ mod compare;
 mod dynamics;
 mod eval;
 mod export;
-mod figures;
+mod extra;
 mod generate;
 mod import;
 mod layout;
@@ -69,6 +69,9 @@ enum Problem {
     /// Arguments that do not go together.
     #[error("error: {0}")]
     Usage(&'static str),
+    /// This build lacks what is asked for.
+    #[error("error: {0}")]
+    Lacking(extra::Lacking),
     /// A file in the way that nobody generated.
     #[error("error: {file} is there already and was not generated: name another file, or move it away first")]
     NotGenerated { file: String },
@@ -113,8 +116,11 @@ impl Problem {
     /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way or a check failed.
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Study { source: StudyError::Approach(_) | StudyError::PostImpact { .. }, .. }
-            | Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
+            Self::Study {
+                source: StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. },
+                ..
+            } if !stopped.is_misuse() => 1,
+            Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
             _ => 2,
         }
     }

@@ -21,7 +21,7 @@ pub struct Arguments {
 #[cfg(not(feature = "figures"))]
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     let Arguments { out: _, check: _ } = arguments;
-    super::figures::require().map(|()| ExitCode::SUCCESS)
+    super::extra::require(&[super::extra::Extra::Figures]).map(|()| ExitCode::SUCCESS)
 }
 
 /// Computes, then writes or compares.

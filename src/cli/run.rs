@@ -2,7 +2,7 @@
 
 use super::Problem;
 use super::dynamics::Dynamics;
-use super::figures;
+use super::extra;
 use super::progress::Progress;
 use planar_capture::models;
 use planar_capture::output::{Staged, make_folder};
@@ -32,9 +32,8 @@ pub struct Arguments {
     /// Time between two rows of the CSV time series, s.
     #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
     sample: f64,
-    /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
-    #[arg(long)]
-    figures: bool,
+    #[command(flatten)]
+    extras: extra::Flags,
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -44,9 +43,7 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// Reads, computes, prints, writes; exit code 1 where the audit objects.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
-    if arguments.figures {
-        figures::require()?;
-    }
+    extra::require(&arguments.extras.asked())?;
     let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
     let file = || arguments.scenario.display().to_string();
     let model = arguments
@@ -74,7 +71,7 @@ fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, stud
     let mut files = Vec::new();
     for case in &study.cases {
         let path = folder.join(format!("{}.csv", case.name));
-        files.push(Staged::new(&path, |to| write_csv(&scenario.layout, study, case, to))?);
+        files.push(Staged::new(&path, |to| write_csv(scenario, study, case, to))?);
     }
     let summary = summary(scenario, arguments.dynamics.name(), study);
     files.push(Staged::new(&folder.join("summary.json"), |to| {
@@ -84,8 +81,8 @@ fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, stud
     if arguments.report {
         files.push(Staged::new(&folder.join("report.html"), |to| write_report(scenario, study, to))?);
     }
-    if arguments.figures {
-        files.extend(figures::stage(folder, scenario, study)?);
+    for extra in arguments.extras.asked() {
+        files.extend(extra.stage(folder, scenario, study)?);
     }
     files.into_iter().try_for_each(Staged::commit)?;
     Ok(())

@@ -1,7 +1,7 @@
 //! Contacts that push but do not pull.
 
 use super::cholesky::{Set, has, solve};
-use super::row::dot;
+use super::row::{copy, dot};
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -25,7 +25,7 @@ pub(super) fn solve_contacts<T: Real>(
     let negative = |(i, u): (usize, &T)| if *u < T::ZERO && i < 64 { 1 << i } else { 0 };
     let mut active = velocities.iter().enumerate().map(negative).fold(bilateral, |set: Set, bit| set | bit);
     for _ in 0..MOST_EXCHANGES {
-        factors.copy_from_slice(matrix);
+        copy(matrix, factors);
         for (impulse, velocity) in impulses.iter_mut().zip(velocities) {
             *impulse = -*velocity;
         }

@@ -191,7 +191,7 @@ enum Half {
 fn add_centripetal<T: Real>(state: &State<'_, T>, jacobian: &[T], tips: &mut [[T; 3]]) {
     let width = 3 + state.joint_rates.len();
     let [base_rate, ..] = state.base_twist;
-    for ([_, ax, ay], rows) in tips.iter_mut().zip(jacobian.chunks_exact(3 * width)) {
+    for ([_, ax, ay], rows) in tips.iter_mut().zip(jacobian.chunks_exact((3 * width).max(1))) {
         let entry = |row: usize, column: usize| rows.get(row * width + column).copied().unwrap_or(T::ZERO);
         // from the axis of a column to the tip
         let lever = |column: usize| [entry(2, column), -entry(1, column)];

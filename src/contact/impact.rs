@@ -1,7 +1,7 @@
 //! The impact of any mixture of contacts.
 
 use super::complementarity::solve_contacts;
-use super::row::dot;
+use super::row::{copy, dot};
 use super::rows::Rows;
 use crate::body::Body;
 use crate::check::{finite_state, length};
@@ -48,10 +48,11 @@ pub fn impact<T: Real>(
     after: &mut After<'_, T>,
 ) -> Result<[T; 3], Error> {
     finite_state(state)?;
+    length("joint_rates", model.joints(), state.joint_rates.len())?;
     length("joint_rates_after", model.joints(), after.joint_rates.len())?;
     length("body_twists_after", bodies.len(), after.body_twists.len())?;
     length("impulses", rows.contacts().len(), after.impulses.len())?;
-    after.joint_rates.copy_from_slice(state.joint_rates);
+    copy(state.joint_rates, after.joint_rates);
     for (twist, body) in after.body_twists.iter_mut().zip(bodies) {
         *twist = body.twist;
     }

@@ -59,3 +59,10 @@ impl<T: Real> Contact<T> {
 pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
 }
+
+/// Copies what both have room for; `copy_from_slice` could panic.
+pub(super) fn copy<T: Real>(from: &[T], to: &mut [T]) {
+    for (place, value) in to.iter_mut().zip(from) {
+        *place = *value;
+    }
+}

@@ -1,7 +1,7 @@
 //! The rows of all contacts together: what unit impulses along them do.
 
 use super::cholesky::{Set, solve};
-use super::row::Row;
+use super::row::{Row, copy};
 use super::{Contact, Kind, Other};
 use crate::body::Body;
 use crate::check::{finite, length};
@@ -68,7 +68,8 @@ impl<'a, T: Real> Rows<'a, T> {
         }
         let mut rest = workspace;
         let mut part = |length: usize| {
-            let (part, others) = core::mem::take(&mut rest).split_at_mut(length);
+            // the length of the whole was checked
+            let (part, others) = core::mem::take(&mut rest).split_at_mut_checked(length).unwrap_or_default();
             rest = others;
             part
         };
@@ -105,17 +106,17 @@ impl<'a, T: Real> Rows<'a, T> {
         let at_rest = State { base_pose: *base_pose, joint_angles, base_twist: [T::ZERO; 3], joint_rates: still };
         let size = 3 + joints + 3 * bodies.len();
         let products = matrix.chunks_exact_mut(Self::count(contacts).max(1));
-        for (row, (response, products)) in rows.zip(responses.chunks_exact_mut(size).zip(products)) {
+        for (row, (response, products)) in rows.zip(responses.chunks_exact_mut(size.max(1)).zip(products)) {
             wrenches.fill([T::ZERO; 3]);
             add_at(wrenches, row.arm, &row.wrench, T::ONE);
             if let Other::Tip(arm) = row.other {
                 add_at(wrenches, arm, &row.at_other, -T::ONE);
             }
-            let (base, rest) = response.split_at_mut(3);
-            let (joint_rates, of_bodies) = rest.split_at_mut(joints);
+            let Some((base, rest)) = response.split_first_chunk_mut::<3>() else { continue };
+            let Some((joint_rates, of_bodies)) = rest.split_at_mut_checked(joints) else { continue };
             let forces = Forces { end_effector_wrenches: Some(wrenches), ..Forces::torques(still) };
             let base_twist = model.forward_dynamics(&at_rest, &forces, joint_rates)?;
-            base.copy_from_slice(&base_twist);
+            *base = base_twist;
             model.end_effector_twists(&State { base_twist, joint_rates, ..at_rest }, tips)?;
             of_bodies.fill(T::ZERO);
             let (twists, _) = of_bodies.as_chunks_mut::<3>();
@@ -139,14 +140,14 @@ impl<'a, T: Real> Rows<'a, T> {
 
     /// Solves `W p = b` for rows that all pull and push; b becomes p.
     pub(super) fn solve(&mut self, b: &mut [T]) -> Result<(), Error> {
-        self.factors.copy_from_slice(self.matrix);
+        copy(self.matrix, self.factors);
         solve(self.factors, b, self.bilateral)
     }
 
     /// `v += Σ p M⁻¹ Aᵀ`, for velocities or accelerations.
     pub(super) fn add_responses(&self, impulses: &[T], base: &mut [T; 3], joints: &mut [T], bodies: &mut [T]) {
         let size = base.len() + joints.len() + bodies.len();
-        for (impulse, response) in impulses.iter().zip(self.responses.chunks_exact(size)) {
+        for (impulse, response) in impulses.iter().zip(self.responses.chunks_exact(size.max(1))) {
             let velocities = base.iter_mut().chain(&mut *joints).chain(&mut *bodies);
             for (velocity, part) in velocities.zip(response) {
                 *velocity += *impulse * *part;

@@ -63,7 +63,8 @@ fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
                 beta += *b * *b;
                 gamma += *a * *b;
             }
-            if !(gamma.abs() > T::EPSILON * Scalar::sqrt(alpha * beta)) {
+            let oblique = gamma.abs() > T::EPSILON * Scalar::sqrt(alpha * beta);
+            if !oblique {
                 continue;
             }
             changed = true;
@@ -111,7 +112,7 @@ mod tests {
         assert!((margin - small / 2.0).abs() < 1e-8, "{margin}");
         // undamped it is (1, 1): along the small singular vector, (0, 1) nearly, σ²/(0.1 σ_max)² = 0.0025² of it is left
         assert!((x[0] - 1.0).abs() < 1e-4 && x[1].abs() < 1e-4, "{x:?}");
-        assert_eq!(solve(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x), 0.0);
-        assert_eq!(x, [0.0; 2]);
+        assert!(solve(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x) <= 0.0);
+        assert!(x.iter().all(|x| x.abs() <= 0.0), "{x:?}");
     }
 }

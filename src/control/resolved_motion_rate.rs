@@ -31,7 +31,7 @@ use crate::trajectory::TipPath;
 /// manipulators* (1980), has them for a fixed base.
 #[derive(Debug)]
 pub struct ResolvedMotionRate<'a, T> {
-    /// x_d, `t_d` and `ṫ_d` of every tip.
+    /// `x_d`, `t_d` and `ṫ_d` of every tip.
     pub path: TipPath<'a, T>,
     /// Which of [yaw, x, y] follow the path, one per arm.
     pub wanted: &'a [[bool; 3]],
@@ -130,13 +130,13 @@ fn bounded<T: Real>(value: T, limit: T) -> T {
 }
 
 /// Of a tip, from the three rows of `[J_be J_me]` (the velocity of a tip under a rate is that rate turned by 90° times the way
-/// from the axis to the tip), with joint rates as they are: `J_be a_b − Σ (ω_k² − ω_{k−1}²) r_k`, ω_k being the absolute rate
-/// of the body beyond axis k and r_k the way from there to the tip; axis 0 is the base COM.
+/// from the axis to the tip), with joint rates as they are: `J_be a_b − Σ (ω_k² − ω_{k−1}²) r_k`, `ω_k` being the absolute rate
+/// of the body beyond axis k and `r_k` the way from there to the tip; axis 0 is the base COM.
 fn acceleration<T: Real>(jacobian: &[T], state: &State<'_, T>, [alpha, x, y]: &[T; 3]) -> [T; 3] {
     let mut rows = jacobian.chunks_exact((jacobian.len() / 3).max(1));
     let (Some(spin), Some(right), Some(up)) = (rows.next(), rows.next(), rows.next()) else { return [T::ZERO; 3] };
     let base = |row: &[T]| match row {
-        [a, b, c, ..] => *a * *alpha + *b * *x + *c * *y,
+        [by_spin, by_x, by_y, ..] => *by_spin * *alpha + *by_x * *x + *by_y * *y,
         _ => T::ZERO,
     };
     let (mut ax, mut ay) = (base(right), base(up));

@@ -5,11 +5,11 @@ use super::frame::{self, Picture};
 use super::robot::{arrow, expected, pin, robot, target};
 use super::style::Colour;
 use crate::contact::Kind;
-use crate::meeting::Touching;
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
+use crate::simulate::system::Body;
+use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
-use crate::system::Body;
 
 /// Number of pictures of the motion after an impact.
 const PICTURES: usize = 6;

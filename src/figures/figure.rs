@@ -48,6 +48,8 @@ pub enum Span {
     DataAndZero(f64),
     /// From the first number to the second.
     Between(f64, f64),
+    /// From ten to the first exponent to ten to the second; the data are logarithms to base 10.
+    Powers(i16, i16),
     /// One place for each name, at 1, 2, … from the lower or left end.
     Names(Vec<String>),
 }

@@ -3,13 +3,13 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
-use crate::capture::Capture;
 use crate::contact::Kind;
-use crate::meeting::Touching;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
+use crate::simulate::system::Body;
+use crate::study::capture::Capture;
+use crate::study::meeting::Touching;
 use crate::study::{CaseResult, Study};
-use crate::system::Body;
 
 /// One contact of one case: twists of the tip and of the target's contact point, before the impact and after it.
 struct Contact {

@@ -130,13 +130,30 @@ fn scales(panel: &Panel) -> [Scale; 2] {
 }
 
 fn ticks(axis: &Axis, scale: Scale) -> TickFormat {
-    let Span::Names(names) = axis.span.clone() else {
-        return TickFormat::Custom(Arc::new(move |value| scale.label(value)));
+    let names = match &axis.span {
+        Span::Names(names) => names.clone(),
+        Span::Powers(..) => return TickFormat::Custom(Arc::new(|exponent| power_of_ten(exponent.round()))),
+        _ => return TickFormat::Custom(Arc::new(move |value| scale.label(value))),
     };
     TickFormat::Custom(Arc::new(move |value| {
         let place = (1_u32..).zip(&names).find(|(i, _)| (f64::from(*i) - value).abs() < 0.1);
         place.map(|(_, name)| name.clone()).unwrap_or_default()
     }))
+}
+
+/// 10⁻⁶ for −6.
+fn power_of_ten(exponent: f64) -> String {
+    let raised = format!("{exponent:.0}")
+        .chars()
+        .map(|c| match c {
+            '-' => '⁻',
+            '1' => '¹',
+            '2' => '²',
+            '3' => '³',
+            digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
+        })
+        .collect::<String>();
+    format!("10{raised}")
 }
 
 /// Each label once, in the order of drawing.

@@ -29,6 +29,10 @@ impl Scale {
 pub(super) fn scale(span: &Span, values: impl Iterator<Item = f64>) -> Scale {
     match span {
         Span::Between(low, high) => Scale { low: *low, high: *high, step: round_step(high - low) },
+        Span::Powers(low, high) => {
+            let step = if high - low > 7 { 2.0 } else { 1.0 };
+            Scale { low: f64::from(*low), high: f64::from(*high), step }
+        }
         Span::Names(names) => {
             let count = u32::try_from(names.len()).map_or(1.0, f64::from);
             Scale { low: 0.5, high: count + 0.5, step: 1.0 }

@@ -12,7 +12,7 @@ const FASTEST: f64 = TAU;
 /// What is odd about the angles, rates and times of an approach.
 pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
     let fixed = [motionless(scenario), hasty(scenario), slack(scenario)];
-    let of_ends = end_rates(scenario).into_iter().chain(out_of_reach(scenario));
+    let of_ends = end_rates(scenario).into_iter().chain(out_of_reach(scenario)).chain(beyond_limits(scenario));
     angles(scenario).into_iter().chain(of_ends).chain(fixed.into_iter().flatten()).collect()
 }
 
@@ -30,19 +30,12 @@ pub(super) fn peak_rate(scenario: &Scenario) -> f64 {
         TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted | TrajectoryKind::Quintic => 1.875,
         TrajectoryKind::Cycloidal => 2.0,
     };
-    shape * largest_turn(scenario).1 / scenario.approach.duration
+    shape * largest_turn(scenario).1 / scenario.approach.trajectory_time()
 }
 
 /// `joint 2 of arm1`, by the index over all arms.
 pub(super) fn joint_name(scenario: &Scenario, index: usize) -> String {
-    let mut left = index;
-    for arm in &scenario.layout.arms {
-        if left < arm.links.len() {
-            return format!("joint {} of {}", left + 1, arm.name);
-        }
-        left -= arm.links.len();
-    }
-    format!("joint {}", index + 1)
+    scenario.layout.joint_name(index)
 }
 
 fn angles(scenario: &Scenario) -> Vec<Oddity> {
@@ -92,13 +85,18 @@ fn motionless(scenario: &Scenario) -> Option<Oddity> {
 }
 
 fn hasty(scenario: &Scenario) -> Option<Oddity> {
-    if scenario.approach.final_end_effector_poses.is_some() {
+    let approach = &scenario.approach;
+    if approach.final_end_effector_poses.is_some() {
         return None; // how far the joints turn is not known yet
     }
     let peak = peak_rate(scenario);
     let (joint, turn) = largest_turn(scenario);
     (peak > FASTEST).then(|| Oddity {
-        key: "approach.duration".to_owned(),
+        key: if approach.trajectory_duration.is_some() {
+            "approach.trajectory_duration".to_owned()
+        } else {
+            "approach.duration".to_owned()
+        },
         why: format!(
             "{} turns by {} rad in that time, at up to {} rad/s: more than a turn a second",
             joint_name(scenario, joint),
@@ -107,7 +105,7 @@ fn hasty(scenario: &Scenario) -> Option<Oddity> {
         ),
         help: format!(
             "durations are in s; {} s or more is slower than that",
-            short(scenario.approach.duration * peak / FASTEST)
+            short(approach.trajectory_time() * peak / FASTEST)
         ),
     })
 }
@@ -161,6 +159,34 @@ fn out_of_reach(scenario: &Scenario) -> Vec<Oddity> {
         })
     });
     far.collect()
+}
+
+/// Where the approach should end beyond the limits of its joints. (An initial state there is refused.)
+fn beyond_limits(scenario: &Scenario) -> Vec<Oddity> {
+    let approach = &scenario.approach;
+    let limits = || approach.actuation.joint_limits.iter().enumerate();
+    let angles = match approach.final_end_effector_poses {
+        Some(_) => &[][..], // not known before the run, or a first guess
+        None => &approach.final_joint_angles,
+    };
+    let rates = match &approach.end {
+        EndRates::JointRates(rates) => &rates[..],
+        EndRates::Rest | EndRates::EndEffectorTwists(_) => &[],
+    };
+    let angles = limits().zip(angles).filter_map(|((i, joint), angle)| {
+        let limit = joint.angle_beyond(*angle)?;
+        Some(("angles", i, format!("beyond the limit of {}, {} rad", joint.name, short(limit))))
+    });
+    let rates = limits().zip(rates).filter_map(|((i, joint), rate)| {
+        let limit = joint.rate_beyond(*rate)?;
+        Some(("rates", i, format!("beyond the limit of {}, {} rad/s", joint.name, short(limit))))
+    });
+    let oddity = |(what, i, why)| Oddity {
+        key: format!("approach.final_joint_{what}[{i}]"),
+        why,
+        help: format!("limits.joint_{what} says so; a run reports what goes beyond it, and ends with exit code 1"),
+    };
+    angles.chain(rates).map(oddity).collect()
 }
 
 fn arm_name(scenario: &Scenario, arm: usize) -> &str {

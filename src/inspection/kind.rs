@@ -7,7 +7,7 @@ use toml::de::DeTable;
 /// Keys that only layouts have at their top level.
 const OF_LAYOUTS: [&str; 2] = ["base", "arm"];
 /// Keys that only scenarios have at their top level.
-const OF_SCENARIOS: [&str; 6] = ["layout", "initial", "approach", "target", "case", "post_impact"];
+const OF_SCENARIOS: [&str; 8] = ["layout", "initial", "approach", "limits", "target", "contact", "case", "post_impact"];
 
 /// What a file describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

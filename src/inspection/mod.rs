@@ -12,6 +12,7 @@ mod number;
 mod places;
 mod pose;
 mod robot;
+mod stiffness;
 mod study;
 mod targets;
 
@@ -43,11 +44,12 @@ pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) 
         }
         Kind::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let oddities = [approach::oddities(&scenario), pose::oddities(&scenario), targets::oddities(&scenario)];
+            let oddities = [approach::oddities, pose::oddities, stiffness::oddities, targets::oddities];
+            let oddities: Vec<_> = oddities.into_iter().flat_map(|look| look(&scenario)).collect();
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
             Ok(Inspection {
                 description: study::description(&scenario),
-                warnings: warnings(text, file, &oddities.concat()).and(of_layout),
+                warnings: warnings(text, file, &oddities).and(of_layout),
             })
         }
     }

@@ -1,4 +1,4 @@
-//! What the model says of a scenario's poses: singular ones, and joints too stiff for the time step.
+//! What the model says of a scenario's poses: singular ones.
 
 use super::number::short;
 use crate::diagnostic::Oddity;
@@ -6,17 +6,11 @@ use crate::layout::{Arm, Layout};
 use crate::models;
 use crate::scenario::{EndRates, Scenario, Tracking};
 use crate::state::State;
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::DMatrix;
 
 /// Below this part of the largest singular value, the smallest makes joints turn a hundred times as fast as they
 /// would elsewhere.
 const SINGULAR: f64 = 0.01;
-/// In times of the fastest mode. The audit of the paper's study objects from 0.3 on; beyond 2.8 Runge–Kutta steps of
-/// fourth order are unstable.
-const COARSE: f64 = 0.5;
-/// A step so long keeps the audit's bounds by far.
-const FINE: f64 = 0.2;
-
 /// The generalized Jacobian at the final joint angles.
 pub(super) struct FinalPose<'a> {
     /// The arms looked at.
@@ -25,9 +19,9 @@ pub(super) struct FinalPose<'a> {
     pub(super) margin: f64,
 }
 
-/// What is odd about the final pose and the gains.
+/// What is odd about the final pose.
 pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
-    [short_of_joints(scenario), singular(scenario), coarse(scenario), seldom(scenario)].into_iter().flatten().collect()
+    [short_of_joints(scenario), singular(scenario)].into_iter().flatten().collect()
 }
 
 /// The arms whose tips are to move or to capture, and that have the joints to move their tips any way: they need three.
@@ -88,71 +82,8 @@ fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
     })
 }
 
-/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains, and so
-/// does resolved motion rate control away from singular poses; under PD control it is, at the initial or the final pose, that of
-///
-/// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I: the largest of the damping rates, eigenvalues of I⁻¹ Kd, and
-/// the natural frequencies, roots of those of I⁻¹ Kp.
-pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
-    let (proportional_gain, derivative_gain) = match &scenario.approach.tracking {
-        Tracking::Exact => return None,
-        Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } => return Some(pose_gain.max(*rate_gain)),
-        Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => (proportional_gain, derivative_gain),
-        Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
-            let largest = |gains: &[f64]| gains.iter().copied().fold(0.0, f64::max);
-            return Some(largest(derivative_gain).max(largest(proportional_gain).sqrt()));
-        }
-    };
-    let poses = [&scenario.initial.joint_angles, &scenario.approach.final_joint_angles];
-    let modes = poses.into_iter().filter_map(|angles| {
-        let (inertia, _) = reduced(&scenario.layout, angles)?;
-        let factor = Cholesky::new(inertia)?;
-        let damping = largest_eigenvalue(&factor, derivative_gain)?;
-        Some(damping.max(largest_eigenvalue(&factor, proportional_gain)?.sqrt()))
-    });
-    modes.reduce(f64::max)
-}
-
-/// Of `I⁻¹ diag(gains)`, with I = L Lᵀ: the same as of `L⁻¹ diag(gains) L⁻ᵀ`, which is symmetric.
-fn largest_eigenvalue(factor: &Cholesky<f64, nalgebra::Dyn>, gains: &[f64]) -> Option<f64> {
-    let half = factor
-        .l()
-        .solve_lower_triangular(&DMatrix::from_diagonal(&DVector::from_column_slice(gains).map(f64::sqrt)))?;
-    let values = half.try_svd(false, false, f64::EPSILON, 1000)?.singular_values;
-    Some(values.max().powi(2))
-}
-
-fn coarse(scenario: &Scenario) -> Option<Oddity> {
-    let (step, rate) = (scenario.approach.step, fastest_mode(scenario)?);
-    (step * rate > COARSE).then(|| Oddity {
-        key: "approach.step".to_owned(),
-        why: format!(
-            "a step of {} s, while the fastest joint motion under these gains decays or swings within {} s",
-            short(step),
-            short(1.0 / rate)
-        ),
-        help: format!("a step of {} s or less resolves it; or smaller gains", short(FINE / rate)),
-    })
-}
-
-/// Torques that are held for longer than the motion that they should steer takes.
-fn seldom(scenario: &Scenario) -> Option<Oddity> {
-    let Scenario { approach, .. } = scenario;
-    let (steps, rate) = (approach.actuation.steps_per_sample?, fastest_mode(scenario)?);
-    let sample_time = f64::from(steps) * approach.step;
-    (sample_time * rate > COARSE && approach.step * rate <= COARSE).then(|| Oddity {
-        key: "approach.sample_time".to_owned(),
-        why: format!(
-            "torques are held for {} s, while the fastest joint motion under these gains decays or swings within {} s",
-            short(sample_time),
-            short(1.0 / rate)
-        ),
-        help: format!("a sample time of {} s or less keeps up with it; or smaller gains", short(FINE / rate)),
-    })
-}
-
 /// Generalized inertia and Jacobian of the robot at rest.
-fn reduced(layout: &Layout, joint_angles: &[f64]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+pub(super) fn reduced(layout: &Layout, joint_angles: &[f64]) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
     let (joints, rows) = (layout.joints(), 3 * layout.arms.len());
     let rest = vec![0.0; joints];
     let state = State { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates: &rest };

@@ -2,11 +2,14 @@
 
 use super::approach::{joint_name, largest_turn, peak_rate};
 use super::number::{count, list, point, short};
-use super::pose::{FinalPose, fastest_mode, final_pose};
+use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
+use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
-use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, Tracking, TrajectoryKind};
+use crate::scenario::{
+    Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TouchKind, Tracking, TrajectoryKind,
+};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -47,10 +50,13 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
-        let Actuation { torque_limits, steps_per_sample } = &after.actuation;
+        let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
         if after.control != Settling::None {
             let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
-            writeln!(out, "  control afterwards  {}{actuation}", settling(&after.control))?;
+            let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
+                format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
+            });
+            writeln!(out, "  control afterwards  {}{mode}{actuation}", settling(&after.control))?;
         }
         targets(out, scenario)?;
         cases(out, scenario)?;
@@ -99,7 +105,9 @@ fn trajectory(scenario: &Scenario) -> String {
         }
     };
     let whose = if by_tips(scenario) { " of the tips" } else { "" };
-    format!("{shape}{whose}, to {end}")
+    let then = scenario.approach.trajectory_duration;
+    let then = then.map_or_else(String::new, |time| format!(" in {} s, and there until the end", short(time)));
+    format!("{shape}{whose}, to {end}{then}")
 }
 
 fn wishes(goals: &[TipGoal]) -> String {
@@ -124,7 +132,7 @@ fn tracking(scenario: &Scenario) -> String {
         }
         None => law,
     };
-    let Actuation { torque_limits, steps_per_sample } = &scenario.approach.actuation;
+    let Actuation { torque_limits, steps_per_sample, .. } = &scenario.approach.actuation;
     format!("{law}{}", actuation(torque_limits.as_deref(), *steps_per_sample))
 }
 
@@ -208,11 +216,30 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
-    writeln!(out, "\n  {}, target twists [ω, vx, vy] in rad/s, m/s", count(scenario.cases.len(), "case"))?;
+    writeln!(
+        out,
+        "\n  {}, target twists [ω, vx, vy] in rad/s, m/s, and what the contacts do",
+        count(scenario.cases.len(), "case")
+    )?;
     for case in &scenario.cases {
-        let pairs = scenario.targets.iter().zip(&case.target_twists);
-        let twists: Vec<_> = pairs.map(|(target, twist)| format!("{} {}", target.name, list(twist))).collect();
-        writeln!(out, "  {:<12} {}", case.name, twists.join(", "))?;
+        let each = scenario.targets.iter().zip(&case.target_twists).zip(case.kinds.iter().zip(&case.restitutions));
+        let targets: Vec<_> = each
+            .map(|((target, twist), (kinds, restitution))| {
+                format!("{} {} {}", target.name, list(twist), contacts(kinds, *restitution))
+            })
+            .collect();
+        writeln!(out, "  {:<12} {}", case.name, targets.join(", "))?;
     }
     Ok(())
+}
+
+/// `rigid`, or `rigid and pin`, or `bounce (0.5)`.
+fn contacts(kinds: &[TouchKind], restitution: f64) -> String {
+    let alike = kinds.iter().all(|kind| Some(kind) == kinds.first());
+    let shown = if alike { kinds.get(..1).unwrap_or_default() } else { kinds };
+    let names = shown.iter().map(|kind| match kind {
+        TouchKind::Bounce => format!("bounce ({})", short(restitution)),
+        kind => kind.name().to_owned(),
+    });
+    names.collect::<Vec<_>>().join(" and ")
 }

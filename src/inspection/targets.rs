@@ -2,11 +2,11 @@
 
 use super::number::{point, short};
 use super::places::{center_of_mass, places};
-use crate::assembly::turned;
 use crate::diagnostic::Oddity;
 use crate::layout::Layout;
 use crate::models;
-use crate::scenario::{Detection, Scenario, Target, Touch};
+use crate::scenario::{Detection, Scenario, Target, Touch, TouchKind};
+use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 
@@ -25,6 +25,8 @@ pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
             on_a_wheel(scenario, target),
             out_of_reach(scenario, target),
             spin(&target.twist).map(|(why, help)| ("twist[0]", why, help)),
+            restitution_of_nothing(scenario, i, target),
+            too_few_joints(scenario, i, target),
         ];
         found.into_iter().flatten().map(move |(key, why, help)| Oddity { key: format!("target[{i}].{key}"), why, help })
     });
@@ -46,16 +48,13 @@ fn off_rim(target: &Target) -> Option<Odd> {
     let size = target.surface.reach();
     let apart = |touch: &Touch| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
     let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
-    let [distance, side] = match apart(touch) {
-        outside if outside > 0.0 => [short(outside), "outside".to_owned()],
-        inside => [short(-inside), "inside".to_owned()],
-    };
     let why = match target.surface {
         Surface::Disc { radius } => {
             let [x, y] = touch.contact;
             format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
         }
-        Surface::Polygon { .. } => format!("{distance} m {side} the polygon"),
+        Surface::Polygon { .. } if apart(touch) > 0.0 => format!("{} m outside the polygon", short(apart(touch))),
+        Surface::Polygon { .. } => format!("{} m inside the polygon", short(-apart(touch))),
     };
     let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
     Some(("contact", why, help.to_owned()))
@@ -81,6 +80,35 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
     let longer: Vec<_> =
         scenario.layout.arms.iter().filter(|arm| arm.reach() > 0.0).map(|arm| arm.name.as_str()).collect();
     Some(("arm", why, format!("arms with a length: {}", longer.join(", "))))
+}
+
+/// Restitution where no contact bounces in any case.
+fn restitution_of_nothing(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd> {
+    let bounces = scenario.cases.iter().any(|case| case.kinds.get(i).is_some_and(|k| k.contains(&TouchKind::Bounce)));
+    (target.restitution > 0.0 && !bounces).then(|| {
+        let why = format!("{}, but no contact of the target bounces", short(target.restitution));
+        ("restitution", why, "a restitution belongs to `kind = \"bounce\"`; what holds gives nothing back".to_owned())
+    })
+}
+
+/// A loop closed by more constraints than its arms have joints: the impulses at its contacts cannot be told apart.
+fn too_few_joints(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd> {
+    let joints: usize =
+        target.touches.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm)).map(|arm| arm.links.len()).sum();
+    let constraints = |kinds: &Vec<TouchKind>| -> usize {
+        let each = kinds.iter().map(|kind| match kind {
+            TouchKind::Rigid => 3,
+            TouchKind::Pin => 2,
+            TouchKind::Bounce | TouchKind::None => 0,
+        });
+        each.sum()
+    };
+    let most = scenario.cases.iter().filter_map(|case| case.kinds.get(i)).map(constraints).max()?;
+    // the target itself brings three degrees of freedom
+    (most > joints + 3).then(|| {
+        let why = format!("{most} constraints hold it, but its arms' {joints} joints and itself have {}", joints + 3);
+        ("kind", why, "such an impact has no unique solution; a pin has 2 constraints, a rigid grip 3".to_owned())
+    })
 }
 
 /// [`distance_and_most`] of the contact point; `None` also where the target's place is not given.

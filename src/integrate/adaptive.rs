@@ -21,7 +21,8 @@ type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Vec<f64>, 9, 16, 26>;
 /// on beyond the times that are asked for: what is there between two steps comes from the interpolant. Each accepted step
 /// takes 26 evaluations, each rejected one 15. Of the crate's methods this one has an interpolant as good as its steps.
 pub struct Adaptive {
-    solver: Solver,
+    /// Some 12 kB of tables.
+    solver: Box<Solver>,
     tolerance: f64,
     /// Beyond it f may be another, s.
     end: f64,
@@ -43,7 +44,7 @@ impl Adaptive {
     #[must_use]
     pub fn new(tolerance: f64) -> Self {
         let solver = Solver::rkv989e().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-        Self { solver, tolerance, end: 0.0, wanted: 0.0 }
+        Self { solver: Box::new(solver), tolerance, end: 0.0, wanted: 0.0 }
     }
 
     /// Tries this step first, in s, where the solver would look for one.

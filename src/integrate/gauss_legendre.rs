@@ -82,7 +82,7 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
         let tableau = Tableau::new();
         derivative(time, x, self.next)?;
         for slope in &mut self.slopes {
-            slope.copy_from_slice(self.next);
+            copy(slope, self.next);
         }
         let scale = largest(x.iter().copied()) + largest(self.next.iter().map(|slope| step * *slope));
         let limit = T::constant(1e3) * T::EPSILON * scale;
@@ -120,7 +120,7 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
     ) -> Result<T, Error> {
         let mut change = T::ZERO;
         for (i, (node, row)) in tableau.nodes.iter().zip(&tableau.matrix).enumerate() {
-            self.stage.copy_from_slice(x);
+            copy(self.stage, x);
             for (slope, entry) in self.slopes.iter().zip(row) {
                 add(self.stage, step * *entry, slope);
             }
@@ -128,9 +128,16 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
             let Some(slope) = self.slopes.get_mut(i) else { continue };
             let of_stage = largest(self.next.iter().zip(slope.iter()).map(|(new, old)| step * (*new - *old)));
             change = if of_stage > change { of_stage } else { change };
-            slope.copy_from_slice(self.next);
+            copy(slope, self.next);
         }
         Ok(change)
+    }
+}
+
+/// As `copy_from_slice`, which can panic.
+fn copy<T: Real>(into: &mut [T], from: &[T]) {
+    for (place, value) in into.iter_mut().zip(from) {
+        *place = *value;
     }
 }
 

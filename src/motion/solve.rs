@@ -17,7 +17,7 @@ pub(super) fn solve<T: Real>(what: &'static str, matrix: &mut [T], right: &mut [
         let Some((row, (solved, open))) = head.get(k * n..).zip(right.split_at_mut_checked(k + 1)) else { continue };
         let (Some(diagonal), Some(value)) = (row.get(k), solved.last()) else { continue };
         pivot(what, *diagonal / scale)?;
-        for (other, right) in below.chunks_exact_mut(n).zip(open) {
+        for (other, right) in below.chunks_exact_mut(n.max(1)).zip(open) {
             let Some(factor) = other.get(k).map(|entry| *entry / *diagonal) else { continue };
             for (entry, above) in other.iter_mut().zip(row).skip(k) {
                 *entry -= factor * *above;

@@ -83,7 +83,8 @@ function audit() {
   const [one] = current(), shown = element("audit");
   const of = (name, phase) => {
     if (!phase) return [];
-    const numbers = [["momentum drift", phase.momentum_drift], ["energy error", phase.energy_error]];
+    const numbers = [["momentum drift", phase.momentum_drift], ["energy error", phase.energy_error],
+      ["centre-of-mass drift", phase.center_of_mass_drift]];
     if (one.post_impact === phase && phase.holds.length) numbers.push(["holds open by", Math.max(...phase.constraint_errors)]);
     return [`${name}: ${numbers.map(([what, value]) => `${what} ${value.toExponential(1)}`).join(", ")}`];
   };

@@ -3,10 +3,10 @@
 use super::impacts::{distances, holds, impacts, open};
 use crate::layout::Layout;
 use crate::scenario::{Case, Scenario};
+use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use crate::study::{CaseResult, Study};
 use crate::surface::Surface;
-use crate::system::Body;
 use serde_json::{Value, json};
 
 /// Everything that the page needs of a study.
@@ -123,6 +123,7 @@ fn phase(phase: &Phase) -> Value {
         "work": column(&|sample| sample.work + sample.base_work),
         "momentum_drift": phase.drift.momentum_drift,
         "energy_error": phase.drift.energy_error,
+        "center_of_mass_drift": phase.drift.center_of_mass_drift,
         "constraint_errors": phase.constraint_errors,
     })
 }

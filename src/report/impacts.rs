@@ -1,14 +1,14 @@
 //! What the page shows of contacts: every impact of a case, what was missed, and how closed the holds stay.
 
 use super::data::digits;
-use crate::assembly::turned;
-use crate::capture::{Capture, ContactResult, ImpactResult};
 use crate::contact::Kind;
-use crate::gaps::gap;
-use crate::meeting::Touching;
 use crate::scenario::{Case, Detection, Scenario, TouchKind};
+use crate::simulate::system::Body;
+use crate::study::assembly::turned;
+use crate::study::capture::{Capture, ContactResult, ImpactResult};
+use crate::study::gaps::gap;
+use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
-use crate::system::Body;
 use serde_json::{Value, json};
 
 /// The impacts of a case, in their order; one that touches nothing is none.

@@ -3,6 +3,7 @@
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table, Value};
 use crate::simulate::Timing;
+use crate::simulate::limits::JointLimits;
 
 const TORQUE_LIMIT: Quantity = Quantity::non_negative("a torque limit (or one per joint)", "N m");
 const SAMPLE_TIME: Quantity = Quantity::positive("a sample time", "s");
@@ -17,6 +18,8 @@ pub struct Actuation {
     pub torque_limits: Option<Vec<f64>>,
     /// How many steps each sample of the law is held for (zero-order hold); default none: the law acts continuously.
     pub steps_per_sample: Option<u32>,
+    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty without it.
+    pub joint_limits: Vec<JointLimits>,
 }
 
 impl Actuation {
@@ -32,7 +35,7 @@ impl Actuation {
             Some(value) => steps_per_sample(&value, times).map(Some),
             None => Some(None),
         };
-        Some(Self { torque_limits: torque_limits?, steps_per_sample: steps_per_sample? })
+        Some(Self { torque_limits: torque_limits?, steps_per_sample: steps_per_sample?, joint_limits: Vec::new() })
     }
 
     /// Notes that there is no law that these could be about.

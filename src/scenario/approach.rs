@@ -4,7 +4,7 @@ use super::actuation::Actuation;
 use super::integration::Integration;
 use super::joints::{Joints, check_length};
 use super::resolved;
-use super::{JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
+use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
 const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
@@ -21,6 +21,9 @@ pub struct Approach {
     pub duration: f64,
     /// Time step in s, at most the duration; default 0.005.
     pub step: f64,
+    /// How long the trajectory takes, in s, less than the duration, for one that ends at rest: what is wanted at its end stays
+    /// wanted. `None` where it takes the whole duration, as by default.
+    pub trajectory_duration: Option<f64>,
     /// The shape of the joint trajectories.
     pub trajectory: TrajectoryKind,
     /// Joint angles wanted at the end, arm by arm, in rad. Where tip poses are wanted, the first guess of the angles that
@@ -107,9 +110,16 @@ pub enum Tracking {
 }
 
 impl Approach {
-    pub(super) const KEYS: [&'static str; 18] = [
+    /// How long the trajectory takes, in s.
+    #[must_use]
+    pub fn trajectory_time(&self) -> f64 {
+        self.trajectory_duration.unwrap_or(self.duration)
+    }
+
+    pub(super) const KEYS: [&'static str; 19] = [
         "duration",
         "step",
+        "trajectory_duration",
         "trajectory",
         "final_joint_angles",
         "final_end_effector_poses",
@@ -149,6 +159,12 @@ impl Approach {
             None => Some(None),
         };
         let end = EndRates::from_table(table, trajectory, joints);
+        let rest = match &end {
+            Some(EndRates::JointRates(rates)) => rates.iter().all(|rate| *rate == 0.0),
+            Some(EndRates::EndEffectorTwists(_)) => false,
+            Some(EndRates::Rest) | None => true,
+        };
+        let trajectory_duration = trajectory_duration(table, times, rest, "`final_joint_rates` of zeros");
         let tracking = Tracking::from_table(table, joints);
         let actuation = match &tracking {
             Some(Tracking::Exact) => {
@@ -164,6 +180,7 @@ impl Approach {
         Some(Self {
             duration,
             step,
+            trajectory_duration: trajectory_duration?,
             trajectory: trajectory?,
             final_joint_angles: final_joint_angles?,
             final_end_effector_poses: goals?,
@@ -215,6 +232,30 @@ impl EndRates {
         }
         end
     }
+}
+
+/// The time of the trajectory, `Some(None)` where it is that of the phase; `rest` is whether it ends at rest, and `by` how it would.
+#[allow(clippy::option_option, reason = "nothing where it is wrong, and nothing given")]
+pub(super) fn trajectory_duration(
+    table: &Table<'_>,
+    times: Option<(f64, f64)>,
+    rest: bool,
+    by: &str,
+) -> Option<Option<f64>> {
+    let Some(value) = table.get("trajectory_duration") else { return Some(None) };
+    let trajectory = value.number(&DURATION)?;
+    let (duration, _) = times?;
+    if trajectory > duration {
+        value.reject(&format!("longer than the phase, expected at most its duration, {duration} s"));
+        return None;
+    }
+    if trajectory < duration && !rest {
+        value.reject(&format!(
+            "the arms are to move on at its end and cannot stay there, expected {by}, or no such key"
+        ));
+        return None;
+    }
+    Some((trajectory < duration).then_some(trajectory))
 }
 
 pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {

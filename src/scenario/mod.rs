@@ -7,6 +7,7 @@ mod case;
 mod contact;
 mod integration;
 mod joints;
+mod limits;
 mod post_impact;
 mod resolved;
 mod target;
@@ -35,7 +36,9 @@ pub const MOST_STEPS: f64 = 1e8;
 
 const DURATION: Quantity = Quantity::positive("a duration", "s");
 const STEP: Quantity = Quantity::positive("a time step", "s");
-const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(4.0 * PI);
+/// Beyond two turns, an angle is in degrees.
+const MOST_ANGLE: f64 = 4.0 * PI;
+const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
 const JOINT_RATE: Quantity = Quantity::any("a joint rate", "rad/s");
 const POSITION: [Quantity; 2] = [Quantity::any("x", "m"), Quantity::any("y", "m")];
 const POSE: [Quantity; 3] = [Quantity::any("yaw", "rad"), Quantity::any("x", "m"), Quantity::any("y", "m")];
@@ -119,7 +122,8 @@ impl Scenario {
         folder: &Path,
         shipped: &[(&str, &str)],
     ) -> Result<(Self, LayoutSource), Report> {
-        const KEYS: [&str; 8] = ["name", "layout", "initial", "approach", "target", "contact", "case", "post_impact"];
+        const KEYS: [&str; 9] =
+            ["name", "layout", "initial", "limits", "approach", "target", "contact", "case", "post_impact"];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
             let (layout, source) =
@@ -137,14 +141,26 @@ impl Scenario {
             {
                 require_rest(table, initial.as_ref());
             }
+            let limits = match root.get("limits") {
+                Some(value) => value.table(&limits::KEYS).and_then(|table| limits::from_table(&table, &joints)),
+                None => Some(Vec::new()),
+            };
+            if let (Some(table), Some(initial), Some(limits)) = (&initial_table, &initial, &limits) {
+                limits::check_initial(table, initial, limits);
+            }
             let capture = capture::read(root, layout.as_ref(), name.as_deref());
 
-            let capture::Capture { targets, contact, cases, post_impact } = capture?;
+            let capture::Capture { targets, contact, cases, mut post_impact } = capture?;
+            let (mut approach, limits) = (approach?, limits?);
+            if let Some(after) = &mut post_impact {
+                after.actuation.joint_limits.clone_from(&limits);
+            }
+            approach.actuation.joint_limits = limits;
             let scenario = Self {
                 name: name?,
                 layout: layout?,
                 initial: initial?,
-                approach: approach?,
+                approach,
                 targets,
                 contact,
                 cases,

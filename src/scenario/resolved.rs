@@ -1,7 +1,9 @@
 //! `[approach]` with `tracking = "resolved_motion_rate"`: tips that follow paths of their own.
 
 use super::actuation::Actuation;
-use super::approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind, end_effector_twists, tip_goals};
+use super::approach::{
+    Approach, EndRates, TipGoal, Tracking, TrajectoryKind, end_effector_twists, tip_goals, trajectory_duration,
+};
 use super::duration_and_step;
 use super::integration::Integration;
 use super::joints::Joints;
@@ -38,6 +40,8 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         Some(value) => end_effector_twists(&value, joints).and_then(|twists| wanted(&value, twists, goals.as_deref())),
         None => Some(vec![[0.0; 3]; joints.layout.map_or(0, |layout| layout.arms.len())]),
     };
+    let rest = twists.as_ref().is_none_or(|twists| twists.as_flattened().iter().all(|part| *part == 0.0));
+    let trajectory_duration = trajectory_duration(table, times, rest, "`final_end_effector_twists` of zeros");
     let pose_gain = table.number_or("pose_gain", &POSE_GAIN, 2.0);
     let rate_gain = table.number_or("rate_gain", &RATE_GAIN, 10.0);
     let threshold = match table.get("singularity_threshold") {
@@ -56,6 +60,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
     Some(Approach {
         duration,
         step,
+        trajectory_duration: trajectory_duration?,
         trajectory: TrajectoryKind::Quintic,
         final_joint_angles: initial.map_or_else(|| joints.repeat(0.0), <[f64]>::to_vec),
         final_end_effector_poses: Some(goals?),

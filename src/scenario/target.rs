@@ -152,7 +152,7 @@ impl Target {
             .collect();
         let surface = surface?;
         if detection == Detection::Time
-            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact == [0.0; 2])
+            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact.iter().all(|x| *x == 0.0))
             && let (Surface::Disc { .. }, Some(value)) = (&surface, table.get("contact"))
         {
             value.reject("a bounce at the COM has no outward normal, expected a point on the rim");

@@ -47,7 +47,7 @@ fn what_a_scenario_is() {
         "final pose          generalized Jacobian of arm1, arm2: smallest/largest singular value 0.05817\n",
         "afterwards          50 s in 10000 steps of 0.005 s, of 580 kg together\n",
         "2.512 of at most 3.714\n",
-        "case3        target1 [0.2, 0, 0], target2 [-0.2, 0, 0]\n",
+        "case3        target1 [0.2, 0, 0] rigid, target2 [-0.2, 0, 0] rigid\n",
     ] {
         assert!(out.contains(wanted), "no `{wanted}` in\n{out}");
     }

@@ -103,6 +103,12 @@ const ODD_SCENARIOS: &[Edit] = &[
     // rates, times and gains
     ("duration = 20.0", "duration = 0.2", 6, &["`approach.duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"]),
     (
+        "duration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01",
+        "trajectory_duration = 0.2\nduration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.0",
+        6,
+        &["`approach.trajectory_duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"],
+    ),
+    (
         "rates = [0.01",
         "rates = [10",
         9,
@@ -131,6 +137,25 @@ const ODD_SCENARIOS: &[Edit] = &[
         "duration = 20.0\nproportional_gain = 0",
         7,
         &["proportional_gain` is 0", "nothing pulls", "49"],
+    ),
+    // control afterwards
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 1e6",
+        24,
+        &["`post_impact.step` is left at its default: a step of 0.005 s", "fastest joint motion", "or less"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nstep = 0.4\ncontrol = \"damping\"",
+        26,
+        &["`post_impact.step` is 0.4", "fastest joint motion"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nsample_time = 2\ncontrol = \"stabilise\"",
+        26,
+        &["`post_impact.sample_time` is 2", "torques are held for 2 s", "within 2 s", "0.4 s or less"],
     ),
     // targets
     ("mass = 10.0\ninertia = 1.0", "mass = 600\ninertia = 60", 13, &["`target[0].mass` is 600", "the robot", "539 kg"]),
@@ -206,6 +231,40 @@ fn tip_poses_out_of_reach() {
     one_warning(&designed, 7, &wanted);
     let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
+}
+
+/// The bound on the modes after the impact: with a target in its hand a robot resists any joint rates more, not less.
+#[test]
+fn a_merged_robot_is_no_stiffer() {
+    use planar_capture::state::State;
+    use planar_capture::target::Target;
+    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "dual_arm_3r").expect("a layout");
+    let layout = planar_capture::layout::Layout::parse(text, "it").expect("a layout");
+    let mut model = planar_capture::models::generated(&layout).expect("generated code");
+    let angles = [-0.5, -1.4, 0.1, 2.6, -1.4, 0.2];
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.3, 0.4], twist: [0.0; 3] };
+    let inertia = |model: &dyn planar_capture::dynamics::Model<f64>| {
+        let state = State { base_pose: [0.0; 3], joint_angles: &angles, base_twist: [0.0; 3], joint_rates: &[0.0; 6] };
+        let (mut inertia, mut bias, mut jacobian) = ([0.0; 36], [0.0; 6], [0.0; 36]);
+        model.reduced_dynamics(&state, &mut inertia, &mut bias, &mut jacobian).expect("an inertia");
+        nalgebra::SMatrix::<f64, 6, 6>::from_row_slice(&inertia)
+    };
+    let before = inertia(&*model);
+    model.merge(&[0.0; 3], &angles, &[Some(target), None]).expect("merged");
+    let more = (inertia(&*model) - before).symmetric_eigenvalues();
+    assert!(more.min() > -1e-12 && more.max() > 1.0, "{more}");
+}
+
+/// Ends beyond the joints' limits; a start there is refused.
+#[test]
+fn ends_beyond_limits() {
+    let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
+    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
+    let wanted =
+        ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
+    one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
+    let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
+    one_warning(&with("joint_rates = 0.009"), 11, &wanted);
 }
 
 /// A solid rod, a dumbbell with all its mass at its ends, and every wheel are bodies that there are.

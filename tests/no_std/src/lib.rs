@@ -4,17 +4,21 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+use planar_capture::body::Body;
+use planar_capture::contact::{
+    self, Closure, Contact, Hold, ImpulseEllipse, InverseInertia, Rows, Workspace as HoldWorkspace, workspace_length,
+};
 use planar_capture::control::{
-    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, ResolvedMotionRate, Sampled, Stabilise,
-    TipWorkspace,
+    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, ResolvedMotionRate, Sampled,
+    Stabilise, TipWorkspace,
 };
 use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
 use planar_capture::impact::{self, After, Workspace};
-use planar_capture::integrate::RungeKutta4;
-use planar_capture::motion::derivative;
-use planar_capture::state::{State, vector_length};
+use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
+use planar_capture::motion::{Canonical, Reduced, derivative};
+use planar_capture::state::{State, halves, halves_mut, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};
 
@@ -206,6 +210,62 @@ pub fn coast(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(),
     step(model, &mut Free, time, x)
 }
 
+/// One semi-implicit step in reduced coordinates, with the momentum [l, px, py].
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let mut equation = Reduced {
+        momentum,
+        mass_matrix: &mut [0.0; SIZE * SIZE],
+        generalized_inertia: &mut [0.0; JOINTS * JOINTS],
+        generalized_bias: &mut [0.0; JOINTS],
+        generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
+    };
+    let mut torques = [0.0; JOINTS];
+    let mut workspace = [0.0; LENGTH];
+    let mut euler = SemiImplicitEuler::new(&mut workspace);
+    euler.step(time, 0.005, x, |t, x, rate| equation.derivative(model, &mut Free, t, x, rate, &mut torques))?;
+    equation.recover(model, x)
+}
+
+/// One Gauss–Legendre step of free motion, of positions and momenta.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    let wrong = Error::Length { quantity: "state vector", expected: LENGTH, found: 0 };
+    let mut canonical = Canonical {
+        inertias: &mut [[0.0; 2]; JOINTS + 1],
+        poses: &mut [[0.0; 3]; JOINTS + 1],
+        twists: &mut [[0.0; 3]; JOINTS + 1],
+        offsets: &mut [[0.0; 2]; JOINTS],
+        ends: &mut [false; JOINTS],
+        rates: &mut [0.0; JOINTS],
+    };
+    let before = *x;
+    let state = State::from_vector(&before, JOINTS).ok_or(wrong)?;
+    canonical.measure(model, &state.base_pose, state.joint_angles)?;
+    canonical.momenta(model, &state, halves_mut(x).ok_or(wrong)?.1)?;
+    let mut workspace = [0.0; GaussLegendre::<f32>::WORKSPACE * LENGTH];
+    let mut gauss = GaussLegendre::new(&mut workspace).ok_or(wrong)?;
+    let mut joint_rates = [0.0; JOINTS];
+    gauss.step(time, 0.05, x, |_, x, rate| {
+        let (_, momenta) = halves(x).ok_or(wrong)?;
+        let at = State::from_vector(x, JOINTS).ok_or(wrong)?;
+        let base_twist = canonical.velocities(model, at.base_pose, at.joint_angles, momenta, &mut joint_rates)?;
+        let now = State { base_twist, joint_rates: &joint_rates, ..at };
+        rate.fill(0.0);
+        now.write(rate);
+        let (velocities, forces, _) = halves_mut(rate).ok_or(wrong)?;
+        velocities.copy_from_slice(forces);
+        forces.fill(0.0);
+        canonical.add_energy_gradient(model, &now, forces)
+    })
+}
+
 /// Momentum, and the tips.
 ///
 /// # Errors
@@ -223,4 +283,88 @@ fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32;
         return Err(Error::Length { quantity: "workspace", expected: 3 * LENGTH, found: 0 });
     };
     integrator.step(time, 0.005, x, |t, x, rate| derivative(model, law, t, x, rate, &mut torques))
+}
+
+/// Room for both tips on one body: six rows.
+const ROWS: usize = 6;
+const NUMBERS: usize = workspace_length(JOINTS, ARMS, 1, ROWS);
+
+/// One body touched by both tips, in any way; returns the impulses on the robot, and x and the body hold the velocities after.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn touch(
+    model: &Model<f32>,
+    body: &mut Body<f32>,
+    contacts: &[Contact<f32>; ARMS],
+    x: &mut [f32; LENGTH],
+) -> Result<[[f32; 3]; ARMS], Error> {
+    let before = *x;
+    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
+        quantity: "state vector",
+        expected: LENGTH,
+        found: 0,
+    })?;
+    let bodies = [*body];
+    let mut numbers = [0.0; NUMBERS];
+    let length = workspace_length(JOINTS, ARMS, 1, Rows::count(contacts));
+    let numbers = numbers.get_mut(..length).unwrap_or_default();
+    let rows = Rows::new(model, &state.base_pose, state.joint_angles, &bodies, contacts, numbers)?;
+    let (mut joint_rates, mut body_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; 1], [[0.0; 3]; ARMS]);
+    let mut after =
+        contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
+    let base_twist = contact::impact(model, &state, &bodies, rows, &mut after)?;
+    let [twist] = body_twists;
+    body.twist = twist;
+    State { base_twist, joint_rates: &joint_rates, ..state }.write(x);
+    Ok(impulses)
+}
+
+/// One step with a body held by both tips.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn held_step(
+    model: &Model<f32>,
+    body: &Body<f32>,
+    closures: &[Closure<f32>; ARMS],
+    time: f32,
+    x: &mut [f32; LENGTH + 6],
+) -> Result<[f32; 2], Error> {
+    let bodies = [*body];
+    let hold = Hold { model, bodies: &bodies, closures };
+    let mut numbers = [0.0; NUMBERS];
+    let mut forces = [0.0; ROWS];
+    let mut space = HoldWorkspace {
+        contacts: &mut [Contact::any(); ARMS],
+        numbers: numbers.get_mut(..hold.workspace_length()).unwrap_or_default(),
+        forces: forces.get_mut(..hold.rows()).unwrap_or_default(),
+        jacobian: &mut [0.0; 3 * ARMS * SIZE],
+        tips: &mut [[0.0; 3]; ARMS],
+    };
+    let mut workspace = [0.0; 3 * (LENGTH + 6)];
+    let mut torques = [0.0; JOINTS];
+    let length = Error::Length { quantity: "workspace", expected: 3 * (LENGTH + 6), found: 0 };
+    let mut integrator = RungeKutta4::new(&mut workspace).ok_or(length)?;
+    integrator.step(time, 0.005, x, |t, x, rate| {
+        derivative(model, &mut Free, t, x, rate, &mut torques)?;
+        hold.constrain(x, rate, &mut space)
+    })?;
+    hold.restore(x, &mut space)?;
+    hold.errors(x, &mut space)
+}
+
+/// What a contact at a tip asks of the robot.
+///
+/// # Errors
+/// What the core says of the numbers.
+#[inline(never)]
+pub fn impulse_ellipse(model: &Model<f32>, state: &State<'_, f32>, arm: usize) -> Result<ImpulseEllipse<f32>, Error> {
+    let mut wrenches = [[0.0; 3]; ARMS];
+    let mut scratch = [0.0; 2 * JOINTS];
+    let angles = state.joint_angles;
+    let inertia = InverseInertia::of_tip(model, &state.base_pose, angles, arm, &mut wrenches, &mut scratch)?;
+    Ok(inertia.impulse_ellipse())
 }

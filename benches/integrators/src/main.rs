@@ -1,0 +1,67 @@
+//! What integrators cost and keep: runs the paper's approach and free motion by every scheme in either coordinates, and writes
+//! `docs/integrators.md` with its figures, or checks that they are what is computed.
+//!
+//! Work is counted in evaluations of the derivative: that depends on no machine, but for the last bit of its library's powers.
+
+mod figure;
+mod long_time;
+mod method;
+mod motion;
+mod report;
+mod work;
+
+use planar_capture::figures::draw::svg;
+use planar_capture::output::{make_folder, write_whole};
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Any: there is nobody to tell them apart.
+type Problem = Box<dyn std::error::Error>;
+
+const MEND: &str = "cargo run --release --manifest-path benches/integrators/Cargo.toml";
+
+fn main() -> ExitCode {
+    let check = std::env::args().skip(1).any(|argument| argument == "--check");
+    match compute().and_then(|files| if check { compare(&files) } else { write(&files) }) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Path below `docs`, and content.
+fn compute() -> Result<Vec<(&'static str, String)>, Problem> {
+    let works = [work::approach()?, work::tumbling()?];
+    let motions = long_time::motions()?;
+    Ok(vec![
+        ("integrators.md", report::write(&works, &motions)?),
+        ("integrators/work_precision.svg", svg(&figure::work_precision(&works))),
+        ("integrators/long_time.svg", svg(&figure::long_time(&motions))),
+    ])
+}
+
+fn write(files: &[(&str, String)]) -> Result<(), Problem> {
+    for (path, text) in files {
+        let path = documents().join(path);
+        make_folder(path.parent().ok_or("no folder")?)?;
+        write_whole(&path, |to| to.write_all(text.as_bytes()))?;
+    }
+    Ok(())
+}
+
+fn compare(files: &[(&str, String)]) -> Result<(), Problem> {
+    for (path, text) in files {
+        if std::fs::read_to_string(documents().join(path)).ok().as_ref() != Some(text) {
+            return Err(format!("docs/{path} is not what is computed; to mend: {MEND}").into());
+        }
+    }
+    println!("docs/integrators.md: fresh");
+    Ok(())
+}
+
+fn documents() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs")
+}

@@ -1,0 +1,87 @@
+//! The schemes that are compared, and how they are named and drawn.
+
+use planar_capture::figures::{Colour, Dash, Shape};
+use planar_capture::scenario::{Coordinates, Integration, Scheme};
+
+/// A scheme in one of the coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Method {
+    pub integration: Integration,
+}
+
+/// What makes a method coarser or finer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fineness {
+    /// s.
+    Step(f64),
+    Tolerance(f64),
+}
+
+impl Method {
+    /// Every one that a scenario can name.
+    pub fn all() -> Vec<Self> {
+        let method = |scheme, coordinates| Self { integration: Integration { scheme, coordinates } };
+        let adaptive = Scheme::Adaptive { tolerance: 0.0 };
+        let mut all = vec![method(Scheme::GaussLegendre, Coordinates::Full)];
+        for scheme in [Scheme::RungeKutta4, adaptive, Scheme::SemiImplicitEuler] {
+            all.extend([Coordinates::Full, Coordinates::Reduced].map(|coordinates| method(scheme, coordinates)));
+        }
+        all
+    }
+
+    /// As in a scenario.
+    pub fn name(self) -> &'static str {
+        match self.integration.scheme {
+            Scheme::RungeKutta4 => "rk4",
+            Scheme::SemiImplicitEuler => "semi_implicit_euler",
+            Scheme::GaussLegendre => "gauss_legendre",
+            Scheme::Adaptive { .. } => "adaptive",
+        }
+    }
+
+    /// As in a scenario.
+    pub fn coordinates(self) -> &'static str {
+        match self.integration.coordinates {
+            Coordinates::Full => "full",
+            Coordinates::Reduced => "reduced",
+        }
+    }
+
+    /// In a legend.
+    pub fn label(self) -> String {
+        format!("{}, {}", self.name(), self.coordinates())
+    }
+
+    /// Every scheme has a colour, every kind of coordinates a dash and a symbol.
+    pub fn style(self) -> (Colour, Dash, Shape) {
+        let colour = match self.integration.scheme {
+            Scheme::GaussLegendre => Colour::Blue,
+            Scheme::RungeKutta4 => Colour::Vermillion,
+            Scheme::Adaptive { .. } => Colour::Green,
+            Scheme::SemiImplicitEuler => Colour::Purple,
+        };
+        match self.integration.coordinates {
+            Coordinates::Full => (colour, Dash::Solid, Shape::Circle),
+            Coordinates::Reduced => (colour, Dash::Dashed, Shape::Cross),
+        }
+    }
+
+    /// The scheme with a step or a tolerance, and the step.
+    pub fn with(self, fineness: Fineness, duration: f64) -> (Integration, f64) {
+        match fineness {
+            Fineness::Step(step) => (self.integration, step),
+            Fineness::Tolerance(tolerance) => {
+                (Integration { scheme: Scheme::Adaptive { tolerance }, ..self.integration }, duration)
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for Fineness {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Step(step) => write!(f, "{step} s"),
+            Self::Tolerance(tolerance) => write!(f, "tolerance {tolerance:e}"),
+        }
+    }
+}

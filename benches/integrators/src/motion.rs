@@ -1,0 +1,131 @@
+//! The two motions: the paper's approach under PD control, and free tumbling.
+
+use crate::Problem;
+use planar_capture::approach::Approach;
+use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
+use planar_capture::approach::design::end_rates;
+use planar_capture::dynamics::Model;
+use planar_capture::error::Error;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::models;
+use planar_capture::scenario::{EndRates, Integration, Scenario, Tracking};
+use planar_capture::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use planar_capture::state::State;
+use planar_capture::simulate::system::System;
+use planar_capture::trajectory::{Ends, Quartic};
+use std::f64::consts::PI;
+use std::path::Path;
+
+const SCENARIO: &str = include_str!("../../../scenarios/raina_shah_2017.toml");
+
+/// What is integrated.
+pub struct Problems {
+    pub model: Box<dyn Model<f64>>,
+    scenario: Scenario,
+    rates: Vec<f64>,
+}
+
+/// Counts how often a law is asked.
+struct Counted<'a> {
+    law: &'a mut dyn Control<f64>,
+    calls: u64,
+}
+
+impl Control<f64> for Counted<'_> {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        model: &dyn Model<f64>,
+        state: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        self.calls += 1;
+        self.law.joint_torques(time, model, state, torques)
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<f64>> {
+        self.law.base_torque()
+    }
+}
+
+impl Problems {
+    /// The paper's study.
+    pub fn new() -> Result<Self, Problem> {
+        let scenario = Scenario::parse(SCENARIO, "raina_shah_2017.toml", Path::new(""), models::SHIPPED)?;
+        let model = models::generated(&scenario.layout)?;
+        let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end else { return Err("no wanted twists".into()) };
+        let design = end_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
+        Ok(Self { rates: design.joint_rates, model, scenario })
+    }
+
+    /// The paper's approach: the phase, and the evaluations that it took.
+    pub fn approach(&self, (integration, step): (Integration, f64)) -> Result<(Phase, u64), Stopped> {
+        let approach = &self.scenario.approach;
+        let ends = Ends {
+            initial_angles: &self.scenario.initial.joint_angles,
+            final_angles: &approach.final_joint_angles,
+            duration: approach.duration,
+        };
+        let trajectory = Quartic { ends, final_rates: &self.rates };
+        let Tracking::ProportionalDerivative { proportional_gain, derivative_gain } = &approach.tracking else {
+            unreachable!("the paper's approach is under PD control")
+        };
+        let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
+        let start = Motion::of(&self.scenario.initial.state());
+        let timing = Timing { duration: approach.duration, step, sample: approach.duration, integration };
+        self.run(&mut law, &start, &timing)
+    }
+
+    /// s.
+    pub fn approach_duration(&self) -> f64 {
+        self.scenario.approach.duration
+    }
+
+    /// Free motion of the same robot.
+    pub fn free(
+        &self,
+        start: &Motion,
+        duration: f64,
+        sample: f64,
+        (integration, step): (Integration, f64),
+    ) -> Result<(Phase, u64), Stopped> {
+        let timing = Timing { duration, step, sample, integration };
+        self.run(&mut Free, start, &timing)
+    }
+
+    /// Turning with both arms out, which swing about that, and drifting away.
+    pub fn turning() -> Motion {
+        Motion {
+            base_pose: [0.0; 3],
+            joint_angles: vec![0.15, -0.1, 0.1, PI + 0.1, 0.15, -0.15],
+            base_twist: [0.5, 0.02, -0.01],
+            joint_rates: vec![0.0; 6],
+        }
+    }
+
+    /// Tumbling, base and joints turning by up to 0.9 rad/s.
+    pub fn tumbling() -> Motion {
+        Motion {
+            base_pose: [0.3, 1.0, -2.0],
+            joint_angles: vec![0.7, -1.5, 1.0, 2.4, 1.5, -1.0],
+            base_twist: [0.2, 0.05, -0.03],
+            joint_rates: vec![0.5, -0.8, 0.6, -0.4, 0.9, 0.7],
+        }
+    }
+
+    fn run(&self, law: &mut dyn Control<f64>, start: &Motion, timing: &Timing) -> Result<(Phase, u64), Stopped> {
+        let mut law = Counted { law, calls: 0 };
+        let phase = simulate(&System::alone(&*self.model), &mut law, start, timing, &mut NoEvents, &mut || ())?;
+        let samples = phase.samples.len() as u64; // the law is asked for each of them too
+        Ok((phase, law.calls - samples))
+    }
+}
+
+/// Every position and rate at the end of a phase.
+pub fn end(phase: &Phase) -> Vec<f64> {
+    let parts = phase
+        .end()
+        .map(|end| &end.motion)
+        .map(|motion| [&motion.base_pose[..], &motion.joint_angles, &motion.base_twist, &motion.joint_rates].concat());
+    parts.unwrap_or_default()
+}

@@ -1,0 +1,168 @@
+//! The approach phase of a scenario: trajectory and tracking put together.
+
+pub mod design;
+pub mod posture;
+pub mod resolved;
+
+use crate::approach::resolved::Tips;
+use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
+use crate::dynamics::Model;
+use crate::scenario::{Scenario, Tracking, TrajectoryKind};
+use crate::simulate::actuators::drive;
+use crate::simulate::event::{Events, NoEvents};
+use crate::simulate::limits::{Excesses, Watched};
+use crate::simulate::system::System;
+use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
+
+/// The approach of one scenario.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<'a> {
+    scenario: &'a Scenario,
+    timing: Timing,
+}
+
+impl<'a> Approach<'a> {
+    /// The approach that a scenario describes, sampled every `sample` seconds.
+    #[must_use]
+    pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
+        let approach = &scenario.approach;
+        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
+        let timing = Timing { duration, step, sample, integration };
+        Self { scenario, timing }
+    }
+
+    /// Number of steps.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.timing.steps()
+    }
+
+    /// Runs it as the scenario says, with these end rates (rad/s; a cycloidal trajectory has none).
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+        self.track_until(model, rates, &mut NoEvents, tick)
+    }
+
+    /// The same, up to the first of the events.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let trajectory = self.trajectory(rates);
+        let joints = model.joints();
+        let initial = Motion::of(&self.scenario.initial.state());
+        let actuation = &self.scenario.approach.actuation;
+        let mut drive = |law: &mut dyn Control<f64>| {
+            drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
+        };
+        match &self.scenario.approach.tracking {
+            Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
+            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
+                drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
+            }
+            Tracking::ComputedTorque { proportional_gain, derivative_gain } => drive(&mut ComputedTorque {
+                trajectory,
+                proportional_gain,
+                derivative_gain,
+                generalized_inertia: &mut vec![0.0; joints * joints],
+                generalized_bias: &mut vec![0.0; joints],
+                generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+            }),
+            Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
+                let mut tips = Tips::new(model, self.scenario)?;
+                let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
+                let phase = drive(&mut law)?;
+                Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
+            }
+        }
+    }
+
+    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
+    /// quintic one.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_exactly(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        self.track_exactly_until(model, rates, &mut NoEvents, tick)
+    }
+
+    fn track_exactly_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let joints = model.joints();
+        let law = ExactTracking {
+            trajectory: self.trajectory(rates),
+            generalized_inertia: &mut vec![0.0; joints * joints],
+            generalized_bias: &mut vec![0.0; joints],
+            generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+        };
+        let initial = Motion {
+            base_pose: self.scenario.initial.base_pose,
+            joint_angles: self.scenario.initial.joint_angles.clone(),
+            base_twist: self.scenario.initial.base_twist,
+            joint_rates: match self.scenario.approach.trajectory {
+                TrajectoryKind::Quintic => self.scenario.initial.joint_rates.clone(),
+                _ => vec![0.0; joints],
+            },
+        };
+        let limits = &self.scenario.approach.actuation.joint_limits;
+        let mut watched = Watched { law, limits, excesses: Excesses::default() };
+        let phase = simulate(&System::alone(model), &mut watched, &initial, &self.timing, events, tick)?;
+        Ok(watched.finish(phase))
+    }
+
+    fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {
+        let ends = Ends {
+            initial_angles: &self.scenario.initial.joint_angles,
+            final_angles: &self.scenario.approach.final_joint_angles,
+            duration: self.scenario.approach.trajectory_time(),
+        };
+        match self.scenario.approach.trajectory {
+            TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),
+            TrajectoryKind::QuarticAsPrinted => AnyTrajectory::QuarticAsPrinted(QuarticAsPrinted { ends, final_rates }),
+            TrajectoryKind::Cycloidal => AnyTrajectory::Cycloidal(Cycloidal { ends }),
+            TrajectoryKind::Quintic => {
+                let initial_rates = &self.scenario.initial.joint_rates;
+                AnyTrajectory::Quintic(Quintic { ends, initial_rates, final_rates })
+            }
+        }
+    }
+}
+
+/// One of the trajectories that a scenario can name.
+#[derive(Clone, Copy, Debug)]
+enum AnyTrajectory<'a> {
+    Quartic(Quartic<'a, f64>),
+    QuarticAsPrinted(QuarticAsPrinted<'a, f64>),
+    Cycloidal(Cycloidal<'a, f64>),
+    Quintic(Quintic<'a, f64>),
+}
+
+impl Trajectory<f64> for AnyTrajectory<'_> {
+    fn joint(&self, joint: usize, time: f64) -> Option<Desired<f64>> {
+        match self {
+            Self::Quartic(t) => t.joint(joint, time),
+            Self::QuarticAsPrinted(t) => t.joint(joint, time),
+            Self::Cycloidal(t) => t.joint(joint, time),
+            Self::Quintic(t) => t.joint(joint, time),
+        }
+    }
+}

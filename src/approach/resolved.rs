@@ -1,0 +1,121 @@
+//! An approach by its tips: paths, wishes and working space of resolved motion rate control, from a scenario.
+
+use crate::control::{ResolvedMotionRate, TipWorkspace};
+use crate::dynamics::Model;
+use crate::scenario::{EndRates, Scenario, TipGoal};
+use crate::simulate::Stopped;
+use crate::trajectory::TipPath;
+
+/// Errors of the tips' poses count as no more: rad, m per m of reach. An arm that strains for a place out of reach then still
+/// leaves the other on its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s with the default gains.
+const ERROR_LIMIT: f64 = 0.05;
+
+/// What the law borrows.
+#[derive(Clone, Debug)]
+pub struct Tips {
+    initial_poses: Vec<[f64; 3]>,
+    initial_twists: Vec<[f64; 3]>,
+    final_poses: Vec<[f64; 3]>,
+    final_twists: Vec<[f64; 3]>,
+    duration: f64,
+    wanted: Vec<[bool; 3]>,
+    held: Vec<bool>,
+    reach: Vec<f64>,
+    generalized_inertia: Vec<f64>,
+    generalized_bias: Vec<f64>,
+    generalized_jacobian: Vec<f64>,
+    end_effector_jacobian: Vec<f64>,
+    end_effector_poses: Vec<[f64; 3]>,
+    end_effector_twists: Vec<[f64; 3]>,
+    rows: Vec<f64>,
+    right: Vec<f64>,
+    joint_accelerations: Vec<f64>,
+}
+
+impl Tips {
+    /// Paths from where the tips are at the start, and as fast as they are there, to the wanted poses; yaws to the nearest
+    /// turn. Arms of which nothing is wanted hold still.
+    ///
+    /// # Errors
+    /// What the model says of the initial state.
+    pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, Stopped> {
+        let (arms, joints) = (model.arms(), model.joints());
+        let start = scenario.initial.state();
+        let (mut initial_poses, mut initial_twists) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
+        model
+            .end_effector_poses(&start.base_pose, start.joint_angles, &mut initial_poses)
+            .and_then(|()| model.end_effector_twists(&start, &mut initial_twists))
+            .map_err(|source| Stopped { time: 0.0, source })?;
+        let goals = scenario.approach.final_end_effector_poses.as_deref().unwrap_or_default();
+        let goals: Vec<_> = (0..arms).map(|arm| goals.get(arm).copied().unwrap_or(TipGoal::Any)).collect();
+        let (mut final_poses, mut wanted) = (initial_poses.clone(), vec![[false; 3]; arms]);
+        for ((goal, from), (to, wanted)) in
+            goals.iter().zip(&initial_poses).zip(final_poses.iter_mut().zip(&mut wanted))
+        {
+            for (part, missing) in goal.missing(from) {
+                to[part] += missing;
+                wanted[part] = true;
+            }
+        }
+        let final_twists = match &scenario.approach.end {
+            EndRates::EndEffectorTwists(twists) => twists.clone(),
+            EndRates::Rest | EndRates::JointRates(_) => vec![[0.0; 3]; arms],
+        };
+        let layout = &scenario.layout.arms;
+        let held =
+            layout.iter().zip(&goals).flat_map(|(arm, goal)| std::iter::repeat_n(goal.is_empty(), arm.links.len()));
+        let reach = layout.iter().map(|arm| if arm.reach() > 0.0 { arm.reach() } else { 1.0 });
+        Ok(Self {
+            initial_poses,
+            initial_twists,
+            final_poses,
+            final_twists,
+            duration: scenario.approach.trajectory_time(),
+            wanted,
+            held: held.collect(),
+            reach: reach.collect(),
+            generalized_inertia: vec![0.0; joints * joints],
+            generalized_bias: vec![0.0; joints],
+            generalized_jacobian: vec![0.0; 3 * arms * joints],
+            end_effector_jacobian: vec![0.0; 3 * arms * (3 + joints)],
+            end_effector_poses: vec![[0.0; 3]; arms],
+            end_effector_twists: vec![[0.0; 3]; arms],
+            rows: vec![0.0; 3 * arms * joints],
+            right: vec![0.0; 3 * arms],
+            joint_accelerations: vec![0.0; joints],
+        })
+    }
+
+    /// The law, with these gains of poses and rates (1/s).
+    #[must_use]
+    pub fn law(&mut self, [pose_gain, rate_gain]: [f64; 2], singularity_threshold: f64) -> ResolvedMotionRate<'_, f64> {
+        ResolvedMotionRate {
+            path: TipPath {
+                initial_poses: &self.initial_poses,
+                initial_twists: &self.initial_twists,
+                final_poses: &self.final_poses,
+                final_twists: &self.final_twists,
+                duration: self.duration,
+            },
+            wanted: &self.wanted,
+            held: &self.held,
+            reach: &self.reach,
+            pose_gain,
+            rate_gain,
+            error_limit: ERROR_LIMIT,
+            singularity_threshold,
+            singularity_margin: None,
+            workspace: TipWorkspace {
+                generalized_inertia: &mut self.generalized_inertia,
+                generalized_bias: &mut self.generalized_bias,
+                generalized_jacobian: &mut self.generalized_jacobian,
+                end_effector_jacobian: &mut self.end_effector_jacobian,
+                end_effector_poses: &mut self.end_effector_poses,
+                end_effector_twists: &mut self.end_effector_twists,
+                rows: &mut self.rows,
+                right: &mut self.right,
+                joint_accelerations: &mut self.joint_accelerations,
+            },
+        }
+    }
+}

@@ -1,0 +1,293 @@
+//! The differential equation of a phase, in the coordinates that are integrated.
+
+use crate::control::Control;
+use crate::error::Error;
+use crate::motion::{Canonical, Reduced};
+use crate::simulate::system::System;
+use crate::state::{State, halves, halves_mut};
+
+/// What is integrated: full or reduced coordinates, or canonical variables.
+pub(crate) struct Equation<'a> {
+    system: &'a System<'a>,
+    torques: Vec<f64>,
+    form: Form,
+}
+
+enum Form {
+    Full,
+    Reduced(ReducedSpace),
+    Canonical(CanonicalSpace),
+}
+
+/// Of [`Reduced`].
+struct ReducedSpace {
+    momentum: [f64; 3],
+    mass_matrix: Vec<f64>,
+    generalized_inertia: Vec<f64>,
+    generalized_bias: Vec<f64>,
+    generalized_jacobian: Vec<f64>,
+}
+
+impl ReducedSpace {
+    fn borrow(&mut self) -> Reduced<'_, f64> {
+        Reduced {
+            momentum: self.momentum,
+            mass_matrix: &mut self.mass_matrix,
+            generalized_inertia: &mut self.generalized_inertia,
+            generalized_bias: &mut self.generalized_bias,
+            generalized_jacobian: &mut self.generalized_jacobian,
+        }
+    }
+}
+
+/// Of [`Canonical`], and what its derivative needs beside.
+struct CanonicalSpace {
+    inertias: Vec<[f64; 2]>,
+    poses: Vec<[f64; 3]>,
+    twists: Vec<[f64; 3]>,
+    offsets: Vec<[f64; 2]>,
+    ends: Vec<bool>,
+    rates: Vec<f64>,
+    /// With rates in the place of momenta.
+    x: Vec<f64>,
+    /// What the last step left, with rates and …
+    left: Vec<f64>,
+    /// … with momenta.
+    carried: Vec<f64>,
+    mass_matrix: Vec<f64>,
+    bias: Vec<f64>,
+    /// 3 + joints.
+    results: Vec<f64>,
+}
+
+impl CanonicalSpace {
+    /// The working space beside it.
+    fn split(&mut self) -> (Canonical<'_, f64>, Beside<'_>) {
+        let canonical = Canonical {
+            inertias: &mut self.inertias,
+            poses: &mut self.poses,
+            twists: &mut self.twists,
+            offsets: &mut self.offsets,
+            ends: &mut self.ends,
+            rates: &mut self.rates,
+        };
+        let Self { x, mass_matrix, bias, results, .. } = self;
+        (canonical, Beside { x, mass_matrix, bias, results })
+    }
+}
+
+struct Beside<'a> {
+    x: &'a mut [f64],
+    mass_matrix: &'a mut [f64],
+    bias: &'a mut [f64],
+    results: &'a mut [f64],
+}
+
+impl<'a> Equation<'a> {
+    /// In full coordinates.
+    pub(crate) fn full(system: &'a System<'a>) -> Self {
+        Self { system, torques: vec![0.0; system.model.joints()], form: Form::Full }
+    }
+
+    /// In reduced coordinates, with the momentum of `x`.
+    ///
+    /// # Errors
+    /// [`Error::Beside`] where there are bodies beside the robot, and what the model says.
+    pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+        let count = system.bodies.len() + system.closures.len();
+        if count > 0 {
+            return Err(Error::Beside { count });
+        }
+        let (joints, arms) = (system.model.joints(), system.model.arms());
+        let momentum = system.model.momentum(&state(x, joints)?)?;
+        let [px, py] = momentum.linear_momentum;
+        let space = ReducedSpace {
+            momentum: [momentum.angular_momentum, px, py],
+            mass_matrix: vec![0.0; (3 + joints) * (3 + joints)],
+            generalized_inertia: vec![0.0; joints * joints],
+            generalized_bias: vec![0.0; joints],
+            generalized_jacobian: vec![0.0; 3 * arms * joints],
+        };
+        Ok(Self { form: Form::Reduced(space), ..Self::full(system) })
+    }
+
+    /// In canonical variables: between [`Self::put_momenta`] and [`Self::put_rates`].
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn canonical(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+        let joints = system.model.joints();
+        let size = 3 + joints;
+        let mut space = CanonicalSpace {
+            inertias: vec![[0.0; 2]; joints + 1],
+            poses: vec![[0.0; 3]; joints + 1],
+            twists: vec![[0.0; 3]; joints + 1],
+            offsets: vec![[0.0; 2]; joints],
+            ends: vec![false; joints],
+            rates: vec![0.0; joints],
+            x: x.to_vec(),
+            left: Vec::new(),
+            carried: Vec::new(),
+            mass_matrix: vec![0.0; size * size],
+            bias: vec![0.0; size],
+            results: vec![0.0; size],
+        };
+        let at = state(x, joints)?;
+        space.split().0.measure(system.model, &at.base_pose, at.joint_angles)?;
+        Ok(Self { form: Form::Canonical(space), ..Self::full(system) })
+    }
+
+    /// What moves.
+    pub(crate) fn system(&self) -> &'a System<'a> {
+        self.system
+    }
+
+    /// d/dt of positions, rates and effort.
+    ///
+    /// # Errors
+    /// What model and law say.
+    pub(crate) fn derivative(
+        &mut self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        x: &[f64],
+        rate: &mut [f64],
+    ) -> Result<(), Error> {
+        let Self { system, torques, form } = self;
+        match form {
+            Form::Reduced(space) => space.borrow().derivative(system.model, control, time, x, rate, torques),
+            Form::Full | Form::Canonical(_) => system.derivative(control, time, x, rate, torques),
+        }
+    }
+
+    /// d/dt of positions, momenta and effort: `ṗ = f + ∂T/∂q`, with the torques for f, so that what no force acts on stays as it
+    /// is to the last bit. Where there are bodies beside the robot and forces between them, these are in the accelerations:
+    /// `f = M v̇ + c`; the bodies keep twists for momenta, for their masses are constant.
+    ///
+    /// # Errors
+    /// What model and law say.
+    pub(crate) fn canonical_derivative(
+        &mut self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        x: &[f64],
+        rate: &mut [f64],
+    ) -> Result<(), Error> {
+        let Self { system, torques, form: Form::Canonical(space) } = self else {
+            return self.derivative(control, time, x, rate);
+        };
+        let (model, joints) = (system.model, system.model.joints());
+        let (mut canonical, beside) = space.split();
+        beside.x.copy_from_slice(x);
+        replace(&mut canonical, system, beside.x, beside.results, Direction::ToRates)?;
+        system.derivative(control, time, beside.x, rate, torques)?;
+        let now = state(beside.x, joints)?;
+        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: rate.len() };
+        let (_, rates, [.., base_torque]) = halves_mut(rate).ok_or(wrong)?;
+        let places = rates.get_mut(..3 + joints).ok_or(wrong)?;
+        if system.bodies.is_empty() && system.closures.is_empty() {
+            let (base, of_joints) = places.split_first_chunk_mut::<3>().ok_or(wrong)?;
+            *base = [*base_torque, 0.0, 0.0];
+            of_joints.copy_from_slice(torques);
+        } else {
+            model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
+            model.bias(&now, beside.bias)?;
+            let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());
+            for (result, (row, bias)) in beside.results.iter_mut().zip(rows) {
+                *result = row.iter().zip(places.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
+            }
+            places.copy_from_slice(beside.results);
+        }
+        canonical.add_energy_gradient(model, &now, places)
+    }
+
+    /// Puts canonical momenta in the place of rates: those that the last step ended with, where nobody changed `x` since, for
+    /// there and back would round.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn put_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        match &self.form {
+            Form::Canonical(space) if space.left == x => x.copy_from_slice(&space.carried),
+            _ => self.replace(x, Direction::ToMomenta)?,
+        }
+        Ok(())
+    }
+
+    /// Puts rates in the place of canonical momenta, and keeps the momenta for the next step.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn put_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        let momenta = x.to_vec();
+        self.replace(x, Direction::ToRates)?;
+        if let Form::Canonical(space) = &mut self.form {
+            space.left.clear();
+            space.left.extend_from_slice(x);
+            space.carried = momenta;
+        }
+        Ok(())
+    }
+
+    fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {
+        let Form::Canonical(space) = &mut self.form else { return Ok(()) };
+        let (mut canonical, beside) = space.split();
+        replace(&mut canonical, self.system, x, beside.results, direction)
+    }
+
+    /// In reduced coordinates, writes the base twist that goes with the joint rates.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn recover(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        match &mut self.form {
+            Form::Reduced(space) => space.borrow().recover(self.system.model, x),
+            Form::Full | Form::Canonical(_) => Ok(()),
+        }
+    }
+
+    /// What follows every step.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn restore(&mut self, x: &mut [f64]) -> Result<(), Error> {
+        self.recover(x)?;
+        self.system.restore(x)
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Direction {
+    ToMomenta,
+    ToRates,
+}
+
+/// Momenta for rates or rates for momenta, in the robot's part of `x`; `results` (3 + joints) is working space.
+fn replace(
+    canonical: &mut Canonical<'_, f64>,
+    system: &System<'_>,
+    x: &mut [f64],
+    results: &mut [f64],
+    direction: Direction,
+) -> Result<(), Error> {
+    let joints = system.model.joints();
+    let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
+    let now = state(x, joints)?;
+    match direction {
+        Direction::ToMomenta => canonical.momenta(system.model, &now, results)?,
+        Direction::ToRates => {
+            let momenta = halves(x).and_then(|(_, momenta)| momenta.get(..3 + joints)).ok_or(wrong)?;
+            let (base, of_joints) = results.split_first_chunk_mut::<3>().ok_or(wrong)?;
+            *base = canonical.velocities(system.model, now.base_pose, now.joint_angles, momenta, of_joints)?;
+        }
+    }
+    let places = halves_mut(x).and_then(|(_, rates, _)| rates.get_mut(..3 + joints)).ok_or(wrong)?;
+    places.copy_from_slice(results);
+    Ok(())
+}
+
+fn state(x: &[f64], joints: usize) -> Result<State<'_, f64>, Error> {
+    let wrong =
+        Error::Length { quantity: "state vector", expected: crate::state::vector_length(joints), found: x.len() };
+    State::from_vector(x, joints).ok_or(wrong)
+}

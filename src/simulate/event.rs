@@ -1,0 +1,47 @@
+//! What can end a phase before its time.
+
+use crate::error::Error;
+use crate::simulate::system::{Body, System};
+use crate::state::State;
+
+/// One instant of a phase, to be looked at.
+#[derive(Clone, Copy)]
+pub struct Instant<'a> {
+    /// Since the start of the phase, s.
+    pub time: f64,
+    /// What moves.
+    pub system: &'a System<'a>,
+    /// The robot.
+    pub state: State<'a, f64>,
+    /// The bodies beside it, in the system's order.
+    pub bodies: &'a [Body],
+}
+
+/// Values that end a phase: an event is a value that falls from above 0 to 0 or below.
+///
+/// A value that is 0 or below when the phase begins is no event until it has been above 0 at the end of a step. Values
+/// should be smooth in the state: they are looked at after every step, and where one has a minimum within a step, there.
+pub trait Events {
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// Their values at an instant, in any unit.
+    ///
+    /// # Errors
+    /// What the model says.
+    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error>;
+}
+
+/// A phase that ends when its time is over.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoEvents;
+
+impl Events for NoEvents {
+    fn count(&self) -> usize {
+        0
+    }
+
+    fn values(&mut self, _: &Instant<'_>, _: &mut [f64]) -> Result<(), Error> {
+        Ok(())
+    }
+}

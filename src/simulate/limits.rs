@@ -1,0 +1,161 @@
+//! How far and how fast joints may turn: watched in every run, not enforced.
+
+use crate::control::{BaseTorque, Control};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::simulate::Phase;
+use crate::state::State;
+
+/// What one joint may do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct JointLimits {
+    /// The joint, as in messages: `joint 2 of arm1`.
+    pub name: String,
+    /// Least and largest angle, rad; `None` where any will do.
+    pub angles: Option<[f64; 2]>,
+    /// The largest size of the rate, rad/s; `None` where any will do.
+    pub rate: Option<f64>,
+}
+
+impl JointLimits {
+    /// The limit that an angle is beyond, rad.
+    #[must_use]
+    pub fn angle_beyond(&self, angle: f64) -> Option<f64> {
+        let [low, high] = self.angles?;
+        [(angle < low, low), (angle > high, high)].into_iter().find_map(|(beyond, limit)| beyond.then_some(limit))
+    }
+
+    /// The limit that a rate is beyond, rad/s, with the sign of the rate.
+    #[must_use]
+    pub fn rate_beyond(&self, rate: f64) -> Option<f64> {
+        self.rate.filter(|limit| rate.abs() > *limit).map(|limit| limit.copysign(rate))
+    }
+}
+
+/// A joint beyond its limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Excess {
+    /// `joint 2 of arm1`.
+    pub joint: String,
+    /// Since the start of the phase, s.
+    pub time: f64,
+    /// rad or rad/s.
+    pub value: f64,
+    /// What it should not be beyond.
+    pub limit: f64,
+}
+
+impl Excess {
+    /// By how much, more than 0.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        (self.value - self.limit).abs()
+    }
+}
+
+/// The largest excesses of a phase.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Excesses {
+    /// Of an angle, rad.
+    pub joint_angle: Option<Excess>,
+    /// Of a rate, rad/s.
+    pub joint_rate: Option<Excess>,
+}
+
+impl Excesses {
+    /// Looks at one state.
+    pub fn look(&mut self, limits: &[JointLimits], time: f64, state: &State<'_, f64>) {
+        for (joint, (angle, rate)) in limits.iter().zip(state.joint_angles.iter().zip(state.joint_rates)) {
+            let found = [
+                (&mut self.joint_angle, *angle, joint.angle_beyond(*angle)),
+                (&mut self.joint_rate, *rate, joint.rate_beyond(*rate)),
+            ];
+            for (largest, value, limit) in found {
+                let Some(limit) = limit else { continue };
+                let excess = Excess { joint: joint.name.clone(), time, value, limit };
+                if largest.as_ref().is_none_or(|largest| excess.size() > largest.size()) {
+                    *largest = Some(excess);
+                }
+            }
+        }
+    }
+
+    /// These, and those of a phase that goes on from the end of one of `duration` (s): the larger of each.
+    #[must_use]
+    pub fn then(self, next: Self, duration: f64) -> Self {
+        let larger = |before: Option<Excess>, after: Option<Excess>| {
+            let after = after.map(|excess| Excess { time: duration + excess.time, ..excess });
+            match (before, after) {
+                (Some(before), Some(after)) => Some(if after.size() > before.size() { after } else { before }),
+                (before, after) => before.or(after),
+            }
+        };
+        Self {
+            joint_angle: larger(self.joint_angle, next.joint_angle),
+            joint_rate: larger(self.joint_rate, next.joint_rate),
+        }
+    }
+
+    /// What is beyond its limit, in words.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let say = |excess: &Option<Excess>, verb: &str, unit: &str| {
+            let Excess { joint, time, value, limit } = excess.as_ref()?;
+            Some(format!("{joint} {verb} {value:.6} {unit} at {time:.3} s, beyond its limit of {limit} {unit}"))
+        };
+        [say(&self.joint_angle, "is at", "rad"), say(&self.joint_rate, "turns with", "rad/s")]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+}
+
+/// A law whose robot is watched: it looks as every step begins.
+#[derive(Debug)]
+pub struct Watched<'a, C> {
+    /// The law, as it is.
+    pub law: C,
+    /// One per joint; empty where nothing is limited.
+    pub limits: &'a [JointLimits],
+    /// What was seen so far.
+    pub excesses: Excesses,
+}
+
+impl<C> Watched<'_, C> {
+    /// Looks at the end of a phase, and puts what was seen into it.
+    #[must_use]
+    pub fn finish(mut self, phase: Phase) -> Phase {
+        if self.limits.is_empty() {
+            return phase;
+        }
+        if let Some(end) = phase.end() {
+            self.excesses.look(self.limits, end.time, &end.motion.state());
+        }
+        Phase { excesses: Some(self.excesses), ..phase }
+    }
+}
+
+impl<C: Control<f64>> Control<f64> for Watched<'_, C> {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        model: &dyn Model<f64>,
+        state: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        self.law.joint_torques(time, model, state, torques)
+    }
+
+    fn begin_step(&mut self, time: f64, model: &dyn Model<f64>, state: &State<'_, f64>) -> Result<(), Error> {
+        self.excesses.look(self.limits, time, state);
+        self.law.begin_step(time, model, state)
+    }
+
+    fn base_torque(&self) -> Option<BaseTorque<f64>> {
+        self.law.base_torque()
+    }
+
+    fn saturated(&self) -> &[bool] {
+        self.law.saturated()
+    }
+}

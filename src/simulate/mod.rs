@@ -1,0 +1,272 @@
+//! One phase in time: steps of any integrator under a control law, audited at every step, up to its end or an event.
+
+pub mod actuators;
+pub mod audit;
+pub(crate) mod bodies;
+mod equation;
+pub mod event;
+mod flow;
+pub mod limits;
+mod recorder;
+pub mod system;
+mod watch;
+
+use crate::control::Control;
+use crate::error::Error;
+use crate::scenario::Integration;
+use crate::simulate::audit::Drift;
+use crate::simulate::event::Events;
+use crate::simulate::flow::Flow;
+use crate::simulate::limits::Excesses;
+use crate::simulate::recorder::Recorder;
+use crate::simulate::system::{Body, System};
+use crate::simulate::watch::Watch;
+use crate::state::State;
+
+/// Where the robot is and how it moves, owned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// [yaw, x, y] of the base COM, inertial frame; rad, m.
+    pub base_pose: [f64; 3],
+    /// rad.
+    pub joint_angles: Vec<f64>,
+    /// [ω, vx, vy] of the base COM, inertial axes; rad/s, m/s.
+    pub base_twist: [f64; 3],
+    /// rad/s.
+    pub joint_rates: Vec<f64>,
+}
+
+impl Motion {
+    /// The same, borrowed.
+    #[must_use]
+    pub fn state(&self) -> State<'_, f64> {
+        State {
+            base_pose: self.base_pose,
+            joint_angles: &self.joint_angles,
+            base_twist: self.base_twist,
+            joint_rates: &self.joint_rates,
+        }
+    }
+
+    /// A copy of a view.
+    #[must_use]
+    pub fn of(state: &State<'_, f64>) -> Self {
+        Self {
+            base_pose: state.base_pose,
+            joint_angles: state.joint_angles.to_vec(),
+            base_twist: state.base_twist,
+            joint_rates: state.joint_rates.to_vec(),
+        }
+    }
+}
+
+/// Everything that is known of one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Since the start of the phase, s.
+    pub time: f64,
+    /// Where and how fast.
+    pub motion: Motion,
+    /// N m.
+    pub joint_torques: Vec<f64>,
+    /// [yaw, x, y] of each tip; rad, m.
+    pub end_effector_poses: Vec<[f64; 3]>,
+    /// [ω, vx, vy] of each tip; rad/s, m/s.
+    pub end_effector_twists: Vec<[f64; 3]>,
+    /// N s, inertial axes.
+    pub linear_momentum: [f64; 2],
+    /// About the inertial origin, N m s.
+    pub angular_momentum: f64,
+    /// J.
+    pub kinetic_energy: f64,
+    /// Work of the joint torques since the start of the phase, J.
+    pub work: f64,
+    /// On the base, N m; `None` where there is no such actuator.
+    pub base_torque: Option<f64>,
+    /// Work of the base torque since the start of the phase, J.
+    pub base_work: f64,
+    /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
+    pub base_impulse: f64,
+    /// The bodies beside the robot, in the system's order.
+    pub bodies: Vec<Body>,
+}
+
+/// How one phase is cut into steps and samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timing {
+    /// s.
+    pub duration: f64,
+    /// Wanted step, s; the nearest that divides the duration is taken. An adaptive integrator has steps of its own: it is
+    /// looked at and audited so often.
+    pub step: f64,
+    /// Time between samples, s, at least one step; the last instant is always sampled.
+    pub sample: f64,
+    /// By which integrator, in which coordinates.
+    pub integration: Integration,
+}
+
+impl Timing {
+    /// Number of steps.
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1e8 steps are read")]
+    pub fn steps(&self) -> u64 {
+        (self.duration / self.step - 1e-9).ceil().max(1.0) as u64
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "at most 1e8 steps are read"
+    )]
+    fn stride(&self) -> u64 {
+        let step = self.duration / self.steps() as f64;
+        (self.sample / step).round().max(1.0) as u64
+    }
+}
+
+/// A phase that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phase {
+    /// s; up to the event where there was one.
+    pub duration: f64,
+    /// Which event ended it, and when, s; `None` where the time was over.
+    pub event: Option<(usize, f64)>,
+    /// The first, one per sampling time, and the last.
+    pub samples: Vec<Sample>,
+    /// The audit of every step.
+    pub drift: Drift,
+    /// How long the actuators were at their limits.
+    pub saturation: Saturation,
+    /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
+    pub constraint_errors: [f64; 2],
+    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
+    pub singularity_margin: Option<f64>,
+    /// Joints beyond their limits; `None` where there are no limits.
+    pub excesses: Option<Excesses>,
+}
+
+/// How long actuators were at their limits, by what they gave when each step began.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Saturation {
+    /// One per joint, s; empty where the law has no limits.
+    pub joints: Vec<f64>,
+    /// s; 0 without a base torque.
+    pub base: f64,
+}
+
+impl Phase {
+    /// The last instant.
+    #[must_use]
+    pub fn end(&self) -> Option<&Sample> {
+        self.samples.last()
+    }
+
+    /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
+    #[must_use]
+    pub fn then(mut self, next: Self) -> Self {
+        let (work, base_work, base_impulse) =
+            self.end().map_or((0.0, 0.0, 0.0), |end| (end.work, end.base_work, end.base_impulse));
+        self.samples.extend(next.samples.into_iter().map(|sample| Sample {
+            time: self.duration + sample.time,
+            work: work + sample.work,
+            base_work: base_work + sample.base_work,
+            base_impulse: base_impulse + sample.base_impulse,
+            ..sample
+        }));
+        let joints = self.saturation.joints.iter_mut().zip(next.saturation.joints);
+        joints.for_each(|(sum, part)| *sum += part);
+        self.saturation.base += next.saturation.base;
+        Self {
+            event: next.event.map(|(event, time)| (event, self.duration + time)),
+            duration: self.duration + next.duration,
+            drift: self.drift.worse(&next.drift),
+            constraint_errors: std::array::from_fn(|i| self.constraint_errors[i].max(next.constraint_errors[i])),
+            singularity_margin: match [self.singularity_margin, next.singularity_margin] {
+                [Some(before), Some(after)] => Some(before.min(after)),
+                [before, after] => before.or(after),
+            },
+            excesses: match (self.excesses, next.excesses) {
+                (Some(before), Some(after)) => Some(before.then(after, self.duration)),
+                (before, after) => before.or(after),
+            },
+            ..self
+        }
+    }
+}
+
+/// Why a phase stopped, and when.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("at t = {time} s: {source}{}", self.hint())]
+pub struct Stopped {
+    /// s, since the start of the phase.
+    pub time: f64,
+    /// What could not be computed.
+    pub source: Error,
+}
+
+impl Stopped {
+    /// Whether what was asked for cannot be, whatever the numbers.
+    #[must_use]
+    pub fn is_misuse(&self) -> bool {
+        matches!(self.source, Error::Beside { .. })
+    }
+
+    fn hint(&self) -> &'static str {
+        match self.source {
+            Error::Beside { .. } => "",
+            Error::Tolerance { .. } => " (a larger one may help)",
+            _ => " (a shorter step may help)",
+        }
+    }
+}
+
+/// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
+///
+/// # Errors
+/// The time and the reason where the model or the law has no answer (singular, not finite), and where the integrator has
+/// none.
+pub fn simulate(
+    system: &System<'_>,
+    control: &mut dyn Control<f64>,
+    initial: &Motion,
+    timing: &Timing,
+    events: &mut dyn Events,
+    tick: &mut dyn FnMut(),
+) -> Result<Phase, Stopped> {
+    let mut x = system.vector(&initial.state());
+    let at = |time| move |source| Stopped { time, source };
+    let mut flow = Flow::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let mut watch = Watch::new(system, events);
+    let mut phase = Recorder::new(system, &initial.state()).map_err(at(0.0))?;
+    let (steps, stride) = (timing.steps(), timing.stride());
+    #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
+    let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
+    let (mut before, mut rate) = (x.clone(), x.clone());
+    for i in 0..steps {
+        let span @ [time, end] = [time_of(i), time_of(i + 1)];
+        phase.look(control, time, &x, true, i % stride == 0).map_err(at(time))?;
+        if watch.is_idle() {
+            flow.advance(control, span, &mut x).map_err(at(time))?;
+        } else {
+            if i == 0 {
+                flow.rate(control, time, &x, &mut rate).map_err(at(time))?;
+                watch.start(time, end - time, &x, &rate).map_err(at(time))?;
+            }
+            before.copy_from_slice(&x);
+            flow.advance(control, span, &mut x).map_err(at(time))?;
+            flow.rate(control, end, &x, &mut rate).map_err(at(end))?;
+            let mut within = |t: f64, into: &mut Vec<f64>| flow.within(control, [time, t], &before, into);
+            if let Some((event, when)) = watch.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
+                within(when, &mut x).map_err(at(when))?;
+                phase.count(when - time);
+                phase.look(control, when, &x, false, true).map_err(at(when))?;
+                return Ok(phase.end(when, Some((event, when))));
+            }
+        }
+        phase.count(end - time);
+        tick();
+    }
+    phase.look(control, timing.duration, &x, false, true).map_err(at(timing.duration))?;
+    Ok(phase.end(timing.duration, None))
+}

@@ -1,0 +1,120 @@
+//! What is kept of a phase while it runs: samples, audit, saturation.
+
+use crate::control::Control;
+use crate::error::Error;
+use crate::simulate::audit::{Audit, Done};
+use crate::simulate::system::System;
+use crate::simulate::{Motion, Phase, Sample, Saturation};
+use crate::state::{Effort, State};
+
+/// Looks at a phase at the start of every step, and at its end.
+pub(crate) struct Recorder<'a> {
+    system: &'a System<'a>,
+    audit: Audit<'a>,
+    torques: Vec<f64>,
+    samples: Vec<Sample>,
+    saturation: Saturation,
+    /// What is saturated as the step begins.
+    saturated: Vec<bool>,
+    base_saturated: bool,
+    constraint_errors: [f64; 2],
+}
+
+impl<'a> Recorder<'a> {
+    /// Of a phase that starts in this state.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
+        Ok(Self {
+            system,
+            audit: Audit::new(system.model, start, system.bodies)?,
+            torques: vec![0.0; system.model.joints()],
+            samples: Vec::new(),
+            saturation: Saturation::default(),
+            saturated: Vec::new(),
+            base_saturated: false,
+            constraint_errors: [0.0; 2],
+        })
+    }
+
+    /// Audits an instant and begins a step of the control law, if one `begins`; keeps a sample if one is `wanted`.
+    ///
+    /// # Errors
+    /// What model and law say.
+    pub(crate) fn look(
+        &mut self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        x: &[f64],
+        begins: bool,
+        wanted: bool,
+    ) -> Result<(), Error> {
+        let model = self.system.model;
+        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
+        let state = State::from_vector(x, model.joints()).ok_or(wrong)?;
+        let effort = Effort::from_vector(x).unwrap_or_default();
+        let work = effort.joint_work + effort.base_work;
+        let done = Done { time, work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let open = self.system.constraint_errors(x)?;
+        self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
+        let bodies = self.system.bodies_at(x);
+        let momentum = self.audit.record(&state, &bodies, &done)?;
+        if begins {
+            control.begin_step(time, model, &state)?;
+        }
+        // a law with limits says with its torques whether they are reached
+        if wanted || !control.saturated().is_empty() || control.base_torque().is_some() {
+            control.joint_torques(time, model, &state, &mut self.torques)?;
+            self.saturated.clear();
+            self.saturated.extend_from_slice(control.saturated());
+            self.base_saturated = control.base_torque().is_some_and(|base| base.saturated);
+        }
+        if !wanted {
+            return Ok(());
+        }
+        let mut sample = Sample {
+            time,
+            motion: Motion::of(&state),
+            joint_torques: self.torques.clone(),
+            end_effector_poses: vec![[0.0; 3]; model.arms()],
+            end_effector_twists: vec![[0.0; 3]; model.arms()],
+            linear_momentum: momentum.linear_momentum,
+            angular_momentum: momentum.angular_momentum,
+            kinetic_energy: momentum.kinetic_energy,
+            work: effort.joint_work,
+            base_torque: control.base_torque().map(|base| base.torque),
+            base_work: effort.base_work,
+            base_impulse: effort.base_impulse,
+            bodies,
+        };
+        model.end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)?;
+        model.end_effector_twists(&state, &mut sample.end_effector_twists)?;
+        self.samples.push(sample);
+        Ok(())
+    }
+
+    /// Counts a step, in s, to what was saturated as it began.
+    pub(crate) fn count(&mut self, step: f64) {
+        self.saturation.joints.resize(self.saturated.len(), 0.0);
+        for (time, saturated) in self.saturation.joints.iter_mut().zip(&self.saturated) {
+            *time += if *saturated { step } else { 0.0 };
+        }
+        self.saturation.base += if self.base_saturated { step } else { 0.0 };
+    }
+
+    /// The phase, so long.
+    pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
+        let Self { samples, audit, saturation, constraint_errors, .. } = self;
+        Phase {
+            duration,
+            event,
+            samples,
+            drift: audit.drift(),
+            saturation,
+            constraint_errors,
+            singularity_margin: None,
+            excesses: None,
+        }
+    }
+}

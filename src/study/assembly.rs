@@ -1,0 +1,155 @@
+//! Robot and targets as they hang together between two impacts.
+
+use crate::contact::{Closure, Contact, Kind, Other};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::simulate::Motion;
+use crate::simulate::system::{Body, System};
+use crate::target::Target;
+
+/// A tip that holds a target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grip {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// Whether the target turns freely about the tip.
+    pub pinned: bool,
+}
+
+/// How a target is part of what moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// A body beside the robot, free or pinned, by its index.
+    Beside(usize),
+    /// One with the last link of an arm.
+    Merged {
+        /// The arm.
+        arm: usize,
+        /// COM in the frame of the tip, m.
+        offset: [f64; 2],
+        /// Yaw of the target less that of the tip, rad.
+        yaw: f64,
+    },
+}
+
+/// A robot whose last links are one with what they hold rigidly, the other targets beside it, and the holds that close
+/// loops.
+///
+/// Of the rigid grips on a target the first makes it one with its arm; all others, and pins, are closures.
+pub struct Assembly {
+    /// The robot, with what its links have become.
+    pub model: Box<dyn Model<f64>>,
+    /// Targets that are no part of a link.
+    pub bodies: Vec<Body>,
+    /// Holds between tips and bodies, or tips and tips.
+    pub closures: Vec<Closure<f64>>,
+    /// Where each target is.
+    pub places: Vec<Place>,
+}
+
+impl Assembly {
+    /// From the robot as it is without targets, the targets as they are now, and what holds them.
+    ///
+    /// # Errors
+    /// What the model says.
+    pub fn new(
+        mut model: Box<dyn Model<f64>>,
+        motion: &Motion,
+        targets: &[Body],
+        grips: &[Grip],
+    ) -> Result<Self, Error> {
+        let mut tips = vec![[0.0; 3]; model.arms()];
+        model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips)?;
+        let tip_of = |arm: usize| tips.get(arm).copied().unwrap_or_default();
+        let mut merged = vec![None; model.arms()];
+        let (mut bodies, mut places) = (Vec::new(), Vec::new());
+        for (i, target) in targets.iter().enumerate() {
+            let rigid = grips.iter().find(|grip| grip.target == i && !grip.pinned);
+            places.push(match rigid {
+                None => {
+                    bodies.push(*target);
+                    Place::Beside(bodies.len() - 1)
+                }
+                Some(Grip { arm, .. }) => {
+                    let (tip, [yaw, x, y]) = (tip_of(*arm), target.pose);
+                    if let Some(place) = merged.get_mut(*arm) {
+                        let contact = [tip[1] - x, tip[2] - y];
+                        let Body { mass, inertia, twist, .. } = *target;
+                        *place = Some(Target { mass, inertia, contact, twist });
+                    }
+                    Place::Merged { arm: *arm, offset: turned([x - tip[1], y - tip[2]], -tip[0]), yaw: yaw - tip[0] }
+                }
+            });
+        }
+        model.merge(&motion.base_pose, &motion.joint_angles, &merged)?;
+        let mut closures = Vec::new();
+        for grip in grips {
+            let kind = if grip.pinned { Kind::Pin } else { Kind::Rigid };
+            let (other, pose) = match places.get(grip.target) {
+                Some(Place::Merged { arm, .. }) if *arm == grip.arm => continue,
+                Some(Place::Merged { arm, .. }) => (Other::Tip(*arm), tip_of(*arm)),
+                Some(Place::Beside(i)) => (Other::Body(*i), bodies.get(*i).map_or([0.0; 3], |body| body.pose)),
+                None => continue,
+            };
+            let contact = Contact { arm: grip.arm, other, offset: [0.0; 2], kind };
+            closures.extend(Closure::new(&contact, &tip_of(grip.arm), &pose));
+        }
+        Ok(Self { model, bodies, closures, places })
+    }
+
+    /// What a phase moves.
+    #[must_use]
+    pub fn system(&self) -> System<'_> {
+        System { model: &*self.model, bodies: &self.bodies, closures: &self.closures }
+    }
+
+    /// Those of the targets, as they are at some time, that are beside the robot.
+    #[must_use]
+    pub fn beside(&self, targets: &[Body]) -> Vec<Body> {
+        let pairs = targets.iter().zip(&self.places);
+        pairs.filter(|(_, place)| matches!(place, Place::Beside(_))).map(|(target, _)| *target).collect()
+    }
+
+    /// Those of the bodies beside the robot that tips hold.
+    #[must_use]
+    pub fn pinned(&self, bodies: &[Body]) -> Vec<Body> {
+        let held = |i: usize| self.closures.iter().any(|closure| closure.other == Other::Body(i));
+        bodies.iter().enumerate().filter(|(i, _)| held(*i)).map(|(_, body)| *body).collect()
+    }
+
+    /// The holds as contacts, at poses of the tips and bodies.
+    pub(crate) fn holds(&self, tips: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
+        let pose = |other: Other| match other {
+            Other::Body(i) => bodies.get(i).map(|body| body.pose),
+            Other::Tip(arm) => tips.get(arm).copied(),
+        };
+        self.closures.iter().filter_map(|closure| Some(closure.contact(pose(closure.other).as_ref()?))).collect()
+    }
+
+    /// All targets, from poses and twists of the tips and the bodies beside the robot.
+    #[must_use]
+    pub fn targets(&self, targets: &[Body], tips: &[[f64; 3]], tip_twists: &[[f64; 3]], bodies: &[Body]) -> Vec<Body> {
+        let of = |(target, place): (&Body, &Place)| match *place {
+            Place::Beside(i) => bodies.get(i).copied().unwrap_or(*target),
+            Place::Merged { arm, offset, yaw } => {
+                let [tip_yaw, x, y] = tips.get(arm).copied().unwrap_or_default();
+                let [omega, vx, vy] = tip_twists.get(arm).copied().unwrap_or_default();
+                let [rx, ry] = turned(offset, tip_yaw);
+                Body {
+                    pose: [tip_yaw + yaw, x + rx, y + ry],
+                    twist: [omega, vx - omega * ry, vy + omega * rx],
+                    ..*target
+                }
+            }
+        };
+        targets.iter().zip(&self.places).map(of).collect()
+    }
+}
+
+/// A vector turned by an angle, rad.
+pub(crate) fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}

@@ -1,0 +1,76 @@
+//! What is left of the motion when a robot has settled after a capture.
+
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scenario::Settling;
+use crate::simulate::Motion;
+use crate::simulate::audit::with_bodies;
+use crate::simulate::system::Body;
+
+/// The motion that remains, robot and targets as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remainder {
+    /// The law, as in a scenario.
+    pub control: &'static str,
+    /// [l, px, py], l about the COM of the whole; N m s, N s.
+    pub momentum: [f64; 3],
+    /// [vx, vy] of the COM of the whole, m/s: no joint and no wheel changes it.
+    pub velocity: [f64; 2],
+    /// Of the whole about its COM, kg m².
+    pub inertia: f64,
+    /// l/I: the rate of the whole turning as one rigid body, rad/s.
+    pub rigid_rate: f64,
+    /// ω of the base, rad/s.
+    pub base_rate: f64,
+    /// The largest size of the rates of the joints that turn no wheel, rad/s.
+    pub largest_joint_rate: f64,
+    /// The rates of the wheels, rad/s; empty without wheels.
+    pub wheel_rates: Vec<f64>,
+}
+
+impl Remainder {
+    /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn wheels.
+    ///
+    /// # Errors
+    /// What the model says of the state.
+    pub fn of(
+        model: &dyn Model<f64>,
+        held: &[Body],
+        control: &Settling,
+        motion: &Motion,
+        wheels: &[bool],
+    ) -> Result<Self, Error> {
+        let bodies = model.joints() + 1;
+        let (mut inertias, mut poses) = (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies]);
+        model.body_inertias(&mut inertias)?;
+        model.body_poses(&motion.base_pose, &motion.joint_angles, &mut poses)?;
+        inertias.extend(held.iter().map(|body| [body.mass, body.inertia]));
+        poses.extend(held.iter().map(|body| body.pose));
+        let total = with_bodies(model.momentum(&motion.state())?, held);
+        let mass: f64 = inertias.iter().map(|[mass, _]| mass).sum();
+        let center = [1, 2].map(|axis: usize| {
+            let moments = inertias.iter().zip(&poses).map(|([mass, _], pose)| mass * pose[axis]);
+            moments.sum::<f64>() / mass
+        });
+        let parts = inertias.iter().zip(&poses);
+        let inertia: f64 = parts
+            .map(|([mass, inertia], [_, x, y])| inertia + mass * ((x - center[0]).powi(2) + (y - center[1]).powi(2)))
+            .sum();
+        let [px, py] = total.linear_momentum;
+        let angular = total.angular_momentum - (center[0] * py - center[1] * px);
+        let joints = || motion.joint_rates.iter().zip(wheels);
+        let [base_rate, ..] = motion.base_twist;
+        Ok(Self {
+            control: control.name(),
+            momentum: [angular, px, py],
+            velocity: [px / mass, py / mass],
+            inertia,
+            rigid_rate: angular / inertia,
+            base_rate,
+            largest_joint_rate: joints()
+                .filter(|(_, wheel)| !**wheel)
+                .fold(0.0, |most, (rate, _)| rate.abs().max(most)),
+            wheel_rates: joints().filter(|(_, wheel)| **wheel).map(|(rate, _)| *rate).collect(),
+        })
+    }
+}
