@@ -348,7 +348,7 @@ fn a_report_is_one_file_without_a_network() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let page = fs::read_to_string(results.join("report.html")).expect("a page");
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
-    for left in ["<!--title-->", "/*data*/", "/*replay.js*/", "/*uplot.js*/", "/*page.css*/"] {
+    for left in ["<!--title-->", "/*data*/", "/*scene.js*/", "/*uplot.js*/", "/*page.css*/"] {
         assert!(!page.contains(left), "`{left}` was not filled in");
     }
     for outside in [" src=", "@import", "fetch(", "XMLHttpRequest", "WebSocket(", "url(http"] {

@@ -32,10 +32,12 @@ fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
 #[cfg(feature = "figures")]
 mod drawn {
     use super::*;
+    use planar_capture::contact::Kind;
     use planar_capture::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
     use std::collections::BTreeSet;
     use std::fs;
     use std::path::Path;
+    use support::tolerance::FIGURE_VALUES;
     use support::{run, scenario};
 
     /// Every element is closed where it was opened, every `&` starts an entity, and nothing is not a number.
@@ -159,6 +161,179 @@ mod drawn {
             let (x, y) = line.points[3];
             assert!((x - tip[1]).abs() + (y - tip[2]).abs() < 1e-12, "{}", arm.name);
         }
+    }
+
+    /// All that is drawn in a picture of the plane is inside of its frame, far targets or not.
+    fn assert_inside(figure: &Figure) {
+        for panel in figure.panels.iter().filter(|panel| panel.equal_scale) {
+            let (Span::Between(left, right), Span::Between(low, high)) = (&panel.x.span, &panel.y.span) else {
+                panic!("{}: a picture without a frame", figure.name)
+            };
+            for (x, y) in panel.series.iter().flat_map(|series| &series.points) {
+                assert!((left..=right).contains(&x) && (low..=high).contains(&y), "{}: ({x}, {y})", figure.name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_kind_of_contact_has_its_figures() {
+        let mut scenarios = vec!["spinning_target", "large_target", "missed_grasp", "elastic_rebound"];
+        if cfg!(feature = "triple_arm_3r") {
+            scenarios.push("three_arms");
+        }
+        for name in scenarios {
+            let scenario = scenario(name);
+            let all = figures(&scenario, &run(&scenario));
+            assert_eq!(names(&all).len(), all.len(), "{name}: no two figures have the same name");
+            for figure in &all {
+                let svg = draw::svg(figure);
+                assert_well_formed(&figure.name, &svg);
+                assert_labelled(figure, &svg);
+                assert_one_legend_entry_each(figure, &svg);
+                assert_inside(figure);
+            }
+        }
+    }
+
+    /// The points of a panel's series of this label, one after the other.
+    fn points(panel: &Panel, label: &str) -> Vec<(f64, f64)> {
+        let of = panel.series.iter().filter(|series| series.label.as_deref() == Some(label));
+        of.flat_map(|series| series.points.clone()).collect()
+    }
+
+    /// Each impact that was found by detection has its picture: robot, targets and impulse as they are then.
+    #[test]
+    fn impacts_are_pictured_where_they_were_found() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let mut shown = 0;
+        for case in &study.cases {
+            let name = format!("impact_configuration_{}", case.name);
+            let figure = all.iter().find(|figure| figure.name == name).expect("its figure");
+            let captured = case.capture.as_ref().expect("a contact");
+            let (first, post) = (case.approach(&study), &captured.post_impact);
+            let at = |time: f64| post.samples.iter().find(|sample| sample.time >= time).expect("a sample");
+            let later = captured.further.iter().map(|one| (first.duration + one.time, at(one.time), &one.impact));
+            let impacts =
+                std::iter::once((first.duration, first.end().expect("an end"), &captured.impact)).chain(later);
+            assert_eq!(figure.panels.len(), 1 + captured.further.len());
+            for (panel, (time, now, impact)) in figure.panels.iter().zip(impacts) {
+                assert_eq!(panel.title, Some(format!("Impact at {time:.3} s")));
+                let contact = &impact.contacts[0];
+                let [_, x, y] = now.end_effector_poses[contact.touching.arm];
+                let arrow = points(panel, "impulse on the robot");
+                assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the tip");
+                let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), contact.impulse);
+                assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
+                // a line from the target's COM to the tip that touches it
+                let target = points(panel, &scenario.targets[contact.touching.target].name);
+                let [rx, ry] = contact.touching.offset;
+                let (from, to) = (target[target.len() - 2], target[target.len() - 1]);
+                assert_eq!(to, (x, y));
+                assert!((x - from.0 - rx).abs() + (y - from.1 - ry).abs() < 1e-12, "{name}");
+                shown += 1;
+            }
+        }
+        assert_eq!(shown, 5, "impacts of three cases");
+    }
+
+    /// A bounce parts along the normal by Poisson's law and turns nobody into one; a pin leaves the turning free.
+    #[test]
+    fn velocities_at_contacts_say_what_kind_they_are() {
+        let (rebound, loops) = (scenario("elastic_rebound"), scenario("large_target"));
+        let (of_rebound, of_loops) = (run(&rebound), run(&loops));
+        let panels = |scenario, study| -> Vec<Panel> {
+            let found = figures(scenario, study).into_iter().find(|figure| figure.name == "impact_velocities");
+            found.expect("the figure").panels
+        };
+        let shown = panels(&rebound, &of_rebound);
+        let value = |panel: &Panel, label: &str, i: usize| points(panel, label)[i].0;
+        let relative = |panels: &[Panel], when: &str, i: usize| {
+            [0, 1, 2].map(|k| {
+                value(&panels[k], &format!("tip, {when}"), i) - value(&panels[k], &format!("target, {when}"), i)
+            })
+        };
+        let mut contacts: Vec<_> = Vec::new();
+        for case in &of_rebound.cases {
+            let captured = case.capture.as_ref().expect("a contact");
+            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            contacts.extend(impacts.flat_map(|impact| &impact.contacts));
+        }
+        contacts.reverse(); // the first is on top
+        for (i, contact) in contacts.iter().enumerate() {
+            let Kind::Bounce { normal: [nx, ny], restitution } = contact.touching.kind else { panic!("a bounce") };
+            let [[bx, by, _], [ax, ay, _]] = ["before", "after"].map(|when| relative(&shown, when, i));
+            let (closing, parting) = (-(bx * nx + by * ny), ax * nx + ay * ny);
+            assert!(
+                closing > 0.05 && (parting - restitution * closing).abs() < FIGURE_VALUES,
+                "{i}: {closing}, {parting}"
+            );
+            assert!(((ax - bx) * ny - (ay - by) * nx).abs() > 1e-3, "{i}: without friction it slides");
+        }
+        let shown = panels(&loops, &of_loops);
+        let Span::Names(names) = &shown[0].y.span else { panic!("names") };
+        assert_eq!(names.len(), 6);
+        for (i, name) in names.iter().enumerate() {
+            let [x, y, turn] = relative(&shown, "after", i);
+            assert!(x.abs() < FIGURE_VALUES && y.abs() < FIGURE_VALUES, "{name}: the points stay together");
+            assert_eq!(turn.abs() > 1e-3, name.ends_with("(pin)"), "{name}: {turn} rad/s");
+        }
+    }
+
+    /// A target that flew away is pointed at, and does not make the robot small.
+    #[test]
+    fn a_target_far_away_is_an_arrow_at_the_edge() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let figure = all.iter().find(|figure| figure.name == "post_impact_motion_too_late").expect("the figure");
+        let panel = figure.panels.last().expect("pictures");
+        let Span::Between(left, right) = panel.x.span else { panic!("a frame") };
+        let end = study.cases[2].capture.as_ref().and_then(|captured| captured.targets.last()).expect("targets");
+        let [_, x, y] = end[1].pose;
+        assert!(x < left && right - left < 12.0, "the box at {x} m is outside of {left} to {right} m");
+        let arrow = points(panel, "box");
+        let (from, to) = (arrow[0], arrow[1]);
+        assert_eq!(arrow.len(), 5, "an arrow, no outline");
+        assert!(to.0 < from.0 && to.0 < left + 0.05 * (right - left), "at the left edge, outwards");
+        assert!(((to.1 - from.1) / (to.0 - from.0)).abs() < 0.2 && y.abs() < 2.0);
+    }
+
+    /// Momentum goes on through every impact; energy steps there, by what it costs.
+    #[test]
+    fn momentum_and_energy_over_all_impacts() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let of = |name: &str| all.iter().find(|figure| figure.name == name).expect("the figure");
+        let captured = study.cases[1].capture.as_ref().expect("a contact");
+        for panel in &of("momentum_half").panels {
+            let curves = panel.series.iter().filter(|series| matches!(series.mark, Mark::Line(..)));
+            for curve in curves {
+                let first = curve.points[0].1;
+                assert!(curve.points.iter().all(|(_, p)| (p - first).abs() < FIGURE_VALUES), "{:?}", curve.label);
+            }
+            let marks = points(panel, "impacts");
+            assert_eq!(marks.len(), 2 * (panel.series.len() - 1), "two on each curve");
+        }
+        let less = points(&of("energy_half").panels[0], "less the work done");
+        let steps: Vec<f64> = less
+            .windows(2)
+            .filter(|pair| pair[0].0.to_bits() == pair[1].0.to_bits())
+            .map(|pair| pair[1].1 - pair[0].1)
+            .collect();
+        let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+        let costs: Vec<f64> =
+            impacts.map(|impact| impact.exact.kinetic_energy_after - impact.exact.kinetic_energy_before).collect();
+        assert_eq!(steps.len(), costs.len());
+        assert!(
+            steps.iter().zip(&costs).all(|(step, cost)| *cost < -0.01 && (step - cost).abs() < FIGURE_VALUES),
+            "{steps:?}"
+        );
+        assert!(less.windows(2).all(|pair| {
+            pair[0].0.to_bits() == pair[1].0.to_bits() || (pair[1].1 - pair[0].1).abs() < FIGURE_VALUES
+        }));
     }
 
     /// A robot with more joints than a panel has lines gets a higher panel: no legend reaches into the next one.

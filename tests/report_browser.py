@@ -6,19 +6,21 @@ needs tests/reference/requirements-reference.txt and Chromium, which PLANAR_CAPT
 """
 
 import argparse
+import json
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
+from report_contacts import CHECKS, picture, scrub
 
 ROOT = Path(__file__).resolve().parent.parent
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 QUIET = ("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update")
-SCENARIOS = ("raina_shah_2017", "redysim_single_arm_3r")
 
 
 def browser():
@@ -26,12 +28,7 @@ def browser():
     return os.environ.get("PLANAR_CAPTURE_BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
 
 
-def picture(page):
-    """What the canvas shows, as a text to compare."""
-    return page.evaluate("document.getElementById('scene').toDataURL()")
-
-
-def use(page, file, pictures):
+def use(page, file, pictures, check):
     """Goes through one report as its reader would."""
     heard, asked = [], []
     page.on("console", lambda message: heard.append(message.text) if message.type in ("error", "warning") else None)
@@ -54,9 +51,7 @@ def use(page, file, pictures):
 
     end = float(page.get_attribute("#scrub", "max"))
     for part in (0.25, 0.5, 0.99):
-        page.locator("#scrub").evaluate(
-            "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }", part * end
-        )
+        scrub(page, part * end)
         assert f"{part * end:.2f} s" in page.inner_text("#clock"), page.inner_text("#clock")
         if pictures:
             page.screenshot(path=pictures / f"{file.parent.name}_{part}.png")
@@ -71,6 +66,9 @@ def use(page, file, pictures):
         before = page.inner_text("#impact")
         page.select_option("#case", index=cases - 1)
         assert page.inner_text("#impact") != before
+    if check:
+        scenario = tomllib.loads((ROOT / "scenarios" / f"{file.parent.name}.toml").read_text())
+        check(page, file.parent, json.loads((file.parent / "summary.json").read_text()), scenario)
     page.set_viewport_size({"width": 700, "height": 900})
     page.wait_for_timeout(100)
     wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
@@ -87,12 +85,12 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser(), args=list(QUIET))
-        for scenario in SCENARIOS:
+        for scenario, check in CHECKS.items():
             out = Path(folder) / scenario
             run = [options.binary, "run", ROOT / "scenarios" / f"{scenario}.toml", "--out", out, "--report"]
             subprocess.run(run, check=True, stdout=subprocess.DEVNULL)
             page = chromium.new_page(viewport={"width": 1400, "height": 950})
-            use(page, out / "report.html", options.pictures)
+            use(page, out / "report.html", options.pictures, check)
             page.close()
             print(f"{scenario}: plays, scrubs, no error, no request", file=sys.stderr)
         chromium.close()

@@ -6,7 +6,9 @@ mod approach;
 mod configuration;
 mod dash;
 pub mod draw;
+mod energy;
 mod figure;
+mod frame;
 mod impact;
 mod momentum;
 mod panel;
@@ -32,6 +34,7 @@ pub fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     figures.extend(impact::velocities(scenario, study));
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         figures.push(momentum::figure(scenario, study, result));
+        figures.push(energy::figure(study, result));
         if let Some(captured) = &result.capture {
             figures.extend(post_impact::figures(scenario, case, captured));
         }

@@ -1,7 +1,7 @@
 //! The momentum of robot and targets together, before and after the impact.
 
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
-use super::style::{Colour, Dash};
+use super::style::{Colour, Dash, Shape};
 use super::time::CURVE;
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
@@ -40,8 +40,10 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, result: &CaseResult) ->
     let panel = |quantity: &str, least, curves: &[(&str, usize, Colour, Dash)]| {
         let solid = curves.iter().map(|(label, i, colour, dash)| curve(label, *i, *colour, *dash));
         let broken = curves.iter().filter_map(|(label, i, colour, _)| literal(label, *i, *colour));
+        let mut series: Vec<Series> = solid.chain(broken).collect();
+        series.extend(impacts(study, result, &series, curves.len()));
         let y = Axis { label: quantity.to_owned(), span: Span::DataAndZero(least) };
-        Panel::new(Axis::time("Time [s]", duration), y, solid.chain(broken).collect())
+        Panel::new(Axis::time("Time [s]", duration), y, series)
     };
     let linear = [("px", 1, Colour::Blue, Dash::Solid), ("py", 2, Colour::Vermillion, Dash::Dashed)];
     let angular = [("l", 0, Colour::Blue, Dash::Solid)];
@@ -50,6 +52,20 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, result: &CaseResult) ->
         &format!("Momentum of robot and targets together, about the inertial origin, {}.", result.name),
         vec![panel("Linear momentum [N s]", least[1], &linear), panel("Angular momentum [N m s]", least[0], &angular)],
     )
+}
+
+/// Marks on the first curves where impacts were found by detection.
+fn impacts(study: &Study, result: &CaseResult, series: &[Series], curves: usize) -> Option<Series> {
+    let captured = result.capture.as_ref().filter(|_| result.approach.is_some())?;
+    let first = result.approach(study).duration;
+    let times: Vec<f64> = captured.further.iter().map(|one| first + one.time).chain([first]).collect();
+    let on = |curve: &Series| {
+        let at = |time: &f64| curve.points.iter().find(|(t, _)| t >= time).copied();
+        times.iter().filter_map(at).collect::<Vec<_>>()
+    };
+    let points: Vec<_> = series.iter().take(curves).flat_map(on).collect();
+    let mark = Mark::Points(Shape::Cross);
+    Some(Series { label: Some("impacts".to_owned()), colour: Colour::Black, mark, points })
 }
 
 /// One component of the robot's momentum over a phase, `more` added.

@@ -219,5 +219,6 @@ fn marker(shape: Shape) -> MarkerShape {
         Shape::Circle => MarkerShape::Circle,
         Shape::Square => MarkerShape::Square,
         Shape::Cross => MarkerShape::Cross,
+        Shape::Plus => MarkerShape::Plus,
     }
 }

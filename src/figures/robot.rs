@@ -5,12 +5,14 @@ use super::style::{Colour, Dash, Shape};
 use crate::layout::{Arm, Layout};
 use crate::scenario::Target;
 use crate::simulate::Motion;
-use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 
 const LINK: f64 = 3.0;
 const OUTLINE: f64 = 1.6;
+
+/// Length of an arrow's head as part of the arrow.
+const HEAD: f64 = 0.35;
 
 /// Base, arms and joints; the base is the uniform square of its mass and inertia.
 pub(super) fn robot(layout: &Layout, motion: &Motion) -> Vec<Series> {
@@ -47,31 +49,45 @@ fn chain<'a>(arm: &Arm, base: [f64; 3], joint_angles: &mut impl Iterator<Item = 
     points
 }
 
-/// How near to a target's outline a tip is drawn as touching it, in sizes of the target: contacts are taken where the tips
-/// are, which may be off the outline.
-const TOUCHING: f64 = 0.5;
-
-/// A target's outline and a spoke to each tip at it, or along its x axis: they show how it turns.
+/// A target's outline and a spoke to each tip at it, or along a disc's x axis: they show how it turns.
 pub(super) fn target(
     target: &Target,
     colour: Colour,
     pose: [f64; 3],
     tips: impl Iterator<Item = [f64; 2]>,
 ) -> Vec<Series> {
-    let [_, x, y] = pose;
-    let size = target.surface.reach();
-    let near = |tip: &[f64; 2]| {
-        let own = turned([tip[0] - x, tip[1] - y], -pose[0]);
-        target.surface.gap(own).distance.abs() <= TOUCHING * size
-    };
-    let mut spots: Vec<[f64; 2]> = tips.filter(near).collect();
-    if spots.is_empty() {
-        spots.push(place([x, y], pose[0], [size, 0.0]).into());
+    let [yaw, x, y] = pose;
+    let mut spots: Vec<[f64; 2]> = tips.collect();
+    if let (Surface::Disc { radius }, true) = (&target.surface, spots.is_empty()) {
+        spots.push(place([x, y], yaw, [*radius, 0.0]).into());
     }
     let mut series = vec![outline(&target.name, colour, Dash::Solid, &target.surface, pose)];
     let spoke = |spot: [f64; 2]| line(&target.name, colour, Dash::Solid, OUTLINE, vec![(x, y), spot.into()]);
     series.extend(spots.into_iter().map(spoke));
     series
+}
+
+/// Where a target turns freely about a tip.
+pub(super) fn pin([x, y]: [f64; 2]) -> Series {
+    Series {
+        label: Some("pin".to_owned()),
+        colour: Colour::Black,
+        mark: Mark::Points(Shape::Circle),
+        points: vec![(x, y)],
+    }
+}
+
+/// An arrow from a point; `None` where it has no length.
+pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Series> {
+    let length = along[0].hypot(along[1]);
+    if length < 1e-9 {
+        return None;
+    }
+    let to = [from[0] + along[0], from[1] + along[1]];
+    let angle = along[1].atan2(along[0]);
+    let barb = |turn: f64| place(to, angle + turn, [-HEAD * length, 0.0]);
+    let points = vec![from.into(), to.into(), barb(0.5), to.into(), barb(-0.5)];
+    Some(line(label, Colour::Black, Dash::Solid, OUTLINE, points))
 }
 
 /// Where a target was expected.

@@ -44,6 +44,8 @@ pub enum Shape {
     Square,
     /// ×
     Cross,
+    /// +
+    Plus,
 }
 
 impl Colour {

@@ -1,21 +1,21 @@
 //! What the page shows, as JSON: bodies, motion, targets, momentum and energy over time.
 
+use super::impacts::{distances, holds, impacts, open};
 use crate::layout::Layout;
-use crate::scenario::Scenario;
+use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
-use crate::study::capture::ImpactResult;
 use crate::study::{CaseResult, Study};
 use crate::surface::Surface;
 use serde_json::{Value, json};
 
 /// Everything that the page needs of a study.
 pub fn data(scenario: &Scenario, study: &Study) -> Value {
-    let cases = study.cases.iter().map(|result| one_case(study, result));
-    json!({
+    let cases = scenario.cases.iter().zip(&study.cases);
+    let mut value = json!({
         "scenario": scenario.name,
         "layout": robot(&scenario.layout),
-        "approach": phase(&study.approach),
+        "contact_duration": scenario.contact.duration,
         "targets": scenario.targets.iter().map(|target| json!({
             "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.surface.reach(),
             "polygon": match &target.surface {
@@ -23,9 +23,14 @@ pub fn data(scenario: &Scenario, study: &Study) -> Value {
                 Surface::Polygon { corners } => Some(corners),
             },
         })).collect::<Vec<_>>(),
-        "cases": cases.collect::<Vec<_>>(),
+        "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
         "objections": study.objections(),
-    })
+    });
+    // where every case has an approach of its own, this one went on without contacts and is nobody's
+    if study.cases.iter().any(|case| case.approach.is_none()) {
+        value["approach"] = phase(&study.approach);
+    }
+    value
 }
 
 fn robot(layout: &Layout) -> Value {
@@ -47,40 +52,38 @@ fn robot(layout: &Layout) -> Value {
     })
 }
 
-fn one_case(study: &Study, result: &CaseResult) -> Value {
-    let bodies = |targets: &[Body]| -> Vec<_> {
-        targets.iter().map(|target| json!({"pose": target.pose, "twist": target.twist})).collect()
-    };
-    let mut value = json!({"name": result.name, "targets": bodies(&result.targets)});
+fn one_case(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult) -> Value {
+    let bodies = result.targets.iter().map(|target| json!({"pose": target.pose, "twist": target.twist}));
+    let mut value = json!({
+        "name": result.name,
+        "targets": bodies.collect::<Vec<_>>(),
+        "targets_alone": targets_alone(&result.targets),
+        "impacts": impacts(scenario, study, result),
+        "closest": result.closest.iter().map(|pair| json!({
+            "target": pair.target, "arm": pair.arm, "distance": pair.distance, "time": pair.time,
+        })).collect::<Vec<_>>(),
+        "open": open(scenario, case),
+        "distances": distances(scenario, study, case, result),
+    });
     if let Some(own) = &result.approach {
         value["approach"] = phase(own);
     }
-    if let (Some(captured), Some(end)) = (&result.capture, result.approach(study).end()) {
-        value["impact"] = json!({
-            "time": result.approach(study).duration,
-            "tips": end.end_effector_poses.iter().map(short).collect::<Vec<_>>(),
-            "exact": impact(&captured.impact.exact),
-            "paper": captured.impact.paper.as_ref().map(impact),
-        });
+    if let Some(captured) = &result.capture {
         value["post_impact"] = phase(&captured.post_impact);
-        let column = |i: usize, part: usize| {
-            let of = |targets: &Vec<Body>| targets.get(i).map_or(0.0, |target| target.pose[part]);
-            captured.targets.iter().map(|targets| digits(of(targets))).collect::<Vec<_>>()
-        };
-        let poses = (0..result.targets.len()).map(|i| [column(i, 0), column(i, 1), column(i, 2)]);
-        value["post_impact"]["targets"] = json!(poses.collect::<Vec<_>>());
-        value["targets_alone"] = targets_alone(&result.targets);
+        value["post_impact"]["targets"] = columns_of(result.targets.len(), &captured.targets, |body| body.pose);
+        value["post_impact"]["target_twists"] = columns_of(result.targets.len(), &captured.targets, |body| body.twist);
+        value["post_impact"]["holds"] = json!(holds(captured));
     }
     value
 }
 
-fn impact(result: &ImpactResult) -> Value {
-    json!({
-        "impulses": result.impulses,
-        "momentum_jump": result.momentum_jump,
-        "kinetic_energy_before": result.kinetic_energy_before,
-        "kinetic_energy_after": result.kinetic_energy_after,
-    })
+/// Per target three columns over the samples.
+fn columns_of(targets: usize, samples: &[Vec<Body>], of: impl Fn(&Body) -> [f64; 3]) -> Value {
+    let column = |i: usize, part: usize| {
+        let value = |bodies: &Vec<Body>| bodies.get(i).map_or(0.0, |body| of(body)[part]);
+        samples.iter().map(|bodies| digits(value(bodies))).collect::<Vec<_>>()
+    };
+    json!((0..targets).map(|i| [0, 1, 2].map(|part| column(i, part))).collect::<Vec<_>>())
 }
 
 /// Momentum [l, px, py] and energy of the targets before they are touched, which nothing changes.
@@ -105,7 +108,7 @@ fn phase(phase: &Phase) -> Value {
     };
     json!({
         "duration": phase.duration,
-        "time": column(&|sample| sample.time),
+        "time": samples.iter().map(|sample| sample.time).collect::<Vec<_>>(),
         "base_pose": columns(3, &|sample, i| sample.motion.base_pose.get(i).copied()),
         "base_twist": columns(3, &|sample, i| sample.motion.base_twist.get(i).copied()),
         "joint_angles": columns(joints, &|sample, i| sample.motion.joint_angles.get(i).copied()),
@@ -117,17 +120,15 @@ fn phase(phase: &Phase) -> Value {
         "linear_momentum": columns(2, &|sample, i| sample.linear_momentum.get(i).copied()),
         "angular_momentum": column(&|sample| sample.angular_momentum),
         "kinetic_energy": column(&|sample| sample.kinetic_energy),
-        "work": column(&|sample| sample.work),
+        "work": column(&|sample| sample.work + sample.base_work),
         "momentum_drift": phase.drift.momentum_drift,
         "energy_error": phase.drift.energy_error,
+        "center_of_mass_drift": phase.drift.center_of_mass_drift,
+        "constraint_errors": phase.constraint_errors,
     })
 }
 
-fn short(pose: &[f64; 3]) -> [f64; 3] {
-    pose.map(digits)
-}
-
 /// Six digits, more than a screen shows; the CSV has them all.
-fn digits(value: f64) -> f64 {
+pub(super) fn digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -3,6 +3,7 @@
 //! Text, styles, programs and data are all in it. The plots are drawn by uPlot (MIT), whose text and licence it carries.
 
 mod data;
+mod impacts;
 
 use crate::scenario::Scenario;
 use crate::study::Study;
@@ -11,13 +12,18 @@ use std::io::{self, Write};
 const PAGE: &str = include_str!("page.html");
 
 /// What takes the place of each mark in the page.
-const PARTS: [(&str, &str); 6] = [
+const PARTS: [(&str, &str); 11] = [
     ("/*uplot.css*/", include_str!("uPlot.min.css")),
     ("/*page.css*/", include_str!("page.css")),
     ("/*uplot.licence*/", include_str!("uPlot.LICENSE")),
     ("/*uplot.js*/", include_str!("uPlot.iife.min.js")),
-    ("/*replay.js*/", include_str!("replay.js")),
+    ("/*motion.js*/", include_str!("motion.js")),
+    ("/*pen.js*/", include_str!("pen.js")),
+    ("/*view.js*/", include_str!("view.js")),
+    ("/*scene.js*/", include_str!("scene.js")),
     ("/*plots.js*/", include_str!("plots.js")),
+    ("/*contacts.js*/", include_str!("contacts.js")),
+    ("/*page.js*/", include_str!("page.js")),
 ];
 
 /// Writes the page.

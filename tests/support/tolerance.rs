@@ -235,3 +235,6 @@ pub const HELD_DRIFT: f64 = 1e-5;
 pub const MERGED_MOTION: f64 = 1e-9;
 /// Energy after an impact over that before, less 1: an elastic one gives all back but rounding, 2e-15 measured.
 pub const ENERGY_OF_AN_IMPACT: f64 = 1e-12;
+/// Values that a figure of a study shows against what they have to be by mechanics: velocities, momentum and energy of
+/// order 1, whose drift and energy error over a phase are 1e-11.
+pub const FIGURE_VALUES: f64 = 1e-9;

@@ -1,0 +1,94 @@
+// What the impacts of a case did, in numbers and words.
+
+function cell(kind, text, span = 1) {
+  const made = document.createElement(kind);
+  made.textContent = text;
+  if (span > 1) made.colSpan = span;
+  return made;
+}
+
+/** Four digits; rounding is zero. */
+function digits(value) {
+  if (value === null || value === undefined) return "–";
+  if (Math.abs(value) < 1e-9) return "0";
+  return Math.abs(value) >= 1e4 || Math.abs(value) < 1e-3 ? value.toExponential(2) : value.toPrecision(4);
+}
+
+const all = (values) => (values ? values.map(digits).join(", ") : "–");
+
+/** [quantity, what a contact has of it]; a row is left out where no contact has any. */
+const ROWS = [
+  ["kind", (c) => (c.restitution === null ? c.kind : `${c.kind}, e = ${c.restitution}`)],
+  ["impulse on the robot |f| [N s]", (c) => digits(force(c.impulse))],
+  ["– fx, fy [N s]", (c) => all(c.impulse.slice(1))],
+  ["– moment n [N m s]", (c) => (c.kind === "rigid" ? digits(c.impulse[0]) : null)],
+  ["– |f| by the paper's equations", (c) => c.literal_impulse && digits(force(c.literal_impulse))],
+  ["mean force |f| [N]", (c) => c.mean_force && (force(c.impulse) < 1e-9 ? "0" : digits(force(c.mean_force)))],
+  ["closing speed [m/s]", (c) => digits(c.closing_speed)],
+  ["tip against target before: ω [rad/s]", (c) => digits(c.relative_twist[0])],
+  ["– vx, vy [m/s]", (c) => all(c.relative_twist.slice(1))],
+  ["effective mass of the robot [kg]", (c) => c.effective_masses && digits(c.effective_masses[0])],
+  ["– of the target", (c) => c.effective_masses && digits(c.effective_masses[1])],
+  ["– of both against each other", (c) => c.effective_masses && digits(c.effective_masses[2])],
+  ["impulse index [N s per m/s]", (c) => c.impulse_index !== null && digits(c.impulse_index)],
+  ["impulse ellipse, semi-axes [N s per m/s]", (c) => all(c.impulse_ellipse.semi_axes)],
+];
+
+/** A column for each contact, under its impact. */
+function contactsTable() {
+  const [one, line] = current(), table = element("impact");
+  table.replaceChildren();
+  const contacts = line.impacts.flatMap((impact) => impact.contacts);
+  element("missed").replaceChildren(...missed(one).map((text) => cell("p", text)));
+  element("contacts").hidden = !one.targets.length;
+  if (!contacts.length) return;
+  const row = (cells) => {
+    const made = document.createElement("tr");
+    made.append(...cells);
+    table.append(made);
+  };
+  const perImpact = (name, text) =>
+    row([cell("td", name), ...line.impacts.map((impact, i) => cell("td", text(impact, i), impact.contacts.length))]);
+  row([cell("th", "impact at"), ...line.impacts.map((impact) => {
+    const head = cell("th", "", impact.contacts.length), go = cell("button", `${impact.time.toFixed(3)} s`);
+    go.type = "button";
+    go.addEventListener("click", () => { setPlaying(false); setTime(impact.time); });
+    head.append(go);
+    return head;
+  })]);
+  row([cell("th", "contact"), ...contacts.map((contact) => {
+    const head = cell("th", `${armName(contact.arm)} · ${targetName(contact.target)}`);
+    head.style.color = COLOURS[contact.arm % COLOURS.length];
+    return head;
+  })]);
+  for (const [name, of] of ROWS) {
+    const texts = contacts.map(of);
+    if (texts.some((text) => text)) row([cell("td", name), ...texts.map((text) => cell("td", text || "–"))]);
+  }
+  perImpact("kinetic energy before [J]", ({ exact }) => digits(exact.kinetic_energy_before));
+  perImpact("– after", ({ exact }) => digits(exact.kinetic_energy_after));
+  perImpact("– lost", ({ exact: { kinetic_energy_before: a, kinetic_energy_after: b } }) =>
+    (a - b > 1e-9 * a ? `${digits(a - b)} (${(100 * (a - b) / a).toPrecision(3)} %)` : "0"));
+}
+
+/** Sentences on what did not meet or was not held. */
+function missed(one) {
+  const open = one.open.map(({ arm, target }) => `${armName(arm)} does not close on ${targetName(target)}.`);
+  const away = one.closest.map(({ arm, target, distance, time }) =>
+    `The tip of ${armName(arm)} never meets ${targetName(target)}: nearest at ${time.toFixed(2)} s, ${digits(distance)} m from it.`);
+  return [...open, ...away, ...(one.targets.length && !one.impacts.length ? ["There is no impact."] : [])];
+}
+
+function audit() {
+  const [one] = current(), shown = element("audit");
+  const of = (name, phase) => {
+    if (!phase) return [];
+    const numbers = [["momentum drift", phase.momentum_drift], ["energy error", phase.energy_error],
+      ["centre-of-mass drift", phase.center_of_mass_drift]];
+    if (one.post_impact === phase && phase.holds.length) numbers.push(["holds open by", Math.max(...phase.constraint_errors)]);
+    return [`${name}: ${numbers.map(([what, value]) => `${what} ${value.toExponential(1)}`).join(", ")}`];
+  };
+  const after = one.impacts.length ? "after the impact" : "after the approach";
+  shown.textContent = [...of("approach", one.approach || study.approach), ...of(after, one.post_impact), ...study.objections].join(" · ");
+  shown.className = study.objections.length ? "bad" : "";
+}

@@ -1,0 +1,108 @@
+"use strict";
+// The study's motion at any time, which runs from the start of the approach.
+
+const study = JSON.parse(document.getElementById("data").textContent);
+// Okabe and Ito's colours, which colour-blind readers tell apart
+const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5c00", "#444444"];
+const element = (id) => document.getElementById(id);
+const rotate = ([x, y], angle) => {
+  const [s, c] = [Math.sin(angle), Math.cos(angle)];
+  return [c * x - s * y, s * x + c * y];
+};
+const plus = ([a, b], [c, d]) => [a + c, b + d];
+/** Size of the force part of [n, fx, fy]. */
+const force = ([, fx, fy]) => Math.hypot(fx, fy);
+const armName = (index) => study.layout.arms[index].name;
+const targetName = (index) => study.targets[index].name;
+
+/** One case on one axis of time: columns of both phases put end to end. */
+function timeline(one) {
+  const approach = one.approach || study.approach;
+  const phases = [approach, ...(one.post_impact ? [one.post_impact] : [])];
+  const join = (key) => {
+    const merge = (parts) =>
+      Array.isArray(parts[0][0]) ? parts[0].map((_, i) => merge(parts.map((part) => part[i]))) : parts.flat();
+    return merge(phases.map((phase) => phase[key]));
+  };
+  const starts = [0, approach.duration];
+  const time = phases.flatMap((phase, i) => phase.time.map((t) => t + starts[i]));
+  const columns = { time };
+  for (const key of ["base_pose", "base_twist", "joint_angles", "joint_rates", "joint_torques", "tips",
+    "linear_momentum", "angular_momentum", "kinetic_energy"]) columns[key] = join(key);
+  const done = approach.work[approach.work.length - 1] || 0;
+  columns.work = phases.flatMap((phase, i) => phase.work.map((work) => work + (i ? done : 0)));
+  columns.contact = approach.duration;
+  columns.end = phases.reduce((sum, phase) => sum + phase.duration, 0);
+  columns.before = approach.time.length;
+  columns.after = one.post_impact ? approach.duration : Infinity;
+  columns.impacts = one.impacts.map((impact) => ({ ...impact, time: time[columns.before + impact.sample] }));
+  // from when on who is held, and how
+  columns.holds = columns.impacts.flatMap(({ time, contacts }) =>
+    contacts.filter(({ kind }) => kind !== "bounce").map(({ arm, target, kind }) => ({ time, arm, target, kind })));
+  return columns;
+}
+
+/** Index of the last sample at or before a time; at an impact that after it. */
+function place(line, time) {
+  let [low, high] = [0, line.time.length - 1];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (line.time[middle] <= time) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+/** A column's value between its samples, the first of which is the line's number `first`. */
+function between(line, column, time, first = 0) {
+  const i = place(line, time), j = Math.min(i + 1, line.time.length - 1);
+  const span = line.time[j] - line.time[i];
+  const part = span > 0 ? Math.min((time - line.time[i]) / span, 1) : 0;
+  return column[i - first] + part * (column[j - first] - column[i - first]);
+}
+
+/** Where every body of the robot is. */
+function configuration(line, time) {
+  const at = (column) => between(line, column, time);
+  const [yaw, x, y] = line.base_pose.map(at);
+  let joint = 0;
+  const arms = study.layout.arms.map((arm) => {
+    let angle = yaw + arm.mount_angle, point = plus([x, y], rotate(arm.mount, yaw));
+    const points = [point], angles = [];
+    for (const link of arm.links) {
+      angle += at(line.joint_angles[joint++]);
+      angles.push(angle);
+      point = plus(point, rotate([link.length, 0], angle));
+      points.push(point);
+    }
+    return { points, angles, tip: point };
+  });
+  return { yaw, base: [x, y], arms };
+}
+
+/** Pose of each target's COM: it flies freely until the first impact, then as it was computed. */
+function targetPoses(one, line, time) {
+  return one.targets.map(({ pose: [yaw, x, y], twist: [omega, vx, vy] }, i) => {
+    if (time >= line.after) {
+      const [angle, px, py] = one.post_impact.targets[i].map((column) => between(line, column, time, line.before));
+      return { angle, point: [px, py] };
+    }
+    const ago = time - line.contact;
+    return { angle: yaw + omega * ago, point: [x + vx * ago, y + vy * ago] };
+  });
+}
+
+/** Twist of each target's COM at each of the line's samples. */
+function targetTwists(one, line) {
+  return one.targets.map(({ twist }, i) => twist.map((value, part) =>
+    line.time.map((_, k) => (k < line.before ? value : one.post_impact.target_twists[i][part][k - line.before]))));
+}
+
+/** What goes on at a time, in words. */
+function phaseName(line, time) {
+  const passed = line.impacts.filter((impact) => impact.time <= time).length;
+  if (passed === 0) return time < line.after ? "approach" : "after the approach";
+  return line.impacts.length === 1 ? "after the impact" : `after impact ${passed} of ${line.impacts.length}`;
+}
+
+const state = { chosen: 0, time: 0, playing: false, lines: study.cases.map(timeline), listeners: [] };
+const current = () => [study.cases[state.chosen], state.lines[state.chosen]];

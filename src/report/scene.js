@@ -1,0 +1,160 @@
+// The picture of robot and targets at one time.
+
+function draw() {
+  const [one, line] = current(), now = configuration(line, state.time);
+  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  const [box, view] = viewOf(one, line);
+  const scale = 0.92 * Math.min(width / (box[2] - box[0]), height / (box[3] - box[1]));
+  const centre = plus([(box[0] + box[2]) / 2, (box[1] + box[3]) / 2], view === "follow" ? now.base : [0, 0]);
+  const screen = ([x, y]) => [width / 2 + scale * (x - centre[0]), height / 2 - scale * (y - centre[1])];
+  const held = line.holds.filter((hold) => hold.time <= state.time);
+  const poses = targetPoses(one, line, state.time);
+
+  grid(screen, scale, centre, width, height);
+  if (element("traces").checked) traces(line, screen);
+  poses.forEach((pose, i) => {
+    drawTarget(study.targets[i], pose, screen, scale);
+    // what is held hangs on its grips: two of them and the robot close a loop
+    pen.strokeStyle = TARGET; pen.lineWidth = 2;
+    held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].tip].map(screen)));
+  });
+  drawBase(now, screen);
+  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale));
+  held.forEach((hold) => drawGrip(hold, screen(now.arms[hold.arm].tip), scale));
+  line.impacts.forEach((impact) => drawImpact(impact, line, screen));
+  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height));
+  // for those who look from outside: where things are drawn
+  state.shown = { targets: poses, arms: now.arms, arrows: line.impacts.filter(isFresh).flatMap((impact) => impact.contacts) };
+}
+
+function traces(line, screen) {
+  const until = place(line, state.time);
+  line.tips.forEach(([, xs, ys], i) => {
+    pen.strokeStyle = COLOURS[i % COLOURS.length]; pen.globalAlpha = 0.35; pen.lineWidth = 1.5;
+    stroke(xs.slice(0, until + 1).map((x, k) => screen([x, ys[k]])));
+    pen.globalAlpha = 1;
+  });
+}
+
+function drawBase(now, screen) {
+  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => plus(now.base, rotate([a * base[0], b * base[1]], now.yaw)));
+  pen.lineWidth = 1.5;
+  area(corners.map(screen), "#dfe6ed", INK);
+  const nose = screen(plus(now.base, rotate([base[0] * 0.7, 0], now.yaw))), middle = screen(now.base);
+  stroke([middle, nose]);
+  circle(middle, 3.5, INK);
+}
+
+const thickness = (scale) => Math.max(3, Math.min(9, 0.06 * scale));
+
+function drawArm(arm, now, colour, screen, scale) {
+  const thick = thickness(scale);
+  pen.lineCap = "round"; pen.lineJoin = "round";
+  pen.strokeStyle = colour; pen.lineWidth = thick;
+  stroke(now.points.map(screen));
+  pen.lineWidth = 1.5;
+  arm.links.forEach((link, k) => {
+    const joint = screen(now.points[k]);
+    if (link.length === 0) { // a wheel, as large as its inertia makes it
+      const radius = Math.max(6, scale * Math.sqrt(2 * link.inertia / link.mass));
+      circle(joint, radius, null, colour);
+      const spoke = [Math.cos(now.angles[k]) * radius, -Math.sin(now.angles[k]) * radius];
+      stroke([plus(joint, spoke), joint]);
+    }
+    circle(joint, thick * 0.62, "#ffffff", colour);
+  });
+  circle(screen(now.tip), thick * 0.62, colour);
+}
+
+/** A ring where the target turns about the tip, a square where it cannot. */
+function drawGrip(hold, [x, y], scale) {
+  const colour = COLOURS[hold.arm % COLOURS.length], size = 0.55 * thickness(scale) + 3;
+  pen.lineWidth = 2.5;
+  if (hold.kind === "pin") circle([x, y], size + 1, "#ffffff", colour);
+  else area([[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]], colour, "#ffffff");
+}
+
+function drawTarget(target, pose, screen, scale) {
+  const middle = screen(pose.point), fill = "rgba(120,120,120,0.18)";
+  pen.lineWidth = 1.5;
+  if (target.polygon) {
+    area(target.polygon.map((corner) => screen(plus(pose.point, rotate(corner, pose.angle)))), fill, TARGET);
+  } else {
+    circle(middle, Math.max(3, target.radius * scale), fill, TARGET);
+    // lines that show how it turns
+    for (const quarter of [1, 0]) {
+      const arm = rotate([target.radius, 0], pose.angle + quarter * Math.PI / 2);
+      pen.strokeStyle = quarter ? "#c2c2c2" : TARGET;
+      stroke([screen(plus(pose.point, [-arm[0], -arm[1]])), screen(plus(pose.point, arm))]);
+    }
+  }
+  circle(middle, 3, TARGET);
+}
+
+/** Beside the target; at the edge of the picture for one outside, with how far it is from the base. */
+function nameTarget(target, pose, now, screen, scale, width, height) {
+  const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
+  if (x > -size && x < width + size && y > -size && y < height + size) {
+    label(target.name, [x + 6, y - 6], "#4a4a4a");
+    return;
+  }
+  const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
+  arrowHead(at, Math.atan2(y - at[1], x - at[0]), TARGET);
+  const away = Math.hypot(pose.point[0] - now.base[0], pose.point[1] - now.base[1]);
+  const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
+  pen.font = TEXT;
+  const left = at[0] > width / 2 ? at[0] - 12 - long : at[0] + 12;
+  label(text, [Math.min(Math.max(left, edge), width - edge - long), at[1] + (at[1] < height / 2 ? 14 : -6)], "#4a4a4a");
+}
+
+const SHOWN_FOR = 4;
+const isFresh = (impact) => state.time >= impact.time && state.time <= impact.time + SHOWN_FOR;
+
+/** Pixels per N s in a case: arrows and, where they are shown, ellipses have room. */
+function impulseScale(line) {
+  const contacts = line.impacts.flatMap((impact) => impact.contacts), most = (of) => Math.max(...contacts.map(of));
+  return Math.min(80 / most((one) => force(one.impulse)), element("ellipse").checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
+}
+
+/** Semi-axes of what the closing speed of a contact could ask for, N s. */
+const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
+
+/** For four seconds after an impact: the impulse on the robot at each of its contacts, and the ellipse of possible ones. */
+function drawImpact(impact, line, screen) {
+  if (!isFresh(impact)) return;
+  const scale = impulseScale(line);
+  pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
+  for (const contact of impact.contacts) {
+    const from = screen(contact.tip), f = force(contact.impulse), [, fx, fy] = contact.impulse;
+    // rounding is no impulse
+    if (f < 1e-9) {
+      circle(from, 9, null, IMPULSE);
+      label("no impulse", plus(from, [12, 4]), IMPULSE);
+      continue;
+    }
+    if (element("ellipse").checked) {
+      const [long, short] = ellipse(contact).map((axis) => axis * scale);
+      pen.beginPath();
+      pen.ellipse(...from, long, short, -contact.impulse_ellipse.direction, 0, 2 * Math.PI);
+      pen.strokeStyle = IMPULSE; pen.fillStyle = "rgba(179,38,30,0.08)"; pen.lineWidth = 1.2;
+      pen.fill();
+      pen.stroke();
+    }
+    // so long that it is seen
+    const way = [fx, -fy].map((part) => part / f * Math.max(scale * f, 14)), to = plus(from, way);
+    pen.strokeStyle = IMPULSE; pen.lineWidth = 3;
+    stroke([from, to]);
+    const angle = Math.atan2(way[1], way[0]);
+    arrowHead(to, angle, IMPULSE);
+    const text = `${f.toPrecision(3)} N s`;
+    pen.font = TEXT;
+    label(text, way[0] < 0 ? [to[0] - 10 - pen.measureText(text).width, to[1] + 4] : [to[0] + 10, to[1] + 4], IMPULSE);
+  }
+  pen.globalAlpha = 1;
+}

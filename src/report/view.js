@@ -1,0 +1,69 @@
+// The part of the plane that is seen.
+
+/** Half the sides of the base: it reaches to its mounts, and is a body of its mass and inertia else. */
+const base = (() => {
+  const gyration = Math.sqrt(study.layout.base.inertia / study.layout.base.mass);
+  const half = gyration * Math.sqrt(1.5);
+  const reach = (i) => Math.max(...study.layout.arms.map((arm) => Math.abs(arm.mount[i])));
+  return [Math.max(reach(0), half), Math.max(reach(1), half)];
+})();
+
+/** When a target matters: its impacts, its nearest approach, the grasp that does not close. */
+function instants(one, line, target) {
+  const own = (pairs) => pairs.filter((pair) => pair.target === target);
+  return [
+    ...line.impacts.filter((impact) => own(impact.contacts).length).map((impact) => impact.time),
+    ...own(one.closest).map((pair) => pair.time),
+    ...own(one.open).map(() => line.contact),
+  ];
+}
+
+/** The part of the plane that robot, what it holds, and impacts are in, or everything; about the base where that is followed. */
+function bounds(one, line, view) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  const add = ([x, y], r) => {
+    box[0] = Math.min(box[0], x - r); box[1] = Math.min(box[1], y - r);
+    box[2] = Math.max(box[2], x + r); box[3] = Math.max(box[3], y + r);
+  };
+  // a target far away does not shrink the robot to a dot: what is free counts around the instants when it matters
+  const matters = one.targets.map((_, i) => instants(one, line, i));
+  const steps = 160, times = Array.from({ length: steps + 1 }, (_, i) => line.end * i / steps);
+  for (const time of [...times, ...matters.flat()]) {
+    const now = configuration(line, time), origin = view === "follow" ? now.base.map((part) => -part) : [0, 0];
+    add(plus(now.base, origin), Math.hypot(...base));
+    now.arms.forEach((arm) => arm.points.forEach((point) => add(plus(point, origin), 0.05)));
+    targetPoses(one, line, time).forEach((pose, i) => {
+      const held = line.holds.some((hold) => hold.target === i && hold.time <= time);
+      const near = matters[i].some((instant) => Math.abs(time - instant) <= 2);
+      if (view === "everything" || held || near) add(plus(pose.point, origin), study.targets[i].radius);
+    });
+  }
+  return box;
+}
+
+const boxes = new Map();
+
+function viewOf(one, line) {
+  const view = element("view").value, key = `${state.chosen} ${view}`;
+  if (!boxes.has(key)) boxes.set(key, bounds(one, line, view));
+  return [boxes.get(key), view];
+}
+
+/** Lines of equal x and y, with their coordinates. */
+function grid(screen, scale, centre, width, height) {
+  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => s * scale > 55) || 100;
+  pen.strokeStyle = "#e6ebf0"; pen.lineWidth = 1; pen.fillStyle = "#8a98a6"; pen.font = "11px system-ui, sans-serif";
+  const [left, right] = [centre[0] - width / 2 / scale, centre[0] + width / 2 / scale];
+  const [low, high] = [centre[1] - height / 2 / scale, centre[1] + height / 2 / scale];
+  const digits = step < 1 ? 1 : 0;
+  for (let x = Math.ceil(left / step) * step; x <= right; x += step) {
+    const [sx] = screen([x, 0]);
+    stroke([[sx, 0], [sx, height]]);
+    pen.fillText(x.toFixed(digits), sx + 3, height - 5);
+  }
+  for (let y = Math.ceil(low / step) * step; y <= high; y += step) {
+    const [, sy] = screen([0, y]);
+    stroke([[0, sy], [width, sy]]);
+    if (sy < height - 18) pen.fillText(`${y.toFixed(digits)} m`, 4, sy - 3);
+  }
+}
