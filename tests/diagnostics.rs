@@ -838,4 +838,17 @@ fn broken_contacts() {
     let (count, shown) = report(&CONTACTS.replace(&format!("polygon = {OUTLINE}\n"), ""));
     assert!(count == 1 && shown.contains("missing key `target[0].radius`"), "{shown}");
     assert!(shown.contains("demo.toml:12:1") && shown.contains("the corners of a `polygon`"), "{shown}");
+
+    // a disc has no outward normal at its COM, for the target's own kind or a case's
+    let disc = CONTACTS.replace(&format!("polygon = {OUTLINE}"), "radius = 0.6");
+    let at_com = disc.replace(POINTS, "[[0.5, 0.2], [0.0, 0.0]]");
+    for (text, line, key) in [
+        (at_com.replace("\"rigid\", \"pin\"", "\"rigid\", \"bounce\""), 18, "target[0].contact"),
+        (at_com, 25, "case[1].kinds.panel"),
+    ] {
+        let (count, shown) = report(&text);
+        let place = format!("demo.toml:{line}:");
+        assert!(count == 1 && shown.contains(&place) && shown.contains(key), "{shown}");
+        assert!(shown.contains("no outward normal"), "{shown}");
+    }
 }

@@ -45,7 +45,7 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
         }
         let why = "case names must differ by more than upper and lower case: they are the names of files";
         Table::reject_repeats(&tables, "name", str::eq_ignore_ascii_case, why);
-        every(tables.iter().map(|table| Case::from_table(table, target_names.as_deref(), known)))
+        every(tables.iter().map(|table| Case::from_table(table, target_names.as_deref(), known, detection)))
     });
 
     let post_impact = if alone {

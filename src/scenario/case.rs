@@ -1,6 +1,7 @@
 //! `[[case]]`: variants of a capture.
 
-use super::target::{Target, TouchKind, restitution};
+use super::contact::Detection;
+use super::target::{NO_NORMAL, Target, TouchKind, restitution};
 use super::{FILE_NAME, TWIST, file_name};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
@@ -37,7 +38,12 @@ impl Case {
     }
 
     /// `names` are the targets', where each has one of its own; `targets` those that could be read.
-    pub(super) fn from_table<'a>(table: &Table<'a>, names: Option<&[&'a str]>, targets: &[Target]) -> Option<Self> {
+    pub(super) fn from_table<'a>(
+        table: &Table<'a>,
+        names: Option<&[&'a str]>,
+        targets: &[Target],
+        detection: Detection,
+    ) -> Option<Self> {
         let name = table.require("name", FILE_NAME).and_then(|value| file_name(&value));
         let names = names?;
         let default = Self::only("", targets);
@@ -47,7 +53,14 @@ impl Case {
             None => Some(default.target_twists.get(i).copied().unwrap_or_default()),
         });
         let kinds = of_targets(table, "kinds", names, |i, value| match value {
-            Some(value) => TouchKind::list(&value, target(i).map(|target| target.touches.len())),
+            Some(value) => {
+                let kinds = TouchKind::list(&value, target(i).map(|target| target.touches.len()))?;
+                if detection == Detection::Time && target(i).is_some_and(|target| target.bounces_at_its_com(&kinds)) {
+                    value.reject(NO_NORMAL);
+                    return None;
+                }
+                Some(kinds)
+            }
             None => Some(default.kinds.get(i).cloned().unwrap_or_default()),
         });
         let restitutions = of_targets(table, "restitutions", names, |i, value| match value {

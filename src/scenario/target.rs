@@ -16,6 +16,8 @@ const RESTITUTION: Quantity = Quantity::any("a restitution, 0 (nothing comes bac
 const CONTACTS: &str = "[rx, ry] in m, or a list of those, one per arm";
 const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m")];
 
+pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
+
 /// A free body that arms touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
@@ -121,6 +123,14 @@ impl Target {
         self.touches.first().map_or([0.0; 2], |touch| touch.contact)
     }
 
+    /// Whether one of these contacts, one per touch, would bounce where a disc has no outward normal: prescribed at its COM.
+    pub(super) fn bounces_at_its_com(&self, kinds: &[TouchKind]) -> bool {
+        let at_com = |touch: &Touch| touch.contact.iter().all(|x| *x == 0.0);
+        let mut touches = self.touches.iter().zip(kinds);
+        let bounces = touches.any(|(touch, kind)| *kind == TouchKind::Bounce && at_com(touch));
+        bounces && matches!(self.surface, Surface::Disc { .. })
+    }
+
     pub(super) fn from_table(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Self> {
         let name = table.text("name", "a name");
         let arms = table
@@ -153,14 +163,7 @@ impl Target {
             .map(|((arm, contact), kind)| Touch { arm, contact, kind })
             .collect();
         let surface = surface?;
-        if detection == Detection::Time
-            && touches.iter().any(|touch| touch.kind == TouchKind::Bounce && touch.contact.iter().all(|x| *x == 0.0))
-            && let (Surface::Disc { .. }, Some(value)) = (&surface, table.get("contact"))
-        {
-            value.reject("a bounce at the COM has no outward normal, expected a point on the rim");
-            return None;
-        }
-        Some(Self {
+        let target = Self {
             name: name?.to_owned(),
             touches,
             mass: mass?,
@@ -170,7 +173,15 @@ impl Target {
             twist: twist?,
             yaw: yaw?,
             position: position?,
-        })
+        };
+        let kinds: Vec<_> = target.touches.iter().map(|touch| touch.kind).collect();
+        if detection == Detection::Time && target.bounces_at_its_com(&kinds) {
+            if let Some(value) = table.get("contact") {
+                value.reject(NO_NORMAL);
+            }
+            return None;
+        }
+        Some(target)
     }
 }
 
