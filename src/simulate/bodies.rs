@@ -1,6 +1,6 @@
 //! Every rigid body of a robot and what is beside it.
 
-use crate::dynamics::Model;
+use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::simulate::system::Body;
 use crate::state::State;
@@ -29,4 +29,22 @@ pub(crate) fn momentum_sizes(bodies: &[Body]) -> [f64; 2] {
         sizes[1] += mass * vx.hypot(*vy);
     }
     sizes
+}
+
+/// [x, y] of the centre of mass of bodies together, m, and their mass, kg.
+pub(crate) fn center_of_mass(bodies: &[Body]) -> ([f64; 2], f64) {
+    let mass: f64 = bodies.iter().map(|body| body.mass).sum();
+    let along = |axis: usize| bodies.iter().map(|body| body.mass * body.pose[axis]).sum::<f64>() / mass;
+    ([along(1), along(2)], mass)
+}
+
+/// A robot's momentum and energy with those of the bodies beside it.
+pub(crate) fn with_bodies(mut total: Momentum<f64>, bodies: &[Body]) -> Momentum<f64> {
+    for body in bodies {
+        let ([l, px, py], energy) = body.momentum();
+        total.linear_momentum = [total.linear_momentum[0] + px, total.linear_momentum[1] + py];
+        total.angular_momentum += l;
+        total.kinetic_energy += energy;
+    }
+    total
 }

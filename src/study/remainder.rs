@@ -4,7 +4,7 @@ use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scenario::Settling;
 use crate::simulate::Motion;
-use crate::simulate::audit::with_bodies;
+use crate::simulate::bodies::{bodies, center_of_mass, with_bodies};
 use crate::simulate::system::Body;
 
 /// The motion that remains, robot and targets as one.
@@ -40,22 +40,14 @@ impl Remainder {
         motion: &Motion,
         wheels: &[bool],
     ) -> Result<Self, Error> {
-        let bodies = model.joints() + 1;
-        let (mut inertias, mut poses) = (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies]);
-        model.body_inertias(&mut inertias)?;
-        model.body_poses(&motion.base_pose, &motion.joint_angles, &mut poses)?;
-        inertias.extend(held.iter().map(|body| [body.mass, body.inertia]));
-        poses.extend(held.iter().map(|body| body.pose));
+        let bodies = bodies(model, &motion.state(), held)?;
         let total = with_bodies(model.momentum(&motion.state())?, held);
-        let mass: f64 = inertias.iter().map(|[mass, _]| mass).sum();
-        let center = [1, 2].map(|axis: usize| {
-            let moments = inertias.iter().zip(&poses).map(|([mass, _], pose)| mass * pose[axis]);
-            moments.sum::<f64>() / mass
-        });
-        let parts = inertias.iter().zip(&poses);
-        let inertia: f64 = parts
-            .map(|([mass, inertia], [_, x, y])| inertia + mass * ((x - center[0]).powi(2) + (y - center[1]).powi(2)))
-            .sum();
+        let (center, mass) = center_of_mass(&bodies);
+        let about = |body: &Body| {
+            let [_, x, y] = body.pose;
+            body.inertia + body.mass * ((x - center[0]).powi(2) + (y - center[1]).powi(2))
+        };
+        let inertia: f64 = bodies.iter().map(about).sum();
         let [px, py] = total.linear_momentum;
         let angular = total.angular_momentum - (center[0] * py - center[1] * px);
         let joints = || motion.joint_rates.iter().zip(wheels);

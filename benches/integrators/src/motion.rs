@@ -2,16 +2,16 @@
 
 use crate::Problem;
 use planar_capture::approach::Approach;
-use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
 use planar_capture::approach::design::end_rates;
+use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::simulate::event::NoEvents;
 use planar_capture::models;
 use planar_capture::scenario::{EndRates, Integration, Scenario, Tracking};
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Motion, Phase, Stopped, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::simulate::system::System;
 use planar_capture::trajectory::{Ends, Quartic};
 use std::f64::consts::PI;
 use std::path::Path;
