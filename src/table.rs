@@ -8,6 +8,9 @@ use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};
 use std::fmt::Write;
 
+/// A tip this far from where it is to touch its target is told of, m.
+const APART: f64 = 1e-4;
+
 /// The numbers of a study in words and columns.
 #[must_use]
 pub fn table(scenario: &Scenario, study: &Study) -> String {
@@ -53,7 +56,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     let [yaw, x, y] = end.motion.base_pose;
     let meanwhile = match scenario.contact.detection {
         Detection::Time => "",
-        Detection::Event => ", were there no contact",
+        Detection::Event => ", had there been no contact",
     };
     writeln!(out, "\nAfter the approach of {} s{meanwhile}", phase.duration)?;
     writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
@@ -168,6 +171,14 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
         if captured.impact.contacts.is_empty() {
             writeln!(out, "  {:<16} no contact", case.name)?;
+        }
+        // of one arm, the target is where the tip puts it
+        let apart = captured.impact.contacts.iter().filter(|contact| contact.touching.miss > APART);
+        for Touching { target, arm, miss, .. } in apart.map(|contact| contact.touching) {
+            let (of, target) = (scenario.layout.arms.get(arm), scenario.targets.get(target));
+            let (Some(of), Some(target)) = (of, target) else { continue };
+            let (of, target) = (&of.name, &target.name);
+            writeln!(out, "  {:<16} the tip of {of} is {miss:.4} m from its contact point on {target}", case.name)?;
         }
     }
     if printed && !detected {

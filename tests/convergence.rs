@@ -247,6 +247,25 @@ fn sampled_torques_and_adaptive_steps() {
     }
 }
 
+/// However many steps a sample is held for: its end is a sum of steps, which rounding puts before or after the time that is
+/// meant.
+#[test]
+fn samples_of_any_number_of_steps() {
+    let start = tumbling();
+    let standing = Standing { angles: &start.joint_angles };
+    for steps in [1, 2, 3, 5, 7, 10, 20, 50, 100] {
+        let mut ends = [Scheme::RungeKutta4, ADAPTIVE].map(|scheme| {
+            let gains = ([2.0; 6], [1.5; 6]);
+            let law =
+                ProportionalDerivative { trajectory: standing, proportional_gain: &gains.0, derivative_gain: &gains.1 };
+            let mut held = [0.0; 6];
+            run(&mut Sampled::new(law, steps, &mut held), 1.0, 0.005, scheme, FULL)
+        });
+        let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).motion));
+        assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);
+    }
+}
+
 /// Gauss–Legendre steps over 1,000 s of turning with both arms out, which swing about that: momenta to rounding, and an energy
 /// error that does not grow, where that of Runge–Kutta steps grows with the time.
 #[test]

@@ -839,6 +839,16 @@ fn broken_contacts() {
     assert!(count == 1 && shown.contains("missing key `target[0].radius`"), "{shown}");
     assert!(shown.contains("demo.toml:12:1") && shown.contains("the corners of a `polygon`"), "{shown}");
 
+    // restitution where nothing bounces: of the target in no case, or in a case of its own
+    let held = CONTACTS.replace("\"pin\", \"bounce\"", "\"pin\", \"rigid\"");
+    let (count, shown) = report(&held);
+    assert!(count == 2 && shown.matches("no contact of the target bounces").count() == 2, "{shown}");
+    assert!(shown.contains("demo.toml:20:15") && shown.contains("`case[1].restitutions.panel` is 0.9"), "{shown}");
+    // reduced coordinates where a target stays beside the robot
+    let reduced = format!("{CONTACTS}coordinates = \"reduced\"\n");
+    let (count, shown) = report(&reduced);
+    assert!(count == 1 && shown.contains("`post_impact.coordinates` is \"reduced\""), "{shown}");
+
     // a disc has no outward normal at its COM, for the target's own kind or a case's
     let disc = CONTACTS.replace(&format!("polygon = {OUTLINE}"), "radius = 0.6");
     let at_com = disc.replace(POINTS, "[[0.5, 0.2], [0.0, 0.0]]");

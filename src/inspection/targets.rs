@@ -25,7 +25,6 @@ pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
             on_a_wheel(scenario, target),
             out_of_reach(scenario, target),
             spin(&target.twist).map(|(why, help)| ("twist[0]", why, help)),
-            restitution_of_nothing(scenario, i, target),
             too_few_joints(scenario, i, target),
         ];
         found.into_iter().flatten().map(move |(key, why, help)| Oddity { key: format!("target[{i}].{key}"), why, help })
@@ -80,15 +79,6 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
     let longer: Vec<_> =
         scenario.layout.arms.iter().filter(|arm| arm.reach() > 0.0).map(|arm| arm.name.as_str()).collect();
     Some(("arm", why, format!("arms with a length: {}", longer.join(", "))))
-}
-
-/// Restitution where no contact bounces in any case.
-fn restitution_of_nothing(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd> {
-    let bounces = scenario.cases.iter().any(|case| case.kinds.get(i).is_some_and(|k| k.contains(&TouchKind::Bounce)));
-    (target.restitution > 0.0 && !bounces).then(|| {
-        let why = format!("{}, but no contact of the target bounces", short(target.restitution));
-        ("restitution", why, "a restitution belongs to `kind = \"bounce\"`; what holds gives nothing back".to_owned())
-    })
 }
 
 /// A loop closed by more constraints than its arms have joints: the impulses at its contacts cannot be told apart.

@@ -80,6 +80,8 @@ impl Adaptive {
         derivative: &mut Derivative<'_>,
         restore: &mut dyn FnMut(&mut [f64]) -> Result<bool, Error>,
     ) -> Result<(), Error> {
+        // the end of what is held is a sum of steps, and may be its rounding before the time that is meant
+        let time = time.min(self.end);
         let rounding = 4.0 * f64::EPSILON * self.end.abs();
         while time > self.solver.t() + rounding {
             let mut x = self.solver.y().clone();

@@ -41,7 +41,7 @@ impl fmt::Debug for Column {
 
 /// All columns of a case's time series but time and phase, in their order.
 ///
-/// Where a torque acts on the base, there are columns for it, its work and its impulse; the torque is 0 in phases without.
+/// Momentum and kinetic energy are of robot and targets together. Where a torque acts on the base, there are columns for it, its work and its impulse; the torque is 0 in phases without.
 /// Work and impulse are counted from the start of each phase.
 #[must_use]
 pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
@@ -60,9 +60,9 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     for (i, arm) in arms.iter().enumerate() {
         list.vector("tips", &format!("{}_tip", arm.name), TWIST, move |row| row.sample.end_effector_twists[i]);
     }
-    list.vector("momentum", "linear_momentum", [("x", "N s"), ("y", "N s")], |row| row.sample.linear_momentum);
-    list.one("momentum", "angular_momentum", "N m s", |row| row.sample.angular_momentum);
-    list.one("energy", "kinetic_energy", "J", |row| row.sample.kinetic_energy);
+    list.vector("momentum", "linear_momentum", [("x", "N s"), ("y", "N s")], |row| row.whole().linear_momentum);
+    list.one("momentum", "angular_momentum", "N m s", |row| row.whole().angular_momentum);
+    list.one("energy", "kinetic_energy", "J", |row| row.whole().kinetic_energy);
     list.one("energy", "joint_work", "J", |row| row.sample.work);
     if has_base_torque(case) {
         list.one("state", "base_torque", "N m", |row| row.sample.base_torque.unwrap_or_default());

@@ -10,10 +10,14 @@ pub use csv::write_csv;
 #[cfg(feature = "parquet")]
 pub use parquet::write_parquet;
 
+use crate::dynamics::Momentum;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
+use crate::simulate::bodies::with_bodies;
 use crate::simulate::system::Body;
 use crate::study::{CaseResult, Study};
+
+const APPROACH: &str = "approach";
 
 /// One instant of a case.
 #[derive(Clone, Debug)]
@@ -28,6 +32,22 @@ pub struct Row<'a> {
     pub targets: Vec<Body>,
 }
 
+impl Row<'_> {
+    /// Momentum and energy of robot and targets together.
+    #[must_use]
+    pub fn whole(&self) -> Momentum<f64> {
+        let sample = self.sample;
+        let moved = Momentum {
+            linear_momentum: sample.linear_momentum,
+            angular_momentum: sample.angular_momentum,
+            kinetic_energy: sample.kinetic_energy,
+        };
+        // after the impact the targets are counted in already
+        let alone = if self.phase == APPROACH { &self.targets[..] } else { &[] };
+        with_bodies(moved, alone)
+    }
+}
+
 /// The approach, then the motion after the impact, where there is one.
 ///
 /// At each impact there are two rows of the same time, before and after it.
@@ -35,7 +55,7 @@ pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = 
     let approach = case.approach(study);
     let before = approach.samples.iter().map(move |sample| Row {
         time: sample.time,
-        phase: "approach",
+        phase: APPROACH,
         sample,
         targets: case.targets_before(approach.duration - sample.time),
     });

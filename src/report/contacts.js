@@ -89,6 +89,9 @@ function audit() {
     return [`${name}: ${numbers.map(([what, value]) => `${what} ${value.toExponential(1)}`).join(", ")}`];
   };
   const after = one.impacts.length ? "after the impact" : "after the approach";
-  shown.textContent = [...of("approach", one.approach || study.approach), ...of(after, one.post_impact), ...study.objections].join(" · ");
-  shown.className = study.objections.length ? "bad" : "";
+  // those that name another case are that case's
+  const others = study.cases.filter((other) => other !== one).map((other) => other.name);
+  const objections = study.objections.filter((text) => !others.some((name) => text.startsWith(`${name}:`) || text.startsWith(`${name},`)));
+  shown.textContent = [...of("approach", one.approach || study.approach), ...of(after, one.post_impact), ...objections].join(" · ");
+  shown.className = objections.length ? "bad" : "";
 }

@@ -2,10 +2,10 @@
 //! follows.
 
 use super::case::Case;
-use super::contact::ContactRules;
+use super::contact::{ContactRules, Detection};
 use super::joints::Joints;
 use super::post_impact::PostImpact;
-use super::target::Target;
+use super::target::{NO_BOUNCE, Target, TouchKind};
 use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
 use std::collections::HashSet;
@@ -48,20 +48,26 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
         every(tables.iter().map(|table| Case::from_table(table, target_names.as_deref(), known, detection)))
     });
 
+    let after = if alone { None } else { root.table("post_impact", &PostImpact::KEYS) };
     let post_impact = if alone {
         for value in ["contact", "post_impact"].iter().filter_map(|key| root.get(key)) {
             value.reject("there is nothing to capture, expected a `[[target]]` with it");
         }
         Some(None)
     } else {
-        let table = root.table("post_impact", &PostImpact::KEYS);
-        table.and_then(|table| PostImpact::from_table(&table, &Joints { layout })).map(Some)
+        after.as_ref().and_then(|table| PostImpact::from_table(table, &Joints { layout })).map(Some)
     };
 
-    let mut cases = cases?;
-    let targets = targets?;
+    let (mut cases, targets) = (cases?, targets?);
     if cases.is_empty() {
         cases.push(Case::only(name?, &targets));
+    }
+    reject_idle_restitutions(&tables, &cases);
+    if let Some(value) = after.and_then(|table| table.get("coordinates"))
+        && value.as_str() == Some("reduced")
+        && !merges_all(&targets, &cases, detection)
+    {
+        value.reject("they are for a robot alone, but not every target becomes part of a link, expected `full`");
     }
     Some(Capture { targets, contact: contact?, cases, post_impact: post_impact? })
 }
@@ -81,6 +87,24 @@ fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout)
                 let (name, path) = (&arm.name, first.path());
                 value.reject(&format!("`{name}` is in `{path}` too, but an arm captures at most one target"));
             }
+        }
+    }
+}
+
+/// Whether every case makes every target one with a link, in one instant.
+fn merges_all(targets: &[Target], cases: &[Case], detection: Detection) -> bool {
+    let one_arm_each = targets.iter().all(|target| target.touches.len() == 1);
+    let at_once = detection == Detection::Time || targets.len() == 1;
+    let rigid = cases.iter().flat_map(|case| &case.kinds).flatten().all(|kind| *kind == TouchKind::Rigid);
+    one_arm_each && at_once && rigid
+}
+
+/// Notes restitutions of targets that nothing bounces off in any case.
+fn reject_idle_restitutions(tables: &[Table<'_>], cases: &[Case]) {
+    let bounces = |i: usize| cases.iter().any(|case| case.kinds.get(i).is_some_and(|k| k.contains(&TouchKind::Bounce)));
+    for (_, table) in tables.iter().enumerate().filter(|(i, _)| !bounces(*i)) {
+        if let Some(value) = table.get("restitution") {
+            value.reject(NO_BOUNCE);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! `[[case]]`: variants of a capture.
 
 use super::contact::Detection;
-use super::target::{NO_NORMAL, Target, TouchKind, restitution};
+use super::target::{NO_BOUNCE, NO_NORMAL, Target, TouchKind, restitution};
 use super::{FILE_NAME, TWIST, file_name};
 use crate::diagnostic::{Quantity, Table, Value, every};
 
@@ -64,7 +64,14 @@ impl Case {
             None => Some(default.kinds.get(i).cloned().unwrap_or_default()),
         });
         let restitutions = of_targets(table, "restitutions", names, |i, value| match value {
-            Some(value) => restitution(&value),
+            Some(value) => {
+                let idle =
+                    kinds.as_ref().and_then(|kinds| kinds.get(i)).is_some_and(|k| !k.contains(&TouchKind::Bounce));
+                if idle {
+                    value.reject(NO_BOUNCE);
+                }
+                restitution(&value).filter(|_| !idle)
+            }
             None => Some(default.restitutions.get(i).copied().unwrap_or_default()),
         });
         let printed_impulses = of_targets(table, "printed_impulses", names, |_, value| match value {

@@ -18,6 +18,9 @@ const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m
 
 pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
 
+pub(super) const NO_BOUNCE: &str =
+    "no contact of the target bounces, and what holds gives nothing back, expected `bounce` as a kind of it";
+
 /// A free body that arms touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {

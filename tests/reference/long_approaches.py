@@ -2,8 +2,8 @@
 
     python tests/reference/long_approaches.py
 
-needs numpy and scipy, and writes long_approaches.json next to this file. The joints go along a cycloid from rest to rest
-and are held at its end; the integration is begun anew there, where the third derivative jumps.
+needs numpy and scipy, and writes long_approaches.json next to this file. The joints go along a cycloid from rest to
+rest and are held at its end; the integration is begun anew there, where the third derivative jumps.
 """
 
 import json
@@ -21,7 +21,12 @@ SERIES = [  # layout, initial and final angles, s of the trajectory
     ("single_arm_3r", [-1.2, 2.3, 0.4], [1.9, -2.0, -1.1], 12.5),
     ("dual_arm_3r", *TWO, 30.0),
     ("dual_arm_3r", *TWO, 60.0),
-    ("dual_arm_3r", [0.698, -1.571, 1.047, 2.444, 1.571, -1.047], [-0.524, -1.393, -0.035, 2.618, -1.393, -0.035], 20.0),
+    (
+        "dual_arm_3r",
+        [0.698, -1.571, 1.047, 2.444, 1.571, -1.047],
+        [-0.524, -1.393, -0.035, 2.618, -1.393, -0.035],
+        20.0,
+    ),
     ("dual_arm_3r", [-1.0, 2.0, -2.5, 1.5, -0.5, 3.0], [2.0, -1.0, 1.5, 4.5, 1.5, -2.0], 45.0),
 ]
 
