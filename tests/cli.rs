@@ -323,7 +323,7 @@ fn integrators_say_what_they_cannot_do() {
 fn the_audit_decides_the_exit_code() {
     let (code, out, err, folder) = run_text(&paper().replace("step = 0.005", "step = 0.05"));
     assert_eq!(code, 1, "{out}{err}");
-    assert!(err.contains("audit: approach: momentum drift"), "{err}");
+    assert!(err.contains("audit: approach: momentum drift") && err.contains("a shorter `step`"), "{err}");
     assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");
 }
 

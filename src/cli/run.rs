@@ -62,6 +62,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     for objection in &objections {
         eprintln!("audit: {objection}");
     }
+    if objections.iter().any(|objection| objection.contains("over its bound")) {
+        eprintln!("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
+    }
     Ok(if objections.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 

@@ -305,8 +305,8 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
         ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
-        ("what is held is open by", phase.constraint_errors[0], CONSTRAINT_BOUND),
-        ("what is held opens by", phase.constraint_errors[1], CONSTRAINT_BOUND),
+        ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
+        ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
     // a NaN is not within its bound
     let out_of_bound =
