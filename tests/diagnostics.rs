@@ -187,7 +187,7 @@ const SCENARIO_EDITS: &[Edit] = &[
     ),
     ("\"quartic\"", "4", 7, &["`approach.trajectory` is 4, expected `quartic`"]),
     ("\"quartic\"", "\"cycloidal\"", 9, &["`approach.final_end_effector_twists` is [[0, -0.1, 0]]", "ends at rest"]),
-    ("[[0, -0.1, 0]]", "[[0, -0.1]]", 9, &["`approach.final_end_effector_twists[0]` is [0, -0.1]", "[ω, vx, vy]"]),
+    ("[[0, -0.1, 0]]", "[[0]]", 9, &["`approach.final_end_effector_twists[0]` is [0]", "[ω, vx, vy]"]),
     ("[[0, -0.1, 0]]", "[0, -0.1, 0]", 9, &["is [0, -0.1, 0], expected 1 twists [ω, vx, vy], one per arm (left)"]),
     (
         "final_end_effector_twists = [[0, -0.1, 0]]\n",
@@ -313,7 +313,12 @@ const SCENARIO_EDITS: &[Edit] = &[
     (STEERED, steered!("derivative_gain = 3"), 10, &["derivative_gain` is 3", "`pose_gain` and `rate_gain`"]),
     (STEERED, steered!("rate_gain = 0"), 10, &["rate_gain` is 0", "1/s greater than 0"]),
     (STEERED, steered!("singularity_threshold = 1.5"), 10, &["singularity_threshold` is 1.5", "less than 1"]),
-    (STEERED, steered!("final_end_effector_twists = [[1, 0, 0]]"), 10, &["twists[0]` is [1, 0, 0]", "expected ω = 0"]),
+    (
+        STEERED,
+        steered!("final_end_effector_twists = [[1, 0, 0]]"),
+        10,
+        &["twists[0]` is [1, 0, 0]", "expected [vx, vy]"],
+    ),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),
@@ -593,7 +598,7 @@ fn valid_files() -> Outcome {
 
     let demo = scenario(SCENARIO)?;
     assert_eq!(demo.approach.trajectory, TrajectoryKind::Quartic);
-    assert_eq!(demo.approach.end, EndRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0]]));
+    assert_eq!(demo.approach.end, EndRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0].map(Some)]));
     assert_eq!((demo.approach.duration, demo.approach.step), (20.0, 0.005));
     let gains = (vec![49.0, 49.0], vec![14.0, 14.0]);
     let tracking =

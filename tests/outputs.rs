@@ -9,6 +9,7 @@ use tempfile::TempDir;
 
 /// Asks for something that this build lacks; what it says.
 #[cfg(not(all(feature = "figures", feature = "parquet", feature = "mcap")))]
+#[allow(dead_code, reason = "only a build without one of the features refuses its flag")]
 fn refused(flags: &[&str]) -> String {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results");

@@ -52,6 +52,40 @@ fn the_papers_final_pose_is_found_from_its_tips() {
     }
 }
 
+/// A tip's velocity alone, at any turning rate: two numbers for three joints, or for two; and an arm of which nothing is wanted.
+#[test]
+fn velocities_alone_are_designed() {
+    let mut free = scenario("raina_shah_2017_exact_tracking");
+    free.approach.step = 0.02;
+    free.approach.end = EndRates::EndEffectorTwists(vec![[None, Some(-0.1), Some(0.02)], [None; 3]]);
+    let designed = run(&free);
+    let [first, _] = designed.approach.end().expect("an end").end_effector_twists[..] else { panic!("two tips") };
+    assert_close("velocity", &first[1..], &[-0.1, 0.02], tolerance::REACHED);
+    assert!(first[0].abs() > 1e-3, "the least rates turn the tip");
+
+    let two_links = r#"
+name = "two"
+layout = "dual_arm_2r"
+[initial]
+joint_angles = [0.6, -1.2, 2.5, 1.2]
+[approach]
+duration = 10.0
+trajectory = "quintic"
+final_joint_angles = [0.4, -0.8, 2.7, 0.9]
+final_end_effector_twists = [[0.03, 0.01], [-0.02, 0.0]]
+tracking = "exact"
+"#;
+    let scenario =
+        Scenario::parse(two_links, "two.toml", std::path::Path::new(""), models::SHIPPED).expect("a scenario");
+    let model = models::generic(&scenario.layout);
+    let study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+    for (twist, wanted) in
+        study.approach.end().expect("an end").end_effector_twists.iter().zip([[0.03, 0.01], [-0.02, 0.0]])
+    {
+        assert_close("velocity", &twist[1..], &wanted, tolerance::REACHED);
+    }
+}
+
 /// Table 4's places, which Table 3's angles do not reach: positions, a yaw left open, an arm left alone.
 #[test]
 fn positions_alone_are_reached_with_joints_to_spare() {

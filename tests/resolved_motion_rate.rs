@@ -29,7 +29,7 @@ fn steered(goals: &[TipGoal], twists: &[[f64; 3]]) -> Scenario {
     let mut scenario = scenario("resolved_motion_rate");
     scenario.approach.actuation = Actuation::default();
     scenario.approach.final_end_effector_poses = Some(goals.to_vec());
-    scenario.approach.end = EndRates::EndEffectorTwists(twists.to_vec());
+    scenario.approach.end = EndRates::EndEffectorTwists(twists.iter().map(|twist| twist.map(Some)).collect());
     (scenario.targets, scenario.post_impact) = (Vec::new(), None);
     scenario.cases.truncate(1);
     scenario
@@ -263,7 +263,7 @@ fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseEr
     planned.approach.final_end_effector_poses = Some(goals.to_vec());
     let end: Vec<_> =
         (0..layout.arms.len()).map(|arm| [0.1, -0.2, 0.05 * f64::from(u8::try_from(arm).unwrap_or(0))]).collect();
-    planned.approach.end = EndRates::EndEffectorTwists(end);
+    planned.approach.end = EndRates::EndEffectorTwists(end.iter().map(|twist: &[f64; 3]| twist.map(Some)).collect());
     planned.layout = layout.clone();
     let state = State {
         base_pose: s.base_pose,

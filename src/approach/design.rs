@@ -2,6 +2,7 @@
 
 use crate::approach::Approach;
 use crate::dynamics::Model;
+use crate::scenario::TipTwist;
 use crate::simulate::{Motion, Phase, Sample, Stopped};
 use nalgebra::{DMatrix, DVector};
 
@@ -84,7 +85,7 @@ pub struct Design {
 pub fn end_rates(
     model: &dyn Model<f64>,
     approach: &Approach<'_>,
-    wanted: &[[f64; 3]],
+    wanted: &[TipTwist],
     tick: &mut dyn FnMut(),
 ) -> Result<Design, DesignError> {
     let mut rates = vec![0.0; model.joints()];
@@ -110,9 +111,9 @@ pub fn end_rates(
 pub(crate) fn rates_for(
     model: &dyn Model<f64>,
     phase: &Phase,
-    wanted: &[[f64; 3]],
+    wanted: &[TipTwist],
 ) -> Result<(Vec<f64>, f64), DesignError> {
-    let (joints, rows) = (model.joints(), 3 * model.arms());
+    let joints = model.joints();
     let Some(Sample { motion, end_effector_twists, time, .. }) = phase.end() else {
         return Ok((vec![0.0; joints], 0.0));
     };
@@ -120,7 +121,12 @@ pub(crate) fn rates_for(
     // t_e = J joint_rates + what the robot's momentum alone gives (zero for a robot at rest)
     let momentum_part = DVector::from_column_slice(end_effector_twists.as_flattened())
         - &jacobian * DVector::from_column_slice(&motion.joint_rates);
-    let right = DVector::from_column_slice(wanted.as_flattened()) - momentum_part;
+    // the rows of what is wanted
+    let wanted: Vec<(usize, f64)> =
+        wanted.as_flattened().iter().enumerate().filter_map(|(row, part)| Some((row, (*part)?))).collect();
+    let rows = wanted.len();
+    let jacobian = DMatrix::from_fn(rows, joints, |i, j| wanted.get(i).map_or(0.0, |(row, _)| jacobian[(*row, j)]));
+    let right = DVector::from_iterator(rows, wanted.iter().map(|(row, part)| part - momentum_part[*row]));
     let svd = jacobian.clone().svd(true, true);
     let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
     let unreachable = |miss| DesignError::Unreachable { rows, columns: joints, largest, smallest, miss };

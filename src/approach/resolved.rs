@@ -58,7 +58,9 @@ impl Tips {
             }
         }
         let final_twists = match &scenario.approach.end {
-            EndRates::EndEffectorTwists(twists) => twists.clone(),
+            EndRates::EndEffectorTwists(twists) => {
+                twists.iter().map(|twist| twist.map(Option::unwrap_or_default)).collect()
+            }
             EndRates::Rest | EndRates::JointRates(_) => vec![[0.0; 3]; arms],
         };
         let layout = &scenario.layout.arms;

@@ -43,11 +43,14 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 fn velocities(scenario: &Scenario, phase: &Phase, quantity: &str, component: usize) -> Panel {
     let mut series = tips(&scenario.layout, phase, component, |s| &s.end_effector_twists);
     if let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end {
-        series.extend(wanted.iter().enumerate().map(|(i, twist)| Series {
-            label: scenario.layout.arms.get(i).map(|arm| format!("{}, wanted", arm.name)),
-            colour: Colour::of(i),
-            mark: Mark::Line(Dash::Dotted, 1.2),
-            points: vec![(0.0, twist[component]), (phase.duration, twist[component])],
+        series.extend(wanted.iter().enumerate().filter_map(|(i, twist)| {
+            let wanted = twist[component]?;
+            Some(Series {
+                label: scenario.layout.arms.get(i).map(|arm| format!("{}, wanted", arm.name)),
+                colour: Colour::of(i),
+                mark: Mark::Line(Dash::Dotted, 1.2),
+                points: vec![(0.0, wanted), (phase.duration, wanted)],
+            })
         }));
     }
     panel(phase, TIME, quantity, series)

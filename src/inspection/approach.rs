@@ -74,7 +74,7 @@ fn motionless(scenario: &Scenario) -> Option<Oddity> {
     let rest = match &approach.end {
         EndRates::Rest => true,
         EndRates::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
-        EndRates::EndEffectorTwists(twists) => twists.as_flattened().iter().all(|part| *part == 0.0),
+        EndRates::EndEffectorTwists(twists) => twists.as_flattened().iter().flatten().all(|part| *part == 0.0),
     };
     let designed = approach.final_end_effector_poses.is_some();
     (rest && !designed && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Oddity {
@@ -127,7 +127,8 @@ fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
             .collect()
         }
         EndRates::EndEffectorTwists(twists) => {
-            let odd = twists.iter().zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
+            let twists = twists.iter().map(|twist| twist.map(Option::unwrap_or_default));
+            let odd = twists.zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
                 omega.abs() > FASTEST || vx.hypot(*vy) > FASTEST * arm.reach_from_base()
             });
             odd.map(|(index, (_, arm))| {

@@ -74,10 +74,12 @@ fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
         return None; // wishes are counted arm by arm when they are read
     }
     let joints = scenario.layout.joints();
-    (3 * twists.len() > joints).then(|| Oddity {
+    let wanted = twists.as_flattened().iter().flatten().count();
+    (wanted > joints).then(|| Oddity {
         key: "approach.final_end_effector_twists".to_owned(),
-        why: format!("{} numbers to be given by {joints} joints, which can give few such twists", 3 * twists.len()),
-        help: "an arm needs three links to move its tip any way; final_joint_rates sets the rates themselves"
+        why: format!("{wanted} numbers to be given by {joints} joints, which can give few such twists"),
+        help: "an arm needs three links to move its tip any way, two for [vx, vy]; final_joint_rates sets the rates \
+               themselves"
             .to_owned(),
     })
 }

@@ -8,7 +8,7 @@ use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::models;
 use crate::scenario::{
-    Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TouchKind, Tracking, TrajectoryKind,
+    Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TipTwist, TouchKind, Tracking, TrajectoryKind,
 };
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
@@ -100,7 +100,8 @@ fn trajectory(scenario: &Scenario) -> String {
         EndRates::Rest => "rest".to_owned(),
         EndRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
         EndRates::EndEffectorTwists(twists) => {
-            let twists: Vec<_> = twists.iter().map(|twist| list(twist)).collect();
+            let wanted = |twist: &TipTwist| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
+            let twists: Vec<_> = twists.iter().map(wanted).collect();
             format!("tip twists {} rad/s, m/s", twists.join(", "))
         }
     };

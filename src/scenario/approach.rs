@@ -66,6 +66,9 @@ pub enum TrajectoryKind {
     Quintic,
 }
 
+/// [ω, vx, vy] wanted of a tip, rad/s, m/s; `None` where any will do.
+pub type TipTwist = [Option<f64>; 3];
+
 /// The rates wanted at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EndRates {
@@ -73,9 +76,9 @@ pub enum EndRates {
     Rest,
     /// Joint rates arm by arm, in rad/s.
     JointRates(Vec<f64>),
-    /// Twists [ω, vx, vy] of the end effectors, one per arm, from which the generalized Jacobian
+    /// Twists of the end effectors, one per arm, from which the generalized Jacobian
     /// gives the joint rates.
-    EndEffectorTwists(Vec<[f64; 3]>),
+    EndEffectorTwists(Vec<TipTwist>),
 }
 
 /// How a trajectory is followed.
@@ -290,18 +293,29 @@ pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Ti
     Some(goals)
 }
 
-pub(super) fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<[f64; 3]>> {
+pub(super) fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipTwist>> {
     let arms = joints.layout.map(|layout| &layout.arms);
     let wanted = match arms {
         Some(arms) => {
             let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
-            format!("{} twists [ω, vx, vy], one per arm ({})", arms.len(), names.join(", "))
+            let (count, names) = (arms.len(), names.join(", "));
+            format!("{count} twists [ω, vx, vy], one per arm ({names}), or [vx, vy] or [] where less is wanted")
         }
-        None => "one twist [ω, vx, vy] per arm".to_owned(),
+        None => "one twist [ω, vx, vy] per arm, or [vx, vy] or [] where less is wanted".to_owned(),
     };
     let items = value.items(&wanted)?;
     check_length(value, items.len(), arms.map(Vec::len), &wanted)?;
-    every(items.iter().map(|item| item.vector(&TWIST)))
+    let [_, vx, vy] = TWIST;
+    let twists = every(items.iter().map(|item| match item.items("[ω, vx, vy], [vx, vy] or []")?.len() {
+        0 => Some([None; 3]),
+        2 => item.vector(&[vx, vy]).map(|[vx, vy]| [None, Some(vx), Some(vy)]),
+        _ => item.vector(&TWIST).map(|twist| twist.map(Some)),
+    }))?;
+    if twists.iter().flatten().all(Option::is_none) {
+        value.reject("nothing is wanted of any tip, expected a twist, or `final_joint_rates`");
+        return None;
+    }
+    Some(twists)
 }
 
 impl Tracking {

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
-pub use approach::{Approach, EndRates, TipGoal, Tracking, TrajectoryKind};
+pub use approach::{Approach, EndRates, TipGoal, TipTwist, Tracking, TrajectoryKind};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
 pub use integration::{Coordinates, Integration, Scheme};

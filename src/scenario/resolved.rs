@@ -2,7 +2,8 @@
 
 use super::actuation::Actuation;
 use super::approach::{
-    Approach, EndRates, TipGoal, Tracking, TrajectoryKind, end_effector_twists, tip_goals, trajectory_duration,
+    Approach, EndRates, TipGoal, TipTwist, Tracking, TrajectoryKind, end_effector_twists, tip_goals,
+    trajectory_duration,
 };
 use super::duration_and_step;
 use super::integration::Integration;
@@ -38,9 +39,9 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         .and_then(|value| tip_goals(&value, joints));
     let twists = match table.get("final_end_effector_twists") {
         Some(value) => end_effector_twists(&value, joints).and_then(|twists| wanted(&value, twists, goals.as_deref())),
-        None => Some(vec![[0.0; 3]; joints.layout.map_or(0, |layout| layout.arms.len())]),
+        None => Some(vec![[Some(0.0); 3]; joints.layout.map_or(0, |layout| layout.arms.len())]),
     };
-    let rest = twists.as_ref().is_none_or(|twists| twists.as_flattened().iter().all(|part| *part == 0.0));
+    let rest = twists.as_ref().is_none_or(|twists| twists.as_flattened().iter().flatten().all(|part| *part == 0.0));
     let trajectory_duration = trajectory_duration(table, times, rest, "`final_end_effector_twists` of zeros");
     let pose_gain = table.number_or("pose_gain", &POSE_GAIN, 2.0);
     let rate_gain = table.number_or("rate_gain", &RATE_GAIN, 10.0);
@@ -94,16 +95,16 @@ fn reject_joint_space(table: &Table<'_>) {
 }
 
 /// The twists, where nothing is asked of a tip that may end anywhere, and no rate of a yaw that is free.
-fn wanted(value: &Value<'_>, twists: Vec<[f64; 3]>, goals: Option<&[TipGoal]>) -> Option<Vec<[f64; 3]>> {
+fn wanted(value: &Value<'_>, twists: Vec<TipTwist>, goals: Option<&[TipGoal]>) -> Option<Vec<TipTwist>> {
     let items = value.items("twists")?;
     let mut good = true;
     for ((twist, goal), item) in twists.iter().zip(goals?).zip(items) {
         let why = match (goal, twist) {
-            (TipGoal::Any, [omega, x, y]) if [omega, x, y].iter().any(|part| **part != 0.0) => {
-                "nothing is wanted of this tip, expected [0, 0, 0]"
+            (TipGoal::Any, [omega, x, y]) if [omega, x, y].into_iter().flatten().any(|part| *part != 0.0) => {
+                "nothing is wanted of this tip, expected []"
             }
-            (TipGoal::Position(_), [omega, ..]) if *omega != 0.0 => {
-                "the yaw of this tip is free, expected ω = 0, or a pose [yaw, x, y] in `final_end_effector_poses`"
+            (TipGoal::Position(_), [Some(omega), ..]) if *omega != 0.0 => {
+                "the yaw of this tip is free, expected [vx, vy], or a pose [yaw, x, y] in `final_end_effector_poses`"
             }
             _ => continue,
         };
