@@ -6,7 +6,6 @@ use crate::error::Error;
 use crate::impact::{self, After};
 use crate::simulate::Motion;
 use crate::state::Forces;
-use crate::study::capture::per_arm;
 use crate::target::Target;
 use serde_json::{Value, json};
 
@@ -192,4 +191,9 @@ impl Evaluation {
 
 fn rows(matrix: &[f64], width: usize) -> Vec<&[f64]> {
     matrix.chunks_exact(width.max(1)).collect()
+}
+
+/// Values in arm order, `None` where an arm captures nothing.
+fn per_arm(targets: &[Option<Target<f64>>], values: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
+    targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()
 }

@@ -1,5 +1,6 @@
 //! A captured object: contact Jacobian, impulse, and how it merges with the link that holds it.
 
+use crate::body::Body;
 use crate::scalar::Scalar;
 
 /// A free-floating rigid body that a tip takes hold of at one point.
@@ -54,11 +55,8 @@ impl<T: Scalar> Target<T> {
     /// Momentum [l, px, py] about the inertial origin and kinetic energy, with its COM at `position` moving by `twist`.
     #[must_use]
     pub fn momentum(&self, position: &[T; 2], twist: &[T; 3]) -> ([T; 3], T) {
-        let [omega, vx, vy] = *twist;
-        let (px, py) = (self.mass * vx, self.mass * vy);
-        let angular = self.inertia * omega + (position[0] * py - position[1] * px);
-        let twice = self.inertia * omega * omega + (px * vx + py * vy);
-        ([angular, px, py], T::constant(0.5) * twice)
+        let [x, y] = *position;
+        Body { mass: self.mass, inertia: self.inertia, pose: [T::ZERO, x, y], twist: *twist }.momentum()
     }
 
     /// Position of its COM when the contact point is at the tip.

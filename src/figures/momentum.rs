@@ -14,7 +14,7 @@ const LEAST_PART: f64 = 0.01;
 pub(super) fn figure(scenario: &Scenario, study: &Study, result: &CaseResult) -> Figure {
     let captured = result.capture.as_ref();
     let approach = result.approach(study);
-    let free = targets_before(result);
+    let (free, _) = result.targets_momentum();
     let contact = approach.duration;
     let duration = contact + captured.map_or(0.0, |captured| captured.post_impact.duration);
     let least = least(scenario, study);
@@ -75,12 +75,6 @@ fn part(phase: &Phase, start: f64, component: usize, more: f64) -> Vec<(f64, f64
         i => s.linear_momentum[i - 1],
     };
     phase.samples.iter().map(|sample| (start + sample.time, value(sample) + more)).collect()
-}
-
-/// [l, px, py] of the free targets, which is the same at all times before the impact.
-fn targets_before(result: &CaseResult) -> [f64; 3] {
-    let each = result.targets.iter().map(|target| target.momentum().0);
-    each.fold([0.0; 3], |sum, part| std::array::from_fn(|i| sum[i] + part[i]))
 }
 
 /// [angular, linear]: a part of what the robot would have if all its kinetic energy were in one motion.

@@ -54,10 +54,11 @@ fn robot(layout: &Layout) -> Value {
 
 fn one_case(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult) -> Value {
     let bodies = result.targets.iter().map(|target| json!({"pose": target.pose, "twist": target.twist}));
+    let (momentum, energy) = result.targets_momentum();
     let mut value = json!({
         "name": result.name,
         "targets": bodies.collect::<Vec<_>>(),
-        "targets_alone": targets_alone(&result.targets),
+        "targets_alone": {"momentum": momentum, "kinetic_energy": energy},
         "impacts": impacts(scenario, study, result),
         "closest": result.closest.iter().map(|pair| json!({
             "target": pair.target, "arm": pair.arm, "distance": pair.distance, "time": pair.time,
@@ -84,17 +85,6 @@ fn columns_of(targets: usize, samples: &[Vec<Body>], of: impl Fn(&Body) -> [f64;
         samples.iter().map(|bodies| digits(value(bodies))).collect::<Vec<_>>()
     };
     json!((0..targets).map(|i| [0, 1, 2].map(|part| column(i, part))).collect::<Vec<_>>())
-}
-
-/// Momentum [l, px, py] and energy of the targets before they are touched, which nothing changes.
-fn targets_alone(targets: &[Body]) -> Value {
-    let (mut momentum, mut energy) = ([0.0; 3], 0.0);
-    for target in targets {
-        let (part, own) = target.momentum();
-        momentum = std::array::from_fn(|i| momentum[i] + part[i]);
-        energy += own;
-    }
-    json!({"momentum": momentum, "kinetic_energy": energy})
 }
 
 /// Columns over time; what the bodies' poses follow from, and what is plotted.

@@ -2,6 +2,7 @@
 
 use super::data::digits;
 use crate::contact::Kind;
+use crate::record::rows;
 use crate::scenario::{Case, Detection, Scenario, TouchKind};
 use crate::simulate::system::Body;
 use crate::study::assembly::turned;
@@ -97,17 +98,14 @@ pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result:
     if scenario.contact.detection == Detection::Time {
         return Vec::new();
     }
-    let approach = result.approach(study);
-    let before = approach.samples.iter().map(|now| (now, result.targets_before(approach.duration - now.time)));
-    let after = result.capture.iter().flat_map(|one| one.post_impact.samples.iter().zip(one.targets.iter().cloned()));
-    let all: Vec<_> = before.chain(after).collect();
+    let all: Vec<_> = rows(study, result).collect();
     let mut columns = Vec::new();
     for (i, (target, kinds)) in scenario.targets.iter().zip(&case.kinds).enumerate() {
         for (touch, _) in target.touches.iter().zip(kinds).filter(|(_, kind)| **kind != TouchKind::None) {
             let distance = |targets: &[Body], tips: &[[f64; 3]]| {
                 Some(digits(gap(scenario, i, targets.get(i)?, tips.get(touch.arm)?).0))
             };
-            let column = all.iter().map(|(now, targets)| distance(targets, &now.end_effector_poses));
+            let column = all.iter().map(|now| distance(&now.targets, &now.sample.end_effector_poses));
             columns.push(json!({"target": i, "arm": touch.arm, "distance": column.collect::<Vec<_>>()}));
         }
     }

@@ -254,8 +254,3 @@ fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Resul
     let magnitude = momentum_sizes(&bodies(&*assembly.model, state, &beside)?);
     Ok(Total { momentum: [whole.angular_momentum, px, py], magnitude, energy: whole.kinetic_energy })
 }
-
-/// Values in arm order, `None` where an arm captures nothing.
-pub(crate) fn per_arm(targets: &[Option<Target<f64>>], values: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
-    targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()
-}

@@ -41,12 +41,6 @@ impl<'a> Gaps<'a> {
     pub fn new(scenario: &'a Scenario, flight: Flight<'a>, pairs: Vec<Pair>) -> Self {
         Self { scenario, flight, pairs, tips: vec![[0.0; 3]; scenario.layout.arms.len()] }
     }
-
-    /// The pairs, in the order of the events.
-    #[must_use]
-    pub fn pairs(&self) -> &[Pair] {
-        &self.pairs
-    }
 }
 
 /// Distance and outward normal, inertial axes, of a tip from a target of the scenario.

@@ -249,6 +249,15 @@ impl CaseResult {
         self.approach.as_ref().unwrap_or(&study.approach)
     }
 
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together, which nothing changes before
+    /// they are touched; N m s, N s, J.
+    #[must_use]
+    pub fn targets_momentum(&self) -> ([f64; 3], f64) {
+        self.targets.iter().map(Body::momentum).fold(([0.0; 3], 0.0), |(sum, energy), (part, more)| {
+            (std::array::from_fn(|i| sum[i] + part[i]), energy + more)
+        })
+    }
+
     /// The targets at a time of the approach, s before its end: they fly freely.
     #[must_use]
     pub fn targets_before(&self, ago: f64) -> Vec<Body> {

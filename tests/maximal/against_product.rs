@@ -74,12 +74,13 @@ fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn Model<f64>>, M
 }
 
 /// Springs and dampers at the joints, and something that shakes them.
-fn shaken(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
+pub(crate) fn shaken(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
     let law = |(angle, rate): (&f64, &f64)| 0.3 * (2.0 * time).sin() - 0.2 * angle - 0.5 * rate;
     angles.iter().zip(rates).map(law).collect()
 }
 
-struct Shaken;
+/// The same as a control law.
+pub(crate) struct Shaken;
 
 impl Control<f64> for Shaken {
     fn joint_torques(

@@ -1,5 +1,6 @@
 //! The product's motion with holds, by constraint forces on recursions and merged links, against that of free bodies.
 
+use crate::against_product::{Shaken, shaken};
 use crate::maximal::body::Body;
 use crate::maximal::impact::{Contact, Kind, impact};
 use crate::maximal::motion::run;
@@ -8,8 +9,6 @@ use crate::support::sample::{Sample, config, sample};
 use crate::support::{assert_close, tolerance};
 use crate::{close, layout, robot};
 use planar_capture::control::{Control, Free};
-use planar_capture::dynamics::Model;
-use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scenario::{Integration, Scheme};
@@ -47,26 +46,6 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
     let model = models::generated(layout).unwrap_or_else(|_| models::generic(layout));
     let assembly = Assembly::new(model, &motion, &[target], &grips).expect("an assembly");
     Held { all, assembly, motion, target }
-}
-
-/// Springs, dampers and something that shakes each joint.
-fn shaken(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
-    angles.iter().zip(rates).map(|(angle, rate)| 0.3 * (2.0 * time).sin() - 0.2 * angle - 0.5 * rate).collect()
-}
-
-struct Shaken;
-
-impl Control<f64> for Shaken {
-    fn joint_torques(
-        &mut self,
-        time: f64,
-        _: &dyn Model<f64>,
-        state: &State<'_, f64>,
-        torques: &mut [f64],
-    ) -> Result<(), Error> {
-        torques.copy_from_slice(&shaken(time, state.joint_angles, state.joint_rates));
-        Ok(())
-    }
 }
 
 impl Held {
