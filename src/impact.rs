@@ -2,10 +2,11 @@
 
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::dot;
+use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::target::Target;
-use nalgebra::{Matrix3, Vector3};
 
 /// Where the results of an impact go: joints, and one entry per arm.
 #[derive(Debug)]
@@ -55,7 +56,6 @@ pub struct Workspace<'a, T> {
 /// robot's momentum before the impact, for the base twist that is returned.
 ///
 /// Not momentum-conserving: J maps joint rates to tip twists only without robot momentum, which the impact gives.
-/// (17) is read with the base twist `[ω; v]`, so with `[l − c_o × p; p]`.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -72,36 +72,14 @@ pub fn paper<T: Real>(
     model.reduced_dynamics(state, workspace.impact_matrix, workspace.impact_momentum, workspace.jacobian)?;
     let rows = workspace.jacobian.chunks_exact(joints.max(1));
     for (value, row) in after.target_twists.as_flattened_mut().iter_mut().zip(rows) {
-        *value = dot(row, after.joint_rates);
+        *value = dot(row, &*after.joint_rates);
     }
     release(targets, after)?;
-    base_from_momentum(model, state, workspace.mass_matrix, after.joint_rates)
-}
-
-/// Eq. (17): the base twist that goes with new joint rates and the robot's momentum of `state`.
-fn base_from_momentum<T: Real>(
-    model: &dyn Model<T>,
-    state: &State<'_, T>,
-    mass_matrix: &mut [T],
-    joint_rates: &[T],
-) -> Result<[T; 3], Error> {
     let before = model.momentum(state)?;
     let [px, py] = before.linear_momentum;
-    let [_, x, y] = state.base_pose;
-    let about_base = before.angular_momentum - (x * py - y * px);
-    model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
-    let mut inertia = Matrix3::zeros();
-    let mut right = Vector3::new(about_base, px, py);
-    for (i, row) in mass_matrix.chunks_exact(3 + model.joints()).take(3).enumerate() {
-        let (base, joints) = row.split_at(3);
-        right[i] -= dot(joints, joint_rates);
-        for (j, entry) in base.iter().enumerate() {
-            inertia[(i, j)] = *entry;
-        }
-    }
-    let singular = Error::Singular { what: "the base inertia I_b", pivot: 0.0, limit: 0.0 };
-    let solution = inertia.cholesky().ok_or(singular)?.solve(&right);
-    Ok([solution.x, solution.y, solution.z])
+    model.mass_matrix(&state.base_pose, state.joint_angles, workspace.mass_matrix)?;
+    let equation = MomentumEquation::new(workspace.mass_matrix, joints)?;
+    Ok(equation.base_twist([before.angular_momentum, px, py], &state.base_pose, after.joint_rates))
 }
 
 /// From tip twists to target twists and impulses, arm by arm.
@@ -118,8 +96,4 @@ fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut After<'_, T>) -> 
         *impulse = target.map_or([T::ZERO; 3], |t| t.impulse(twist));
     }
     Ok(())
-}
-
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
 }

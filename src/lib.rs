@@ -68,7 +68,9 @@ pub mod impact;
 pub mod integrate;
 #[cfg(feature = "lanes")]
 pub mod lanes;
+mod linear;
 pub mod manifest;
+mod momentum_equation;
 pub mod motion;
 pub mod scalar;
 pub mod state;
@@ -88,6 +90,8 @@ mod stage;
 pub mod approach;
 #[cfg(feature = "build")]
 pub mod build;
+#[cfg(feature = "std")]
+pub mod clone_model;
 #[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]

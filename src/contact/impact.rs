@@ -1,12 +1,12 @@
 //! The impact of any mixture of contacts.
 
 use super::complementarity::solve_contacts;
-use super::row::{copy, dot};
 use super::rows::Rows;
 use crate::body::Body;
 use crate::check::{finite_state, length};
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::{copy, dot};
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -67,7 +67,7 @@ pub fn impact<T: Real>(
     }
     let products = rows.matrix.chunks_exact(before.len().max(1));
     for ((shifted, before), row) in shifted.iter_mut().zip(before.iter()).zip(products) {
-        *shifted = *before + dot(row, given);
+        *shifted = *before + dot(row, &*given);
     }
     solve_contacts(rows.matrix, shifted, rows.bilateral, rows.factors, total)?;
     for (total, given) in total.iter_mut().zip(given.iter()) {

@@ -1,9 +1,9 @@
 //! How a tip answers impulses: the extended inverse inertia tensor and what follows from it.
 
-use super::row::dot;
 use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::dot;
 use crate::scalar::{Real, Scalar};
 use crate::state::{Forces, State};
 
@@ -83,7 +83,7 @@ impl<T: Real> InverseInertia<T> {
     /// The mass that an impulse along this unit direction meets at a point contact, kg: `1/(nᵀ G n)`.
     #[must_use]
     pub fn effective_mass(&self, direction: &[T; 2]) -> T {
-        dot(direction, &self.change(direction)).recip()
+        dot(direction, self.change(direction)).recip()
     }
 
     /// The impulse at a point contact, [fx, fy] on the first of the two, that ends their relative velocity [vx, vy] without

@@ -13,7 +13,6 @@
 //! With W the rows' velocities per row impulses ([`Rows`]), an impact is solved by Poisson's law with the rigid and pinned
 //! contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed ([`Hold`]).
 
-mod cholesky;
 mod closure;
 mod complementarity;
 mod hold;

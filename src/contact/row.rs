@@ -1,6 +1,7 @@
 //! One row of a contact.
 
 use super::{Contact, Kind, Other};
+use crate::linear::dot;
 use crate::scalar::Real;
 
 /// A wrench direction between a tip and what it touches.
@@ -56,13 +57,10 @@ impl<T: Real> Contact<T> {
     }
 }
 
-pub(super) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
-}
+/// A set of rows, by their bits: no more than 64.
+pub(super) type Set = u64;
 
-/// Copies what both have room for; `copy_from_slice` could panic.
-pub(super) fn copy<T: Real>(from: &[T], to: &mut [T]) {
-    for (place, value) in to.iter_mut().zip(from) {
-        *place = *value;
-    }
+/// Whether a row is in a set.
+pub(super) fn has(set: Set, row: usize) -> bool {
+    row < 64 && set >> row & 1 == 1
 }

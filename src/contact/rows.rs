@@ -1,7 +1,7 @@
 //! The rows of all contacts together: what unit impulses along them do.
 
-use super::cholesky::{Set, solve};
-use super::row::{Row, copy};
+use super::complementarity::solve_rows;
+use super::row::{Row, Set};
 use super::{Contact, Kind, Other};
 use crate::body::Body;
 use crate::check::{finite, length};
@@ -140,8 +140,7 @@ impl<'a, T: Real> Rows<'a, T> {
 
     /// Solves `W p = b` for rows that all pull and push; b becomes p.
     pub(super) fn solve(&mut self, b: &mut [T]) -> Result<(), Error> {
-        copy(self.matrix, self.factors);
-        solve(self.factors, b, self.bilateral)
+        solve_rows(self.matrix, self.bilateral, self.factors, b)
     }
 
     /// `v += Σ p M⁻¹ Aᵀ`, for velocities or accelerations.

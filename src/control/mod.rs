@@ -1,16 +1,13 @@
 //! Joint torques of the approach and after the impact, and the torque of a base actuator.
 
-mod base_inertia;
 mod computed_torque;
 mod exact_tracking;
-mod least_squares;
 mod limited;
 mod proportional_derivative;
 mod resolved_motion_rate;
 mod sampled;
 mod stabilise;
 
-pub(crate) use base_inertia::BaseInertia;
 pub use computed_torque::ComputedTorque;
 pub use exact_tracking::ExactTracking;
 pub use limited::Limited;

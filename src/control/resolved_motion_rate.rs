@@ -1,9 +1,10 @@
 //! Tips on their paths, by feedback of where they are.
 
-use super::{Control, inverse_dynamics, least_squares};
+use super::{Control, inverse_dynamics};
 use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::least_squares;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::trajectory::TipPath;
@@ -182,7 +183,7 @@ impl<T: Real> Control<T> for ResolvedMotionRate<'_, T> {
         let w = &mut self.workspace;
         let rows = w.rows.get_mut(..count * joints).unwrap_or_default();
         let right = w.right.get_mut(..count).unwrap_or_default();
-        let margin = least_squares::solve(rows, right, joints, self.singularity_threshold, w.joint_accelerations);
+        let margin = least_squares(rows, right, joints, self.singularity_threshold, w.joint_accelerations);
         if count > 0 && !self.singularity_margin.is_some_and(|least| least <= margin) {
             self.singularity_margin = Some(margin);
         }

@@ -1,10 +1,11 @@
 //! Bringing a robot to rest after a capture.
 
-use super::base_inertia::BaseInertia;
 use super::{BaseTorque, Control};
 use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::dot;
+use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -56,22 +57,14 @@ impl<T: Real> Control<T> for Stabilise<'_, T> {
         };
         let wheel = || self.wheels.iter().map(|wheel| if *wheel { T::ONE } else { T::ZERO });
 
-        // the first three rows: M_b a_b = F_b − c_b − M_bm θ̈
-        let (mut inertia, mut right, mut wheel_column) = ([[T::ZERO; 3]; 3], [T::ZERO; 3], [T::ZERO; 3]);
-        let rows = self.mass_matrix.chunks_exact((3 + joints).max(1)).zip(self.bias.iter());
-        let places = inertia.iter_mut().zip(right.iter_mut().zip(&mut wheel_column));
-        for ((row, bias), (place, (right, wheel_column))) in rows.clone().zip(places) {
-            let Some((base, joints)) = row.split_first_chunk::<3>() else { continue };
-            *place = *base;
-            *right = -*bias - dot(joints, slowing());
-            *wheel_column = dot(joints, wheel());
-        }
-        let inertia = BaseInertia::new(&inertia)?;
-        let mut base = inertia.solve(right);
+        // the first three rows: I_b a_b = F_b − c_b − I_bm θ̈
+        let equation = MomentumEquation::new(self.mass_matrix, joints)?;
+        let without_torque = self.bias.first_chunk::<3>().map_or([T::ZERO; 3], |bias| bias.map(|bias| -bias));
+        let mut base = equation.solve_with_joints(without_torque, slowing);
         let [omega, ..] = state.base_twist;
         let wanted = -(self.base_gain * omega);
         self.base_torque = self.base_torque_limit.map(|limit| {
-            let per_torque = inertia.solve([T::ONE, T::ZERO, T::ZERO]);
+            let per_torque = equation.solve([T::ONE, T::ZERO, T::ZERO]);
             let command = (wanted - base[0]) / per_torque[0];
             let saturated = command.abs() > limit;
             let torque = match saturated {
@@ -82,14 +75,15 @@ impl<T: Real> Control<T> for Stabilise<'_, T> {
             add(&mut base, &per_torque, torque);
             BaseTorque { torque, saturated }
         });
-        let per_wheel = inertia.solve(wheel_column);
-        let spin = if per_wheel[0] == T::ZERO { T::ZERO } else { (base[0] - wanted) / per_wheel[0] };
-        add(&mut base, &per_wheel, -spin);
+        let per_wheel = equation.solve_with_joints([T::ZERO; 3], wheel);
+        let spin = if per_wheel[0] == T::ZERO { T::ZERO } else { (wanted - base[0]) / per_wheel[0] };
+        add(&mut base, &per_wheel, spin);
 
-        for (torque, (row, bias)) in torques.iter_mut().zip(rows.skip(3)) {
+        let rows = self.mass_matrix.chunks_exact((3 + joints).max(1)).zip(self.bias.iter()).skip(3);
+        for (torque, (row, bias)) in torques.iter_mut().zip(rows) {
             let Some((of_base, of_joints)) = row.split_first_chunk::<3>() else { continue };
             let accelerations = slowing().zip(wheel()).map(|(slowing, wheel)| slowing + wheel * spin);
-            *torque = *bias + dot(of_base, base.into_iter()) + dot(of_joints, accelerations);
+            *torque = *bias + dot(of_base, base) + dot(of_joints, accelerations);
         }
         Ok(())
     }
@@ -97,10 +91,6 @@ impl<T: Real> Control<T> for Stabilise<'_, T> {
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.base_torque
     }
-}
-
-fn dot<T: Real>(row: &[T], values: impl Iterator<Item = T>) -> T {
-    row.iter().zip(values).fold(T::ZERO, |sum, (entry, value)| sum + *entry * value)
 }
 
 fn add<T: Real>(sum: &mut [T; 3], part: &[T; 3], times: T) {

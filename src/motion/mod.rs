@@ -2,7 +2,6 @@
 
 mod canonical;
 mod reduced;
-mod solve;
 
 pub use canonical::Canonical;
 pub use reduced::Reduced;

@@ -1,9 +1,10 @@
 //! The equation of motion in reduced coordinates: the base twist follows from the momentum.
 
-use super::solve::solve;
-use crate::control::{BaseInertia, Control};
+use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::{dot, solve};
+use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::{Effort, State, halves, halves_mut, vector_length};
 
@@ -48,11 +49,11 @@ impl<T: Real> Reduced<'_, T> {
     ) -> Result<(), Error> {
         let wrong =
             Error::Length { quantity: "state vector", expected: vector_length(model.joints()), found: rate.len() };
-        let (state, base_inertia) = self.state(model, x)?;
+        let Self { momentum, mass_matrix, generalized_inertia, generalized_bias, generalized_jacobian } = self;
+        let (state, equation) = recovered(model, momentum, mass_matrix, x)?;
         control.joint_torques(time, model, &state, torques)?;
         let base_torque = control.base_torque().map_or(T::ZERO, |base| base.torque);
-        let (generalized_inertia, jacobian) = (&mut *self.generalized_inertia, &mut *self.generalized_jacobian);
-        model.reduced_dynamics(&state, generalized_inertia, self.generalized_bias, jacobian)?;
+        model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
 
         let (velocities, accelerations, effort) = halves_mut(rate).ok_or(wrong)?;
         let (base, joints) = velocities.split_first_chunk_mut::<3>().ok_or(wrong)?;
@@ -63,13 +64,13 @@ impl<T: Real> Reduced<'_, T> {
             return Err(wrong);
         }
         joints.copy_from_slice(state.joint_rates);
-        let by_base = base_inertia.solve([base_torque, T::ZERO, T::ZERO]);
-        let rows = self.mass_matrix.chunks_exact(3 + torques.len()).skip(3);
-        let known = torques.iter().zip(self.generalized_bias.iter());
+        let by_base = equation.solve([base_torque, T::ZERO, T::ZERO]);
+        let rows = mass_matrix.chunks_exact(3 + torques.len()).skip(3);
+        let known = torques.iter().zip(generalized_bias.iter());
         for ((place, row), (torque, bias)) in joint_accelerations.iter_mut().zip(rows).zip(known) {
-            *place = *torque - *bias - dot(row, &by_base);
+            *place = *torque - *bias - dot(row, by_base);
         }
-        solve("the generalized inertia I", self.generalized_inertia, joint_accelerations)?;
+        solve("the generalized inertia I", generalized_inertia, joint_accelerations)?;
         let [omega, ..] = state.base_twist;
         *effort = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
         Ok(())
@@ -80,38 +81,30 @@ impl<T: Real> Reduced<'_, T> {
     /// # Errors
     /// As [`Self::derivative`].
     pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
-        let base_twist = self.state(model, x)?.0.base_twist;
+        let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
         if let Some(place) = halves_mut(x).and_then(|(_, rates, _)| rates.first_chunk_mut::<3>()) {
             *place = base_twist;
         }
         Ok(())
     }
-
-    /// The state with the base twist that the momentum asks for, and the base's block of the mass matrix, factored.
-    fn state<'x>(&mut self, model: &dyn Model<T>, x: &'x [T]) -> Result<(State<'x, T>, BaseInertia<T>), Error> {
-        let joints = model.joints();
-        let wrong = Error::Length { quantity: "state vector", expected: vector_length(joints), found: x.len() };
-        if x.len() != vector_length(joints) || halves(x).is_none() {
-            return Err(wrong);
-        }
-        let state = State::from_vector(x, joints).ok_or(wrong)?;
-        let impulse = Effort::from_vector(x).ok_or(wrong)?.base_impulse;
-        model.mass_matrix(&state.base_pose, state.joint_angles, self.mass_matrix)?;
-        let [l, px, py] = self.momentum;
-        let [_, base_x, base_y] = state.base_pose;
-        let mut right = [l + impulse - (base_x * py - base_y * px), px, py];
-        let mut inertia = [[T::ZERO; 3]; 3];
-        let rows = self.mass_matrix.chunks_exact(3 + joints);
-        for ((place, right), row) in inertia.iter_mut().zip(&mut right).zip(rows) {
-            let Some((base, joints)) = row.split_first_chunk::<3>() else { continue };
-            *place = *base;
-            *right -= dot(joints, state.joint_rates);
-        }
-        let inertia = BaseInertia::new(&inertia)?;
-        Ok((State { base_twist: inertia.solve(right), ..state }, inertia))
-    }
 }
 
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b)
+/// The state with the base twist that the momentum asks for, and the equation that gave it.
+fn recovered<'x, 'm, T: Real>(
+    model: &dyn Model<T>,
+    [l, px, py]: &[T; 3],
+    mass_matrix: &'m mut [T],
+    x: &'x [T],
+) -> Result<(State<'x, T>, MomentumEquation<'m, T>), Error> {
+    let joints = model.joints();
+    let wrong = Error::Length { quantity: "state vector", expected: vector_length(joints), found: x.len() };
+    if x.len() != vector_length(joints) || halves(x).is_none() {
+        return Err(wrong);
+    }
+    let state = State::from_vector(x, joints).ok_or(wrong)?;
+    let impulse = Effort::from_vector(x).ok_or(wrong)?.base_impulse;
+    model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
+    let equation = MomentumEquation::new(mass_matrix, joints)?;
+    let base_twist = equation.base_twist([*l + impulse, *px, *py], &state.base_pose, state.joint_rates);
+    Ok((State { base_twist, ..state }, equation))
 }

@@ -2,14 +2,31 @@
 
 use super::Scalar;
 use super::sine;
+use core::fmt::{Debug, Display};
+use core::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 
 /// A [`Scalar`] that is one real number, so that it can be compared and reported: `f32`, `f64`.
-pub trait Real: Scalar + nalgebra::RealField + Copy {
+pub trait Real:
+    Scalar + PartialOrd + AddAssign + SubAssign + MulAssign + DivAssign + Debug + Display + Default + 'static
+{
     /// Rounding unit: the distance from 1 to the next larger number.
     const EPSILON: Self;
 
     /// The value as `f64`, for reports.
     fn to_f64(self) -> f64;
+
+    /// Neither NaN nor infinite.
+    fn is_finite(self) -> bool;
+
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// 1 over the value.
+    #[must_use]
+    fn recip(self) -> Self {
+        Self::ONE / self
+    }
 }
 
 macro_rules! float {
@@ -56,6 +73,16 @@ macro_rules! float {
             #[allow(clippy::cast_lossless, reason = "f64 to f64 in one of the two")]
             fn to_f64(self) -> f64 {
                 self as f64
+            }
+
+            #[inline]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+
+            #[inline]
+            fn abs(self) -> Self {
+                $float::abs(self)
             }
         }
     };

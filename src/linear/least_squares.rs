@@ -1,5 +1,6 @@
 //! Damped least squares by singular values, without allocation.
 
+use super::dot;
 use crate::scalar::{Real, Scalar};
 
 /// More than orthogonalisation ever takes: it converges quadratically, in six to ten sweeps.
@@ -19,14 +20,20 @@ const MOST_SWEEPS: u32 = 30;
 /// squares of the matrix are formed, so that small singular values keep their digits in `f32` too. The damping that begins
 /// at a threshold is Y. Nakamura's and H. Hanafusa's (*Inverse kinematic solutions with singularity robustness*, 1986), for
 /// each singular direction alone.
-pub(super) fn solve<T: Real>(rows: &mut [T], right: &mut [T], columns: usize, threshold: T, solution: &mut [T]) -> T {
+pub(crate) fn least_squares<T: Real>(
+    rows: &mut [T],
+    right: &mut [T],
+    columns: usize,
+    threshold: T,
+    solution: &mut [T],
+) -> T {
     let columns = columns.max(1);
     for _ in 0..MOST_SWEEPS {
         if !sweep(rows, right, columns) {
             break;
         }
     }
-    let size = |row: &[T]| row.iter().fold(T::ZERO, |sum, entry| sum + *entry * *entry);
+    let size = |row: &[T]| dot(row, row);
     let sizes = || rows.chunks_exact(columns).map(size);
     let largest = sizes().fold(T::ZERO, |most, size| if size > most { size } else { most });
     let smallest = sizes().fold(largest, |least, size| if size < least { size } else { least });
@@ -84,7 +91,7 @@ fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::solve;
+    use super::least_squares;
 
     const A: [f64; 8] = [1.0, 2.0, 3.0, 4.0, -2.0, 0.5, 1.0, -1.0];
 
@@ -92,7 +99,7 @@ mod tests {
     #[test]
     fn the_shortest_solution() {
         let (mut a, mut b, mut x) = (A, [3.0, -1.0], [0.0_f64; 4]);
-        let margin = solve(&mut a, &mut b, 4, 0.02, &mut x);
+        let margin = least_squares(&mut a, &mut b, 4, 0.02, &mut x);
         // A Aᵀ = [[30, −2], [−2, 6.25]], inverse times b = (3, −1)
         let determinant: f64 = 30.0 * 6.25 - 4.0;
         let y = [(6.25 * 3.0 - 2.0) / determinant, (2.0 * 3.0 - 30.0) / determinant];
@@ -108,11 +115,11 @@ mod tests {
     fn a_singular_direction_is_damped_alone() {
         let small = 1e-4;
         let (mut a, mut b, mut x) = ([1.0, 0.0, 1.0, small], [1.0, 1.0 + small], [0.0_f64; 2]);
-        let margin = solve(&mut a, &mut b, 2, 0.1, &mut x);
+        let margin = least_squares(&mut a, &mut b, 2, 0.1, &mut x);
         assert!((margin - small / 2.0).abs() < 1e-8, "{margin}");
         // undamped it is (1, 1): along the small singular vector, (0, 1) nearly, σ²/(0.1 σ_max)² = 0.0025² of it is left
         assert!((x[0] - 1.0).abs() < 1e-4 && x[1].abs() < 1e-4, "{x:?}");
-        assert!(solve(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x) <= 0.0);
+        assert!(least_squares(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x) <= 0.0);
         assert!(x.iter().all(|x| x.abs() <= 0.0), "{x:?}");
     }
 }

@@ -1,0 +1,100 @@
+//! Symmetric positive definite systems of equations, `A = L D Lᵀ`.
+
+use super::dot;
+use crate::error::Error;
+use crate::scalar::Real;
+
+/// The smallest pivot beside its own diagonal entry, in roundings: with less, a solution keeps fewer than three digits of
+/// what rounding leaves. Rows that depend on each other leave pivots of a few roundings, for the entries of most matrices
+/// here are solutions of other systems.
+const LEAST_PIVOT: f64 = 4096.0;
+
+/// Factors a symmetric matrix of `size` rows in place: D on the diagonal, L below it, and what was above it stays there.
+/// Entries above the diagonal are not read.
+///
+/// # Errors
+/// [`Error::Singular`] where a pivot is not larger than 4096 ε times its diagonal entry, or that is not positive; the
+/// matrix is then partly factored.
+pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize) -> Result<(), Error> {
+    for i in 0..size {
+        let Some((above, rest)) = matrix.split_at_mut_checked(i * size) else { continue };
+        // row i of L D, then of L
+        for (j, factors) in above.chunks_exact(size).enumerate() {
+            let Some((known, [place, ..])) = rest.split_at_mut_checked(j) else { continue };
+            *place -= dot(known, factors);
+        }
+        let Some((lower, [pivot, ..])) = rest.split_at_mut_checked(i) else { continue };
+        let diagonal = *pivot;
+        for (entry, divisor) in lower.iter_mut().zip(above.iter().step_by(size + 1)) {
+            let scaled = *entry;
+            *entry = scaled / *divisor;
+            *pivot -= scaled * *entry;
+        }
+        check(what, *pivot / diagonal.abs())?;
+    }
+    Ok(())
+}
+
+/// Solves `L D Lᵀ x = b` with the factors of [`factor`]; b becomes x.
+pub(crate) fn substitute<T: Real>(factors: &[T], right: &mut [T]) {
+    let size = right.len();
+    let rows = || factors.chunks_exact(size.max(1)).enumerate().take(size);
+    for (i, row) in rows() {
+        if let Some((solved, [value, ..])) = right.split_at_mut_checked(i) {
+            *value -= dot(solved, row);
+        }
+    }
+    for (value, divisor) in right.iter_mut().zip(factors.iter().step_by(size + 1)) {
+        *value /= *divisor;
+    }
+    for (i, row) in rows().rev() {
+        let Some((open, [value, ..])) = right.split_at_mut_checked(i) else { continue };
+        for (open, entry) in open.iter_mut().zip(row) {
+            *open -= *entry * *value;
+        }
+    }
+}
+
+/// [`factor`] and [`substitute`]: solves `A x = b`, A having as many rows as b; A becomes its factors, b becomes x.
+///
+/// # Errors
+/// As [`factor`].
+pub(crate) fn solve<T: Real>(what: &'static str, matrix: &mut [T], right: &mut [T]) -> Result<(), Error> {
+    factor(what, matrix, right.len())?;
+    substitute(matrix, right);
+    Ok(())
+}
+
+fn check<T: Real>(what: &'static str, relative: T) -> Result<(), Error> {
+    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * LEAST_PIVOT);
+    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::solve;
+    use crate::error::Error;
+
+    #[test]
+    fn a_small_system() {
+        // what is above the diagonal is not read
+        let (mut matrix, mut right) = ([4.0, 0.0, 0.0, 2.0, 5.0, 0.0, 1.0, 3.0, 6.0], [7.0, 10.0, 10.0_f64]);
+        assert_eq!(solve("A", &mut matrix, &mut right), Ok(()));
+        for x in right {
+            assert!((x - 1.0).abs() < 1e-15, "{right:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_positive_definite() {
+        let refused = |mut matrix: [f64; 4]| {
+            let result = solve("A", &mut matrix, &mut [1.0, 1.0]);
+            assert!(matches!(result, Err(Error::Singular { what: "A", .. })), "{matrix:?}: {result:?}");
+        };
+        refused([1.0, 2.0, 2.0, 4.0]);
+        refused([1.0, 1.0, 1.0, 1.0 + 1e-13]);
+        refused([-1.0, 0.0, 0.0, -1.0]);
+        refused([0.0, 0.0, 0.0, 1.0]);
+        refused([f64::NAN, 0.0, 0.0, 1.0]);
+    }
+}
