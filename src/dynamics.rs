@@ -167,17 +167,12 @@ pub trait Model<T: Real>:
     + Impact<T>
     + Merge<T>
 {
-    /// A copy on the heap, with its numbers as they are now.
-    #[cfg(feature = "std")]
-    fn clone_box(&self) -> std::boxed::Box<dyn Model<T>>;
 }
 
 impl<T, M> Model<T> for M
 where
     T: Real,
-    M: Clone
-        + 'static
-        + Robot<T>
+    M: Robot<T>
         + Kinematics<T>
         + EquationsOfMotion<T>
         + ReducedDynamics<T>
@@ -186,8 +181,4 @@ where
         + Impact<T>
         + Merge<T>,
 {
-    #[cfg(feature = "std")]
-    fn clone_box(&self) -> std::boxed::Box<dyn Model<T>> {
-        std::boxed::Box::new(self.clone())
-    }
 }

@@ -1,7 +1,7 @@
 //! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters, or the
 //! generic implementation.
 
-use crate::dynamics::Model;
+use crate::clone_model::CloneModel;
 #[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
 use crate::generic::Generic;
@@ -20,7 +20,7 @@ fn place<const N: usize>(values: Vec<f64>) -> [f64; N] {
 /// A generated structure and how to set its numbers.
 struct Candidate {
     manifest: &'static Manifest,
-    build: fn(Vec<f64>) -> Box<dyn Model<f64>>,
+    build: fn(Vec<f64>) -> Box<dyn CloneModel>,
 }
 
 macro_rules! registry {
@@ -78,7 +78,7 @@ pub struct NoModel {
 ///
 /// # Errors
 /// [`NoModel`] where no generated code has that structure.
-pub fn generated(layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
+pub fn generated(layout: &Layout) -> Result<Box<dyn CloneModel>, NoModel> {
     fitting(layout).map(|(candidate, values)| (candidate.build)(values))
 }
 
@@ -119,7 +119,7 @@ fn fitting(layout: &Layout) -> Result<(&'static Candidate, Vec<f64>), NoModel> {
 
 /// The generic model of any layout.
 #[must_use]
-pub fn generic(layout: &Layout) -> Box<dyn Model<f64>> {
+pub fn generic(layout: &Layout) -> Box<dyn CloneModel> {
     Box::new(Generic::new(layout))
 }
 

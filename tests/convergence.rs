@@ -3,9 +3,9 @@
 
 mod support;
 
+use planar_capture::clone_model::CloneModel;
 use planar_capture::contact::{Closure, Contact, Kind, Other};
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
-use planar_capture::dynamics::Model;
 use planar_capture::models;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::event::NoEvents;
@@ -19,7 +19,7 @@ const FULL: Coordinates = Coordinates::Full;
 const REDUCED: Coordinates = Coordinates::Reduced;
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-13 };
 
-fn model() -> Box<dyn Model<f64>> {
+fn model() -> Box<dyn CloneModel> {
     models::generated(&scenario("raina_shah_2017").layout).expect("the paper's robot")
 }
 

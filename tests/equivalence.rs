@@ -2,6 +2,7 @@
 
 mod support;
 
+use planar_capture::clone_model::CloneModel;
 use planar_capture::compare::{QUANTITIES, REGIMES, Regime, Sample, differences, layout_text, states_text};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -226,7 +227,7 @@ mod outputs_without_a_trait {
 type Input<'a> = (&'a [f64], &'a [f64], &'a [Option<Target<f64>>]);
 
 /// Every method of a model with one thing wrong, and what it says.
-fn complaints(model: &dyn Model<f64>, (angles, rates, targets): Input<'_>) -> Vec<Result<(), Error>> {
+fn complaints(model: &dyn CloneModel, (angles, rates, targets): Input<'_>) -> Vec<Result<(), Error>> {
     let (arms, joints) = (model.arms(), model.joints());
     let size = 3 + joints;
     let state = State { base_pose: [0.1, 0.2, 0.3], joint_angles: angles, base_twist: [0.1; 3], joint_rates: rates };

@@ -2,8 +2,8 @@
 
 mod support;
 
+use planar_capture::clone_model::CloneModel;
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
-use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::models;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
@@ -26,7 +26,7 @@ const ALL: [(Scheme, Coordinates, f64); 7] = [
     (ADAPTIVE, Coordinates::Reduced, 1e-11),
 ];
 
-fn model() -> Box<dyn Model<f64>> {
+fn model() -> Box<dyn CloneModel> {
     models::generated(&scenario("redysim_single_arm_3r").layout).expect("the robot of ReDySim")
 }
 

@@ -2,6 +2,7 @@
 
 mod support;
 
+use planar_capture::clone_model::CloneModel;
 use planar_capture::compare::{Regime, Sample};
 use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
@@ -46,7 +47,7 @@ fn layout() -> Layout {
     }
 }
 
-fn samples() -> impl Iterator<Item = (Box<dyn Model<f64>>, Sample)> {
+fn samples() -> impl Iterator<Item = (Box<dyn CloneModel>, Sample)> {
     let layout = layout();
     (0..50).map(move |index| {
         let sample = Regime::MixedMasses.sample(&layout, SEED, index);

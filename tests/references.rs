@@ -2,6 +2,7 @@
 
 mod support;
 
+use planar_capture::clone_model::CloneModel;
 use planar_capture::dynamics::Model;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
@@ -35,7 +36,7 @@ fn layout(name: &str) -> Layout {
 }
 
 /// Everything that computes a layout's dynamics.
-fn implementations(layout: &Layout) -> Vec<(&'static str, Box<dyn Model<f64>>)> {
+fn implementations(layout: &Layout) -> Vec<(&'static str, Box<dyn CloneModel>)> {
     vec![
         ("generated", models::generated(layout).unwrap_or_else(|e| panic!("{e}"))),
         ("generic", models::generic(layout)),

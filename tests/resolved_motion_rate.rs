@@ -3,8 +3,8 @@
 mod support;
 
 use planar_capture::approach::resolved::Tips;
+use planar_capture::clone_model::CloneModel;
 use planar_capture::control::Control;
-use planar_capture::dynamics::Model;
 use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
@@ -39,7 +39,7 @@ fn by_poses() -> Scenario {
     steered(&POSES.map(TipGoal::Pose), &TWISTS)
 }
 
-fn generated(scenario: &Scenario) -> Box<dyn Model<f64>> {
+fn generated(scenario: &Scenario) -> Box<dyn CloneModel> {
     models::generated(&scenario.layout).expect("generated code")
 }
 

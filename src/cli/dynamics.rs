@@ -1,6 +1,6 @@
 //! The choice between implementations of the dynamics.
 
-use planar_capture::dynamics::Model;
+use planar_capture::clone_model::CloneModel;
 use planar_capture::layout::Layout;
 use planar_capture::models::{self, NoModel};
 
@@ -23,7 +23,7 @@ impl Dynamics {
     }
 
     /// The model of a layout.
-    pub fn model(self, layout: &Layout) -> Result<Box<dyn Model<f64>>, NoModel> {
+    pub fn model(self, layout: &Layout) -> Result<Box<dyn CloneModel>, NoModel> {
         match self {
             Self::Generated => models::generated(layout),
             Self::Generic => Ok(models::generic(layout)),

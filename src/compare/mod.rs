@@ -12,7 +12,7 @@ pub use quantity::{Class, QUANTITIES, Quantity};
 pub use regime::{REGIMES, Regime, Sample};
 pub use replay::{layout_text, states_text};
 
-use crate::dynamics::Model;
+use crate::clone_model::CloneModel;
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::models::{NoModel, generated, generic};
@@ -50,8 +50,8 @@ impl Difference {
 /// # Errors
 /// What the models say of the state: the first's, the second's, or both.
 pub fn differences(
-    model: &dyn Model<f64>,
-    reference: &dyn Model<f64>,
+    model: &dyn CloneModel,
+    reference: &dyn CloneModel,
     sample: &Sample,
 ) -> Result<Vec<Difference>, [Option<Error>; 2]> {
     let (found, expected) = match (values(model, &sample.instant), values(reference, &sample.instant)) {

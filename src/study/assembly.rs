@@ -1,7 +1,7 @@
 //! Robot and targets as they hang together between two impacts.
 
+use crate::clone_model::CloneModel;
 use crate::contact::{Closure, Contact, Kind, Other};
-use crate::dynamics::Model;
 use crate::error::Error;
 use crate::simulate::Motion;
 use crate::simulate::system::{Body, System};
@@ -40,7 +40,7 @@ pub enum Place {
 /// Of the rigid grips on a target the first makes it one with its arm; all others, and pins, are closures.
 pub struct Assembly {
     /// The robot, with what its links have become.
-    pub model: Box<dyn Model<f64>>,
+    pub model: Box<dyn CloneModel>,
     /// Targets that are no part of a link.
     pub bodies: Vec<Body>,
     /// Holds between tips and bodies, or tips and tips.
@@ -55,7 +55,7 @@ impl Assembly {
     /// # Errors
     /// What the model says.
     pub fn new(
-        mut model: Box<dyn Model<f64>>,
+        mut model: Box<dyn CloneModel>,
         motion: &Motion,
         targets: &[Body],
         grips: &[Grip],

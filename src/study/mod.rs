@@ -13,7 +13,7 @@ pub mod settle;
 use crate::approach::Approach;
 use crate::approach::design::{Design, DesignError, end_rates};
 use crate::approach::posture::{Posture, PostureError, posture};
-use crate::dynamics::Model;
+use crate::clone_model::CloneModel;
 use crate::scenario::{Detection, EndRates, Scenario, Tracking};
 use crate::simulate::limits::Excesses;
 use crate::simulate::system::Body;
@@ -37,7 +37,7 @@ pub const CONSTRAINT_BOUND: f64 = 1e-10;
 pub const PENETRATION_BOUND: f64 = 1e-6;
 
 /// Makes a model of the robot, in its state before any capture.
-pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn Model<f64>>;
+pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 
 /// What was computed for one scenario.
 #[derive(Clone, Debug, PartialEq)]

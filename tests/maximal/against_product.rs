@@ -7,6 +7,7 @@ use crate::maximal::system::System;
 use crate::support::sample::{Sample, config, sample};
 use crate::support::tolerance;
 use crate::{close, layout, rigid_targets, robot, simulated, state, targets};
+use planar_capture::clone_model::CloneModel;
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -18,7 +19,7 @@ use planar_capture::state::{Forces, State};
 use proptest::prelude::*;
 
 /// The product's model: generated code where this build has it.
-fn model(layout: &Layout) -> Box<dyn Model<f64>> {
+fn model(layout: &Layout) -> Box<dyn CloneModel> {
     models::generated(layout).unwrap_or_else(|_| models::generic(layout))
 }
 
@@ -52,7 +53,7 @@ fn check_forward_dynamics(layout: &Layout, s: &Sample) {
 }
 
 /// Exact capture of one target per arm; the bodies afterwards, and the merged model with its motion.
-fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn Model<f64>>, Motion) {
+fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, Motion) {
     let mut model = model(layout);
     let (arms, joints) = (layout.arms.len(), layout.joints());
     let (mut joint_rates, mut target_twists, mut impulses) =

@@ -6,6 +6,7 @@ use crate::maximal::random::{Object, Scene, Touch};
 use crate::maximal::system::System;
 use crate::support::assert_close;
 use planar_capture::body::Body;
+use planar_capture::clone_model::CloneModel;
 use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_length};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -39,7 +40,7 @@ pub fn velocities(all: &System) -> Vec<f64> {
 }
 
 /// Both models of a layout, generic alone where no code of it is generated.
-pub fn both_models(layout: &Layout) -> Vec<Box<dyn Model<f64>>> {
+pub fn both_models(layout: &Layout) -> Vec<Box<dyn CloneModel>> {
     models::generated(layout).into_iter().chain([models::generic(layout)]).collect()
 }
 

@@ -1,6 +1,7 @@
 //! The two motions: the paper's approach under PD control, and free tumbling.
 
 use crate::Problem;
+use planar_capture::clone_model::CloneModel;
 use planar_capture::approach::Approach;
 use planar_capture::approach::design::end_rates;
 use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
@@ -20,7 +21,7 @@ const SCENARIO: &str = include_str!("../../../scenarios/raina_shah_2017.toml");
 
 /// What is integrated.
 pub struct Problems {
-    pub model: Box<dyn Model<f64>>,
+    pub model: Box<dyn CloneModel>,
     scenario: Scenario,
     rates: Vec<f64>,
 }
