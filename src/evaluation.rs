@@ -4,7 +4,7 @@ use crate::check::finite;
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::impact::{self, After};
-use crate::simulate::Motion;
+use crate::owned::RobotState;
 use crate::state::Forces;
 use crate::target::Target;
 use serde_json::{Value, json};
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
     /// Pose, angles, twist, rates.
-    pub motion: Motion,
+    pub state: RobotState,
     /// N m.
     pub joint_torques: Vec<f64>,
     /// [n, fx, fy] at the base COM, inertial axes; `None` is zero.
@@ -82,7 +82,7 @@ pub struct RigidCapture {
 pub fn evaluate(model: &dyn Model<f64>, instant: &Instant) -> Result<Evaluation, Error> {
     let (joints, arms) = (model.joints(), model.arms());
     let size = 3 + joints;
-    let state = instant.motion.state();
+    let state = instant.state.view();
     let mut result = Evaluation {
         mass_matrix: vec![0.0; size * size],
         bias: vec![0.0; size],
@@ -126,7 +126,7 @@ fn reduced_impact(model: &dyn Model<f64>, instant: &Instant) -> Result<ReducedIm
         joint_rates_after: vec![0.0; joints],
     };
     model.reduced_impact(
-        &instant.motion.state(),
+        &instant.state.view(),
         &instant.targets,
         &mut result.impact_matrix,
         &mut result.impact_momentum,
@@ -141,7 +141,7 @@ fn rigid_capture(model: &dyn Model<f64>, instant: &Instant) -> Result<RigidCaptu
     let mut impulses = vec![[0.0; 3]; model.arms()];
     let mut after =
         After { joint_rates: &mut joint_rates_after, target_twists: &mut target_twists, impulses: &mut impulses };
-    let base_twist_after = impact::exact(model, &instant.motion.state(), &instant.targets, &mut after)?;
+    let base_twist_after = impact::exact(model, &instant.state.view(), &instant.targets, &mut after)?;
     finite("target_twists_after", target_twists.as_flattened())?;
     finite("impulses", impulses.as_flattened())?;
     Ok(RigidCapture {

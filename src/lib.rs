@@ -91,8 +91,6 @@ pub mod approach;
 #[cfg(feature = "build")]
 pub mod build;
 #[cfg(feature = "std")]
-pub mod clone_model;
-#[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]
 pub mod diagnostic;
@@ -112,6 +110,8 @@ pub mod layout;
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
+#[cfg(feature = "std")]
+pub mod owned;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "mcap")]

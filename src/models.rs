@@ -1,12 +1,12 @@
 //! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters, or the
 //! generic implementation.
 
-use crate::clone_model::CloneModel;
 #[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
 use crate::generic::Generic;
 use crate::layout::Layout;
 use crate::manifest::Manifest;
+use crate::owned::CloneModel;
 use crate::structure::{Difference, Mismatch, in_words, parameters};
 
 /// As many values as there are parameters: [`parameters`] made them so.

@@ -1,16 +1,49 @@
-//! Views of a robot's state and of the forces on it.
+//! A robot's state, and the forces on it.
 
-/// Where the robot is and how it moves.
-#[derive(Clone, Copy, Debug)]
-pub struct State<'a, T> {
+/// Where the robot is and how it moves; J holds one number per joint: an array, a vector, a slice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobotState<T, J> {
     /// [yaw, x, y] of the base COM, inertial frame; rad, m.
     pub base_pose: [T; 3],
     /// Relative joint angles, arm by arm; rad.
-    pub joint_angles: &'a [T],
+    pub joint_angles: J,
     /// [ω, vx, vy] of the base COM, inertial axes; rad/s, m/s.
     pub base_twist: [T; 3],
     /// Joint rates, arm by arm; rad/s.
-    pub joint_rates: &'a [T],
+    pub joint_rates: J,
+}
+
+/// A view of a robot's state: what every function of a model takes.
+pub type State<'a, T> = RobotState<T, &'a [T]>;
+
+impl<T: Copy, J> RobotState<T, J> {
+    /// The same, borrowed.
+    #[must_use]
+    pub fn view(&self) -> State<'_, T>
+    where
+        J: AsRef<[T]>,
+    {
+        State {
+            base_pose: self.base_pose,
+            joint_angles: self.joint_angles.as_ref(),
+            base_twist: self.base_twist,
+            joint_rates: self.joint_rates.as_ref(),
+        }
+    }
+
+    /// A copy of a view.
+    #[must_use]
+    pub fn of<'a>(state: &State<'a, T>) -> Self
+    where
+        J: From<&'a [T]>,
+    {
+        Self {
+            base_pose: state.base_pose,
+            joint_angles: state.joint_angles.into(),
+            base_twist: state.base_twist,
+            joint_rates: state.joint_rates.into(),
+        }
+    }
 }
 
 /// What acts on the robot. What is absent costs nothing.

@@ -82,10 +82,10 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     let Some(end) = phase.end() else { return Value::Null };
     let mut value = json!({
         "duration": phase.duration,
-        "base_pose": end.motion.base_pose,
-        "base_twist": end.motion.base_twist,
-        "joint_angles": end.motion.joint_angles,
-        "joint_rates": end.motion.joint_rates,
+        "base_pose": end.state.base_pose,
+        "base_twist": end.state.base_twist,
+        "joint_angles": end.state.joint_angles,
+        "joint_rates": end.state.joint_rates,
     });
     if tips {
         value["end_effector_poses"] = json!(end.end_effector_poses);

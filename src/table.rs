@@ -53,7 +53,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             design.singularity_margin
         )?;
     }
-    let [yaw, x, y] = end.motion.base_pose;
+    let [yaw, x, y] = end.state.base_pose;
     let meanwhile = match scenario.contact.detection {
         Detection::Time => "",
         Detection::Event => ", had there been no contact",

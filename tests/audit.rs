@@ -145,8 +145,8 @@ fn the_largest_excess_is_found() {
         let captured = study.cases[0].capture.as_ref().expect("a capture");
         for phase in [&study.approach, &captured.post_impact] {
             let excesses = phase.excesses.as_ref().expect("limits");
-            let angles = |i: usize| phase.samples[i].motion.joint_angles.clone();
-            let rates = |i: usize| phase.samples[i].motion.joint_rates.clone();
+            let angles = |i: usize| phase.samples[i].state.joint_angles.clone();
+            let rates = |i: usize| phase.samples[i].state.joint_rates.clone();
             let checks = [
                 (&excesses.joint_angle, worst(phase, angles, |x| (x - 2.5).max(-1.45 - x))),
                 (&excesses.joint_rate, worst(phase, rates, |x| x.abs() - 0.12)),

@@ -8,9 +8,10 @@ use planar_capture::control::Free;
 use planar_capture::dynamics::{Kinematics, Merge};
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::impact as rigid;
+use planar_capture::owned::RobotState;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Motion, Timing, simulate};
+use planar_capture::simulate::{Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::target::Target;
 use support::{assert_close, tolerance};
@@ -76,7 +77,7 @@ fn a_rigid_hold_is_a_merged_link() {
     let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
     let model = Model::<f64>::default();
     let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
-    let start = Motion { base_twist, joint_rates: rates.to_vec(), ..Motion::of(&state) };
+    let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
     let held = [Body { twist: twists[0], ..body }];
     let closures = [Closure::new(&contact, &tip, &body.pose).expect("a hold")];
     let system = System { model: &model, bodies: &held, closures: &closures };
@@ -88,9 +89,9 @@ fn a_rigid_hold_is_a_merged_link() {
     let as_one =
         simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
     let (a, b) = (by_forces.end().expect("an end"), as_one.end().expect("an end"));
-    assert_close("base pose", &a.motion.base_pose, &b.motion.base_pose, tolerance::MERGED_MOTION);
-    assert_close("joint angles", &a.motion.joint_angles, &b.motion.joint_angles, tolerance::MERGED_MOTION);
-    assert_close("joint rates", &a.motion.joint_rates, &b.motion.joint_rates, tolerance::MERGED_MOTION);
+    assert_close("base pose", &a.state.base_pose, &b.state.base_pose, tolerance::MERGED_MOTION);
+    assert_close("joint angles", &a.state.joint_angles, &b.state.joint_angles, tolerance::MERGED_MOTION);
+    assert_close("joint rates", &a.state.joint_rates, &b.state.joint_rates, tolerance::MERGED_MOTION);
 }
 
 /// Both tips on one body, in every mixture of grips.
@@ -112,7 +113,7 @@ fn a_loop_stays_closed() {
             .collect();
         let model = Model::<f64>::default();
         let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
-        let start = Motion { base_twist, joint_rates: rates.to_vec(), ..Motion::of(&state) };
+        let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
         let held = [Body { twist: twists[0], ..body }];
         let closure = |(contact, tip)| Closure::new(contact, tip, &body.pose).expect("a hold");
         let closures: Vec<_> = contacts.iter().zip(&both).map(closure).collect();

@@ -33,7 +33,7 @@ fn track(scenario: &Scenario, rates: &[f64]) -> Phase {
 }
 
 fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
-    let motion = &phase.end().expect("an end").motion;
+    let motion = &phase.end().expect("an end").state;
     (motion.joint_angles.clone(), motion.base_pose)
 }
 
@@ -42,8 +42,8 @@ fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
 fn computed_torque_on_the_trajectory_is_exact_tracking() {
     let (exact, computed) = (track(&short(Tracking::Exact), &[]), track(&short(computed_torque()), &[]));
     for (exact, computed) in exact.samples.iter().zip(&computed.samples) {
-        assert_close("angles", &exact.motion.joint_angles, &computed.motion.joint_angles, tolerance::CONTROLLED);
-        assert_close("base", &exact.motion.base_pose, &computed.motion.base_pose, tolerance::CONTROLLED);
+        assert_close("angles", &exact.state.joint_angles, &computed.state.joint_angles, tolerance::CONTROLLED);
+        assert_close("base", &exact.state.base_pose, &computed.state.base_pose, tolerance::CONTROLLED);
     }
 }
 
@@ -58,8 +58,8 @@ fn errors_under_computed_torque_decay_joint_by_joint() {
     for (sample, desired) in phase.samples.iter().zip(&exact.samples) {
         let errors =
             [(3.0, 0.2), (2.0, -0.3), (1.0, 0.1)].map(|(k, r): (f64, f64)| r * sample.time * (-k * sample.time).exp());
-        let wanted: Vec<_> = desired.motion.joint_angles.iter().zip(errors).map(|(a, e)| a + e).collect();
-        assert_close("angles", &sample.motion.joint_angles, &wanted, tolerance::CONTROLLED);
+        let wanted: Vec<_> = desired.state.joint_angles.iter().zip(errors).map(|(a, e)| a + e).collect();
+        assert_close("angles", &sample.state.joint_angles, &wanted, tolerance::CONTROLLED);
     }
     assert!(phase.drift.momentum_drift < 1e-9 && phase.drift.energy_error < 1e-6, "{:?}", phase.drift);
 }
@@ -74,7 +74,7 @@ fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
         scenario.approach.end = EndRates::JointRates(last.clone());
         scenario.initial.joint_rates = vec![0.2, -0.3, 0.1];
         let phase = track(&scenario, &last);
-        let motion = &phase.end().expect("an end").motion;
+        let motion = &phase.end().expect("an end").state;
         assert_close("angles", &motion.joint_angles, &scenario.approach.final_joint_angles, tolerance::CONTROLLED);
         assert_close("rates", &motion.joint_rates, &last, tolerance::CONTROLLED);
     }

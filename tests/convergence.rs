@@ -3,14 +3,14 @@
 
 mod support;
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::contact::{Closure, Contact, Kind, Other};
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
 use planar_capture::models;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::{Body, System};
-use planar_capture::simulate::{Motion, Phase, Sample, Timing, simulate};
+use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::{Cycloidal, Ends, Standing};
 use std::f64::consts::PI;
 use support::{assert_close, difference, scenario, tolerance};
@@ -24,8 +24,8 @@ fn model() -> Box<dyn CloneModel> {
 }
 
 /// Both arms swing, the base tumbles and drifts away.
-fn tumbling() -> Motion {
-    Motion {
+fn tumbling() -> RobotState {
+    RobotState {
         base_pose: [0.3, 1.0, -2.0],
         joint_angles: vec![0.7, -1.5, 1.0, 2.4, 1.5, -1.0],
         base_twist: [0.2, 0.05, -0.03],
@@ -49,7 +49,7 @@ fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Coordinates) -> 
     run(&mut law, duration, step, scheme, coordinates)
 }
 
-fn values(motion: &Motion) -> Vec<f64> {
+fn values(motion: &RobotState) -> Vec<f64> {
     [&motion.base_pose[..], &motion.joint_angles, &motion.base_twist, &motion.joint_rates].concat()
 }
 
@@ -58,7 +58,7 @@ fn end(phase: &Phase) -> &Sample {
 }
 
 fn error(phase: &Phase, reference: &Phase) -> f64 {
-    let values = |phase| [&values(&end(phase).motion)[..], &[end(phase).work]].concat();
+    let values = |phase| [&values(&end(phase).state)[..], &[end(phase).work]].concat();
     difference(&values(phase), &values(reference))
 }
 
@@ -89,12 +89,12 @@ fn orders_of_convergence() {
 fn the_adaptive_integrator_keeps_its_tolerance() {
     // a reference of another kind: Richardson's extrapolation of two Gauss–Legendre solutions
     let [coarse, fine] = [0.02, 0.01].map(|step| swing(2.0, step, Scheme::GaussLegendre, FULL));
-    let [coarse, fine] = [&coarse, &fine].map(|phase| values(&end(phase).motion));
+    let [coarse, fine] = [&coarse, &fine].map(|phase| values(&end(phase).state));
     let reference: Vec<f64> = fine.iter().zip(&coarse).map(|(fine, coarse)| fine + (fine - coarse) / 63.0).collect();
     for coordinates in [FULL, REDUCED] {
         for tolerance in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
             let phase = swing(2.0, 0.05, Scheme::Adaptive { tolerance }, coordinates);
-            let error = difference(&values(&end(&phase).motion), &reference);
+            let error = difference(&values(&end(&phase).state), &reference);
             let bound = tolerance::ADAPTIVE * tolerance + tolerance::ROUNDED_MOTION;
             assert!(error <= bound, "{coordinates:?}, {tolerance:e}: {error:e}");
         }
@@ -109,7 +109,7 @@ fn dense_output_is_as_good_as_steps() {
     assert_eq!(long.samples.len(), 9);
     for sample in &long.samples[1..8] {
         let short = run(&mut Free, sample.time, sample.time, scheme, FULL);
-        assert_close("sample", &values(&sample.motion), &values(&end(&short).motion), tolerance::DENSE);
+        assert_close("sample", &values(&sample.state), &values(&end(&short).state), tolerance::DENSE);
     }
 }
 
@@ -124,14 +124,14 @@ fn full_and_reduced_coordinates_agree() {
         assert!(full.drift.momentum_drift > 1e4 * drift, "the drift of full coordinates is there to be seen");
         let mut worst: f64 = 0.0;
         for (a, b) in full.samples.iter().zip(&reduced.samples) {
-            worst = worst.max(difference(&values(&a.motion), &values(&b.motion)));
+            worst = worst.max(difference(&values(&a.state), &values(&b.state)));
         }
         worst
     });
     let order = (differences[0] / differences[1]).log2();
     assert!((order - 4.0).abs() < tolerance::ORDER_OF_DIFFERENCE, "{order} {differences:?}");
     let adaptive = [FULL, REDUCED].map(|mode| run(&mut Free, 4.0, 0.05, ADAPTIVE, mode));
-    let [full, reduced] = adaptive.each_ref().map(|phase| values(&end(phase).motion));
+    let [full, reduced] = adaptive.each_ref().map(|phase| values(&end(phase).state));
     assert_close("full and reduced", &full, &reduced, tolerance::SAME_MOTION);
 }
 
@@ -153,7 +153,7 @@ fn both_coordinates_take_a_base_torque() {
     });
     let [full, reduced] = phases.each_ref().map(end);
     assert!(full.base_impulse.abs() > 1.0, "{} N m s", full.base_impulse);
-    assert_close("motion", &values(&full.motion), &values(&reduced.motion), tolerance::CONTROLLED);
+    assert_close("motion", &values(&full.state), &values(&reduced.state), tolerance::CONTROLLED);
     let [of_full, of_reduced] = [full, reduced].map(|end| [end.base_impulse, end.base_work, end.work]);
     assert_close("effort", &of_full, &of_reduced, tolerance::CONTROLLED);
     let drift = phases[1].drift.momentum_drift;
@@ -179,7 +179,7 @@ fn bodies_beside_the_robot() {
         let end = end(&phase);
         assert_close("pose", &end.bodies[0].pose, &[0.8, 1.8, 3.5], tolerance::STRAIGHT);
         assert_close("twist", &end.bodies[0].twist, &body.twist, 0.0);
-        assert_close("robot", &values(&end.motion), &values(&self::end(&alone).motion), tolerance::SAME_MOTION_COARSE);
+        assert_close("robot", &values(&end.state), &values(&self::end(&alone).state), tolerance::SAME_MOTION_COARSE);
     }
 }
 
@@ -188,7 +188,7 @@ fn bodies_beside_the_robot() {
 #[test]
 fn a_closed_loop_by_every_scheme() {
     let model = model();
-    let start = Motion { joint_rates: vec![0.0; 6], ..tumbling() };
+    let start = RobotState { joint_rates: vec![0.0; 6], ..tumbling() };
     let [omega, vx, vy] = start.base_twist;
     let mut tips = [[0.0; 3]; 2];
     model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut tips).expect("tips");
@@ -216,12 +216,12 @@ fn a_closed_loop_by_every_scheme() {
     let reference = run(Scheme::RungeKutta4, 0.002);
     for (scheme, step) in [(Scheme::GaussLegendre, 0.02), (ADAPTIVE, 0.02), (Scheme::RungeKutta4, 0.004)] {
         let phase = run(scheme, step);
-        let motion = |phase: &Phase| [&values(&end(phase).motion)[..], &end(phase).bodies[0].pose].concat();
+        let motion = |phase: &Phase| [&values(&end(phase).state)[..], &end(phase).bodies[0].pose].concat();
         assert_close(&format!("{scheme:?}"), &motion(&phase), &motion(&reference), tolerance::CLOSED_LOOP);
         let open = phase.constraint_errors[0];
         assert!(open < 1e-10 && phase.drift.momentum_drift < 1e-9, "{scheme:?}: {open:e} {:?}", phase.drift);
     }
-    let moved = difference(&end(&reference).motion.joint_angles, &start.joint_angles);
+    let moved = difference(&end(&reference).state.joint_angles, &start.joint_angles);
     assert!(moved > 0.01, "{moved} rad");
 }
 
@@ -242,7 +242,7 @@ fn sampled_torques_and_adaptive_steps() {
     );
     let reference = phases[0].samples.pop().expect("an end");
     for phase in &phases[1..] {
-        assert_close("motion", &values(&end(phase).motion), &values(&reference.motion), tolerance::SAMPLED);
+        assert_close("motion", &values(&end(phase).state), &values(&reference.state), tolerance::SAMPLED);
         assert_close("time", &[end(phase).time], &[1.0], 0.0);
     }
 }
@@ -261,7 +261,7 @@ fn samples_of_any_number_of_steps() {
             let mut held = [0.0; 6];
             run(&mut Sampled::new(law, steps, &mut held), 1.0, 0.005, scheme, FULL)
         });
-        let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).motion));
+        let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).state));
         assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);
     }
 }
@@ -270,7 +270,7 @@ fn samples_of_any_number_of_steps() {
 /// error that does not grow, where that of Runge–Kutta steps grows with the time.
 #[test]
 fn a_thousand_seconds() {
-    let start = Motion {
+    let start = RobotState {
         base_pose: [0.0; 3],
         joint_angles: vec![0.15, -0.1, 0.1, PI + 0.1, 0.15, -0.15],
         base_twist: [0.5, 0.02, -0.01],

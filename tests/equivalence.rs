@@ -2,12 +2,12 @@
 
 mod support;
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::compare::{QUANTITIES, REGIMES, Regime, Sample, differences, layout_text, states_text};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
+use planar_capture::owned::CloneModel;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
 use std::collections::BTreeSet;
@@ -180,7 +180,7 @@ macro_rules! inherent {
             for index in 0..SAMPLES {
                 let sample = Regime::Moving.sample(&layout, SEED, index);
                 let instant = &sample.instant;
-                let state = instant.motion.state();
+                let state = instant.state.view();
                 let angles: &[f64; JOINTS] = state.joint_angles.try_into().expect("joints");
                 let rates: &[f64; JOINTS] = state.joint_rates.try_into().expect("joints");
                 let targets: Vec<_> = instant.targets.iter().map(|t| t.unwrap_or_else(Target::none)).collect();

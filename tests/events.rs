@@ -2,14 +2,14 @@
 
 mod support;
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
 use planar_capture::error::Error;
 use planar_capture::models;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::event::{Events, Instant, NoEvents};
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Motion, Phase, Sample, Timing, simulate};
+use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::Standing;
 use support::{assert_close, difference, scenario, tolerance};
 
@@ -71,8 +71,8 @@ impl Events for Times<'_> {
     }
 }
 
-fn drifting() -> Motion {
-    Motion {
+fn drifting() -> RobotState {
+    RobotState {
         base_pose: [0.2, 0.0, 0.0],
         joint_angles: vec![0.4, -0.9, 0.5],
         base_twist: [0.0, 0.3, 0.1],
@@ -80,12 +80,12 @@ fn drifting() -> Motion {
     }
 }
 
-fn tumbling() -> Motion {
-    Motion { base_twist: [0.1, 0.3, 0.1], joint_rates: vec![0.5, 0.7, -0.9], ..drifting() }
+fn tumbling() -> RobotState {
+    RobotState { base_twist: [0.1, 0.3, 0.1], joint_rates: vec![0.5, 0.7, -0.9], ..drifting() }
 }
 
 fn run(
-    start: &Motion,
+    start: &RobotState,
     duration: f64,
     step: f64,
     (scheme, coordinates): (Scheme, Coordinates),
@@ -101,7 +101,7 @@ fn end(phase: &Phase) -> &Sample {
     phase.end().expect("an end")
 }
 
-fn tip(motion: &Motion) -> [f64; 3] {
+fn tip(motion: &RobotState) -> [f64; 3] {
     let mut tips = [[0.0; 3]];
     model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips).expect("a tip");
     tips[0]
@@ -123,7 +123,7 @@ fn a_straight_way_to_a_circle() {
             let (event, when) = phase.event.expect("the circle is met");
             assert_eq!((event, phase.duration, end(&phase).time), (0, when, when));
             assert!((when - wanted).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {wanted}");
-            assert!(circle().value(tip(&end(&phase).motion)).abs() < tolerance::EVENT_TIME);
+            assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
             let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
             assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
         }
@@ -134,10 +134,10 @@ fn a_straight_way_to_a_circle() {
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
     let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Coordinates::Full));
-    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut Free, &mut NoEvents)).motion);
+    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut Free, &mut NoEvents)).state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
-        circle().value(tip(&end(&run(&start, duration, duration, best, &mut Free, &mut NoEvents)).motion))
+        circle().value(tip(&end(&run(&start, duration, duration, best, &mut Free, &mut NoEvents)).state))
     };
     let (mut early, mut late) = (0.1, 0.2);
     while value(late) > 0.0 {
@@ -152,7 +152,7 @@ fn a_tumbling_robot_meets_a_circle() {
         let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut Free, &mut circle());
         let (_, when) = phase.event.expect("the circle is met");
         assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
-        assert!(circle().value(tip(&end(&phase).motion)).abs() < tolerance::EVENT_TIME);
+        assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
     }
 }
 
@@ -211,7 +211,7 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
             assert_eq!(a, b, "{scheme:?}");
         }
         let alone = go(&mut NoEvents, 1.3, 0.01);
-        let [found, wanted] = [&part, &alone].map(|phase| end(phase).motion.clone());
+        let [found, wanted] = [&part, &alone].map(|phase| end(phase).state.clone());
         let error = difference(&found.joint_rates, &wanted.joint_rates);
         assert!(error < tolerance::SAME_STEPS, "{scheme:?}: {error:e}");
         assert_close("pose", &found.base_pose, &wanted.base_pose, tolerance::SAME_STEPS);

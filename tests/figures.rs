@@ -141,7 +141,7 @@ mod drawn {
         assert_eq!(angles.len(), 6);
         for (joint, series) in angles.iter().enumerate() {
             let last = study.approach.end().expect("an end");
-            assert_eq!(series.points.last(), Some(&(20.0, last.motion.joint_angles[joint])));
+            assert_eq!(series.points.last(), Some(&(20.0, last.state.joint_angles[joint])));
         }
         // the colour says which joint, the dash which arm: no two curves look the same
         let looks: Vec<(Colour, Mark)> = angles.iter().map(|series| (series.colour, series.mark)).collect();

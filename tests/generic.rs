@@ -2,11 +2,11 @@
 
 mod support;
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::compare::{Regime, Sample};
 use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::models::generic;
+use planar_capture::owned::CloneModel;
 use planar_capture::study::study;
 use planar_capture::summary::summary;
 use planar_capture::target::Target;
@@ -79,7 +79,7 @@ fn close(what: &str, found: f64, wanted: f64, size: f64, tolerance: f64) {
 #[test]
 fn momentum_and_energy_are_those_of_the_mass_matrix() {
     for (model, sample) in samples() {
-        let state = sample.instant.motion.state();
+        let state = sample.instant.state.view();
         let v = [&state.base_twist[..], state.joint_rates].concat();
         let matrix = mass_matrix(&*model, &state.base_pose, state.joint_angles);
         let product = times(&matrix, &v);
@@ -103,7 +103,7 @@ fn the_bias_does_no_work_beyond_the_change_of_the_mass_matrix() {
     // d/dt ½ vᵀ M v = 0 without forces: vᵀ (Ṁ v − 2 bias) = 0
     const STEP: f64 = 1e-5;
     for (model, sample) in samples() {
-        let state = sample.instant.motion.state();
+        let state = sample.instant.state.view();
         let v = [&state.base_twist[..], state.joint_rates].concat();
         let energy = |time: f64| {
             let at = |position: &f64, rate: &f64| position + time * rate;
@@ -123,15 +123,15 @@ fn a_mount_angle_is_an_offset_of_the_first_joint() {
     let turned = layout();
     let mut straight = turned.clone();
     let sample = Regime::Moving.sample(&turned, SEED, 0);
-    let mut angles = sample.instant.motion.joint_angles.clone();
+    let mut angles = sample.instant.state.joint_angles.clone();
     let mut first = 0;
     for arm in &mut straight.arms {
         angles[first] += arm.mount_angle;
         arm.mount_angle = 0.0;
         first += arm.links.len();
     }
-    let pose = &sample.instant.motion.base_pose;
-    let found = mass_matrix(&*generic(&turned), pose, &sample.instant.motion.joint_angles);
+    let pose = &sample.instant.state.base_pose;
+    let found = mass_matrix(&*generic(&turned), pose, &sample.instant.state.joint_angles);
     let wanted = mass_matrix(&*generic(&straight), pose, &angles);
     assert_close("M", &found, &wanted, tolerance::IDENTITY * wanted[0]);
 }
@@ -140,7 +140,7 @@ fn a_mount_angle_is_an_offset_of_the_first_joint() {
 fn a_merged_robot_moves_on_as_after_the_capture() {
     // robot and targets after the impact have the momentum and energy of the merged robot at the same velocities
     for (model, sample) in samples().filter(|(_, sample)| sample.instant.targets.iter().any(Option::is_some)) {
-        let state = sample.instant.motion.state();
+        let state = sample.instant.state.view();
         let targets = &sample.instant.targets;
         let mut merged = model.clone_box();
         merged.merge(&state.base_pose, state.joint_angles, targets).expect("merged");

@@ -292,7 +292,7 @@ mod mcap_files {
         let phases = std::iter::once(&mut study.approach)
             .chain(study.cases.iter_mut().filter_map(|case| Some(&mut case.capture.as_mut()?.post_impact)));
         for sample in phases.flat_map(|phase| &mut phase.samples) {
-            sample.motion.joint_angles[0] -= 0.5;
+            sample.state.joint_angles[0] -= 0.5;
         }
         let (_, file) = record(&scenario, &study, &study.cases[1]);
         let captured = study.cases[1].capture.as_ref().expect("a capture");

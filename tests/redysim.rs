@@ -14,8 +14,8 @@ fn check(name: &str, rows: &[&[f64]]) {
     let study = run(&scenario);
     for row in rows {
         let sample = study.approach.samples.iter().find(|s| (s.time - row[0]).abs() < 1e-9).expect("a sample");
-        let [yaw, x, y] = sample.motion.base_pose;
-        let ours: Vec<f64> = [x, y, yaw].into_iter().chain(sample.motion.joint_angles.iter().copied()).collect();
+        let [yaw, x, y] = sample.state.base_pose;
+        let ours: Vec<f64> = [x, y, yaw].into_iter().chain(sample.state.joint_angles.iter().copied()).collect();
         assert_close(&format!("{name} at {} s", row[0]), &ours, &row[1..], tolerance::REDYSIM);
     }
 }
@@ -99,7 +99,7 @@ fn a_minute_of_other_approaches() {
         for state in series["states"].as_array().expect("states") {
             let at = state["time"].as_f64().expect("s");
             let sample = study.approach.samples.iter().find(|s| (s.time - at).abs() < 1e-9).expect("a sample");
-            let motion = &sample.motion;
+            let motion = &sample.state;
             let name = |what: &str| format!("{what} of {layout}, {time} s, at {at} s");
             let bound = tolerance::LONG_APPROACH;
             assert_close(&name("base"), &motion.base_pose, &numbers(&state["base_pose"]), bound);

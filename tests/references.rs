@@ -2,11 +2,11 @@
 
 mod support;
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::dynamics::Model;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
 use planar_capture::models;
+use planar_capture::owned::CloneModel;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use serde_json::{Value, json as object};

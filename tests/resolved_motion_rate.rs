@@ -3,15 +3,15 @@
 mod support;
 
 use planar_capture::approach::resolved::Tips;
-use planar_capture::clone_model::CloneModel;
 use planar_capture::control::Control;
 use planar_capture::layout::Layout;
 use planar_capture::models;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::simulate::Timing;
 use planar_capture::simulate::actuators::drive;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Motion, Timing};
 use planar_capture::state::{Forces, State};
 use planar_capture::study::Study;
 use planar_capture::summary::summary;
@@ -106,7 +106,7 @@ fn a_robot_with_momentum_is_steered_as_well() {
 fn errors_decay_with_the_two_gains() {
     let planned = by_poses();
     let model = generated(&planned);
-    let mut start = Motion::of(&planned.initial.state());
+    let mut start = RobotState::of(&planned.initial.view());
     for (angle, by) in start.joint_angles.iter_mut().zip([0.01, -0.02, 0.01, -0.01, 0.01, 0.02]) {
         *angle += by;
     }
@@ -194,7 +194,7 @@ fn tips_stay_where_their_paths_end() {
     joints.cases.truncate(1);
     let study = run(&joints);
     for sample in study.approach.samples.iter().filter(|sample| sample.time >= 12.0) {
-        assert_close("angles", &sample.motion.joint_angles, &joints.approach.final_joint_angles, tolerance::STEERED);
+        assert_close("angles", &sample.state.joint_angles, &joints.approach.final_joint_angles, tolerance::STEERED);
     }
 }
 
@@ -217,9 +217,9 @@ fn an_arm_that_may_end_anywhere_holds_still() {
     let study = run(&steered(&[turned, TipGoal::Any], &[[0.0; 3]; 2]));
     let end = study.approach.end().expect("an end");
     assert_close("tip", &end.end_effector_poses[0], &pose, tolerance::STEERED);
-    let angles = &study.approach.samples[0].motion.joint_angles;
-    assert_close("held", &end.motion.joint_angles[3..], &angles[3..], tolerance::STEERED);
-    assert!(difference(&end.motion.base_pose, &[0.0; 3]) > 0.05 && study.misses[1].is_none());
+    let angles = &study.approach.samples[0].state.joint_angles;
+    assert_close("held", &end.state.joint_angles[3..], &angles[3..], tolerance::STEERED);
+    assert!(difference(&end.state.base_pose, &[0.0; 3]) > 0.05 && study.misses[1].is_none());
 }
 
 /// Stretched arms cannot move their tips inwards at first; they start gently, and get there.
@@ -231,7 +231,7 @@ fn a_singular_start_does_not_blow_up() {
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
     assert!(study.approach.singularity_margin.is_some_and(|margin| margin < 1e-3));
     for sample in &study.approach.samples {
-        assert!(sample.motion.joint_rates.iter().all(|rate| rate.abs() < 1.0), "{:?}", sample.motion.joint_rates);
+        assert!(sample.state.joint_rates.iter().all(|rate| rate.abs() < 1.0), "{:?}", sample.state.joint_rates);
         assert!(sample.joint_torques.iter().all(|torque| torque.abs() < 30.0), "{:?}", sample.joint_torques);
     }
 }
@@ -352,9 +352,9 @@ fn without_momentum_the_wanted_rates_are_those_of_the_generalized_jacobian() {
     let model = generated(&scenario);
     let study = run(&scenario);
     for sample in study.approach.samples.iter().step_by(40) {
-        let motion = &sample.motion;
+        let motion = &sample.state;
         let (mut inertia, mut bias, mut jacobian) = (vec![0.0; 36], vec![0.0; 6], vec![0.0; 36]);
-        model.reduced_dynamics(&motion.state(), &mut inertia, &mut bias, &mut jacobian).expect("a Jacobian");
+        model.reduced_dynamics(&motion.view(), &mut inertia, &mut bias, &mut jacobian).expect("a Jacobian");
         let predicted: Vec<f64> = jacobian
             .chunks_exact(6)
             .map(|row| row.iter().zip(&motion.joint_rates).map(|(entry, rate)| entry * rate).sum())

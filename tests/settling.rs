@@ -3,10 +3,11 @@
 mod support;
 
 use planar_capture::models;
+use planar_capture::owned::RobotState;
 use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Motion, Phase, Timing};
+use planar_capture::simulate::{Phase, Timing};
 use planar_capture::study::Captured;
 use planar_capture::study::remainder::Remainder;
 use planar_capture::study::settle::{Settle, settle, wheels};
@@ -28,11 +29,11 @@ fn stabilise(base_torque_limit: Option<f64>) -> Settling {
     Settling::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit }
 }
 
-fn ends(captured: &Captured) -> (&Motion, &Motion, &Remainder) {
+fn ends(captured: &Captured) -> (&RobotState, &RobotState, &Remainder) {
     let samples = &captured.post_impact.samples;
     (
-        &samples.first().expect("a start").motion,
-        &samples.last().expect("an end").motion,
+        &samples.first().expect("a start").state,
+        &samples.last().expect("an end").state,
         captured.remainder.as_ref().expect("a remainder"),
     )
 }
@@ -148,7 +149,7 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
     let integration = Integration::default();
     let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
     let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
-    let start = Motion {
+    let start = RobotState {
         base_pose: s.base_pose,
         joint_angles: s.joint_angles.clone(),
         base_twist: s.base_twist,
@@ -156,22 +157,22 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
     };
     let wanted = Settle { after: &after, wheels: &wheels, angles: &s.joint_angles };
     let phase = settle(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
-    let end = phase.end().expect("an end").motion.clone();
+    let end = phase.end().expect("an end").state.clone();
     let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
     (phase, left, wheels)
 }
 
 /// Every second: joint rates but the wheels', and the base rate where it is `controlled`, have decayed as they should.
 fn check_decay(phase: &Phase, wheels: &[bool], wheels_too: bool, base: bool) {
-    let start = &phase.samples[0].motion;
+    let start = &phase.samples[0].state;
     for sample in &phase.samples {
-        let joints = start.joint_rates.iter().zip(&sample.motion.joint_rates).zip(wheels);
+        let joints = start.joint_rates.iter().zip(&sample.state.joint_rates).zip(wheels);
         for ((from, to), wheel) in joints.filter(|(_, wheel)| wheels_too || !**wheel) {
             assert_close(&format!("joint ({wheel})"), &[*to], &[from * (-sample.time).exp()], tolerance::DECAY);
         }
         if base {
             let wanted = start.base_twist[0] * (-0.7 * sample.time).exp();
-            assert_close("base", &[sample.motion.base_twist[0]], &[wanted], tolerance::DECAY);
+            assert_close("base", &[sample.state.base_twist[0]], &[wanted], tolerance::DECAY);
         }
     }
     assert!(

@@ -63,7 +63,7 @@ fn exact_tracking_gives_the_notes_digits() {
     let rates = [0.014_021_81, -0.124_352_22, 0.096_810_71, 0.014_061_43, -0.124_387_95, 0.096_806_82];
     assert_close("end rates", &design.joint_rates, &rates, tolerance::PRINTED_DIGITS);
     let end = study.approach.end().expect("an end");
-    let [yaw, x, y] = end.motion.base_pose;
+    let [yaw, x, y] = end.state.base_pose;
     assert_close("yaw, y", &[yaw, y], &[0.687_457_5, 0.019_422_8], 10.0 * tolerance::PRINTED_DIGITS);
     assert_close("x", &[x], &[6.8e-6], 10.0 * tolerance::PRINTED_DIGITS);
     let tips: Vec<f64> = end.end_effector_poses.iter().flat_map(|pose| [pose[1], pose[2]]).collect();

@@ -2,8 +2,9 @@
 
 use crate::approach::Approach;
 use crate::dynamics::Model;
+use crate::owned::RobotState;
 use crate::scenario::TipTwist;
-use crate::simulate::{Motion, Phase, Sample, Stopped};
+use crate::simulate::{Phase, Sample, Stopped};
 use nalgebra::{DMatrix, DVector};
 
 /// Fixed-point iterations before giving up; each gains several digits.
@@ -114,13 +115,13 @@ pub(crate) fn rates_for(
     wanted: &[TipTwist],
 ) -> Result<(Vec<f64>, f64), DesignError> {
     let joints = model.joints();
-    let Some(Sample { motion, end_effector_twists, time, .. }) = phase.end() else {
+    let Some(Sample { state, end_effector_twists, time, .. }) = phase.end() else {
         return Ok((vec![0.0; joints], 0.0));
     };
-    let jacobian = generalized_jacobian(model, motion).map_err(|source| Stopped { time: *time, source })?;
+    let jacobian = generalized_jacobian(model, state).map_err(|source| Stopped { time: *time, source })?;
     // t_e = J joint_rates + what the robot's momentum alone gives (zero for a robot at rest)
     let momentum_part = DVector::from_column_slice(end_effector_twists.as_flattened())
-        - &jacobian * DVector::from_column_slice(&motion.joint_rates);
+        - &jacobian * DVector::from_column_slice(&state.joint_rates);
     // the rows of what is wanted
     let wanted: Vec<(usize, f64)> =
         wanted.as_flattened().iter().enumerate().filter_map(|(row, part)| Some((row, (*part)?))).collect();
@@ -144,12 +145,12 @@ pub(crate) fn rates_for(
 /// J at a state: 3 per arm × joints.
 pub(crate) fn generalized_jacobian(
     model: &dyn Model<f64>,
-    motion: &Motion,
+    state: &RobotState,
 ) -> Result<DMatrix<f64>, crate::error::Error> {
     let (joints, rows) = (model.joints(), 3 * model.arms());
     let mut inertia = vec![0.0; joints * joints];
     let mut bias = vec![0.0; joints];
     let mut jacobian = vec![0.0; rows * joints];
-    model.reduced_dynamics(&motion.state(), &mut inertia, &mut bias, &mut jacobian)?;
+    model.reduced_dynamics(&state.view(), &mut inertia, &mut bias, &mut jacobian)?;
     Ok(DMatrix::from_row_slice(rows, joints, &jacobian))
 }

@@ -7,12 +7,13 @@ pub mod resolved;
 use crate::approach::resolved::Tips;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::owned::RobotState;
 use crate::scenario::{Scenario, Tracking, TrajectoryKind};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::limits::{Excesses, Watched};
 use crate::simulate::system::System;
-use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::simulate::{Phase, Stopped, Timing, simulate};
 use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
 
 /// The approach of one scenario.
@@ -59,7 +60,7 @@ impl<'a> Approach<'a> {
     ) -> Result<Phase, Stopped> {
         let trajectory = self.trajectory(rates);
         let joints = model.joints();
-        let initial = Motion::of(&self.scenario.initial.state());
+        let initial = RobotState::of(&self.scenario.initial.view());
         let actuation = &self.scenario.approach.actuation;
         let mut drive = |law: &mut dyn Control<f64>| {
             drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
@@ -114,7 +115,7 @@ impl<'a> Approach<'a> {
             generalized_bias: &mut vec![0.0; joints],
             generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
         };
-        let initial = Motion {
+        let initial = RobotState {
             base_pose: self.scenario.initial.base_pose,
             joint_angles: self.scenario.initial.joint_angles.clone(),
             base_twist: self.scenario.initial.base_twist,

@@ -181,7 +181,7 @@ impl Trial {
 
     fn step(&self, model: &dyn Model<f64>, goals: &[TipGoal], phase: &Phase) -> Result<Option<Step>, DesignError> {
         let Some(end) = phase.end() else { return Ok(None) };
-        let jacobian = generalized_jacobian(model, &end.motion).map_err(|source| Stopped { time: end.time, source })?;
+        let jacobian = generalized_jacobian(model, &end.state).map_err(|source| Stopped { time: end.time, source })?;
         let mut rows = Vec::new();
         for (i, ((goal, pose), arm)) in
             goals.iter().zip(&end.end_effector_poses).zip(&self.scenario.layout.arms).enumerate()

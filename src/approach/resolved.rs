@@ -40,7 +40,7 @@ impl Tips {
     /// What the model says of the initial state.
     pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, Stopped> {
         let (arms, joints) = (model.arms(), model.joints());
-        let start = scenario.initial.state();
+        let start = scenario.initial.view();
         let (mut initial_poses, mut initial_twists) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
         model
             .end_effector_poses(&start.base_pose, start.joint_angles, &mut initial_poses)

@@ -1,8 +1,8 @@
 //! The choice between implementations of the dynamics.
 
-use planar_capture::clone_model::CloneModel;
 use planar_capture::layout::Layout;
 use planar_capture::models::{self, NoModel};
+use planar_capture::owned::CloneModel;
 
 /// Implementations of the dynamics.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]

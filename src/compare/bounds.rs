@@ -38,7 +38,7 @@ impl Bounds {
             }
             Point { mass, inertia, jacobian, angle }
         };
-        let yaw = instant.motion.base_pose[0].abs();
+        let yaw = instant.state.base_pose[0].abs();
         let mut bodies = vec![point(layout.base.mass, layout.base.inertia, &[(0, 0.0)], yaw)];
         let (mut tips, mut last, mut column) = (Vec::new(), Vec::new(), 3);
         for arm in &layout.arms {
@@ -47,7 +47,7 @@ impl Bounds {
             let mut end = [0.0; 2];
             for link in &arm.links {
                 levers.push((column, 0.0));
-                angle += instant.motion.joint_angles.get(column - 3).map_or(0.0, |angle| angle.abs());
+                angle += instant.state.joint_angles.get(column - 3).map_or(0.0, |angle| angle.abs());
                 column += 1;
                 let com = link.com[0].hypot(link.com[1]);
                 let reach: Vec<_> = levers.iter().map(|(column, lever)| (*column, lever + com)).collect();

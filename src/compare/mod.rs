@@ -12,10 +12,10 @@ pub use quantity::{Class, QUANTITIES, Quantity};
 pub use regime::{REGIMES, Regime, Sample};
 pub use replay::{layout_text, states_text};
 
-use crate::clone_model::CloneModel;
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::models::{NoModel, generated, generic};
+use crate::owned::CloneModel;
 #[allow(unused_imports, reason = "for reference vectors, which come with the feature `build`")]
 pub(crate) use scale::{Scale, Scales};
 pub(crate) use values::values;

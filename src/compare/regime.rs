@@ -2,7 +2,7 @@
 
 use crate::evaluation::Instant;
 use crate::layout::Layout;
-use crate::simulate::Motion;
+use crate::owned::RobotState;
 use crate::target::Target;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
@@ -134,7 +134,7 @@ impl Regime {
             Self::Fast => 100.0,
             _ => 1.0,
         };
-        let motion = Motion {
+        let state = RobotState {
             base_pose: [random.within(turns * PI), random.within(distance), random.within(distance)],
             joint_angles: layout
                 .arms
@@ -147,7 +147,7 @@ impl Regime {
         };
         let arms = layout.arms.len();
         Instant {
-            motion,
+            state,
             joint_torques: (0..joints).map(|_| random.within(10.0)).collect(),
             base_wrench: random.coin().then(|| random.vector(10.0)),
             end_effector_wrenches: random.coin().then(|| (0..arms).map(|_| random.vector(10.0)).collect()),

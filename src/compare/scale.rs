@@ -31,7 +31,7 @@ pub struct Scales<'a> {
 impl<'a> Scales<'a> {
     pub fn new(sample: &'a Sample, values: &'a [Option<Vec<f64>>]) -> Self {
         let bounds = Bounds::new(sample);
-        let motion = &sample.instant.motion;
+        let motion = &sample.instant.state;
         let size = 3 + sample.layout.joints();
         let speeds = motion.base_twist.iter().chain(&motion.joint_rates).map(|v| v.abs());
         let (mass_matrix, tip_jacobian) = (bounds.mass_matrix(size), bounds.tip_jacobian(size));
@@ -76,7 +76,7 @@ impl<'a> Scales<'a> {
     }
 
     fn pose(&self, point: &Point) -> [f64; 3] {
-        let [_, x, y] = self.sample.instant.motion.base_pose;
+        let [_, x, y] = self.sample.instant.state.base_pose;
         let reach = point.jacobian[(1, 0)];
         [point.angle, x.abs() + reach, y.abs() + reach]
     }

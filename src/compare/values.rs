@@ -1,14 +1,14 @@
 //! Every quantity of one model at one state, as plain lists of numbers.
 
-use crate::clone_model::CloneModel;
 use crate::error::Error;
 use crate::evaluation::{Instant, evaluate};
+use crate::owned::CloneModel;
 use crate::state::Forces;
 
 /// In the order of [`QUANTITIES`](super::QUANTITIES); `None` for those of an impact where there is no target.
 pub fn values(model: &dyn CloneModel, instant: &Instant) -> Result<Vec<Option<Vec<f64>>>, Error> {
     let (arms, bodies) = (model.arms(), model.joints() + 1);
-    let state = instant.motion.state();
+    let state = instant.state.view();
     let all = evaluate(model, instant)?;
     let mut inertias = vec![[0.0; 2]; bodies];
     model.body_inertias(&mut inertias)?;
@@ -54,7 +54,7 @@ pub fn values(model: &dyn CloneModel, instant: &Instant) -> Result<Vec<Option<Ve
 
 /// Inertias, mass matrix and accelerations of the robot that holds its targets.
 fn merged(model: &dyn CloneModel, instant: &Instant) -> Result<[Vec<f64>; 4], Error> {
-    let (joints, state) = (model.joints(), instant.motion.state());
+    let (joints, state) = (model.joints(), instant.state.view());
     let mut model = model.clone_box();
     model.merge(&state.base_pose, state.joint_angles, &instant.targets)?;
     let mut inertias = vec![[0.0; 2]; joints + 1];

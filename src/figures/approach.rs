@@ -12,8 +12,8 @@ const TIME: &str = "Time [s]";
 /// Joints, base and tips over time.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let (layout, phase) = (&scenario.layout, &study.approach);
-    let angles = joints(layout, phase, |s| &s.motion.joint_angles);
-    let rates = joints(layout, phase, |s| &s.motion.joint_rates);
+    let angles = joints(layout, phase, |s| &s.state.joint_angles);
+    let rates = joints(layout, phase, |s| &s.state.joint_rates);
     let torques = joints(layout, phase, |s| &s.joint_torques);
     vec![
         Figure::column(

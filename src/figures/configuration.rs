@@ -23,7 +23,7 @@ const ARROW: f64 = 0.3;
 /// At the start and at the end of the approach; where contacts are found by detection, at each impact of each case.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let (Some(start), Some(end)) = (study.approach.samples.first(), study.approach.end()) else { return Vec::new() };
-    let mut before = robot(&scenario.layout, &start.motion);
+    let mut before = robot(&scenario.layout, &start.state);
     let one = |name: &str, caption: &str, series| Figure {
         name: name.to_owned(),
         caption: caption.to_owned(),
@@ -42,7 +42,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let mut at_start = expected_targets(scenario, "expected targets");
     at_start.extend(before);
     let mut at_impact = expected_targets(scenario, "expected targets");
-    at_impact.extend(robot(&scenario.layout, &end.motion));
+    at_impact.extend(robot(&scenario.layout, &end.state));
     if let Some(case) = study.cases.first() {
         let touching = case.capture.iter().flat_map(|captured| &captured.impact.contacts).map(|one| one.touching);
         at_impact.extend(drawn_targets(scenario, &case.targets, end, &touching.collect::<Vec<_>>()).concat());
@@ -64,7 +64,7 @@ fn impacts(scenario: &Scenario, study: &Study, case: &CaseResult) -> Option<Figu
     let mut pictures = Vec::new();
     let picture = |title: String, now: &Sample, targets: &[Body], impulses: Vec<Series>, touching: &[Touching]| {
         let mut series = expected_targets(scenario, "targets at the start");
-        series.extend(robot(&scenario.layout, &now.motion));
+        series.extend(robot(&scenario.layout, &now.state));
         series.extend(drawn_targets(scenario, targets, now, touching).concat());
         series.extend(impulses);
         Picture { title: Some(title), series, ..Picture::default() }
@@ -113,7 +113,7 @@ pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &Captured)
         let held = held(captured, sample.time);
         let mut picture = Picture {
             title: Some(format!("{} s after the {since}", (sample.time * 1e3).round() / 1e3)),
-            series: robot(&scenario.layout, &sample.motion),
+            series: robot(&scenario.layout, &sample.state),
             ..Picture::default()
         };
         let drawn = drawn_targets(scenario, targets, sample, &held).into_iter().zip(targets).enumerate();

@@ -11,8 +11,8 @@ const TIME: &str = "Time after the impact [s]";
 /// Joints, base and tips over time, and pictures of the robot with what it holds.
 pub(super) fn figures(scenario: &Scenario, case: &Case, captured: &Captured) -> Vec<Figure> {
     let (layout, phase, name) = (&scenario.layout, &captured.post_impact, &case.name);
-    let angles = joints(layout, phase, |s| &s.motion.joint_angles);
-    let rates = joints(layout, phase, |s| &s.motion.joint_rates);
+    let angles = joints(layout, phase, |s| &s.state.joint_angles);
+    let rates = joints(layout, phase, |s| &s.state.joint_rates);
     let twists = |component| tips(layout, phase, component, |s| &s.end_effector_twists);
     let mut driven =
         vec![panel(phase, TIME, "Joint angle [rad]", angles), panel(phase, TIME, "Joint rate [rad/s]", rates)];

@@ -3,8 +3,8 @@
 use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Shape};
 use crate::layout::{Arm, Layout};
+use crate::owned::RobotState;
 use crate::scenario::Target;
-use crate::simulate::Motion;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ const OUTLINE: f64 = 1.6;
 const HEAD: f64 = 0.35;
 
 /// Base, arms and joints; the base is the uniform square of its mass and inertia.
-pub(super) fn robot(layout: &Layout, motion: &Motion) -> Vec<Series> {
+pub(super) fn robot(layout: &Layout, motion: &RobotState) -> Vec<Series> {
     let [yaw, x, y] = motion.base_pose;
     let half = (6.0 * layout.base.inertia / layout.base.mass).sqrt() / 2.0;
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];

@@ -61,8 +61,8 @@ pub(super) fn base(phase: &Phase, time: &str) -> Vec<Panel> {
         let place = i.saturating_sub(1);
         curve(phase, label, Colour::of(place), Dash::of(place), move |s| Some(value(s)[i]))
     };
-    let pose: fn(&Sample) -> &[f64; 3] = |s| &s.motion.base_pose;
-    let twist: fn(&Sample) -> &[f64; 3] = |s| &s.motion.base_twist;
+    let pose: fn(&Sample) -> &[f64; 3] = |s| &s.state.base_pose;
+    let twist: fn(&Sample) -> &[f64; 3] = |s| &s.state.base_twist;
     vec![
         panel(phase, time, "Base yaw [rad]", vec![of("yaw", 0, pose)]),
         panel(phase, time, "Base position [m]", vec![of("x", 1, pose), of("y", 2, pose)]),

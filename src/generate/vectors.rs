@@ -128,13 +128,13 @@ impl Vectors {
     /// The inputs of all functions, row-major, by name.
     #[must_use]
     pub fn inputs(&self) -> [(&'static str, Vec<f64>); 11] {
-        let Instant { motion, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
+        let Instant { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
         let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::none)).collect();
         [
-            ("base_pose", motion.base_pose.to_vec()),
-            ("joint_angles", motion.joint_angles.clone()),
-            ("base_twist", motion.base_twist.to_vec()),
-            ("joint_rates", motion.joint_rates.clone()),
+            ("base_pose", state.base_pose.to_vec()),
+            ("joint_angles", state.joint_angles.clone()),
+            ("base_twist", state.base_twist.to_vec()),
+            ("joint_rates", state.joint_rates.clone()),
             ("joint_torques", joint_torques.clone()),
             ("base_wrench", base_wrench.unwrap_or_default().to_vec()),
             ("end_effector_wrenches", end_effector_wrenches.iter().flatten().flatten().copied().collect()),
@@ -235,9 +235,9 @@ impl Quantities {
 /// Four digits of every number.
 fn readable(mut instant: Instant) -> Instant {
     let round = |x: &mut f64| *x = format!("{x:.3e}").parse().unwrap_or(*x);
-    let Instant { motion, joint_torques, base_wrench, end_effector_wrenches, targets } = &mut instant;
-    motion.base_pose.iter_mut().chain(&mut motion.base_twist).for_each(round);
-    motion.joint_angles.iter_mut().chain(&mut motion.joint_rates).chain(joint_torques).for_each(round);
+    let Instant { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &mut instant;
+    state.base_pose.iter_mut().chain(&mut state.base_twist).for_each(round);
+    state.joint_angles.iter_mut().chain(&mut state.joint_rates).chain(joint_torques).for_each(round);
     base_wrench.iter_mut().chain(end_effector_wrenches.iter_mut().flatten()).flatten().for_each(round);
     for target in targets.iter_mut().flatten() {
         round(&mut target.mass);

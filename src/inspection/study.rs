@@ -74,7 +74,7 @@ fn start(scenario: &Scenario) -> String {
     let [yaw, x, y] = initial.base_pose;
     let place = format!("base at {} m, yaw {} rad", point([x, y]), short(yaw));
     let still = initial.base_twist.iter().chain(&initial.joint_rates).all(|rate| *rate == 0.0);
-    match models::generic(&scenario.layout).momentum(&initial.state()) {
+    match models::generic(&scenario.layout).momentum(&initial.view()) {
         Ok(momentum) if !still => {
             let [px, py] = momentum.linear_momentum;
             let energy = short(momentum.kinetic_energy);

@@ -141,7 +141,7 @@ fn out_of_reach(scenario: &Scenario, target: &Target) -> Option<Odd> {
 fn center_of_mass_at_end(scenario: &Scenario) -> Option<[f64; 2]> {
     let (layout, initial) = (&scenario.layout, &scenario.initial);
     let start = center_of_mass(&places(layout, &initial.base_pose, &initial.joint_angles)?);
-    let momentum = models::generic(layout).momentum(&initial.state()).ok()?.linear_momentum;
+    let momentum = models::generic(layout).momentum(&initial.view()).ok()?.linear_momentum;
     let time = scenario.approach.duration;
     Some([0, 1].map(|axis: usize| start[axis] + momentum[axis] / layout.mass() * time))
 }

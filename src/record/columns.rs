@@ -49,10 +49,10 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     let mut list = List::default();
     let joints: Vec<String> =
         arms.iter().flat_map(|arm| (1..=arm.links.len()).map(|k| format!("{}_joint{k}", arm.name))).collect();
-    list.vector("state", "base", POSE, |row| row.sample.motion.base_pose);
-    list.each("state", &joints, ("angle", "rad"), |row| &row.sample.motion.joint_angles);
-    list.vector("state", "base", TWIST, |row| row.sample.motion.base_twist);
-    list.each("state", &joints, ("rate", "rad/s"), |row| &row.sample.motion.joint_rates);
+    list.vector("state", "base", POSE, |row| row.sample.state.base_pose);
+    list.each("state", &joints, ("angle", "rad"), |row| &row.sample.state.joint_angles);
+    list.vector("state", "base", TWIST, |row| row.sample.state.base_twist);
+    list.each("state", &joints, ("rate", "rad/s"), |row| &row.sample.state.joint_rates);
     list.each("state", &joints, ("torque", "N m"), |row| &row.sample.joint_torques);
     for (i, arm) in arms.iter().enumerate() {
         list.vector("tips", &format!("{}_tip", arm.name), POSE, move |row| row.sample.end_effector_poses[i]);

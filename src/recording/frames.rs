@@ -28,7 +28,7 @@ pub(super) fn target(target: &Target) -> String {
 
 /// Where every frame is at one instant.
 pub(super) fn transforms(scenario: &Scenario, row: &Row<'_>) -> FrameTransforms {
-    let motion = &row.sample.motion;
+    let motion = &row.sample.state;
     let mut list = vec![transform(row.time, WORLD, BASE.to_owned(), motion.base_pose)];
     let mut joint_angles = motion.joint_angles.iter();
     for arm in &scenario.layout.arms {

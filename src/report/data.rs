@@ -90,7 +90,7 @@ fn columns_of(targets: usize, samples: &[Vec<Body>], of: impl Fn(&Body) -> [f64;
 /// Columns over time; what the bodies' poses follow from, and what is plotted.
 fn phase(phase: &Phase) -> Value {
     let samples = &phase.samples;
-    let joints = samples.first().map_or(0, |sample| sample.motion.joint_angles.len());
+    let joints = samples.first().map_or(0, |sample| sample.state.joint_angles.len());
     let tips = samples.first().map_or(0, |sample| sample.end_effector_poses.len());
     let column = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(|sample| digits(of(sample))).collect::<Vec<_>>();
     let columns = |n: usize, of: &dyn Fn(&Sample, usize) -> Option<f64>| {
@@ -99,10 +99,10 @@ fn phase(phase: &Phase) -> Value {
     json!({
         "duration": phase.duration,
         "time": samples.iter().map(|sample| sample.time).collect::<Vec<_>>(),
-        "base_pose": columns(3, &|sample, i| sample.motion.base_pose.get(i).copied()),
-        "base_twist": columns(3, &|sample, i| sample.motion.base_twist.get(i).copied()),
-        "joint_angles": columns(joints, &|sample, i| sample.motion.joint_angles.get(i).copied()),
-        "joint_rates": columns(joints, &|sample, i| sample.motion.joint_rates.get(i).copied()),
+        "base_pose": columns(3, &|sample, i| sample.state.base_pose.get(i).copied()),
+        "base_twist": columns(3, &|sample, i| sample.state.base_twist.get(i).copied()),
+        "joint_angles": columns(joints, &|sample, i| sample.state.joint_angles.get(i).copied()),
+        "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates.get(i).copied()),
         "joint_torques": columns(joints, &|sample, i| sample.joint_torques.get(i).copied()),
         "tips": (0..tips).map(|arm| {
             columns(3, &|sample, i| sample.end_effector_poses.get(arm)?.get(i).copied())

@@ -94,8 +94,8 @@ fn post_impact(run: &Run) -> String {
     let rows: Vec<Vec<String>> = captures(run)
         .filter_map(|(case, captured)| {
             let end = captured.post_impact.end()?;
-            let [yaw, x, y] = end.motion.base_pose;
-            let angles = end.motion.joint_angles.iter().map(|angle| number(*angle, 3)).collect::<Vec<_>>().join(", ");
+            let [yaw, x, y] = end.state.base_pose;
+            let angles = end.state.joint_angles.iter().map(|angle| number(*angle, 3)).collect::<Vec<_>>().join(", ");
             Some(vec![case.to_owned(), number(yaw, 4), format!("({}, {})", number(x, 4), number(y, 4)), angles])
         })
         .collect();

@@ -72,7 +72,7 @@ fn joint_angles(runs: &[Run; 3]) -> String {
         let mut row = vec![format!("θ{}", joint + 1), number(initial, 3), number(start, 3)];
         row.push(number(last, 3));
         row.extend(runs.iter().map(|run| {
-            let angle = end(run).and_then(|end| end.motion.joint_angles.get(joint).copied());
+            let angle = end(run).and_then(|end| end.state.joint_angles.get(joint).copied());
             number(angle.unwrap_or_default(), 4)
         }));
         rows.push(row);
@@ -99,7 +99,7 @@ fn tips(runs: &[Run; 3]) -> String {
     row.push(number(last[0][0].hypot(last[0][1]), 4));
     row.extend(runs.iter().map(|run| {
         let [x, y] = tip(end(run), 0);
-        let [_, base_x, base_y] = end(run).map(|end| end.motion.base_pose).unwrap_or_default();
+        let [_, base_x, base_y] = end(run).map(|end| end.state.base_pose).unwrap_or_default();
         number((x - base_x).hypot(y - base_y), 4)
     }));
     rows.push(row);
@@ -128,7 +128,7 @@ fn velocities(runs: &[Run; 3]) -> String {
 fn ends(runs: &[Run; 3]) -> String {
     let mut rows: Vec<Vec<String>> = ["base yaw [rad]", "base position [m]"].map(|what| vec![what.to_owned()]).into();
     for run in runs {
-        let [yaw, x, y] = end(run).map(|end| end.motion.base_pose).unwrap_or_default();
+        let [yaw, x, y] = end(run).map(|end| end.state.base_pose).unwrap_or_default();
         rows[0].push(number(yaw, 4));
         rows[1].push(point([x, y], 4));
     }

@@ -1,8 +1,9 @@
 //! The `[limits]` table: how far and how fast joints may turn.
 
+use super::MOST_ANGLE;
 use super::joints::{Joints, check_length};
-use super::{Initial, MOST_ANGLE};
 use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::owned::RobotState;
 use crate::simulate::limits::JointLimits;
 
 pub(super) const KEYS: [&str; 2] = ["joint_angles", "joint_rates"];
@@ -52,7 +53,7 @@ fn pair(value: &Value<'_>) -> Option<[f64; 2]> {
 }
 
 /// Notes what of the initial state is beyond its limits.
-pub(super) fn check_initial(table: &Table<'_>, initial: &Initial, limits: &[JointLimits]) {
+pub(super) fn check_initial(table: &Table<'_>, initial: &RobotState, limits: &[JointLimits]) {
     let beyond_angle = |joint: &JointLimits, value| {
         let [low, high] = joint.angles?;
         joint.angle_beyond(value).map(|_| format!("outside the limits of {}, {low} to {high} rad", joint.name))

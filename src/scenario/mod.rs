@@ -12,6 +12,7 @@ mod post_impact;
 mod resolved;
 mod target;
 
+use crate::owned::RobotState;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -25,7 +26,6 @@ pub use target::{Target, Touch, TouchKind};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
-use crate::state::State;
 use joints::Joints;
 
 /// The time step where a scenario gives none, in s.
@@ -57,7 +57,7 @@ pub struct Scenario {
     /// The robot.
     pub layout: Layout,
     /// The state at the start of the approach.
-    pub initial: Initial,
+    pub initial: RobotState,
     /// The motion of the arms towards the targets.
     pub approach: Approach,
     /// What the arms capture, at most one target per arm; empty for an approach alone.
@@ -77,19 +77,6 @@ pub(crate) struct LayoutSource {
     pub(crate) text: String,
     /// As shown to the user.
     pub(crate) file: String,
-}
-
-/// A state of the robot.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Initial {
-    /// Joint angles arm by arm, relative, in rad.
-    pub joint_angles: Vec<f64>,
-    /// Pose of the base COM [yaw, x, y] in rad, m, m; default zero.
-    pub base_pose: [f64; 3],
-    /// Twist of the base COM [ω, vx, vy] in rad/s, m/s, m/s; default zero.
-    pub base_twist: [f64; 3],
-    /// Joint rates arm by arm, in rad/s; default zero.
-    pub joint_rates: Vec<f64>,
 }
 
 impl Scenario {
@@ -131,7 +118,7 @@ impl Scenario {
             let joints = Joints { layout: layout.as_ref() };
 
             let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
-            let initial = initial_table.as_ref().and_then(|table| Initial::from_table(table, &joints));
+            let initial = initial_table.as_ref().and_then(|table| read_initial(table, &joints));
             let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
             let approach =
                 root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints, start));
@@ -171,38 +158,26 @@ impl Scenario {
     }
 }
 
-impl Initial {
-    /// The same, borrowed.
-    #[must_use]
-    pub fn state(&self) -> State<'_, f64> {
-        State {
-            base_pose: self.base_pose,
-            joint_angles: &self.joint_angles,
-            base_twist: self.base_twist,
-            joint_rates: &self.joint_rates,
-        }
-    }
-
-    fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
-        let joint_angles =
-            table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
-        let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
-        let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
-        let joint_rates = match table.get("joint_rates") {
-            Some(value) => joints.numbers(&value, &JOINT_RATE),
-            None => Some(joints.repeat(0.0)),
-        };
-        Some(Self {
-            joint_angles: joint_angles?,
-            base_pose: base_pose?,
-            base_twist: base_twist?,
-            joint_rates: joint_rates?,
-        })
-    }
+/// Joint angles have to be there, all else is zero where it is not.
+fn read_initial(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
+    let joint_angles =
+        table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+    let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
+    let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
+    let joint_rates = match table.get("joint_rates") {
+        Some(value) => joints.numbers(&value, &JOINT_RATE),
+        None => Some(joints.repeat(0.0)),
+    };
+    Some(RobotState {
+        joint_angles: joint_angles?,
+        base_pose: base_pose?,
+        base_twist: base_twist?,
+        joint_rates: joint_rates?,
+    })
 }
 
 /// All trajectories but the quintic start at rest, so the arms must too where tracking is exact.
-fn require_rest(table: &Table<'_>, initial: Option<&Initial>) {
+fn require_rest(table: &Table<'_>, initial: Option<&RobotState>) {
     let moving = initial.is_some_and(|initial| initial.joint_rates.iter().any(|rate| *rate != 0.0));
     if let (true, Some(value)) = (moving, table.get("joint_rates")) {
         value.reject(

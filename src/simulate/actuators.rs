@@ -1,11 +1,12 @@
 //! A control law behind limited and sampled actuators, of a robot whose joints are watched.
 
 use crate::control::{Control, Limited, Sampled};
+use crate::owned::RobotState;
 use crate::scenario::Actuation;
 use crate::simulate::event::Events;
 use crate::simulate::limits::{Excesses, Watched};
 use crate::simulate::system::System;
-use crate::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use crate::simulate::{Phase, Stopped, Timing, simulate};
 
 /// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate()`].
 ///
@@ -15,7 +16,7 @@ pub fn drive(
     system: &System<'_>,
     law: &mut dyn Control<f64>,
     actuation: &Actuation,
-    initial: &Motion,
+    initial: &RobotState,
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),

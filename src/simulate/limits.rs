@@ -129,7 +129,7 @@ impl<C> Watched<'_, C> {
             return phase;
         }
         if let Some(end) = phase.end() {
-            self.excesses.look(self.limits, end.time, &end.motion.state());
+            self.excesses.look(self.limits, end.time, &end.state.view());
         }
         Phase { excesses: Some(self.excesses), ..phase }
     }

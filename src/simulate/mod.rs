@@ -13,6 +13,7 @@ mod watch;
 
 use crate::control::Control;
 use crate::error::Error;
+use crate::owned::RobotState;
 use crate::scenario::Integration;
 use crate::simulate::audit::Drift;
 use crate::simulate::event::Events;
@@ -21,44 +22,6 @@ use crate::simulate::limits::Excesses;
 use crate::simulate::recorder::Recorder;
 use crate::simulate::system::{Body, System};
 use crate::simulate::watch::Watch;
-use crate::state::State;
-
-/// Where the robot is and how it moves, owned.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
-    /// [yaw, x, y] of the base COM, inertial frame; rad, m.
-    pub base_pose: [f64; 3],
-    /// rad.
-    pub joint_angles: Vec<f64>,
-    /// [ω, vx, vy] of the base COM, inertial axes; rad/s, m/s.
-    pub base_twist: [f64; 3],
-    /// rad/s.
-    pub joint_rates: Vec<f64>,
-}
-
-impl Motion {
-    /// The same, borrowed.
-    #[must_use]
-    pub fn state(&self) -> State<'_, f64> {
-        State {
-            base_pose: self.base_pose,
-            joint_angles: &self.joint_angles,
-            base_twist: self.base_twist,
-            joint_rates: &self.joint_rates,
-        }
-    }
-
-    /// A copy of a view.
-    #[must_use]
-    pub fn of(state: &State<'_, f64>) -> Self {
-        Self {
-            base_pose: state.base_pose,
-            joint_angles: state.joint_angles.to_vec(),
-            base_twist: state.base_twist,
-            joint_rates: state.joint_rates.to_vec(),
-        }
-    }
-}
 
 /// Everything that is known of one instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +29,7 @@ pub struct Sample {
     /// Since the start of the phase, s.
     pub time: f64,
     /// Where and how fast.
-    pub motion: Motion,
+    pub state: RobotState,
     /// N m.
     pub joint_torques: Vec<f64>,
     /// [yaw, x, y] of each tip; rad, m.
@@ -229,16 +192,16 @@ impl Stopped {
 pub fn simulate(
     system: &System<'_>,
     control: &mut dyn Control<f64>,
-    initial: &Motion,
+    initial: &RobotState,
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let mut x = system.vector(&initial.state());
+    let mut x = system.vector(&initial.view());
     let at = |time| move |source| Stopped { time, source };
     let mut flow = Flow::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut watch = Watch::new(system, events);
-    let mut phase = Recorder::new(system, &initial.state()).map_err(at(0.0))?;
+    let mut phase = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);

@@ -2,9 +2,10 @@
 
 use crate::control::Control;
 use crate::error::Error;
+use crate::owned::RobotState;
 use crate::simulate::audit::{Audit, Done};
 use crate::simulate::system::System;
-use crate::simulate::{Motion, Phase, Sample, Saturation};
+use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{Effort, State};
 
 /// Looks at a phase at the start of every step, and at its end.
@@ -75,7 +76,7 @@ impl<'a> Recorder<'a> {
         }
         let mut sample = Sample {
             time,
-            motion: Motion::of(&state),
+            state: RobotState::of(&state),
             joint_torques: self.torques.clone(),
             end_effector_poses: vec![[0.0; 3]; model.arms()],
             end_effector_twists: vec![[0.0; 3]; model.arms()],

@@ -3,7 +3,7 @@
 use super::places::places;
 use crate::diagnostic::{Quantity, excerpt, listing, nearest};
 use crate::evaluation::Instant;
-use crate::simulate::Motion;
+use crate::owned::RobotState;
 use crate::target::Target;
 use serde_json::{Map, Value};
 
@@ -71,7 +71,7 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<Instant> {
             .collect::<Read<Vec<_>>>()
     });
     Ok(Instant {
-        motion: Motion {
+        state: RobotState {
             base_pose: vector("base_pose", POSE)?,
             joint_angles: list("joint_angles", "rad")?,
             base_twist: vector("base_twist", TWIST)?,

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 /// The object that [`States`](super::States) reads as this instant; what is absent stays out.
 #[must_use]
 pub fn to_json(instant: &Instant) -> Value {
-    let motion = &instant.motion;
+    let motion = &instant.state;
     let mut value = json!({
         "base_pose": motion.base_pose,
         "joint_angles": motion.joint_angles,

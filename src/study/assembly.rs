@@ -1,9 +1,8 @@
 //! Robot and targets as they hang together between two impacts.
 
-use crate::clone_model::CloneModel;
 use crate::contact::{Closure, Contact, Kind, Other};
 use crate::error::Error;
-use crate::simulate::Motion;
+use crate::owned::{CloneModel, RobotState};
 use crate::simulate::system::{Body, System};
 use crate::target::Target;
 
@@ -56,7 +55,7 @@ impl Assembly {
     /// What the model says.
     pub fn new(
         mut model: Box<dyn CloneModel>,
-        motion: &Motion,
+        motion: &RobotState,
         targets: &[Body],
         grips: &[Grip],
     ) -> Result<Self, Error> {

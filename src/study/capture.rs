@@ -4,7 +4,7 @@ use crate::contact::{self, Contact, Kind, Other, Rows, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::impact::{self, After, Workspace};
-use crate::simulate::Motion;
+use crate::owned::RobotState;
 use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
 use crate::state::State;
@@ -72,7 +72,7 @@ impl ImpactResult {
 /// What the model says of the state and the targets; [`Error::Singular`] where contacts depend on each other.
 pub fn capture(
     assembly: &Assembly,
-    before: &Motion,
+    before: &RobotState,
     targets: &[Body],
     touching: &[Touching],
 ) -> Result<Capture, Error> {
@@ -125,7 +125,7 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[Touching]) ->
 /// The rigid capture in full coordinates, or by the paper's equations.
 fn rigid(
     model: &dyn Model<f64>,
-    before: &Motion,
+    before: &RobotState,
     targets: &[Body],
     touching: &[Touching],
     by_arm: &[Option<Target<f64>>],
@@ -144,9 +144,9 @@ fn rigid(
             jacobian: &mut vec![0.0; 3 * arms * joints],
             mass_matrix: &mut vec![0.0; size * size],
         };
-        impact::paper(model, &before.state(), by_arm, &mut workspace, &mut after)?
+        impact::paper(model, &before.view(), by_arm, &mut workspace, &mut after)?
     } else {
-        impact::exact(model, &before.state(), by_arm, &mut after)?
+        impact::exact(model, &before.view(), by_arm, &mut after)?
     };
     let of_arm = |values: &[[f64; 3]], arm: usize| values.get(arm).copied().unwrap_or_default();
     let touched = |i: usize| touching.iter().find(|touch| touch.target == i);
@@ -164,7 +164,7 @@ fn rigid(
 /// Contacts of any kind, together with what is held already.
 fn of_any_kind(
     assembly: &Assembly,
-    before: &Motion,
+    before: &RobotState,
     targets: &[Body],
     touching: &[Touching],
 ) -> Result<Velocities, Error> {
@@ -195,9 +195,9 @@ fn of_any_kind(
     let mut impulses = vec![[0.0; 3]; contacts.len()];
     let mut after =
         contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
-    let base_twist = contact::impact(model, &before.state(), &bodies, rows, &mut after)?;
+    let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
     let mut tip_twists = vec![[0.0; 3]; model.arms()];
-    let moving = State { base_twist, joint_rates: &joint_rates, ..before.state() };
+    let moving = State { base_twist, joint_rates: &joint_rates, ..before.view() };
     model.end_effector_twists(&moving, &mut tip_twists)?;
     let moved: Vec<_> = bodies.iter().zip(&body_twists).map(|(body, twist)| Body { twist: *twist, ..*body }).collect();
     let after = assembly.targets(targets, &tips, &tip_twists, &moved);
@@ -215,15 +215,15 @@ struct Total {
 
 fn balance(
     assembly: &Assembly,
-    before: &Motion,
+    before: &RobotState,
     targets: &[Body],
     touching: &[Touching],
     velocities: &Velocities,
 ) -> Result<ImpactResult, Error> {
     let Velocities { base_twist, joint_rates, targets: twists, impulses } = velocities;
-    let moving = State { base_twist: *base_twist, joint_rates, ..before.state() };
+    let moving = State { base_twist: *base_twist, joint_rates, ..before.view() };
     let moved = targets.iter().zip(twists).map(|(target, twist)| Body { twist: *twist, ..*target });
-    let start = total(assembly, &before.state(), targets)?;
+    let start = total(assembly, &before.view(), targets)?;
     let end = total(assembly, &moving, &moved.collect::<Vec<_>>())?;
     let jump: [f64; 3] = std::array::from_fn(|i| end.momentum[i] - start.momentum[i]);
     let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };

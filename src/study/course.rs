@@ -3,9 +3,10 @@
 use crate::approach::Approach;
 use crate::contact::Kind;
 use crate::error::Error;
+use crate::owned::RobotState;
 use crate::scenario::{Case, PostImpact, Scenario, Settling, Target, TouchKind};
 use crate::simulate::system::Body;
-use crate::simulate::{Motion, Phase, Sample, Stopped, Timing};
+use crate::simulate::{Phase, Sample, Stopped, Timing};
 use crate::study::assembly::{Assembly, Grip};
 use crate::study::capture::{Capture, capture};
 use crate::study::gaps::{Flight, Gaps, Pair, gap};
@@ -35,7 +36,7 @@ impl Course<'_> {
     /// Contacts are where the tips are when the approach ends.
     pub(crate) fn in_time(
         self,
-        end: &Motion,
+        end: &RobotState,
         tips: &[[f64; 3]],
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
@@ -63,7 +64,7 @@ impl Course<'_> {
         let capture = match (phase.event, phase.end()) {
             (Some((event, _)), Some(end)) => {
                 let touching = self.touching(&pairs, event, &targets, &end.end_effector_poses);
-                Some(self.after_impact(&end.motion, &targets, &touching, true, observer)?)
+                Some(self.after_impact(&end.state, &targets, &touching, true, observer)?)
             }
             _ => None,
         };
@@ -85,7 +86,7 @@ impl Course<'_> {
     /// An impact, the motion after it, and the impacts that interrupt that: of tips and targets that `detected` asks for.
     fn after_impact(
         self,
-        before: &Motion,
+        before: &RobotState,
         targets: &[Body],
         touching: &[Touching],
         detected: bool,
@@ -95,7 +96,7 @@ impl Course<'_> {
         let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.unsolved(source))?;
         let mut moving = Moving {
             course: self,
-            motion: before.clone(),
+            state: before.clone(),
             targets: targets.to_vec(),
             grips: Vec::new(),
             assembly: free,
@@ -230,7 +231,7 @@ impl Course<'_> {
 /// Robot and targets in the course of a case.
 struct Moving<'a> {
     course: Course<'a>,
-    motion: Motion,
+    state: RobotState,
     targets: Vec<Body>,
     grips: Vec<Grip>,
     assembly: Assembly,
@@ -243,14 +244,14 @@ impl Moving<'_> {
     fn strike(&mut self, touching: &[Touching]) -> Result<Capture, StudyError> {
         let course = self.course;
         let impact =
-            capture(&self.assembly, &self.motion, &self.targets, touching).map_err(|source| course.unsolved(source))?;
-        self.motion.base_twist = impact.exact.base_twist_after;
-        self.motion.joint_rates.clone_from(&impact.exact.joint_rates_after);
+            capture(&self.assembly, &self.state, &self.targets, touching).map_err(|source| course.unsolved(source))?;
+        self.state.base_twist = impact.exact.base_twist_after;
+        self.state.joint_rates.clone_from(&impact.exact.joint_rates_after);
         for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
             target.twist = *twist;
         }
         self.grips.extend(holds(touching));
-        self.assembly = Assembly::new((course.make)(), &self.motion, &self.targets, &self.grips)
+        self.assembly = Assembly::new((course.make)(), &self.state, &self.targets, &self.grips)
             .map_err(|source| course.unsolved(source))?;
         Ok(impact)
     }
@@ -263,18 +264,18 @@ impl Moving<'_> {
         observer: &mut dyn Observer,
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
         let course = self.course;
-        let Self { motion, targets, assembly, .. } = self;
+        let Self { state, targets, assembly, .. } = self;
         let mut gaps = Gaps::new(course.scenario, Flight::Assembled(assembly, targets), pairs.to_vec());
         let wheels = wheels(&course.scenario.layout, &self.grips);
         let wanted = Settle { after: course.after, wheels: &wheels, angles: &self.angles };
         let timing = course.timing(course.after.duration - time);
-        let phase = settle(&assembly.system(), wanted, motion, &timing, &mut gaps, &mut || observer.step())
+        let phase = settle(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
             .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
         let along: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
         if let (Some(end), Some(last)) = (phase.end(), along.last()) {
-            motion.clone_from(&end.motion);
+            state.clone_from(&end.state);
             targets.clone_from(last);
         }
         Ok((phase, along))
@@ -284,7 +285,7 @@ impl Moving<'_> {
     fn remainder(&self, control: &Settling, phase: &Phase) -> Result<Remainder, StudyError> {
         let wheels = wheels(&self.course.scenario.layout, &self.grips);
         let beside = phase.end().map_or_else(Vec::new, |end| self.assembly.pinned(&end.bodies));
-        Remainder::of(&*self.assembly.model, &beside, control, &self.motion, &wheels)
+        Remainder::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
             .map_err(|source| self.course.stopped(phase.duration, source))
     }
 }

@@ -13,7 +13,7 @@ pub mod settle;
 use crate::approach::Approach;
 use crate::approach::design::{Design, DesignError, end_rates};
 use crate::approach::posture::{Posture, PostureError, posture};
-use crate::clone_model::CloneModel;
+use crate::owned::CloneModel;
 use crate::scenario::{Detection, EndRates, Scenario, Tracking};
 use crate::simulate::limits::Excesses;
 use crate::simulate::system::Body;
@@ -226,7 +226,7 @@ pub fn study(
             (Some(after), Some(end)) => {
                 let course = Course { scenario, case, after, make, sample };
                 match scenario.contact.detection {
-                    Detection::Time => course.in_time(&end.motion, &end.end_effector_poses, observer),
+                    Detection::Time => course.in_time(&end.state, &end.end_effector_poses, observer),
                     Detection::Event => course.by_detection(&rates, observer),
                 }
             }

@@ -2,8 +2,8 @@
 
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::owned::RobotState;
 use crate::scenario::Settling;
-use crate::simulate::Motion;
 use crate::simulate::bodies::{bodies, center_of_mass, with_bodies};
 use crate::simulate::system::Body;
 
@@ -37,11 +37,11 @@ impl Remainder {
         model: &dyn Model<f64>,
         held: &[Body],
         control: &Settling,
-        motion: &Motion,
+        motion: &RobotState,
         wheels: &[bool],
     ) -> Result<Self, Error> {
-        let bodies = bodies(model, &motion.state(), held)?;
-        let total = with_bodies(model.momentum(&motion.state())?, held);
+        let bodies = bodies(model, &motion.view(), held)?;
+        let total = with_bodies(model.momentum(&motion.view())?, held);
         let (center, mass) = center_of_mass(&bodies);
         let about = |body: &Body| {
             let [_, x, y] = body.pose;

@@ -3,7 +3,7 @@
 use crate::contact::{ImpulseEllipse, InverseInertia, Kind};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::simulate::Motion;
+use crate::owned::RobotState;
 use crate::simulate::system::Body;
 use crate::study::meeting::Touching;
 
@@ -32,12 +32,12 @@ pub struct ContactResponse {
 /// What the model says.
 pub fn response(
     model: &dyn Model<f64>,
-    before: &Motion,
+    before: &RobotState,
     target: &Body,
     touch: &Touching,
 ) -> Result<ContactResponse, Error> {
     let mut tips = vec![[0.0; 3]; model.arms()];
-    model.end_effector_twists(&before.state(), &mut tips)?;
+    model.end_effector_twists(&before.view(), &mut tips)?;
     let [tip_omega, tip_x, tip_y] = tips.get(touch.arm).copied().unwrap_or_default();
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
     let relative = [tip_omega - omega, tip_x - (vx - omega * ry), tip_y - (vy + omega * rx)];

@@ -2,11 +2,12 @@
 
 use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
 use crate::layout::{Arm, Layout};
+use crate::owned::RobotState;
 use crate::scenario::{PostImpact, Settling};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Motion, Phase, Stopped, Timing};
+use crate::simulate::{Phase, Stopped, Timing};
 use crate::study::assembly::Grip;
 use crate::trajectory::Standing;
 
@@ -40,7 +41,7 @@ pub struct Settle<'a> {
 pub fn settle(
     system: &System<'_>,
     Settle { after, wheels, angles }: Settle<'_>,
-    start: &Motion,
+    start: &RobotState,
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),

@@ -7,14 +7,13 @@ use crate::maximal::system::System;
 use crate::support::sample::{Sample, config, sample};
 use crate::support::tolerance;
 use crate::{close, layout, rigid_targets, robot, simulated, state, targets};
-use planar_capture::clone_model::CloneModel;
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
 use planar_capture::models;
-use planar_capture::simulate::Motion;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::state::{Forces, State};
 use proptest::prelude::*;
 
@@ -53,7 +52,7 @@ fn check_forward_dynamics(layout: &Layout, s: &Sample) {
 }
 
 /// Exact capture of one target per arm; the bodies afterwards, and the merged model with its motion.
-fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, Motion) {
+fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, RobotState) {
     let mut model = model(layout);
     let (arms, joints) = (layout.arms.len(), layout.joints());
     let (mut joint_rates, mut target_twists, mut impulses) =
@@ -70,7 +69,7 @@ fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, M
     close("target twists", &twists, target_twists.as_flattened(), tolerance::MAXIMAL_IMPACT);
     close("impulses", found.impulses.as_flattened(), impulses.as_flattened(), tolerance::MAXIMAL_IMPACT);
     model.merge(&s.base_pose, &s.joint_angles, &targets(s)).expect("a merged robot");
-    let motion = Motion { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates };
+    let motion = RobotState { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates };
     (all, model, motion)
 }
 

@@ -11,9 +11,10 @@ use crate::{close, layout, robot};
 use planar_capture::control::{Control, Free};
 use planar_capture::layout::Layout;
 use planar_capture::models;
+use planar_capture::owned::RobotState;
 use planar_capture::scenario::{Integration, Scheme};
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::{Motion, Phase, Sample as Instant, Timing, simulate};
+use planar_capture::simulate::{Phase, Sample as Instant, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::study::assembly::{Assembly, Grip};
 use proptest::prelude::*;
@@ -22,7 +23,7 @@ use proptest::prelude::*;
 struct Held {
     all: System,
     assembly: Assembly,
-    motion: Motion,
+    state: RobotState,
     target: planar_capture::body::Body<f64>,
 }
 
@@ -33,7 +34,7 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
     let body = all.add(Body { mass, inertia, pose: [0.7, tip.x - rx, tip.y - ry], twist });
     let contacts: Vec<_> = holding.iter().map(|(arm, kind)| Contact::new(&all, *arm, body, *kind)).collect();
     all.apply(&contacts, &impact(&all, &contacts));
-    let motion = Motion {
+    let state = RobotState {
         base_pose: s.base_pose,
         joint_angles: s.joint_angles.clone(),
         base_twist: all.bodies[0].twist,
@@ -44,14 +45,14 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
     let grips: Vec<_> =
         holding.iter().map(|(arm, kind)| Grip { target: 0, arm: *arm, pinned: *kind == Kind::Pin }).collect();
     let model = models::generated(layout).unwrap_or_else(|_| models::generic(layout));
-    let assembly = Assembly::new(model, &motion, &[target], &grips).expect("an assembly");
-    Held { all, assembly, motion, target }
+    let assembly = Assembly::new(model, &state, &[target], &grips).expect("an assembly");
+    Held { all, assembly, state, target }
 }
 
 impl Held {
     fn simulated(&self, controlled: bool, timing: &Timing) -> Phase {
         let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut Free };
-        simulate(&self.assembly.system(), control, &self.motion, timing, &mut NoEvents, &mut || ()).expect("a motion")
+        simulate(&self.assembly.system(), control, &self.state, timing, &mut NoEvents, &mut || ()).expect("a motion")
     }
 
     fn target_at(&self, now: &Instant) -> planar_capture::body::Body<f64> {
@@ -101,10 +102,10 @@ fn check(layout: &Layout, s: &Sample, holding: &[(usize, Kind)], controlled: boo
     let phase = held.simulated(controlled, &Timing { duration, step: 0.05, sample: duration, integration });
     let end = phase.end().expect("an end");
     let (all, bound) = (&held.all, tolerance::HELD_MOTION);
-    close("angles", &end.motion.joint_angles, &all.joint_angles(), bound);
-    close("rates", &end.motion.joint_rates, &all.joint_rates(), bound);
-    close("base pose", &end.motion.base_pose, &all.bodies[0].pose, bound);
-    close("base twist", &end.motion.base_twist, &all.bodies[0].twist, bound);
+    close("angles", &end.state.joint_angles, &all.joint_angles(), bound);
+    close("rates", &end.state.joint_rates, &all.joint_rates(), bound);
+    close("base pose", &end.state.base_pose, &all.bodies[0].pose, bound);
+    close("base twist", &end.state.base_twist, &all.bodies[0].twist, bound);
     let (target, body) = (held.target_at(end), all.bodies.last().expect("the target"));
     close("target pose", &target.pose, &body.pose, bound);
     close("target twist", &target.twist, &body.twist, bound);
@@ -183,7 +184,7 @@ fn holds_keep_the_order_of_the_integrator() {
         let held = held(&layout("dual_arm_3r"), &start(), holding);
         let errors = [0.08, 0.04, 0.02].map(|step| {
             let phase = held.simulated(true, &Timing { duration: 4.0, step, sample: 4.0, ..Timing::default() });
-            let end = &phase.end().expect("an end").motion;
+            let end = &phase.end().expect("an end").state;
             let angles = crate::support::difference(&end.joint_angles, &exact.all.joint_angles());
             [phase.drift.momentum_drift, phase.drift.energy_error, angles]
         });
@@ -225,7 +226,7 @@ fn closing_keeps_centre_and_momentum() {
     for holding in MIXTURES {
         let held = held(&layout("dual_arm_3r"), &start(), holding);
         let system = held.assembly.system();
-        let closed = system.vector(&held.motion.state());
+        let closed = system.vector(&held.state.view());
         let half = (closed.len() - 3) / 2;
         let off = |i: usize| tolerance::OPENED * (3.0 * f64::from(u8::try_from(i).expect("few"))).sin();
         let mut opened = closed.clone();

@@ -12,7 +12,7 @@ use planar_capture::contact::{self, Other};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
-use planar_capture::simulate::Motion;
+use planar_capture::owned::RobotState;
 use planar_capture::state::State;
 use planar_capture::study::assembly::{Assembly, Grip};
 use planar_capture::study::capture::capture;
@@ -209,9 +209,9 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
 }
 
 impl Held {
-    fn motion(&self, s: &Sample) -> Motion {
+    fn motion(&self, s: &Sample) -> RobotState {
         let (base_twist, joint_rates) = (self.before.bodies[0].twist, self.before.joint_rates());
-        Motion { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates }
+        RobotState { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates }
     }
 
     /// The targets as the product has them.
@@ -253,7 +253,7 @@ proptest! {
         let grip = [Grip { target: 0, arm: 1, pinned: false }];
         for model in both_models(&layout) {
             let merged = Assembly::new(model, &motion, &[first, second], &grip).expect("one with the link").model;
-            let found = strike(&*merged, &motion.state(), &[second], &contacts).expect("an impact");
+            let found = strike(&*merged, &motion.view(), &[second], &contacts).expect("an impact");
             let all: Vec<f64> = velocities(&after);
             let but_held = [&all[..12], &all[15..]].concat();
             close("velocities", &found.velocities(), &but_held, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));

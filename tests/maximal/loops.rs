@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use planar_capture::control::Free;
 use planar_capture::layout::{Layout, Link};
 use planar_capture::models;
-use planar_capture::simulate::Motion;
+use planar_capture::owned::RobotState;
 use proptest::prelude::*;
 
 /// The robot, its first two arms with hold of one target by these kinds, after the impact that made it so.
@@ -145,7 +145,7 @@ proptest! {
         let between = |of: fn(&Body) -> f64, all: &System| of(&all.bodies[body]) - of(&all.bodies[hand]);
         let angle = |all: &System| [all.joint_angles(), vec![between(|b| b.pose[0], all)]].concat();
         let rate = |all: &System| [all.joint_rates(), vec![between(|b| b.twist[0], all)]].concat();
-        let start = Motion {
+        let start = RobotState {
             base_pose: s.base_pose,
             joint_angles: angle(&all),
             base_twist: all.bodies[0].twist,

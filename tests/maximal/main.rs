@@ -23,9 +23,10 @@ use planar_capture::control::Control;
 use planar_capture::dynamics::Model;
 use planar_capture::layout::Layout;
 use planar_capture::models::SHIPPED;
+use planar_capture::owned::RobotState;
 use planar_capture::scenario::Integration;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::{Motion, Timing, simulate};
+use planar_capture::simulate::{Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::target::Target;
 use support::assert_close;
@@ -74,9 +75,9 @@ fn targets(s: &Sample) -> Vec<Option<Target<f64>>> {
 }
 
 /// How the product's robot moves for a time, by Runge–Kutta steps of a millisecond.
-fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &Motion, duration: f64) -> Motion {
+fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
     let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
     let robot = planar_capture::simulate::system::System::alone(model);
     let phase = simulate(&robot, control, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
-    phase.end().expect("an end").motion.clone()
+    phase.end().expect("an end").state.clone()
 }

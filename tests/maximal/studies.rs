@@ -9,8 +9,8 @@ use crate::support::{assert_close, scenario, tolerance};
 use crate::{close, support};
 use planar_capture::contact;
 use planar_capture::models;
+use planar_capture::owned::RobotState;
 use planar_capture::scenario::{Scenario, Settling, TouchKind};
-use planar_capture::simulate::Motion;
 use planar_capture::study::capture::Capture;
 use planar_capture::study::{Captured, CaseResult, Study, study};
 use planar_capture::surface::Surface;
@@ -23,8 +23,13 @@ fn studied(scenario: &Scenario) -> Study {
 }
 
 /// Robot and targets as free bodies, with what is held already.
-fn system(scenario: &Scenario, motion: &Motion, targets: &[planar_capture::body::Body<f64>], held: &[Hold]) -> System {
-    let Motion { base_pose, joint_angles, base_twist, joint_rates } = motion;
+fn system(
+    scenario: &Scenario,
+    motion: &RobotState,
+    targets: &[planar_capture::body::Body<f64>],
+    held: &[Hold],
+) -> System {
+    let RobotState { base_pose, joint_angles, base_twist, joint_rates } = motion;
     let mut all = System::new(&scenario.layout, *base_pose, joint_angles, *base_twist, joint_rates);
     for target in targets {
         all.add(Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist });
@@ -101,7 +106,7 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<
 fn check_motion(scenario: &Scenario, captured: &Captured, from: usize, held: &[Hold], duration: f64) {
     let samples = &captured.post_impact.samples;
     let to = samples.iter().rposition(|sample| sample.time <= samples[from].time + duration + 1e-9).expect("a sample");
-    let mut all = system(scenario, &samples[from].motion, &captured.targets[from], held);
+    let mut all = system(scenario, &samples[from].state, &captured.targets[from], held);
     let after = scenario.post_impact.as_ref().expect("a motion after it");
     let law = |_: f64, angles: &[f64], rates: &[f64]| match &after.control {
         Settling::None => vec![0.0; angles.len()],
@@ -109,7 +114,7 @@ fn check_motion(scenario: &Scenario, captured: &Captured, from: usize, held: &[H
         other => panic!("{other:?}"),
     };
     run(&mut all, samples[to].time - samples[from].time, 0.25, &law);
-    let end = &samples[to].motion;
+    let end = &samples[to].state;
     close("angles", &end.joint_angles, &all.joint_angles(), tolerance::MAXIMAL_MOTION);
     close("rates", &end.joint_rates, &all.joint_rates(), tolerance::MAXIMAL_MOTION);
     close("base pose", &end.base_pose, &all.bodies[0].pose, tolerance::MAXIMAL_MOTION);
@@ -122,14 +127,14 @@ fn check_motion(scenario: &Scenario, captured: &Captured, from: usize, held: &[H
 /// The first impact, every other, and the motion after each; how many impacts there were.
 fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
     let Some(captured) = &case.capture else { return 0 };
-    let before = &case.approach(study).end().expect("an end").motion;
+    let before = &case.approach(study).end().expect("an end").state;
     let mut held = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
     let first = captured.further.first().map_or(f64::INFINITY, |further| further.time);
     check_motion(scenario, captured, 0, &held, first.min(4.0));
     for further in &captured.further {
         // twice the same instant: before it and after
         let at = captured.post_impact.samples.iter().position(|sample| sample.time >= further.time).expect("a sample");
-        let before = system(scenario, &captured.post_impact.samples[at].motion, &captured.targets[at], &held);
+        let before = system(scenario, &captured.post_impact.samples[at].state, &captured.targets[at], &held);
         held.extend(check_impact(scenario, &before, &further.impact));
         let next = captured.further.iter().map(|one| one.time).find(|time| *time > further.time);
         if at + 1 < captured.post_impact.samples.len() {
@@ -208,7 +213,7 @@ fn rebounds_are_detected() {
             scenario.targets.iter().enumerate().map(|(i, target)| (i, target.touches[0].arm)).collect();
         for (i, sample) in approach.samples.iter().enumerate() {
             let targets: Vec<_> = result.targets_before(approach.duration - sample.time);
-            let all = system(&scenario, &sample.motion, &targets, &[]);
+            let all = system(&scenario, &sample.state, &targets, &[]);
             let least = if i + 1 == approach.samples.len() { -tolerance::DETECTED } else { 0.0 };
             for (target, arm) in &touches {
                 let (distance, _) = gap(&scenario, &all, *arm, *target);
@@ -217,14 +222,14 @@ fn rebounds_are_detected() {
         }
         let Some(captured) = &result.capture else { continue };
         for (sample, targets) in captured.post_impact.samples.iter().zip(&captured.targets) {
-            let all = system(&scenario, &sample.motion, targets, &[]);
+            let all = system(&scenario, &sample.state, targets, &[]);
             for (target, arm) in &touches {
                 let (distance, _) = gap(&scenario, &all, *arm, *target);
                 assert!(distance > -tolerance::DETECTED, "{}: {distance:e} m at {} s", case.name, sample.time);
             }
         }
         let end = approach.end().expect("an end");
-        let all = system(&scenario, &end.motion, &result.targets, &[]);
+        let all = system(&scenario, &end.state, &result.targets, &[]);
         let distances =
             captured.impact.contacts.iter().map(|c| gap(&scenario, &all, c.touching.arm, c.touching.target).0);
         assert!(

@@ -1,12 +1,13 @@
 //! Energy and momentum of free motion over a thousand seconds.
 
+use planar_capture::owned::RobotState;
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
-use planar_capture::simulate::{Motion, Phase, Sample};
+use planar_capture::simulate::{Phase, Sample};
 
 /// s.
 pub const DURATION: f64 = 1000.0;
@@ -74,7 +75,7 @@ fn chosen(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
     all
 }
 
-fn runs(start: &Motion, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Vec<Run>, Problem> {
+fn runs(start: &RobotState, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Vec<Run>, Problem> {
     let problems = Problems::new()?;
     let scale = Scale::of(&*problems.model, start)?;
     chosen(gauss, runge_kutta)
@@ -102,13 +103,13 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(model: &dyn Model<f64>, start: &Motion) -> Result<Self, Error> {
+    fn of(model: &dyn Model<f64>, start: &RobotState) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let (mut inertias, mut poses, mut twists) =
             (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);
         model.body_inertias(&mut inertias)?;
         model.body_poses(&start.base_pose, &start.joint_angles, &mut poses)?;
-        model.body_twists(&start.state(), &mut twists)?;
+        model.body_twists(&start.view(), &mut twists)?;
         let (mut linear, mut angular) = (0.0, 0.0);
         for (([mass, inertia], [_, x, y]), [omega, vx, vy]) in inertias.iter().zip(&poses).zip(&twists) {
             linear += mass * vx.hypot(*vy);

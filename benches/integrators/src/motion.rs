@@ -1,7 +1,7 @@
 //! The two motions: the paper's approach under PD control, and free tumbling.
 
 use crate::Problem;
-use planar_capture::clone_model::CloneModel;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::approach::Approach;
 use planar_capture::approach::design::end_rates;
 use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
@@ -11,7 +11,7 @@ use planar_capture::models;
 use planar_capture::scenario::{EndRates, Integration, Scenario, Tracking};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Motion, Phase, Stopped, Timing, simulate};
+use planar_capture::simulate::{Phase, Stopped, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::trajectory::{Ends, Quartic};
 use std::f64::consts::PI;
@@ -72,7 +72,7 @@ impl Problems {
             unreachable!("the paper's approach is under PD control")
         };
         let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-        let start = Motion::of(&self.scenario.initial.state());
+        let start = RobotState::of(&self.scenario.initial.view());
         let timing = Timing { duration: approach.duration, step, sample: approach.duration, integration };
         self.run(&mut law, &start, &timing)
     }
@@ -85,7 +85,7 @@ impl Problems {
     /// Free motion of the same robot.
     pub fn free(
         &self,
-        start: &Motion,
+        start: &RobotState,
         duration: f64,
         sample: f64,
         (integration, step): (Integration, f64),
@@ -95,8 +95,8 @@ impl Problems {
     }
 
     /// Turning with both arms out, which swing about that, and drifting away.
-    pub fn turning() -> Motion {
-        Motion {
+    pub fn turning() -> RobotState {
+        RobotState {
             base_pose: [0.0; 3],
             joint_angles: vec![0.15, -0.1, 0.1, PI + 0.1, 0.15, -0.15],
             base_twist: [0.5, 0.02, -0.01],
@@ -105,8 +105,8 @@ impl Problems {
     }
 
     /// Tumbling, base and joints turning by up to 0.9 rad/s.
-    pub fn tumbling() -> Motion {
-        Motion {
+    pub fn tumbling() -> RobotState {
+        RobotState {
             base_pose: [0.3, 1.0, -2.0],
             joint_angles: vec![0.7, -1.5, 1.0, 2.4, 1.5, -1.0],
             base_twist: [0.2, 0.05, -0.03],
@@ -114,7 +114,7 @@ impl Problems {
         }
     }
 
-    fn run(&self, law: &mut dyn Control<f64>, start: &Motion, timing: &Timing) -> Result<(Phase, u64), Stopped> {
+    fn run(&self, law: &mut dyn Control<f64>, start: &RobotState, timing: &Timing) -> Result<(Phase, u64), Stopped> {
         let mut law = Counted { law, calls: 0 };
         let phase = simulate(&System::alone(&*self.model), &mut law, start, timing, &mut NoEvents, &mut || ())?;
         let samples = phase.samples.len() as u64; // the law is asked for each of them too
@@ -126,7 +126,7 @@ impl Problems {
 pub fn end(phase: &Phase) -> Vec<f64> {
     let parts = phase
         .end()
-        .map(|end| &end.motion)
+        .map(|end| &end.state)
         .map(|motion| [&motion.base_pose[..], &motion.joint_angles, &motion.base_twist, &motion.joint_rates].concat());
     parts.unwrap_or_default()
 }

@@ -55,14 +55,14 @@ fn measure(
     for instant in &states {
         // an error would be quick
         let forces = Forces::torques(&instant.joint_torques);
-        model.forward_dynamics(&instant.motion.state(), &forces, &mut accelerations)?;
+        model.forward_dynamics(&instant.state.view(), &forces, &mut accelerations)?;
     }
     let mut states = states.iter().cycle();
     criterion.benchmark_group(robot).bench_function(implementation, |bencher| {
         bencher.iter(|| {
             let instant = states.next()?;
             let forces = Forces::torques(&instant.joint_torques);
-            let base = model.forward_dynamics(&black_box(instant.motion.state()), &forces, &mut accelerations);
+            let base = model.forward_dynamics(&black_box(instant.state.view()), &forces, &mut accelerations);
             black_box(&accelerations);
             base.ok()
         });

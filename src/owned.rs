@@ -1,6 +1,10 @@
-//! Models behind a pointer that can be copied.
+//! What the core only borrows, owned: states, and models behind a pointer.
 
 use crate::dynamics::Model;
+use crate::state;
+
+/// A robot's state with its joints' numbers on the heap.
+pub type RobotState = state::RobotState<f64, Vec<f64>>;
 
 /// A [`Model`] on the heap whose copy has its numbers as they are now.
 pub trait CloneModel: Model<f64> {
