@@ -25,7 +25,7 @@ const TEMPLATES: [(&str, &str); 5] = [
 const RUNTIME: [(&str, &str); 4] = [
     ("number", include_str!("../src/scalar/number.rs")),
     ("sine", include_str!("../src/scalar/sine.rs")),
-    ("float", include_str!("float.rs")),
+    ("float", include_str!("../src/scalar/float.rs")),
     ("manifest", include_str!("../src/manifest.rs")),
 ];
 

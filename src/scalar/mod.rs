@@ -1,5 +1,6 @@
 //! What generated code needs of a number.
 
+mod float;
 mod number;
 mod real;
 mod sine;

@@ -1,7 +1,6 @@
 //! Numbers that are one real number.
 
 use super::Scalar;
-use super::sine;
 use core::fmt::{Debug, Display};
 use core::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 
@@ -30,42 +29,7 @@ pub trait Real:
 }
 
 macro_rules! float {
-    ($float:ident, $sin_cos:ident, $sqrt:ident, $atan2:ident) => {
-        impl Scalar for $float {
-            const ZERO: Self = 0.0;
-            const ONE: Self = 1.0;
-
-            #[inline]
-            #[allow(
-                clippy::cast_possible_truncation,
-                clippy::cast_lossless,
-                reason = "rounding to the scalar is what is asked for"
-            )]
-            fn constant(value: f64) -> Self {
-                value as $float
-            }
-
-            #[inline]
-            fn sin_cos(self) -> (Self, Self) {
-                sine::$sin_cos(self)
-            }
-
-            #[inline]
-            fn sqrt(self) -> Self {
-                libm::$sqrt(self)
-            }
-
-            #[inline]
-            fn atan2(self, x: Self) -> Self {
-                libm::$atan2(self, x)
-            }
-
-            #[inline]
-            fn minimum(self, other: Self) -> Self {
-                if other < self { other } else { self }
-            }
-        }
-
+    ($float:ident) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
 
@@ -88,5 +52,5 @@ macro_rules! float {
     };
 }
 
-float!(f32, sin_cos_f32, sqrtf, atan2f);
-float!(f64, sin_cos_f64, sqrt, atan2);
+float!(f32);
+float!(f64);

@@ -32,8 +32,8 @@ pub const LANE: f64 = 1e-12;
 pub const SINE: f64 = 2e-16;
 /// The same in `f32`. 9e-8 measured.
 pub const SINE_SINGLE: f64 = 1e-7;
-/// Roots of a standalone module, relative, and a fourth of its arctangents: Newton steps end within a rounding or two.
-pub const STANDALONE: f64 = 2.5e-16;
+/// The core's arctangents, in rad: the last correction is of a few roundings of π.
+pub const ARCTANGENT: f64 = 1e-15;
 /// A derivative by dual numbers against the closed form, relative: rounding.
 pub const DUAL: f64 = 1e-11;
 /// Angle, rate and acceleration of a trajectory against central differences of step 1e-5, per unit.

@@ -1,14 +1,8 @@
-//! What a module without a library carries: its own roots and arctangents, beside the library's sine.
+//! The core's own roots and arctangents, against the standard library's.
 
-#[path = "../codegen/float.rs"]
-mod float;
-#[path = "../src/scalar/number.rs"]
-mod number;
-#[path = "../src/scalar/sine.rs"]
-mod sine;
 mod support;
 
-use number::Scalar;
+use planar_capture::scalar::Scalar;
 use support::tolerance;
 
 /// Every size and sign, with the values between which formulas change.
@@ -21,11 +15,20 @@ fn numbers() -> impl Iterator<Item = f64> + Clone {
 #[test]
 fn square_roots_are_the_librarys() {
     for x in numbers().filter(|x| *x >= 0.0) {
-        let (found, right) = (Scalar::sqrt(x), x.sqrt());
-        assert!((found - right).abs() <= tolerance::STANDALONE * right, "√{x:e}: {found:e}, not {right:e}");
+        assert_same_bits(x);
+    }
+    // every exponent and size of the first digits
+    for exponent in -1074..1024 {
+        (0..64).for_each(|i| assert_same_bits((1.0 + f64::from(i) * 0.015_73) * 2.0_f64.powi(exponent)));
     }
     assert!(Scalar::sqrt(-1.0_f64).is_nan() && Scalar::sqrt(f64::NAN).is_nan());
     assert!(Scalar::sqrt(f64::INFINITY).is_infinite());
+}
+
+#[track_caller]
+fn assert_same_bits(x: f64) {
+    let (found, right) = (Scalar::sqrt(x), x.sqrt());
+    assert_eq!(found.to_bits(), right.to_bits(), "√{x:e}: {found:e}, not {right:e}");
 }
 
 #[test]
@@ -38,7 +41,7 @@ fn arctangents_are_the_librarys() {
         // −0 and 0 are one direction: π, where the library has −π
         let difference = (found - right).abs();
         let difference = difference.min((difference - std::f64::consts::TAU).abs());
-        assert!(difference <= 4.0 * tolerance::STANDALONE, "atan2({y:e}, {x:e}): {found:e}, not {right:e}");
+        assert!(difference <= tolerance::ARCTANGENT, "atan2({y:e}, {x:e}): {found:e}, not {right:e}");
     }
     assert!(Scalar::atan2(f64::NAN, 1.0_f64).is_nan());
 }

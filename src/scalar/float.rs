@@ -5,7 +5,7 @@
 use super::number::Scalar;
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
-/// Square root by Newton's iteration from half the exponent; NaN of what is negative.
+/// Square root by Newton's iteration, rounded to the nearest but where that is nearly a tie; NaN of what is negative.
 fn sqrt(value: f64) -> f64 {
     if value == 0.0 || value == f64::INFINITY {
         return value;
@@ -17,11 +17,20 @@ fn sqrt(value: f64) -> f64 {
         // 2¹⁰⁸ makes it normal
         return sqrt(value * 324_518_553_658_426_726_783_156_020_576_256.0) / 18_014_398_509_481_984.0;
     }
-    let mut root = f64::from_bits((value.to_bits() >> 1) + (1023 << 51));
+    // value = part · 2²ᵏ with 1 ≤ part < 4; half is k in the place of an exponent
+    let half = (((value.to_bits() >> 52) + 1) >> 1).wrapping_sub(512) << 52;
+    let part = f64::from_bits(value.to_bits().wrapping_sub(half << 1));
+    let mut root = f64::from_bits((part.to_bits() >> 1) + (1023 << 51));
     for _ in 0..4 {
-        root = 0.5 * (root + value / root);
+        root = 0.5 * (root + part / root);
     }
-    root
+    // what the square of the root misses, without rounding: its upper half has few enough digits
+    let upper = f64::from_bits(root.to_bits() & !0x7ff_ffff);
+    let lower = root - upper;
+    let missing = ((part - upper * upper) - 2.0 * upper * lower) - lower * lower;
+    // below 2 as the part is below 4: the largest part's root is nearly a tie
+    let root = (root + missing / (2.0 * root)).min(2.0 - f64::EPSILON);
+    f64::from_bits(root.to_bits().wrapping_add(half))
 }
 
 /// Angle of the vector (x, y): each step turns it by the tangent of what is left, which leaves the cube of that.
