@@ -11,6 +11,8 @@ mod layout;
 mod render;
 #[path = "codegen/stage.rs"]
 mod stage;
+#[path = "src/standalone.rs"]
+mod standalone;
 
 fn main() {
     println!("cargo::rerun-if-changed=codegen");

@@ -5,6 +5,7 @@ mod operands;
 mod phrases;
 mod tables;
 
+use crate::standalone::PARTS;
 use json::{list, names, size, text};
 use operands::{Known, Scope, array_type, camel, collect_uses, prelude};
 use serde_json::{Value, json};
@@ -21,33 +22,14 @@ const TEMPLATES: [(&str, &str); 5] = [
     ("runtime.rs", include_str!("templates/runtime.rs.tera")),
 ];
 
-/// What a module without a library carries: the library's own text.
-const RUNTIME: [(&str, &str); 4] = [
-    ("number", include_str!("../src/scalar/number.rs")),
-    ("sine", include_str!("../src/scalar/sine.rs")),
-    ("float", include_str!("../src/scalar/float.rs")),
-    ("manifest", include_str!("../src/manifest.rs")),
-];
-
 /// The format of the graphs that this renderer reads.
 const FORMAT: u64 = 1;
-
-/// Where a rendered module takes its scalars and manifest from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Runtime {
-    /// The crate that it is a part of: planar-capture itself.
-    Crate,
-    /// `planar_capture`, whose traits it implements.
-    Library,
-    /// Its own text.
-    Own,
-}
 
 /// What is to be made of a graph.
 #[derive(Clone, Copy, Debug)]
 pub struct Form<'a> {
-    /// Where scalars and manifest come from.
-    pub runtime: Runtime,
+    /// Whether the module carries what it needs, or takes it from `planar_capture`, whose traits it implements.
+    pub standalone: bool,
     /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
     pub item: bool,
     /// What it is made from, for the header.
@@ -114,13 +96,13 @@ fn context(graph: &Value, form: &Form) -> Result<Value, String> {
         .map(|family| render_family(graph, family, &known))
         .collect::<Result<Vec<_>, _>>()?;
     let set_up = Scope { known: &known, staged: BTreeSet::new(), constants: false };
-    let runtime: Vec<Value> = RUNTIME.iter().map(|(name, text)| json!({"name": name, "text": text})).collect();
+    let parts: Vec<Value> = PARTS.iter().map(|(name, text)| json!({"name": name, "text": text})).collect();
     Ok(json!({
         "source": form.source,
         "command": form.command,
         "item": form.item,
-        "library": match form.runtime { Runtime::Crate => "crate", Runtime::Library => "planar_capture", Runtime::Own => "" },
-        "runtime": runtime,
+        "standalone": form.standalone,
+        "parts": parts,
         "self_test": form.self_test.map(|vectors| self_test(graph, vectors)).transpose()?,
         "layout": graph["layout"],
         "casadi": graph["casadi"],
@@ -247,7 +229,26 @@ fn self_test(graph: &Value, vectors: &Value) -> Result<Value, String> {
             functions.push(json!({"name": function["name"], "inputs": function["inputs"], "outputs": compared}));
         }
     }
-    Ok(json!({"inputs": inputs.collect::<Result<Vec<_>, String>>()?, "functions": functions, "instants": vectors}))
+    let instants = list(vectors)?.iter().map(|instant| {
+        let inputs = list(&instant["inputs"])?.iter().map(|given| {
+            let name = text(&given["name"])?;
+            let value = literal(list(&input(graph, name)?["shape"])?, list(&given["values"])?)?;
+            Ok::<_, String>(json!({"name": name, "value": value}))
+        });
+        Ok(json!({"inputs": inputs.collect::<Result<Vec<_>, String>>()?, "expected": instant["expected"]}))
+    });
+    let instants = instants.collect::<Result<Vec<_>, String>>()?;
+    Ok(json!({"inputs": inputs.collect::<Result<Vec<_>, String>>()?, "functions": functions, "instants": instants}))
+}
+
+/// Numbers as a nested array literal of a shape.
+fn literal(shape: &[Value], values: &[Value]) -> Result<String, String> {
+    let Some((_, inner)) = shape.split_first() else {
+        return values.first().ok_or("no number".to_owned()).and_then(tables::number);
+    };
+    let part: usize = inner.iter().map(size).product::<Result<_, _>>()?;
+    let parts = values.chunks(part.max(1)).map(|values| literal(inner, values));
+    Ok(format!("[{}]", parts.collect::<Result<Vec<_>, _>>()?.join(", ")))
 }
 
 fn input<'a>(graph: &'a Value, name: &str) -> Result<&'a Value, String> {

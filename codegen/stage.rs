@@ -1,7 +1,7 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
 use crate::layout::Layout;
-use crate::render::{self, Form, Runtime};
+use crate::render::{self, Form};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -41,7 +41,7 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
     let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
     let (_, value) = fresh(&layout, &graph, &command)?;
     let source = format!("codegen/graphs/{name}.json");
-    let form = Form { runtime: Runtime::Crate, item: true, source: &source, command: &command, self_test: None };
+    let form = Form { standalone: false, item: true, source: &source, command: &command, self_test: None };
     render::render(&value, &form).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
 }
 

@@ -46,20 +46,30 @@ pub fn fill(text: &str, vectors: &Value) -> String {
 }
 
 /// The numbers that belong into a line, with what stands before and after them.
-fn list_of<'a>(line: &'a str, vectors: &'a Value) -> Option<(&'a str, Vec<&'a str>, &'a str)> {
+fn list_of<'a>(line: &'a str, vectors: &Value) -> Option<(&'a str, Vec<String>, &'a str)> {
     for (mark, key) in [("[VALUES_", "values"), ("[SIZES_", "sizes")] {
         let Some((before, rest)) = line.split_once(mark) else { continue };
         let (place, after) = rest.split_once(']')?;
         let (state, result) = place.split_once('_')?;
         let [state, result] = [state, result].map(|number| number.parse::<usize>().ok());
         let numbers = vectors.get(state?)?["expected"].get(result?)?[key].as_array()?;
-        return Some((before, numbers.iter().filter_map(Value::as_str).collect(), after));
+        let literal = |value: &Value| match key {
+            "sizes" => value.as_f64().map(|size| format!("{size:.1e}")),
+            _ => number(value).ok(),
+        };
+        return Some((before, numbers.iter().filter_map(literal).collect(), after));
     }
     None
 }
 
+/// A number as a literal that reads back as the same.
+pub fn number(value: &Value) -> Result<String, String> {
+    let number = value.as_f64().ok_or_else(|| format!("a number was expected, not {value}"))?;
+    Ok(format!("{number:?}"))
+}
+
 /// One line where they fit, else as many to a line as fit.
-fn wrap(to: &mut String, before: &str, numbers: &[&str], after: &str) {
+fn wrap(to: &mut String, before: &str, numbers: &[String], after: &str) {
     let whole = format!("{before}[{}]{after}", numbers.join(", "));
     if whole.chars().count() <= WIDTH {
         to.push_str(&whole);

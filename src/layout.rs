@@ -146,6 +146,33 @@ impl Layout {
         digest.map(|byte| format!("{byte:02x}")).concat()
     }
 
+    /// TOML text that reads back as the same numbers.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        let text = |key: &str, text: &str| format!("{key} = {}\n", toml::Value::from(text));
+        let number = |key: &str, value: f64| format!("{key} = {}\n", toml::Value::from(value));
+        let pair = |key: &str, pair: [f64; 2]| format!("{key} = {}\n", toml::Value::from(pair.to_vec()));
+        let mut lines = vec![
+            text("name", &self.name),
+            "\n[base]\n".to_owned(),
+            number("mass", self.base.mass),
+            number("inertia", self.base.inertia),
+        ];
+        for arm in &self.arms {
+            lines.push("\n[[arm]]\n".to_owned());
+            lines.extend([text("name", &arm.name), pair("mount", arm.mount)]);
+            if arm.mount_angle != 0.0 {
+                lines.push(number("mount_angle", arm.mount_angle));
+            }
+            for link in &arm.links {
+                lines.push("[[arm.link]]\n".to_owned());
+                lines.extend([number("length", link.length), number("mass", link.mass)]);
+                lines.extend([number("inertia", link.inertia), pair("com", link.com)]);
+            }
+        }
+        lines.concat()
+    }
+
     fn canonical_text(&self) -> String {
         // Adding +0 turns −0 into +0 and leaves every other number as it is.
         let number = |key: &str, value: f64| format!("{key}={:016x}\n", (value + 0.0).to_bits());

@@ -56,6 +56,9 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
+// generated modules name this crate, from within it too
+extern crate self as planar_capture;
+
 pub mod body;
 #[doc(hidden)]
 pub mod check;
@@ -73,6 +76,8 @@ pub mod manifest;
 mod momentum_equation;
 pub mod motion;
 pub mod scalar;
+#[doc(hidden)]
+pub mod standalone;
 pub mod state;
 pub mod target;
 pub mod trajectory;
@@ -112,6 +117,10 @@ pub mod models;
 pub mod output;
 #[cfg(feature = "std")]
 pub mod owned;
+#[cfg(feature = "build")]
+mod python_package;
+#[cfg(feature = "std")]
+pub mod quantities;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "mcap")]
@@ -120,6 +129,8 @@ pub mod recording;
 pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
+#[cfg(feature = "std")]
+pub mod sampling;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]

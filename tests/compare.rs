@@ -1,9 +1,11 @@
 //! `planar-capture compare`: what it prints, and that the states it leaves can be computed again.
 
 use assert_cmd::Command;
-use planar_capture::compare::{Comparison, Difference, QUANTITIES, REGIMES, Worst, layout_text};
+use planar_capture::compare::{Comparison, Worst};
 use planar_capture::layout::Layout;
 use planar_capture::models::SHIPPED;
+use planar_capture::quantities::{Difference, QUANTITIES};
+use planar_capture::sampling::REGIMES;
 use std::path::Path;
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
@@ -52,7 +54,7 @@ fn a_layout_is_written_so_that_it_reads_back() {
         let layout = Layout::parse(text, name).expect("good");
         for regime in REGIMES {
             let layout = regime.sample(&layout, 3, 4).layout;
-            let again = Layout::parse(&layout_text(&layout), name).expect("good");
+            let again = Layout::parse(&layout.to_toml(), name).expect("good");
             assert_eq!(again, layout);
         }
     }

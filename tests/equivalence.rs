@@ -2,12 +2,14 @@
 
 mod support;
 
-use planar_capture::compare::{QUANTITIES, REGIMES, Regime, Sample, differences, layout_text, states_text};
+use planar_capture::compare::states_text;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::owned::CloneModel;
+use planar_capture::quantities::{QUANTITIES, differences};
+use planar_capture::sampling::{REGIMES, Regime, Sample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
 use std::collections::BTreeSet;
@@ -27,7 +29,7 @@ fn replay(regime: Regime, index: u64, sample: &Sample) -> String {
     format!(
         "seed {SEED}, regime `{}`, state {index}; replay with `planar-capture eval`:\n{}\n{}",
         regime.name(),
-        layout_text(&sample.layout),
+        sample.layout.to_toml(),
         states_text(sample)
     )
 }

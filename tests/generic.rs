@@ -2,11 +2,11 @@
 
 mod support;
 
-use planar_capture::compare::{Regime, Sample};
 use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::models::generic;
 use planar_capture::owned::CloneModel;
+use planar_capture::sampling::{Regime, Sample};
 use planar_capture::study::study;
 use planar_capture::summary::summary;
 use planar_capture::target::Target;

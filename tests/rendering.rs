@@ -8,6 +8,7 @@ use planar_capture::{diagnostic, layout};
 mod render;
 #[path = "../codegen/stage.rs"]
 mod stage;
+use planar_capture::standalone;
 
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,9 @@
 //! `planar-capture compare LAYOUT.toml`.
 
 use super::{Problem, layout};
-use planar_capture::compare::{Comparison, QUANTITIES, Worst, compare, layout_text, states_text};
+use planar_capture::compare::{Comparison, Worst, compare, states_text};
 use planar_capture::output::{make_folder, write_whole};
+use planar_capture::quantities::QUANTITIES;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,7 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
         let write = |extension: &str, text: String| {
             write_whole(&folder.join(format!("{name}.{extension}")), |to| to.write_all(text.as_bytes()))
         };
-        write("toml", layout_text(&worst.sample.layout))?;
+        write("toml", worst.sample.layout.to_toml())?;
         write("json", states_text(&worst.sample))?;
     }
     let mut out = std::io::stdout().lock();

@@ -2,7 +2,7 @@
 
 use super::{Problem, layout};
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::generate::{self, Module};
+use planar_capture::generate::{self, Module, PYTHON_PACKAGE};
 use planar_capture::layout::Layout;
 use planar_capture::output::write_whole;
 use std::fs;
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     }
     let file = || arguments.layout.clone();
     let progress = spinner();
-    let graph_text = generate::derive(&layout, &mut |line| show(&progress, line))
+    let graph_text = generate::derive(&layout, PYTHON_PACKAGE, &mut |line| show(&progress, line))
         .map_err(|source| Problem::Derivation { file: file(), source })?;
     progress.set_message("comparing with the generic implementation");
     let failed = |source| Problem::Generate { file: file(), source };

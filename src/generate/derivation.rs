@@ -1,25 +1,11 @@
-//! The Python package that derives a layout's graph, carried in the binary: unpacked once, run in its own environment.
+//! The derivation of a layout's graph by the Python package `codegen`: unpacked once, run in its own environment.
 
-use crate::compare::layout_text;
 use crate::layout::Layout;
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
-
-macro_rules! package {
-    ($($name:literal),*) => {
-        /// (name, text) of the package's files.
-        const PACKAGE: &[(&str, &str)] = &[
-            $(($name, include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/codegen/", $name, ".py"))),)*
-        ];
-    };
-}
-
-include!(concat!(env!("OUT_DIR"), "/package.rs"));
-
-const REQUIREMENTS: &str = include_str!("../../codegen/requirements.txt");
 
 /// Interpreters to look for, best first.
 const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12", "python3.11", "python"];
@@ -71,18 +57,18 @@ pub enum DerivationError {
     },
 }
 
-/// The graph of a layout as text, as it is to be kept. `say` gets what the derivation says of itself, line by line.
+/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text). `say` gets what the derivation says of itself, line by line.
 ///
 /// # Errors
 /// [`DerivationError`], with what to install where something is missing.
-pub fn derive(layout: &Layout, say: &mut dyn FnMut(&str)) -> Result<String, DerivationError> {
+pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&str)) -> Result<String, DerivationError> {
     let home = home()?;
-    let package = unpack(&home)?;
+    let package = unpack(&home, package)?;
     let python = python()?;
     let folder = tempfile::tempdir().map_err(|source| DerivationError::File { path: env::temp_dir(), source })?;
     let [graph, file] = ["graph.json", "layout.toml"].map(|name| folder.path().join(name));
     // not the user's file: what it was read as, so that one reader decides
-    fs::write(&file, layout_text(layout)).map_err(|source| DerivationError::File { path: file.clone(), source })?;
+    fs::write(&file, layout.to_toml()).map_err(|source| DerivationError::File { path: file.clone(), source })?;
     let mut command = Command::new(&python);
     command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).current_dir(&package);
     command.env("PYTHONDONTWRITEBYTECODE", "1");
@@ -105,10 +91,8 @@ fn home() -> Result<PathBuf, DerivationError> {
 }
 
 /// The folder that holds the package `codegen`; its name changes with the text of the package.
-fn unpack(home: &Path) -> Result<PathBuf, DerivationError> {
-    let files = || PACKAGE.iter().map(|(name, text)| (format!("{name}.py"), *text));
-    let files = || files().chain([("requirements.txt".to_owned(), REQUIREMENTS)]);
-    let all: Vec<String> = files().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
+fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationError> {
+    let all: Vec<String> = files.iter().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
     let hash = crate::render::sha256(&all.concat());
     let place = home.join(format!("codegen-{hash:.16}"));
     if place.join("codegen").is_dir() {
@@ -119,7 +103,7 @@ fn unpack(home: &Path) -> Result<PathBuf, DerivationError> {
     let building = tempfile::tempdir_in(home).map_err(failed)?;
     let folder = building.path().join("codegen");
     fs::create_dir(&folder).map_err(failed)?;
-    for (name, text) in files() {
+    for (name, text) in files {
         fs::write(folder.join(name), text).map_err(failed)?;
     }
     match fs::rename(building.path(), &place) {

@@ -6,10 +6,12 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive};
 
-use crate::compare::{REGIMES, Regime};
+pub use crate::python_package::PYTHON_PACKAGE;
+
 use crate::error::Error;
 use crate::layout::Layout;
-use crate::render::{self, Form, Runtime};
+use crate::render::{self, Form};
+use crate::sampling::{REGIMES, Regime};
 use interpreter::interpret;
 use serde_json::Value;
 use vectors::Vectors;
@@ -142,9 +144,13 @@ impl Module<'_> {
             Ok(vectors.to_json(&found))
         });
         let vectors = Value::Array(vectors.collect::<Result<_, GenerateError>>()?);
-        let runtime = if self.standalone { Runtime::Own } else { Runtime::Library };
-        let form =
-            Form { runtime, item: self.item, source: self.source, command: self.command, self_test: Some(&vectors) };
+        let form = Form {
+            standalone: self.standalone,
+            item: self.item,
+            source: self.source,
+            command: self.command,
+            self_test: Some(&vectors),
+        };
         render::render(graph, &form).map_err(GenerateError::Graph)
     }
 }

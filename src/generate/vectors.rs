@@ -1,11 +1,12 @@
 //! Reference vectors: what the generic implementation says of a state, for every result of every generated function.
 
 use super::interpreter::Found;
-use crate::compare::{Class, QUANTITIES, Quantity, Regime, Sample, Scale, Scales, values};
 use crate::error::Error;
 use crate::evaluation::Instant;
 use crate::generic::Generic;
 use crate::layout::Layout;
+use crate::quantities::{Class, QUANTITIES, Quantity, Scale, Scales, values};
+use crate::sampling::{Regime, Sample};
 use crate::target::Target;
 use serde_json::{Value, json};
 
@@ -145,23 +146,12 @@ impl Vectors {
         ]
     }
 
-    /// For the template: inputs as array literals, expected results as lists of literals, in the graph's order. Pivots,
+    /// As a graph keeps them: the elements of each input and of each expected result, row-major, in the graph's order. Pivots,
     /// which the generic implementation does not have, are those that were `found`.
     #[must_use]
     pub fn to_json(&self, found: &[Found]) -> Value {
-        let inputs: Vec<Value> = self
-            .inputs()
-            .iter()
-            .map(|(name, values)| {
-                let columns = match *name {
-                    "end_effector_wrenches" | "target_twists" => 3,
-                    "contacts" => 2,
-                    _ => return json!({"name": name, "value": format!("[{}]", literals(values))}),
-                };
-                let rows: Vec<String> = values.chunks(columns).map(|row| format!("[{}]", literals(row))).collect();
-                json!({"name": name, "value": format!("[{}]", rows.join(", "))})
-            })
-            .collect();
+        let inputs: Vec<Value> =
+            self.inputs().iter().map(|(name, values)| json!({"name": name, "values": values})).collect();
         let pivot = |found: &Found| Expected {
             function: found.function.clone(),
             output: found.output.clone(),
@@ -174,8 +164,8 @@ impl Vectors {
         };
         let expected = found.iter().map(|found| by_generic(found).unwrap_or_else(|| pivot(found)));
         let expected = expected.map(|Expected { function, output, values, sizes }| {
-            let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
-            let sizes: Vec<String> = sizes.iter().map(|size| format!("{size:.1e}")).collect();
+            // two digits of a size are enough
+            let sizes: Vec<f64> = sizes.iter().map(|size| format!("{size:.1e}").parse().unwrap_or(*size)).collect();
             json!({"function": function, "output": output, "values": values, "sizes": sizes})
         });
         json!({"inputs": inputs, "expected": expected.collect::<Vec<_>>()})
@@ -245,8 +235,4 @@ fn readable(mut instant: Instant) -> Instant {
         target.contact.iter_mut().chain(&mut target.twist).for_each(round);
     }
     instant
-}
-
-fn literals(values: &[f64]) -> String {
-    values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ")
 }

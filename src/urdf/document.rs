@@ -1,7 +1,6 @@
 //! An imported layout as a file for people.
 
 use super::{Import, import::Joint};
-use crate::compare::layout_text;
 use crate::diagnostic::{listing, printable};
 use std::fmt::{self, Display, Formatter};
 
@@ -74,6 +73,6 @@ impl Import {
         lines.push("Left out: visuals, collisions, materials, transmissions, orientations of tips.".to_owned());
         lines.extend(self.remarks.iter().map(ToString::to_string));
         let header: Vec<String> = lines.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
-        header.concat() + &layout_text(&self.layout)
+        header.concat() + &self.layout.to_toml()
     }
 }

@@ -3,7 +3,7 @@
 //! `cargo run --release` in this folder derives the robots and runs this; alone it has none.
 
 use criterion::Criterion;
-use planar_capture::compare::Regime;
+use planar_capture::sampling::{Regime};
 use planar_capture::dynamics::ForwardDynamics;
 use planar_capture::generic::Generic;
 use planar_capture::layout::Layout;

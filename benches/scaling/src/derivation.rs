@@ -1,7 +1,7 @@
 //! A robot's graph and module: how large they are, how long they take.
 
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::generate::{Module, derive, prove, read_graph};
+use planar_capture::generate::{Module, PYTHON_PACKAGE, derive, prove, read_graph};
 use serde_json::Value;
 use std::time::Instant;
 
@@ -26,7 +26,7 @@ impl Derivation {
         let (mut seconds, mut text) = (f64::INFINITY, String::new());
         for _ in 0..REPEATS {
             let start = Instant::now();
-            text = derive(&layout, &mut |_| {})?;
+            text = derive(&layout, PYTHON_PACKAGE, &mut |_| {})?;
             seconds = seconds.min(start.elapsed().as_secs_f64());
         }
         let graph = read_graph(&text, &layout)?;

@@ -3,7 +3,6 @@
 use crate::compilation::cargo;
 use crate::derivation::Derivation;
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::compare::layout_text;
 use serde_json::Value;
 use std::fmt::Write;
 use std::fs;
@@ -33,7 +32,7 @@ pub fn evaluate(robots: &[(Shape, Derivation)], work: &Path) -> Result<Vec<Evalu
     for (shape, derivation) in robots {
         let name = shape.name();
         fs::write(modules.join(format!("{name}.rs")), &derivation.item)?;
-        fs::write(modules.join(format!("{name}.toml")), layout_text(&shape.layout()))?;
+        fs::write(modules.join(format!("{name}.toml")), shape.layout().to_toml())?;
         writeln!(index, "include!(\"{name}.rs\");")?;
     }
     index.push_str("pub const ROBOTS: &[super::Robot] = &[\n");

@@ -4,13 +4,15 @@
 //! bounds |B| of the body Jacobians put into the same equations. So a folded arm's small inertia is measured against
 //! the lengths that cancel in it, and an arm's entries never against the base's.
 
+use super::QUANTITIES;
 use super::bounds::{Bounds, Point, captured, convective, inertia};
 use super::system::System;
-use super::{QUANTITIES, Sample};
+use crate::sampling::Sample;
 use nalgebra::{DMatrix, DVector, Vector3};
 
 /// Sizes of one quantity's entries.
 pub struct Scale {
+    /// One per entry, row-major.
     pub sizes: Vec<f64>,
     /// Of the matrices solved on the way, 1 without any.
     pub condition: f64,
@@ -29,6 +31,8 @@ pub struct Scales<'a> {
 }
 
 impl<'a> Scales<'a> {
+    /// At a sample, of what [`values`](super::values) says there.
+    #[must_use]
     pub fn new(sample: &'a Sample, values: &'a [Option<Vec<f64>>]) -> Self {
         let bounds = Bounds::new(sample);
         let motion = &sample.instant.state;
@@ -39,6 +43,7 @@ impl<'a> Scales<'a> {
     }
 
     /// In the order of [`QUANTITIES`].
+    #[must_use]
     pub fn all(&self) -> Vec<Option<Scale>> {
         let polynomial = |sizes: Vec<f64>| Some(Scale { sizes, condition: 1.0 });
         let (bodies, tips) = (&self.bounds.bodies, &self.bounds.tips);
