@@ -59,68 +59,39 @@
 // generated modules name this crate, from within it too
 extern crate self as planar_capture;
 
-pub mod body;
-#[doc(hidden)]
-pub mod check;
-pub mod contact;
-pub mod control;
-pub mod dynamics;
-pub mod error;
 pub mod generated;
-pub mod impact;
 pub mod integrate;
-#[cfg(feature = "lanes")]
-pub mod lanes;
-mod linear;
-pub mod manifest;
-mod momentum_equation;
-pub mod motion;
-pub mod scalar;
+
 #[doc(hidden)]
-pub mod standalone;
-pub mod state;
-pub mod target;
-pub mod trajectory;
+pub use planar_dynamics::check;
+#[cfg(feature = "lanes")]
+pub use planar_dynamics::lanes;
+pub use planar_dynamics::{
+    body, contact, control, dynamics, error, impact, implement_dynamics, include_layout, manifest, motion, scalar,
+    state, target, trajectory,
+};
 
 #[cfg(feature = "build")]
-#[path = "../codegen/render.rs"]
-#[allow(dead_code, reason = "this crate's own modules are rendered by its build script")]
-mod render;
-#[cfg(feature = "build")]
-#[path = "../codegen/stage.rs"]
-#[allow(dead_code, reason = "this crate's own modules are rendered by its build script")]
-mod stage;
+pub use planar_build as build;
+#[cfg(feature = "std")]
+pub use planar_build::prove::{self as generate, evaluation, generic, owned, quantities, sampling};
+#[cfg(feature = "std")]
+pub use planar_layout::{diagnostic, layout, structure};
 
 #[cfg(feature = "std")]
 pub mod approach;
-#[cfg(feature = "build")]
-pub mod build;
 #[cfg(feature = "std")]
 pub mod compare;
-#[cfg(feature = "std")]
-pub mod diagnostic;
-#[cfg(feature = "std")]
-pub mod evaluation;
 #[cfg(feature = "figures")]
 pub mod figures;
-#[cfg(feature = "build")]
-pub mod generate;
-#[cfg(feature = "std")]
-pub mod generic;
 #[cfg(feature = "std")]
 pub mod inspection;
-#[cfg(feature = "std")]
-pub mod layout;
 #[cfg(feature = "std")]
 pub mod models;
 #[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "std")]
-pub mod owned;
-#[cfg(feature = "build")]
-mod python_package;
-#[cfg(feature = "std")]
-pub mod quantities;
+pub mod python_package;
 #[cfg(feature = "std")]
 pub mod record;
 #[cfg(feature = "mcap")]
@@ -130,15 +101,11 @@ pub mod report;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
-pub mod sampling;
-#[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
 pub mod simulate;
 #[cfg(feature = "std")]
 pub mod states;
-#[cfg(feature = "std")]
-pub mod structure;
 #[cfg(feature = "std")]
 pub mod study;
 #[cfg(feature = "std")]

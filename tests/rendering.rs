@@ -2,14 +2,8 @@
 
 mod support;
 
+use planar_build::shipped;
 use planar_capture::{diagnostic, layout};
-#[path = "../codegen/render.rs"]
-#[allow(dead_code, reason = "modules for other crates are tested elsewhere")]
-mod render;
-#[path = "../codegen/stage.rs"]
-mod stage;
-use planar_capture::standalone;
-
 use std::fs;
 use std::path::Path;
 use support::file;
@@ -21,7 +15,7 @@ fn layouts() -> Vec<String> {
 }
 
 fn rendered(name: &str) -> String {
-    stage::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
+    shipped::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// The library was compiled from what the committed graph renders to now.
@@ -116,7 +110,7 @@ fn broken(change: impl Fn(&Path)) -> String {
     }
     change(folder.path());
     let out = tempfile::tempdir().expect("a folder");
-    stage::render_all(folder.path(), out.path(), &|_| true).expect_err("this does not build")
+    shipped::render_all(folder.path(), out.path(), &|_| true).expect_err("this does not build")
 }
 
 fn edit(path: &Path, from: &str, to: &str) {

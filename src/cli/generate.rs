@@ -2,9 +2,10 @@
 
 use super::{Problem, layout};
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::generate::{self, Module, PYTHON_PACKAGE};
+use planar_capture::generate::{self, Module};
 use planar_capture::layout::Layout;
 use planar_capture::output::write_whole;
+use planar_capture::python_package::PYTHON_PACKAGE;
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};

@@ -1,22 +1,8 @@
-//! Integrators of ordinary differential equations, on slices.
-//!
-//! | scheme | order | evaluations per step | keeps |
-//! |---|---|---|---|
-//! | [`RungeKutta4`] | 4 | 4 | nothing; its error at 5 ms is below most others |
-//! | [`SemiImplicitEuler`] | 1 | 1 | nothing in these coordinates: for quick looks |
-//! | [`GaussLegendre`] | 6 | 3 per round of iteration | both momenta and symplecticity, on [canonical] variables |
-//! | `Adaptive` (feature `std`) | 9 | 16, and 10 for dense output | nothing; its error is the tolerance |
-//!
-//! [canonical]: crate::motion::Canonical
+//! The integrators of the core ([`planar_dynamics::integrate`]), and one with steps of its own.
 
 #[cfg(feature = "std")]
 pub mod adaptive;
-pub mod gauss_legendre;
-pub mod rk4;
-pub mod semi_implicit_euler;
 
 #[cfg(feature = "std")]
 pub use adaptive::Adaptive;
-pub use gauss_legendre::GaussLegendre;
-pub use rk4::RungeKutta4;
-pub use semi_implicit_euler::SemiImplicitEuler;
+pub use planar_dynamics::integrate::*;

@@ -1,7 +1,8 @@
 //! A robot's graph and module: how large they are, how long they take.
 
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::generate::{Module, PYTHON_PACKAGE, derive, prove, read_graph};
+use planar_capture::generate::{Module, derive, prove, read_graph};
+use planar_capture::python_package::PYTHON_PACKAGE;
 use serde_json::Value;
 use std::time::Instant;
 

@@ -1,0 +1,173 @@
+//! For build scripts of crates with a robot of their own: graphs to Rust, without Python (feature `build`).
+//!
+//! The crate keeps `layouts/NAME.toml` and, beside it, the graph that
+//! `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has this crate
+//! twice, as the core that the generated code stands on, and for the build script:
+//!
+//! ```toml
+//! [dependencies]
+//! planar-capture = { path = "…", default-features = false }
+//!
+//! [build-dependencies]
+//! planar-capture = { path = "…", default-features = false, features = ["build"] }
+//! ```
+//!
+//! Its `build.rs` is one call, and [`include_layout!`](crate::include_layout) brings in a module:
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), planar_capture::build::BuildError> {
+//!     planar_capture::build::render("layouts")
+//! }
+//! ```
+//! ```ignore
+//! // src/lib.rs
+//! planar_capture::include_layout!("my_robot");
+//! use my_robot::Model;
+//! ```
+//!
+//! A layout that was changed after its graph stops the build with the command that mends it.
+
+use crate::prove::{Module, command};
+use crate::renderer;
+use crate::shipped::{fresh, names};
+use planar_layout::layout::Layout;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Why a build stops. `Debug`, which `main` prints, is the message too.
+#[derive(Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct BuildError(String);
+
+impl fmt::Debug for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+impl From<String> for BuildError {
+    fn from(message: String) -> Self {
+        Self(message)
+    }
+}
+
+/// Renders every `folder/NAME.toml` with its graph `folder/NAME.json` to `$OUT_DIR/NAME.rs`, as a module `NAME` that
+/// implements the traits of [`dynamics`](planar_dynamics::dynamics).
+///
+/// # Errors
+/// As [`Layouts::render`].
+pub fn render(folder: impl Into<PathBuf>) -> Result<(), BuildError> {
+    Layouts::new(folder).render()
+}
+
+/// A folder of layouts with their graphs, and what is to be made of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layouts {
+    folder: PathBuf,
+    standalone: bool,
+    out: Option<PathBuf>,
+}
+
+impl Layouts {
+    /// Modules in `$OUT_DIR` that stand on this crate's core.
+    #[must_use]
+    pub fn new(folder: impl Into<PathBuf>) -> Self {
+        Self { folder: folder.into(), standalone: false, out: None }
+    }
+
+    /// Modules that carry what they need: the crate itself need not depend on this one. They are included with
+    /// `include!(concat!(env!("OUT_DIR"), "/NAME.rs"))`.
+    #[must_use]
+    pub fn standalone(mut self) -> Self {
+        self.standalone = true;
+        self
+    }
+
+    /// Another folder than `$OUT_DIR`; it has to be there.
+    #[must_use]
+    pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.out = Some(folder.into());
+        self
+    }
+
+    /// Renders them all.
+    ///
+    /// # Errors
+    /// [`BuildError`]: a layout that is wrong, a graph that is missing, of another layout, or without a layout; each with
+    /// the command that mends it.
+    pub fn render(&self) -> Result<(), BuildError> {
+        let shown = self.folder.display();
+        println!("cargo::rerun-if-changed={shown}");
+        let Some(out) = self.out.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from)) else {
+            return Err(BuildError("OUT_DIR is not set: call this from a build script".to_owned()));
+        };
+        let layouts =
+            names(&self.folder, "toml").map_err(|e| format!("{e}: the folder of the layouts NAME.toml is wanted"))?;
+        if layouts.is_empty() {
+            return Err(BuildError(format!("there is no layout NAME.toml in {shown}")));
+        }
+        if let Some(orphan) = names(&self.folder, "json")?.iter().find(|name| !layouts.contains(name)) {
+            let graph = self.folder.join(format!("{orphan}.json"));
+            let graph = graph.display();
+            return Err(BuildError(format!(
+                "{graph} has no layout beside it: put {orphan}.toml back, or delete the graph"
+            )));
+        }
+        layouts.iter().try_for_each(|name| self.render_one(name, &out))
+    }
+
+    fn render_one(&self, name: &str, out: &Path) -> Result<(), BuildError> {
+        let [layout_path, graph_path] =
+            ["toml", "json"].map(|extension| self.folder.join(format!("{name}.{extension}")));
+        let (from, shown) = (layout_path.display(), graph_path.display());
+        let command = command(&from.to_string(), &shown.to_string(), false);
+        let mend = format!("{command}{}", here());
+        let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
+        if layout.name != name {
+            let found = &layout.name;
+            return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
+        }
+        let source = shown.to_string();
+        let module = Module { standalone: self.standalone, item: true, source: &source, command: &command };
+        let text = module.render(&layout, &graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
+        let path = out.join(format!("{name}.rs"));
+        fs::write(&path, text).map_err(|e| BuildError(format!("{}: {e}", path.display())))
+    }
+}
+
+/// Compares a module that `planar-capture generate` wrote, and that is kept with the sources, with its layout: it has to
+/// be of this layout, and as it was written.
+///
+/// # Errors
+/// [`BuildError`], with the command that mends it.
+pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), BuildError> {
+    let (module, layout) = (module.as_ref(), layout.as_ref());
+    for path in [module, layout] {
+        println!("cargo::rerun-if-changed={}", path.display());
+    }
+    let (shown, from) = (module.display(), layout.display());
+    let mend = |standalone| command(&from.to_string(), &shown.to_string(), standalone) + &here();
+    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", mend(false)))?;
+    let text = text.replace("\r\n", "\n"); // as some checkouts have it
+    let (header, body) = text.split_once("\n\n").unwrap_or_default();
+    let said = |key: &str| Some(header.split_once(key)?.1.split([',', '\n']).next().unwrap_or_default().trim());
+    let wanted = Layout::read(layout).map_err(|report| report.to_string())?.sha256();
+    let problem = match (said("// layout sha256 "), said("// sha256 of the text below this header ")) {
+        (Some(found), _) if found != wanted => format!("was generated from another layout than {from} is now"),
+        (Some(_), Some(hash)) if hash == renderer::sha256(body) => return Ok(()),
+        (Some(_), Some(_)) => "was changed after it was generated".to_owned(),
+        _ => {
+            let make = mend(false);
+            return Err(BuildError(format!("{shown} is not a generated module: move it away, then {make}")));
+        }
+    };
+    Err(BuildError(format!("{shown} {problem}; to mend: {}", mend(header.contains(" --standalone")))))
+}
+
+/// Where a command has to be run, for those who build from elsewhere.
+fn here() -> String {
+    let folder = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    folder.map_or_else(String::new, |folder| format!(" (in {})", folder.display()))
+}

@@ -1,0 +1,12 @@
+//! From the expression graph of a layout to Rust text, and (feature `prove`) the proof of it by a generic implementation.
+//!
+//! It never contains: a scenario, a simulation, a command line, the text of the Python package.
+
+mod layouts;
+mod renderer;
+pub mod shipped;
+
+#[cfg(feature = "prove")]
+pub mod prove;
+
+pub use layouts::{BuildError, Layouts, render, verify};

@@ -1,0 +1,154 @@
+//! The derivation of a layout's graph by the Python package `codegen`: unpacked once, run in its own environment.
+
+use planar_layout::layout::Layout;
+use std::ffi::OsString;
+use std::io::{self, BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, fs};
+
+/// Interpreters to look for, best first.
+const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12", "python3.11", "python"];
+
+/// What [`PYTHONS`] are asked, so that an old one is passed over.
+const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
+
+/// No graph was derived.
+#[derive(Debug, thiserror::Error)]
+pub enum DerivationError {
+    /// There is no Python, or none that is new enough.
+    #[error(
+        "deriving needs Python 3.11 or newer with venv; tried, and not found to be that: {tried}.\n\
+         Install it (Debian, Ubuntu: apt install python3 python3-venv), or name one: PLANAR_CAPTURE_PYTHON=/path/to/python3"
+    )]
+    NoPython {
+        /// The names that were tried.
+        tried: String,
+    },
+    /// There is no place for the package and its environment.
+    #[error("no folder for the derivation: {reason}; name one: PLANAR_CAPTURE_HOME=/path/to/folder")]
+    NoHome {
+        /// What is missing.
+        reason: String,
+    },
+    /// A file could not be written or read.
+    #[error("{path}: {source}; PLANAR_CAPTURE_HOME names another folder for the derivation", path = path.display())]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// Why not.
+        source: io::Error,
+    },
+    /// Python could not be run.
+    #[error("{python}: {source}")]
+    Python {
+        /// The interpreter.
+        python: String,
+        /// Why not.
+        source: io::Error,
+    },
+    /// Python ran and gave no graph.
+    #[error("the derivation failed ({status}):\n{output}")]
+    Failed {
+        /// How it ended.
+        status: String,
+        /// What it said.
+        output: String,
+    },
+}
+
+/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text). `say` gets what the derivation says of itself, line by line.
+///
+/// # Errors
+/// [`DerivationError`], with what to install where something is missing.
+pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&str)) -> Result<String, DerivationError> {
+    let home = home()?;
+    let package = unpack(&home, package)?;
+    let python = python()?;
+    let folder = tempfile::tempdir().map_err(|source| DerivationError::File { path: env::temp_dir(), source })?;
+    let [graph, file] = ["graph.json", "layout.toml"].map(|name| folder.path().join(name));
+    // not the user's file: what it was read as, so that one reader decides
+    fs::write(&file, layout.to_toml()).map_err(|source| DerivationError::File { path: file.clone(), source })?;
+    let mut command = Command::new(&python);
+    command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).current_dir(&package);
+    command.env("PYTHONDONTWRITEBYTECODE", "1");
+    if env::var_os("PLANAR_CAPTURE_ENVIRONMENTS").is_none() {
+        command.env("PLANAR_CAPTURE_ENVIRONMENTS", home.join("python"));
+    }
+    run(command, &python, say)?;
+    let text = fs::read_to_string(&graph).map_err(|source| DerivationError::File { path: graph, source })?;
+    Ok(text)
+}
+
+/// Where package and environment are kept: `$PLANAR_CAPTURE_HOME`, else the user's folder for caches.
+fn home() -> Result<PathBuf, DerivationError> {
+    if let Some(chosen) = env::var_os("PLANAR_CAPTURE_HOME").filter(|chosen| !chosen.is_empty()) {
+        return Ok(PathBuf::from(chosen));
+    }
+    let strategy = etcetera::choose_base_strategy();
+    let strategy = strategy.map_err(|error| DerivationError::NoHome { reason: error.to_string() })?;
+    Ok(etcetera::BaseStrategy::cache_dir(&strategy).join("planar-capture"))
+}
+
+/// The folder that holds the package `codegen`; its name changes with the text of the package.
+fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationError> {
+    let all: Vec<String> = files.iter().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
+    let hash = crate::renderer::sha256(&all.concat());
+    let place = home.join(format!("codegen-{hash:.16}"));
+    if place.join("codegen").is_dir() {
+        return Ok(place);
+    }
+    let failed = |source| DerivationError::File { path: place.clone(), source };
+    fs::create_dir_all(home).map_err(failed)?;
+    let building = tempfile::tempdir_in(home).map_err(failed)?;
+    let folder = building.path().join("codegen");
+    fs::create_dir(&folder).map_err(failed)?;
+    for (name, text) in files {
+        fs::write(folder.join(name), text).map_err(failed)?;
+    }
+    match fs::rename(building.path(), &place) {
+        // else somebody else was faster, and theirs is the same
+        Err(error) if !place.join("codegen").is_dir() => Err(failed(error)),
+        _ => Ok(place),
+    }
+}
+
+/// The first interpreter that is new enough.
+fn python() -> Result<OsString, DerivationError> {
+    if let Some(chosen) = env::var_os("PLANAR_CAPTURE_PYTHON").filter(|chosen| !chosen.is_empty()) {
+        let tried = chosen.to_string_lossy().into_owned();
+        return if works(&chosen) { Ok(chosen) } else { Err(DerivationError::NoPython { tried }) };
+    }
+    let found = PYTHONS.into_iter().map(OsString::from).find(works);
+    found.ok_or_else(|| DerivationError::NoPython { tried: PYTHONS.join(", ") })
+}
+
+/// Whether an interpreter runs and is new enough.
+fn works(python: &OsString) -> bool {
+    let outcome = Command::new(python).args(["-c", OLDEST]).stdin(Stdio::null()).output();
+    outcome.is_ok_and(|output| output.status.success())
+}
+
+/// Runs it; what it says goes to `say`, and into the error if it fails.
+fn run(mut command: Command, python: &OsString, say: &mut dyn FnMut(&str)) -> Result<(), DerivationError> {
+    let failed = |source| DerivationError::Python { python: python.to_string_lossy().into_owned(), source };
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = command.spawn().map_err(failed)?;
+    let mut output = Vec::new();
+    if let Some(stream) = child.stderr.take() {
+        for line in BufReader::new(stream).split(b'\n') {
+            let line = String::from_utf8_lossy(&line.map_err(failed)?).trim_end().to_owned();
+            match line.strip_prefix("codegen: ") {
+                Some(message) if !message.starts_with("error: ") => say(message),
+                Some(message) => output.push(message.to_owned()),
+                None => output.push(line),
+            }
+        }
+    }
+    let status = child.wait().map_err(failed)?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(DerivationError::Failed { status: status.to_string(), output: output.join("\n") })
+    }
+}

@@ -1,0 +1,39 @@
+//! One rigid body of the tree, and the places that something is mounted on.
+
+use planar_layout::layout::{Base, Link};
+
+/// A rigid body with its frame at its joint; the base has no joint and its frame at its COM.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// kg.
+    pub mass: f64,
+    /// About its COM, kg m².
+    pub inertia: f64,
+    /// In its frame, m.
+    pub com: [f64; 2],
+    /// Where its joint sits; `None` for the base.
+    pub joint: Option<Tip>,
+}
+
+/// A place on a body: the seat of a joint, or a tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tip {
+    /// Which body.
+    pub body: usize,
+    /// In the body's frame, m.
+    pub position: [f64; 2],
+    /// Direction from the body's x axis, rad.
+    pub angle: f64,
+}
+
+impl Body {
+    /// The base.
+    pub fn base(base: &Base) -> Self {
+        Self { mass: base.mass, inertia: base.inertia, com: [0.0; 2], joint: None }
+    }
+
+    /// A link whose joint sits at `seat`.
+    pub fn link(link: &Link, seat: &Tip) -> Self {
+        Self { mass: link.mass, inertia: link.inertia, com: link.com, joint: Some(seat.clone()) }
+    }
+}

@@ -1,0 +1,110 @@
+//! Where everything is, and the Jacobians that follow from it.
+
+use super::{Generic, length};
+use nalgebra::{DMatrix, DVector, Rotation2, Vector2, Vector3};
+use planar_dynamics::check::finite_configuration;
+use planar_dynamics::error::Error;
+
+/// The robot at one configuration. Positions count from the base COM, in inertial axes, so that a robot far from the
+/// origin loses no digits.
+#[derive(Clone, Debug)]
+pub struct Configuration<'a> {
+    robot: &'a Generic,
+    /// Direction of each body's frame, rad.
+    yaws: Vec<f64>,
+    /// Origin of each body's frame, at its joint.
+    origins: Vec<Vector2<f64>>,
+}
+
+impl<'a> Configuration<'a> {
+    /// Frames from the base outwards.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::NotFinite`].
+    pub fn new(robot: &'a Generic, base_pose: &[f64; 3], joint_angles: &[f64]) -> Result<Self, Error> {
+        finite_configuration(base_pose, joint_angles)?;
+        length("joint_angles", robot.bodies.len() - 1, joint_angles.len())?;
+        let mut at = Self { robot, yaws: vec![base_pose[0]], origins: vec![Vector2::zeros()] };
+        for (body, joint_angle) in robot.bodies.iter().skip(1).zip(joint_angles) {
+            let Some(seat) = &body.joint else { continue };
+            let origin = at.point(seat.body, &seat.position);
+            at.yaws.push(at.yaws[seat.body] + seat.angle + joint_angle);
+            at.origins.push(origin);
+        }
+        Ok(at)
+    }
+
+    /// A point given in a body's frame.
+    fn point(&self, body: usize, position: &[f64; 2]) -> Vector2<f64> {
+        self.origins[body] + Rotation2::new(self.yaws[body]) * Vector2::from(*position)
+    }
+
+    /// Direction and COM of a body.
+    pub fn body(&self, body: usize) -> (f64, Vector2<f64>) {
+        (self.yaws[body], self.point(body, &self.robot.bodies[body].com))
+    }
+
+    /// Direction and position of an arm's tip.
+    pub fn tip(&self, arm: usize) -> (f64, Vector2<f64>) {
+        let tip = &self.robot.tips[arm];
+        (self.yaws[tip.body] + tip.angle, self.point(tip.body, &tip.position))
+    }
+
+    /// The links between a body and the base, the body first.
+    fn chain(&self, body: usize) -> impl Iterator<Item = usize> {
+        let parent = |link: &usize| self.robot.bodies[*link].joint.as_ref().map(|seat| seat.body);
+        std::iter::successors(Some(body), parent).take_while(|link| *link > 0)
+    }
+
+    /// B (3 × size): the twist of a body at a point of it is B v.
+    ///
+    /// A rotation at rate 1 about a joint at p moves the point r by (r − p) turned by a right angle; the base turns
+    /// about its COM.
+    fn jacobian(&self, body: usize, point: &Vector2<f64>) -> DMatrix<f64> {
+        let mut jacobian = DMatrix::zeros(3, self.robot.bodies.len() + 2);
+        jacobian.set_column(0, &turning(point));
+        jacobian[(1, 1)] = 1.0;
+        jacobian[(2, 2)] = 1.0;
+        for link in self.chain(body) {
+            jacobian.set_column(2 + link, &turning(&(point - self.origins[link])));
+        }
+        jacobian
+    }
+
+    /// `B_i`, at the body's COM.
+    pub fn body_jacobian(&self, body: usize) -> DMatrix<f64> {
+        self.jacobian(body, &self.body(body).1)
+    }
+
+    /// `[J_be J_me]` of one arm, at its tip.
+    pub fn tip_jacobian(&self, arm: usize) -> DMatrix<f64> {
+        self.jacobian(self.robot.tips[arm].body, &self.tip(arm).1)
+    }
+
+    /// Velocity of a body's point less that of the base COM: it turns only with the base and the joints.
+    fn relative_velocity(&self, body: usize, point: &Vector2<f64>, velocity: &DVector<f64>) -> Vector2<f64> {
+        let links = self.chain(body).map(|link| velocity[2 + link] * quarter_turn(&(point - self.origins[link])));
+        links.fold(velocity[0] * quarter_turn(point), |sum, part| sum + part)
+    }
+
+    /// `Ḃ_i v`: differentiating the columns of `B_i`, each column's arm r − p changes at the rate ṙ − ṗ.
+    pub fn body_jacobian_rate_times(&self, body: usize, velocity: &DVector<f64>) -> Vector3<f64> {
+        let com = self.relative_velocity(body, &self.body(body).1, velocity);
+        let mut linear = velocity[0] * quarter_turn(&com);
+        for link in self.chain(body) {
+            let joint = self.relative_velocity(link, &self.origins[link], velocity);
+            linear += velocity[2 + link] * quarter_turn(&(com - joint));
+        }
+        Vector3::new(0.0, linear.x, linear.y)
+    }
+}
+
+/// A vector turned by a right angle anticlockwise: the velocity of its head at rate 1.
+fn quarter_turn(arm: &Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-arm.y, arm.x)
+}
+
+/// The twist at the head of `arm` when it turns about its tail at rate 1.
+fn turning(arm: &Vector2<f64>) -> Vector3<f64> {
+    Vector3::new(1.0, -arm.y, arm.x)
+}

@@ -1,0 +1,110 @@
+//! The dynamics of any layout, computed from the equations: what generated code is measured against.
+//!
+//! Written for clarity, by another formulation than the generated one, and from no code in common with it: every
+//! body has a twist Jacobian `B_i(q)`, [ω, vx, vy] of its COM being `B_i v` with v the base twist and the joint rates.
+//! With `I_i` = diag(inertia, mass, mass), eq. (1) is
+//!
+//! - M = Σ Bᵢᵀ Iᵢ Bᵢ, bias = Σ Bᵢᵀ Iᵢ Ḃᵢ v (a planar body has no gyroscopic term),
+//!
+//! and every system of equations is solved whole, by a dense Cholesky factorisation. Any number of arms and links,
+//! centres of mass off the link's axis, mount angles, links of length zero. It allocates, and takes many
+//! times as long as generated code.
+
+mod body;
+mod configuration;
+mod equations;
+mod forward;
+mod impact;
+mod kinematics;
+mod merge;
+mod momentum;
+mod reduced;
+mod solve;
+
+use body::{Body, Tip};
+use configuration::Configuration;
+use nalgebra::{DMatrix, DVector};
+use planar_dynamics::check::{finite, length};
+use planar_dynamics::dynamics::Robot;
+use planar_dynamics::error::Error;
+use planar_dynamics::state::State;
+use planar_layout::layout::Layout;
+
+/// A robot of any layout, with its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Generic {
+    /// The base, then the links arm by arm; body i > 0 is moved by joint i − 1.
+    bodies: Vec<Body>,
+    /// One per arm.
+    tips: Vec<Tip>,
+}
+
+impl Generic {
+    /// The robot that a layout describes.
+    #[must_use]
+    pub fn new(layout: &Layout) -> Self {
+        let mut bodies = vec![Body::base(&layout.base)];
+        let mut tips = Vec::with_capacity(layout.arms.len());
+        for arm in &layout.arms {
+            // where the next joint or the tip sits: on which body, where, and turned by how much
+            let mut end = Tip { body: 0, position: arm.mount, angle: arm.mount_angle };
+            for link in &arm.links {
+                bodies.push(Body::link(link, &end));
+                end = Tip { body: bodies.len() - 1, position: [link.length, 0.0], angle: 0.0 };
+            }
+            tips.push(end);
+        }
+        Self { bodies, tips }
+    }
+
+    /// Number of full coordinates: the base's three, then the joints.
+    fn size(&self) -> usize {
+        3 + self.joints()
+    }
+
+    /// Lengths of a state's slices.
+    fn check_state(&self, state: &State<'_, f64>) -> Result<(), Error> {
+        planar_dynamics::check::finite_state(state)?;
+        self.check_joints("joint_angles", state.joint_angles)?;
+        self.check_joints("joint_rates", state.joint_rates)
+    }
+
+    /// Length of a slice with one number per joint.
+    fn check_joints(&self, quantity: &'static str, values: &[f64]) -> Result<(), Error> {
+        length(quantity, self.joints(), values.len())
+    }
+}
+
+impl Robot<f64> for Generic {
+    fn arms(&self) -> usize {
+        self.tips.len()
+    }
+
+    fn joints(&self) -> usize {
+        self.bodies.len() - 1
+    }
+
+    fn body_inertias(&self, inertias: &mut [[f64; 2]]) -> Result<(), Error> {
+        let values: Vec<[f64; 2]> = self.bodies.iter().map(|body| [body.mass, body.inertia]).collect();
+        planar_dynamics::check::store_rows("body_inertias", &values, inertias)
+    }
+}
+
+/// v: the base twist, then the joint rates.
+fn velocity(base_twist: &[f64; 3], joint_rates: &[f64]) -> DVector<f64> {
+    DVector::from_iterator(3 + joint_rates.len(), base_twist.iter().chain(joint_rates).copied())
+}
+
+/// Copies a matrix out, row by row.
+fn store_matrix(quantity: &'static str, matrix: &DMatrix<f64>, into: &mut [f64]) -> Result<(), Error> {
+    // columns of the transpose are rows
+    planar_dynamics::check::store(quantity, matrix.transpose().as_slice(), into)
+}
+
+/// Copies a velocity or an acceleration out: the joints' part to a slice, the base's as the result.
+fn store_split(names: [&'static str; 2], vector: &DVector<f64>, joints: &mut [f64]) -> Result<[f64; 3], Error> {
+    let (base, rest) = vector.as_slice().split_at(3);
+    finite(names[0], base)?;
+    planar_dynamics::check::store(names[1], rest, joints)?;
+    planar_dynamics::check::array(names[0], base).copied()
+}

@@ -1,0 +1,240 @@
+//! Random states, regime by regime.
+
+use crate::prove::evaluation::Instant;
+use crate::prove::owned::RobotState;
+use planar_dynamics::target::Target;
+use planar_layout::layout::Layout;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng, SeedableRng};
+use std::f64::consts::PI;
+
+/// A region of states, or of layouts, in which something particular can go wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Everything moves, at about 1 rad/s.
+    Moving,
+    /// Nothing moves: accelerations come from forces alone.
+    AtRest,
+    /// 100 rad/s, 100 m/s: the bias dominates.
+    Fast,
+    /// All joints but the first at 0.
+    Stretched,
+    /// All joints but the first at ±π.
+    Folded,
+    /// Joints at multiples of π, less than 0.001 and more than 10⁻¹² off.
+    NearSingular,
+    /// The base 10⁶ m away, turned several times.
+    Far,
+    /// Links a thousandth to a millionth of their mass and inertia.
+    LightLinks,
+    /// Links a thousand to a million times their mass and inertia.
+    HeavyLinks,
+    /// Every body's mass and inertia off by a factor of its own, up to a thousand.
+    MixedMasses,
+    /// Other lengths, mounts and centres of mass, up to three times as large or as small, structural zeros aside, and
+    /// the last links' centres of mass anywhere. No links or distances of mounts that are far shorter than the arms:
+    /// generated forward dynamics lose digits with the square of that ratio.
+    OtherShape,
+    /// Targets of 10⁻⁶ to 10⁻³ kg.
+    LightTargets,
+    /// Targets of 10³ to 10⁶ kg.
+    HeavyTargets,
+}
+
+/// Every regime.
+pub const REGIMES: [Regime; 13] = [
+    Regime::Moving,
+    Regime::AtRest,
+    Regime::Fast,
+    Regime::Stretched,
+    Regime::Folded,
+    Regime::NearSingular,
+    Regime::Far,
+    Regime::LightLinks,
+    Regime::HeavyLinks,
+    Regime::MixedMasses,
+    Regime::OtherShape,
+    Regime::LightTargets,
+    Regime::HeavyTargets,
+];
+
+/// A robot and a state of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// With the masses of the regime.
+    pub layout: Layout,
+    /// State, forces, targets.
+    pub instant: Instant,
+}
+
+impl Regime {
+    /// As printed.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Moving => "moving",
+            Self::AtRest => "at rest",
+            Self::Fast => "fast",
+            Self::Stretched => "stretched",
+            Self::Folded => "folded",
+            Self::NearSingular => "near singular",
+            Self::Far => "far away",
+            Self::LightLinks => "light links",
+            Self::HeavyLinks => "heavy links",
+            Self::MixedMasses => "mixed masses",
+            Self::OtherShape => "other shape",
+            Self::LightTargets => "light targets",
+            Self::HeavyTargets => "heavy targets",
+        }
+    }
+
+    /// Sample `index` of the regime for a layout: any one alone, the same on every machine.
+    #[must_use]
+    pub fn sample(self, layout: &Layout, seed: u64, index: u64) -> Sample {
+        let mut random = Random::new(seed, self, index);
+        let layout = self.layout(layout, &mut random);
+        let instant = self.instant(&layout, &mut random);
+        Sample { layout, instant }
+    }
+
+    /// Whether its samples are of the layout as it is, and not of other numbers.
+    #[must_use]
+    pub fn keeps_layout(self) -> bool {
+        !matches!(self, Self::LightLinks | Self::HeavyLinks | Self::MixedMasses | Self::OtherShape)
+    }
+
+    fn layout(self, layout: &Layout, random: &mut Random) -> Layout {
+        let mut layout = layout.clone();
+        let common = match self {
+            Self::LightLinks => random.decades(-6.0, -3.0),
+            Self::HeavyLinks => random.decades(3.0, 6.0),
+            _ => 1.0,
+        };
+        let mut scale = |mass: &mut f64, inertia: &mut f64, common: f64| {
+            let own = if self == Self::MixedMasses { random.decades(-3.0, 3.0) } else { 1.0 };
+            *mass *= common * own;
+            *inertia *= common * own;
+        };
+        scale(&mut layout.base.mass, &mut layout.base.inertia, 1.0);
+        for link in layout.arms.iter_mut().flat_map(|arm| &mut arm.links) {
+            scale(&mut link.mass, &mut link.inertia, common);
+        }
+        if self == Self::OtherShape {
+            reshape(&mut layout, random);
+        }
+        layout
+    }
+
+    fn instant(self, layout: &Layout, random: &mut Random) -> Instant {
+        let joints = layout.joints();
+        let distance = if self == Self::Far { 1e6 } else { 2.0 };
+        let turns = if self == Self::Far { 10.0 } else { 1.0 };
+        let speed = match self {
+            Self::AtRest => 0.0,
+            Self::Fast => 100.0,
+            _ => 1.0,
+        };
+        let state = RobotState {
+            base_pose: [random.within(turns * PI), random.within(distance), random.within(distance)],
+            joint_angles: layout
+                .arms
+                .iter()
+                .flat_map(|arm| 0..arm.links.len())
+                .map(|link| self.joint_angle(link, random))
+                .collect(),
+            base_twist: random.vector(speed),
+            joint_rates: (0..joints).map(|_| random.within(speed)).collect(),
+        };
+        let arms = layout.arms.len();
+        Instant {
+            state,
+            joint_torques: (0..joints).map(|_| random.within(10.0)).collect(),
+            base_wrench: random.coin().then(|| random.vector(10.0)),
+            end_effector_wrenches: random.coin().then(|| (0..arms).map(|_| random.vector(10.0)).collect()),
+            // most arms have one
+            targets: (0..arms).map(|_| (random.coin() || random.coin()).then(|| self.target(random))).collect(),
+        }
+    }
+
+    fn joint_angle(self, link: usize, random: &mut Random) -> f64 {
+        let straight = random.coin();
+        let side = if random.coin() { 1.0 } else { -1.0 };
+        let off = random.decades(-12.0, -3.0);
+        let any = random.within(PI);
+        match self {
+            Self::NearSingular if straight => side * off,
+            Self::NearSingular => side * (PI - off),
+            Self::Stretched if link > 0 => 0.0,
+            Self::Folded if link > 0 => side * PI,
+            _ => any,
+        }
+    }
+
+    fn target(self, random: &mut Random) -> Target<f64> {
+        let mass = match self {
+            Self::LightTargets => random.decades(-6.0, -3.0),
+            Self::HeavyTargets => random.decades(3.0, 6.0),
+            _ => random.decades(0.0, 2.0),
+        };
+        Target {
+            mass,
+            inertia: mass * random.decades(-2.0, 0.0),
+            contact: [random.within(0.5), random.within(0.5)],
+            twist: random.vector(1.0),
+        }
+    }
+}
+
+/// Other numbers of the same structure: zeros stay, save those of the last links' centres of mass.
+fn reshape(layout: &mut Layout, random: &mut Random) {
+    for arm in &mut layout.arms {
+        arm.mount = arm.mount.map(|x| x * random.factor()); // on their side: apart
+        arm.mount_angle *= random.factor();
+        for link in &mut arm.links {
+            link.length *= random.factor();
+            link.com = link.com.map(|x| x * random.factor());
+        }
+        if let Some(last) = arm.links.last_mut() {
+            last.com = last.com.map(|x| x + random.within(0.3));
+        }
+    }
+}
+
+/// Numbers of one sample: a stream of its own for every regime and index.
+struct Random(ChaCha8Rng);
+
+impl Random {
+    fn new(seed: u64, regime: Regime, index: u64) -> Self {
+        let mut generator = ChaCha8Rng::seed_from_u64(seed);
+        generator.set_stream(((regime as u64) << 48) | index);
+        Self(generator)
+    }
+
+    /// In [0, 1): 53 random bits, so that the value is the same wherever it is computed.
+    #[allow(clippy::cast_precision_loss, reason = "53 bits fit")]
+    fn unit(&mut self) -> f64 {
+        (self.0.next_u64() >> 11) as f64 * (0.5_f64).powi(53)
+    }
+
+    fn within(&mut self, size: f64) -> f64 {
+        size * (2.0 * self.unit() - 1.0)
+    }
+
+    fn vector(&mut self, size: f64) -> [f64; 3] {
+        [self.within(size), self.within(size), self.within(size)]
+    }
+
+    fn coin(&mut self) -> bool {
+        self.unit() < 0.5
+    }
+
+    /// Up to three times as large or as small.
+    fn factor(&mut self) -> f64 {
+        self.decades(-0.5, 0.5)
+    }
+
+    /// 10 to a power between two.
+    fn decades(&mut self, from: f64, to: f64) -> f64 {
+        libm::pow(10.0, from + (to - from) * self.unit())
+    }
+}

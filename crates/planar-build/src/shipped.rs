@@ -1,0 +1,98 @@
+//! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
+
+use crate::renderer::{self, Form};
+use planar_layout::layout::Layout;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// The whole build script of the crate that ships the layouts in `codegen`: [`render_all`] into `$OUT_DIR`, for the layouts
+/// whose cargo features are on; ends the process with exit code 1 where that fails.
+pub fn build(codegen: &str) {
+    println!("cargo::rerun-if-changed={codegen}");
+    let out = std::env::var_os("OUT_DIR").unwrap_or_default();
+    let enabled = |layout: &str| std::env::var_os(format!("CARGO_FEATURE_{}", layout.to_uppercase())).is_some();
+    if let Err(problem) = render_all(codegen.as_ref(), out.as_ref(), &enabled) {
+        eprintln!("{problem}");
+        std::process::exit(1);
+    }
+}
+
+/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them and
+/// `package.rs` that lists the derivation's Python files.
+///
+/// # Errors
+/// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
+pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) -> Result<(), String> {
+    let names = names(&codegen.join("layouts"), "toml")?;
+    let graphs = self::names(&codegen.join("graphs"), "json")?;
+    if let Some(orphan) = graphs.iter().find(|name| !names.contains(name)) {
+        return Err(format!(
+            "codegen/graphs/{orphan}.json has no layout codegen/layouts/{orphan}.toml: put it back, or delete the graph"
+        ));
+    }
+    let (enabled, disabled): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| enabled(name));
+    for name in &enabled {
+        let code = render_one(codegen, name)?;
+        write(&out.join(format!("{name}.rs")), &code)?;
+    }
+    let include = |name: &String| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));\n");
+    write(&out.join("index.rs"), &enabled.iter().map(include).collect::<String>())?;
+    let (enabled, disabled) = (enabled.join(", "), disabled.join(", "));
+    write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))?;
+    let package = self::names(codegen, "py")?.join("\", \"");
+    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))
+}
+
+/// Rust text of one layout's graph, after its hash was compared with the layout's.
+///
+/// # Errors
+/// As [`render_all`].
+pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
+    let command = format!("python -m codegen {name}");
+    let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
+    let (_, value) = fresh(&layout, &graph, &command)?;
+    let source = format!("codegen/graphs/{name}.json");
+    let form = Form { standalone: false, item: true, source: &source, command: &command, self_test: None };
+    renderer::render(&value, &form).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
+}
+
+/// A layout and the graph that was derived from it; `command` makes the graph again.
+///
+/// # Errors
+/// What is wrong with either, or that the graph is of another layout, with the command.
+pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Value), String> {
+    let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
+    let wrong = |e: &dyn std::fmt::Display| format!("{}: {e}; derive it again: {command}", graph_path.display());
+    let text = fs::read_to_string(graph_path).map_err(|e| wrong(&e))?;
+    let graph = renderer::read(&text).map_err(|e| wrong(&e))?;
+    let (found, wanted) = (renderer::layout_hash(&graph).map_err(|e| wrong(&e))?, layout.sha256());
+    if found == wanted {
+        Ok((layout, graph))
+    } else {
+        Err(format!(
+            "{} is stale: it was derived from a layout with sha256 {found}, {} has {wanted}; derive it again: {command}",
+            graph_path.display(),
+            layout_path.display()
+        ))
+    }
+}
+
+/// Names of the files with an extension, sorted.
+///
+/// # Errors
+/// A folder that cannot be read.
+pub fn names(folder: &Path, extension: &str) -> Result<Vec<String>, String> {
+    let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let mut names: Vec<String> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|e| e == extension))
+        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
+        .collect();
+    names.sort();
+    Ok(names)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
+}

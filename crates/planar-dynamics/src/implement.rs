@@ -1,0 +1,311 @@
+//! The traits of [`dynamics`](crate::dynamics) for generated models.
+
+/// The traits of [`crate::dynamics`] for the `Model` of a rendered module; for generated code only.
+///
+/// The argument is the format of that code: what this version of the crate does not fit does not compile.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_dynamics {
+    (1) => {
+        mod traits {
+            use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
+            use $crate::check::{array, finite, finite_configuration, finite_state, pivot, store, store_rows};
+            use $crate::dynamics::{
+                Conserved, EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge, Momentum, ReducedDynamics,
+                Robot,
+            };
+            use $crate::error::Error;
+            use $crate::manifest::Quantity;
+            use $crate::scalar::Real;
+            use $crate::state::{Forces, State};
+            use $crate::target::{LinkInertia, Target};
+
+            impl<T: Real> Robot<T> for Model<T> {
+                fn arms(&self) -> usize {
+                    ARMS
+                }
+
+                fn joints(&self) -> usize {
+                    JOINTS
+                }
+
+                fn body_inertias(&self, inertias: &mut [[T; 2]]) -> Result<(), Error> {
+                    let values = self.parameters().to_array();
+                    let mut bodies = [[T::ZERO; 2]; JOINTS + 1];
+                    let body = |quantity, arm, link| value(&values, quantity, arm, link);
+                    bodies[0] = [body(Quantity::BaseMass, 0, 0), body(Quantity::BaseInertia, 0, 0)];
+                    let links =
+                        MANIFEST.links.iter().enumerate().flat_map(|(arm, n)| (0..*n).map(move |link| (arm, link)));
+                    for (place, (arm, link)) in bodies.iter_mut().skip(1).zip(links) {
+                        *place = [body(Quantity::LinkMass, arm, link), body(Quantity::LinkInertia, arm, link)];
+                    }
+                    store_rows("body_inertias", &bodies, inertias)
+                }
+            }
+
+            impl<T: Real> Kinematics<T> for Model<T> {
+                fn end_effector_poses(
+                    &self,
+                    base_pose: &[T; 3],
+                    joint_angles: &[T],
+                    poses: &mut [[T; 3]],
+                ) -> Result<(), Error> {
+                    finite_configuration(base_pose, joint_angles)?;
+                    let result = Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
+                    store_rows("end_effector_poses", &result, poses)
+                }
+
+                fn end_effector_jacobian(
+                    &self,
+                    base_pose: &[T; 3],
+                    joint_angles: &[T],
+                    jacobian: &mut [T],
+                ) -> Result<(), Error> {
+                    finite_configuration(base_pose, joint_angles)?;
+                    let result = Model::end_effector_jacobian(self, base_pose, array("joint_angles", joint_angles)?);
+                    store("end_effector_jacobian", result.as_flattened(), jacobian)
+                }
+
+                fn end_effector_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error> {
+                    finite_state(state)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let result = Model::end_effector_twists(self, &state.base_pose, angles, &state.base_twist, rates);
+                    store_rows("end_effector_twists", &result, twists)
+                }
+
+                fn body_poses(
+                    &self,
+                    base_pose: &[T; 3],
+                    joint_angles: &[T],
+                    poses: &mut [[T; 3]],
+                ) -> Result<(), Error> {
+                    finite_configuration(base_pose, joint_angles)?;
+                    let result = Model::body_poses(self, base_pose, array("joint_angles", joint_angles)?);
+                    store_rows("body_poses", &result, poses)
+                }
+
+                fn body_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error> {
+                    finite_state(state)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let result = Model::body_twists(self, &state.base_pose, angles, &state.base_twist, rates);
+                    store_rows("body_twists", &result, twists)
+                }
+            }
+
+            impl<T: Real> EquationsOfMotion<T> for Model<T> {
+                fn mass_matrix(
+                    &self,
+                    base_pose: &[T; 3],
+                    joint_angles: &[T],
+                    mass_matrix: &mut [T],
+                ) -> Result<(), Error> {
+                    finite_configuration(base_pose, joint_angles)?;
+                    let result = Model::mass_matrix(self, base_pose, array("joint_angles", joint_angles)?);
+                    store("mass_matrix", result.as_flattened(), mass_matrix)
+                }
+
+                fn bias(&self, state: &State<'_, T>, bias: &mut [T]) -> Result<(), Error> {
+                    finite_state(state)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let result = Model::bias(self, &state.base_pose, angles, &state.base_twist, rates);
+                    store("bias", &result, bias)
+                }
+            }
+
+            impl<T: Real> ReducedDynamics<T> for Model<T> {
+                fn reduced_dynamics(
+                    &self,
+                    state: &State<'_, T>,
+                    generalized_inertia: &mut [T],
+                    generalized_bias: &mut [T],
+                    generalized_jacobian: &mut [T],
+                ) -> Result<(), Error> {
+                    finite_state(state)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let result = Model::reduced_dynamics(self, &state.base_pose, angles, &state.base_twist, rates);
+                    pivot("the base inertia", result.smallest_pivot)?;
+                    store("generalized_inertia", result.generalized_inertia.as_flattened(), generalized_inertia)?;
+                    store("generalized_bias", &result.generalized_bias, generalized_bias)?;
+                    store("generalized_jacobian", result.generalized_jacobian.as_flattened(), generalized_jacobian)
+                }
+            }
+
+            impl<T: Real> ForwardDynamics<T> for Model<T> {
+                fn forward_dynamics(
+                    &self,
+                    state: &State<'_, T>,
+                    forces: &Forces<'_, T>,
+                    joint_accelerations: &mut [T],
+                ) -> Result<[T; 3], Error> {
+                    finite_state(state)?;
+                    finite("joint_torques", forces.joint_torques)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let torques = array("joint_torques", forces.joint_torques)?;
+                    let twist = &state.base_twist;
+                    let configuration = self.forward_dynamics_configuration(&state.base_pose, angles);
+                    let wrench = forces.base_wrench.unwrap_or([T::ZERO; 3]);
+                    finite("base_wrench", &wrench)?;
+                    let (base, joints, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
+                        finite("end_effector_wrenches", wrenches.as_flattened())?;
+                        let wrenches = array("end_effector_wrenches", wrenches)?;
+                        let r = configuration.forward_dynamics_with_wrenches(twist, rates, torques, &wrench, wrenches);
+                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                    } else if forces.base_wrench.is_some() {
+                        let r = configuration.forward_dynamics_with_base_wrench(twist, rates, torques, &wrench);
+                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                    } else {
+                        let r = configuration.forward_dynamics(twist, rates, torques);
+                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                    };
+                    pivot("the articulated mass of the base", smallest)?;
+                    finite("base_acceleration", &base)?;
+                    store("joint_accelerations", &joints, joint_accelerations)?;
+                    Ok(base)
+                }
+            }
+
+            impl<T: Real> Conserved<T> for Model<T> {
+                fn momentum(&self, state: &State<'_, T>) -> Result<Momentum<T>, Error> {
+                    finite_state(state)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let result = Model::momentum(self, &state.base_pose, angles, &state.base_twist, rates);
+                    finite("linear_momentum", &result.linear_momentum)?;
+                    finite("angular_momentum", &[result.angular_momentum])?;
+                    finite("kinetic_energy", &[result.kinetic_energy])?;
+                    Ok(Momentum {
+                        linear_momentum: result.linear_momentum,
+                        angular_momentum: result.angular_momentum,
+                        kinetic_energy: result.kinetic_energy,
+                    })
+                }
+            }
+
+            impl<T: Real> Impact<T> for Model<T> {
+                fn reduced_impact(
+                    &self,
+                    state: &State<'_, T>,
+                    targets: &[Option<Target<T>>],
+                    impact_matrix: &mut [T],
+                    impact_momentum: &mut [T],
+                    joint_rates_after: &mut [T],
+                ) -> Result<(), Error> {
+                    finite_state(state)?;
+                    let targets = whole(targets)?;
+                    let result = Model::reduced_impact(
+                        self,
+                        &state.base_pose,
+                        array("joint_angles", state.joint_angles)?,
+                        array("joint_rates", state.joint_rates)?,
+                        &targets.map(|t| t.mass),
+                        &targets.map(|t| t.inertia),
+                        &targets.map(|t| t.contact),
+                        &targets.map(|t| t.twist),
+                    );
+                    pivot("the impact matrix G", result.smallest_pivot)?;
+                    store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
+                    store("impact_momentum", &result.impact_momentum, impact_momentum)?;
+                    store("joint_rates_after", &result.joint_rates_after, joint_rates_after)
+                }
+
+                fn full_impact(
+                    &self,
+                    state: &State<'_, T>,
+                    targets: &[Option<Target<T>>],
+                    joint_rates_after: &mut [T],
+                ) -> Result<[T; 3], Error> {
+                    finite_state(state)?;
+                    let targets = whole(targets)?;
+                    let result = Model::full_impact(
+                        self,
+                        &state.base_pose,
+                        array("joint_angles", state.joint_angles)?,
+                        &state.base_twist,
+                        array("joint_rates", state.joint_rates)?,
+                        &targets.map(|t| t.mass),
+                        &targets.map(|t| t.inertia),
+                        &targets.map(|t| t.contact),
+                        &targets.map(|t| t.twist),
+                    );
+                    pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
+                    finite("base_twist_after", &result.base_twist_after)?;
+                    store("joint_rates_after", &result.joint_rates_after, joint_rates_after)?;
+                    Ok(result.base_twist_after)
+                }
+            }
+
+            impl<T: Real> Merge<T> for Model<T> {
+                fn merge(
+                    &mut self,
+                    base_pose: &[T; 3],
+                    joint_angles: &[T],
+                    targets: &[Option<Target<T>>],
+                ) -> Result<(), Error> {
+                    finite_configuration(base_pose, joint_angles)?;
+                    whole(targets)?;
+                    let tips = Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
+                    let mut values = self.parameters().to_array();
+                    for (arm, ((target, tip), links)) in targets.iter().zip(&tips).zip(MANIFEST.links).enumerate() {
+                        let (Some(target), Some(link)) = (target, links.checked_sub(1)) else { continue };
+                        let of = |quantity| value(&values, quantity, arm, link);
+                        let before = LinkInertia {
+                            mass: of(Quantity::LinkMass),
+                            inertia: of(Quantity::LinkInertia),
+                            com: [of(Quantity::LinkComX), of(Quantity::LinkComY)],
+                        };
+                        let after = target.merged_link(&before, of(Quantity::LinkLength), tip[0]);
+                        for (quantity, number) in [
+                            (Quantity::LinkMass, after.mass),
+                            (Quantity::LinkInertia, after.inertia),
+                            (Quantity::LinkComX, after.com[0]),
+                            (Quantity::LinkComY, after.com[1]),
+                        ] {
+                            if let Some(place) = MANIFEST.position(quantity, arm, link).and_then(|i| values.get_mut(i))
+                            {
+                                *place = number;
+                            }
+                        }
+                    }
+                    finite("merged parameters", &values)?;
+                    *self = Model::new(Parameters::from_array(values));
+                    Ok(())
+                }
+            }
+
+            /// A parameter's value; 0 for a structural zero.
+            fn value<T: Real>(values: &[T; PARAMETERS], quantity: Quantity, arm: usize, link: usize) -> T {
+                MANIFEST.position(quantity, arm, link).and_then(|i| values.get(i).copied()).unwrap_or(T::ZERO)
+            }
+
+            /// One target per arm, massless for an arm without one.
+            fn whole<T: Real>(targets: &[Option<Target<T>>]) -> Result<[Target<T>; ARMS], Error> {
+                let targets: &[Option<Target<T>>; ARMS] = array("targets", targets)?;
+                let targets = targets.map(|target| target.unwrap_or_else(Target::none));
+                for target in &targets {
+                    finite("target mass and inertia", &[target.mass, target.inertia])?;
+                    finite("target contact", &target.contact)?;
+                    finite("target twist", &target.twist)?;
+                }
+                Ok(targets)
+            }
+        }
+    };
+    ($other:tt) => {
+        compile_error!("this code was generated for another version of planar-capture: generate it again");
+    };
+}
+
+/// The module of a layout that [`build::render`](https://docs.rs/planar-capture) rendered in the crate's build script.
+///
+/// `include_layout!("my_robot");` is `pub mod my_robot { … }`.
+#[macro_export]
+macro_rules! include_layout {
+    ($name:literal) => {
+        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+    };
+}

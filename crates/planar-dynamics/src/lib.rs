@@ -1,0 +1,28 @@
+//! The core of `planar-capture`: traits of a robot's dynamics, contacts, control, integration, trajectories, formulations
+//! and impacts, on slices and arrays.
+//!
+//! It never contains: std, an allocation, a panic, a number type of its own choosing, a file, a text to be read.
+#![no_std]
+
+pub mod body;
+#[doc(hidden)]
+pub mod check;
+pub mod contact;
+pub mod control;
+pub mod dynamics;
+pub mod error;
+pub mod impact;
+mod implement;
+pub mod integrate;
+#[cfg(feature = "lanes")]
+pub mod lanes;
+mod linear;
+pub mod manifest;
+mod momentum_equation;
+pub mod motion;
+pub mod scalar;
+#[doc(hidden)]
+pub mod standalone;
+pub mod state;
+pub mod target;
+pub mod trajectory;

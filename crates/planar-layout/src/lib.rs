@@ -1,0 +1,8 @@
+//! Arm layouts: read from TOML, written, hashed, compared with the structures of generated code; and the diagnostics of
+//! everything that is read.
+//!
+//! It never contains: a model, a graph, a computation of dynamics, a terminal.
+
+pub mod diagnostic;
+pub mod layout;
+pub mod structure;
