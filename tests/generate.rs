@@ -4,8 +4,10 @@
 
 mod support;
 
+use planar_capture::build::Module;
+use planar_capture::build::graph::{self, GraphError};
 use planar_capture::build::{Layouts, verify};
-use planar_capture::generate::{GenerateError, Module, prove, read_graph};
+use planar_capture::generate::{GenerateError, complete, prove};
 use planar_capture::layout::Layout;
 use serde_json::Value;
 use std::fs;
@@ -195,7 +197,7 @@ fn a_graph_of_ones_own_is_rendered_without_python() {
 fn shipped(name: &str) -> (Layout, Value) {
     let layout = Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
     let text = fs::read_to_string(file(&format!("codegen/graphs/{name}.json"))).expect("a graph");
-    let graph = read_graph(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
+    let graph = graph::read(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
     (layout, graph)
 }
 
@@ -230,16 +232,17 @@ fn a_wrong_graph_is_not_rendered() {
     let text = graph.to_string();
     let mut other = layout.clone();
     other.base.mass += 1.0;
-    assert!(matches!(read_graph(&text, &other), Err(GenerateError::Stale { .. })));
-    assert!(matches!(read_graph("{}", &layout), Err(GenerateError::Graph(_))));
+    assert!(matches!(graph::read(&text, &other), Err(GraphError::Stale { .. })));
+    assert!(matches!(graph::read("{}", &layout), Err(GraphError::Format(_))));
 }
 
 #[test]
 fn a_module_is_the_same_every_time() {
     let (layout, graph) = shipped("single_arm_2r");
+    let graph = complete(&graph.to_string(), &layout).unwrap_or_else(|e| panic!("{e}")).graph;
     for standalone in [false, true] {
         let module = Module { standalone, item: false, source: "a", command: "b" };
-        let [first, second] = [0, 1].map(|_| module.render(&layout, &graph).unwrap_or_else(|e| panic!("{e}")));
+        let [first, second] = [0, 1].map(|_| module.render(&graph).unwrap_or_else(|e| panic!("{e}")));
         assert!(first == second);
     }
 }
@@ -247,7 +250,7 @@ fn a_module_is_the_same_every_time() {
 /// A command that can be pasted, whatever the folders are called.
 #[test]
 fn paths_are_single_words() {
-    use planar_capture::generate::quoted;
+    use planar_capture::build::quoted;
     assert_eq!(quoted("layouts/my_robot.toml"), "layouts/my_robot.toml");
     assert_eq!(quoted("lay outs/a.toml"), "'lay outs/a.toml'");
     assert_eq!(quoted("it's"), "'it'\\''s'");

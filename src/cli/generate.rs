@@ -2,7 +2,9 @@
 
 use super::{Problem, layout};
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::generate::{self, Module};
+use planar_capture::build::graph::GraphError;
+use planar_capture::build::{Module, command};
+use planar_capture::generate::{self, Proved};
 use planar_capture::layout::Layout;
 use planar_capture::output::write_whole;
 use planar_capture::python_package::PYTHON_PACKAGE;
@@ -67,15 +69,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
         .map_err(|source| Problem::Derivation { file: file(), source })?;
     progress.set_message("comparing with the generic implementation");
     let failed = |source| Problem::Generate { file: file(), source };
-    let graph = generate::read_graph(&graph_text, &layout).map_err(failed)?;
-    let proof = generate::prove(&layout, &graph).map_err(failed)?;
+    let Proved { graph, text, proof } = generate::complete(&graph_text, &layout).map_err(failed)?;
     let text = match &arguments.out {
-        Output::Graph(_) => graph_text,
+        Output::Graph(_) => text,
         Output::Code(_) => {
             progress.set_message("rendering");
             let (source, command) = recipe(arguments, &layout, path);
             let module = Module { standalone: arguments.standalone, item: false, source: &source, command: &command };
-            module.render(&layout, &graph).map_err(failed)?
+            module.render(&graph).map_err(|problem| failed(GraphError::Format(problem).into()))?
         }
     };
     progress.finish_and_clear();
@@ -107,7 +108,7 @@ fn recipe(arguments: &Arguments, layout: &Layout, path: &Path) -> (String, Strin
         format!("the layout {}", layout.name)
     };
     let from = if Layout::is_path(&arguments.layout) { &source } else { &layout.name };
-    let command = generate::command(from, &name(path), arguments.standalone);
+    let command = command(from, &name(path), arguments.standalone);
     (source, command)
 }
 
@@ -119,7 +120,7 @@ fn check(path: &Path, text: &str, arguments: &Arguments) -> Result<ExitCode, Pro
         return Ok(ExitCode::SUCCESS);
     }
     let state = if path.exists() { "is not what the layout gives" } else { "is not there" };
-    let mend = generate::command(&arguments.layout, &shown.to_string(), arguments.standalone);
+    let mend = command(&arguments.layout, &shown.to_string(), arguments.standalone);
     eprintln!("{shown} {state}; to mend: {mend}");
     Ok(ExitCode::from(1))
 }

@@ -1,11 +1,11 @@
 //! Energy and momentum of free motion over a thousand seconds.
 
-use planar_capture::owned::RobotState;
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
+use planar_capture::owned::RobotState;
 use planar_capture::scenario::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample};
 

@@ -1,13 +1,13 @@
 //! The two motions: the paper's approach under PD control, and free tumbling.
 
 use crate::Problem;
-use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::approach::Approach;
 use planar_capture::approach::design::end_rates;
 use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::models;
+use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::scenario::{EndRates, Integration, Scenario, Tracking};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;

@@ -3,10 +3,10 @@
 //! `cargo run --release` in this folder derives the robots and runs this; alone it has none.
 
 use criterion::Criterion;
-use planar_capture::sampling::{Regime};
 use planar_capture::dynamics::ForwardDynamics;
 use planar_capture::generic::Generic;
 use planar_capture::layout::Layout;
+use planar_capture::sampling::Regime;
 use planar_capture::state::Forces;
 use std::error::Error;
 use std::hint::black_box;

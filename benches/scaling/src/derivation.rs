@@ -1,7 +1,8 @@
 //! A robot's graph and module: how large they are, how long they take.
 
 use crate::{Problem, REPEATS, shape::Shape};
-use planar_capture::generate::{Module, derive, prove, read_graph};
+use planar_capture::build::Module;
+use planar_capture::generate::{complete, derive};
 use planar_capture::python_package::PYTHON_PACKAGE;
 use serde_json::Value;
 use std::time::Instant;
@@ -30,12 +31,11 @@ impl Derivation {
             text = derive(&layout, PYTHON_PACKAGE, &mut |_| {})?;
             seconds = seconds.min(start.elapsed().as_secs_f64());
         }
-        let graph = read_graph(&text, &layout)?;
-        prove(&layout, &graph)?;
+        let graph = complete(&text, &layout)?.graph;
         let render = |standalone| {
             let module =
                 Module { standalone, item: !standalone, source: "the scaling benchmark", command: "cargo run" };
-            module.render(&layout, &graph)
+            module.render(&graph)
         };
         let (item, standalone) = (render(false)?, render(true)?);
         Ok(Self { seconds, graph_bytes: text.len(), item, standalone, graph })

@@ -50,7 +50,11 @@ fn measure() -> Result<(), Problem> {
     let (work, documents) = (here.join("target/work"), here.join("../../docs"));
     std::fs::create_dir_all(&documents)?;
     eprintln!("making the environment of the derivation, where there is none");
-    planar_capture::generate::derive(&Shape { arms: 1, links: 2 }.layout(), planar_capture::python_package::PYTHON_PACKAGE, &mut |_| {})?;
+    planar_capture::generate::derive(
+        &Shape { arms: 1, links: 2 }.layout(),
+        planar_capture::python_package::PYTHON_PACKAGE,
+        &mut |_| {},
+    )?;
     let mut derived = Vec::new();
     for shape in Shape::all() {
         eprintln!("{}: deriving", shape.name());

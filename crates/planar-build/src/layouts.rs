@@ -1,7 +1,7 @@
-//! For build scripts of crates with a robot of their own: graphs to Rust, without Python (feature `build`).
+//! For build scripts of crates with a robot of their own: graphs to Rust, without Python.
 //!
-//! The crate keeps `layouts/NAME.toml` and, beside it, the graph that
-//! `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has this crate
+//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and, beside it, the graph that
+//! `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has `planar-capture`
 //! twice, as the core that the generated code stands on, and for the build script:
 //!
 //! ```toml
@@ -12,15 +12,13 @@
 //! planar-capture = { path = "…", default-features = false, features = ["build"] }
 //! ```
 //!
-//! Its `build.rs` is one call, and [`include_layout!`](crate::include_layout) brings in a module:
+//! Its `build.rs` is one call, and `include_layout!` brings in a module:
 //!
-//! ```no_run
+//! ```ignore
 //! // build.rs
 //! fn main() -> Result<(), planar_capture::build::BuildError> {
 //!     planar_capture::build::render("layouts")
 //! }
-//! ```
-//! ```ignore
 //! // src/lib.rs
 //! planar_capture::include_layout!("my_robot");
 //! use my_robot::Model;
@@ -28,8 +26,8 @@
 //!
 //! A layout that was changed after its graph stops the build with the command that mends it.
 
-use crate::prove::{Module, command};
-use crate::renderer;
+use crate::command::command;
+use crate::renderer::{self, Module, VECTORS};
 use crate::shipped::{fresh, names};
 use planar_layout::layout::Layout;
 use std::fmt;
@@ -129,9 +127,12 @@ impl Layouts {
             let found = &layout.name;
             return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
         }
+        if graph.get(VECTORS).is_none() {
+            return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
+        }
         let source = shown.to_string();
         let module = Module { standalone: self.standalone, item: true, source: &source, command: &command };
-        let text = module.render(&layout, &graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
+        let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
         let path = out.join(format!("{name}.rs"));
         fs::write(&path, text).map_err(|e| BuildError(format!("{}: {e}", path.display())))
     }

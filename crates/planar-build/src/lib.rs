@@ -2,6 +2,8 @@
 //!
 //! It never contains: a scenario, a simulation, a command line, the text of the Python package.
 
+mod command;
+pub mod graph;
 mod layouts;
 mod renderer;
 pub mod shipped;
@@ -9,4 +11,6 @@ pub mod shipped;
 #[cfg(feature = "prove")]
 pub mod prove;
 
+pub use command::{command, quoted};
 pub use layouts::{BuildError, Layouts, render, verify};
+pub use renderer::Module;

@@ -1,6 +1,7 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
-use crate::renderer::{self, Form};
+use crate::graph::{self, GraphError};
+use crate::renderer::Module;
 use planar_layout::layout::Layout;
 use serde_json::Value;
 use std::fs;
@@ -53,28 +54,25 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
     let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
     let (_, value) = fresh(&layout, &graph, &command)?;
     let source = format!("codegen/graphs/{name}.json");
-    let form = Form { standalone: false, item: true, source: &source, command: &command, self_test: None };
-    renderer::render(&value, &form).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
+    let module = Module { standalone: false, item: true, source: &source, command: &command };
+    module.render(&value).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
 }
 
 /// A layout and the graph that was derived from it; `command` makes the graph again.
 ///
 /// # Errors
-/// What is wrong with either, or that the graph is of another layout, with the command.
+/// What is wrong with either, or that the graph is not the layout's, with the command.
 pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Value), String> {
     let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
-    let wrong = |e: &dyn std::fmt::Display| format!("{}: {e}; derive it again: {command}", graph_path.display());
-    let text = fs::read_to_string(graph_path).map_err(|e| wrong(&e))?;
-    let graph = renderer::read(&text).map_err(|e| wrong(&e))?;
-    let (found, wanted) = (renderer::layout_hash(&graph).map_err(|e| wrong(&e))?, layout.sha256());
-    if found == wanted {
-        Ok((layout, graph))
-    } else {
-        Err(format!(
-            "{} is stale: it was derived from a layout with sha256 {found}, {} has {wanted}; derive it again: {command}",
-            graph_path.display(),
-            layout_path.display()
-        ))
+    let (shown, from) = (graph_path.display(), layout_path.display());
+    let mend = |e: &dyn std::fmt::Display| format!("{shown}: {e}; derive it again: {command}");
+    let text = fs::read_to_string(graph_path).map_err(|e| mend(&e))?;
+    match graph::read(&text, &layout) {
+        Ok(graph) => Ok((layout, graph)),
+        Err(GraphError::Stale { found, wanted }) => Err(format!(
+            "{shown} is stale: it was derived from a layout with sha256 {found}, {from} has {wanted}; derive it again: {command}"
+        )),
+        Err(other) => Err(mend(&other)),
     }
 }
 

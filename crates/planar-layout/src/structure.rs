@@ -81,8 +81,9 @@ fn first_mounts_coincide(layout: &Layout) -> bool {
     matches!(layout.arms.as_slice(), [first, second, ..] if first.mount == second.mount)
 }
 
-/// Every number of a layout and what it is.
-fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
+/// Every number of a layout: what it is, of which arm and link (0 where there is none), and its value.
+#[must_use]
+pub fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
     let mut all =
         vec![(Quantity::BaseMass, 0, 0, layout.base.mass), (Quantity::BaseInertia, 0, 0, layout.base.inertia)];
     for (i, arm) in layout.arms.iter().enumerate() {

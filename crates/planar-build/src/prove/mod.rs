@@ -1,4 +1,4 @@
-//! Rust for any layout: derived, proved against the generic implementation, rendered as a module for another crate.
+//! The proof of a graph: derived from a layout, computed as it stands, and compared with the generic implementation.
 
 mod derivation;
 pub mod evaluation;
@@ -11,8 +11,9 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive};
 
+use crate::graph::{self, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
-use crate::renderer::{self, Form};
+use crate::renderer::VECTORS;
 use interpreter::interpret;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
@@ -28,17 +29,9 @@ const CARRIED: u64 = 2;
 /// There is no code for a layout.
 #[derive(Debug, thiserror::Error)]
 pub enum GenerateError {
-    /// The graph is not of the format, or does not follow it.
+    /// The graph is not of the format, not the layout's, or does not follow it.
     #[error("the graph cannot be used: {0}")]
-    Graph(String),
-    /// The graph is of another layout.
-    #[error("the graph was derived from a layout with sha256 {found}, the layout has {wanted}")]
-    Stale {
-        /// The graph's.
-        found: String,
-        /// The layout's.
-        wanted: String,
-    },
+    Graph(#[from] GraphError),
     /// The generic implementation has no answer: a robot without inertia somewhere.
     #[error("the generic implementation has no answer for a state of this robot ({regime}, {index}): {source}")]
     NoReference {
@@ -79,15 +72,37 @@ pub struct Proof {
     pub worst: f64,
 }
 
-/// Parses a graph and compares its layout with this one.
+/// A graph with what was found of it.
+#[derive(Clone, Debug)]
+pub struct Proved {
+    /// The graph, with reference vectors.
+    pub graph: Value,
+    /// The same as text, as it is to be kept.
+    pub text: String,
+    /// What it was found to be.
+    pub proof: Proof,
+}
+
+/// Proves the graph that was derived from a layout, and adds reference vectors to it: results of the generic implementation
+/// that a module made from it compares its own with.
 ///
 /// # Errors
-/// [`GenerateError::Graph`], [`GenerateError::Stale`].
-pub fn read_graph(text: &str, layout: &Layout) -> Result<Value, GenerateError> {
-    let graph = renderer::read(text).map_err(GenerateError::Graph)?;
-    let found = renderer::layout_hash(&graph).map_err(GenerateError::Graph)?;
-    let wanted = layout.sha256();
-    if found == wanted { Ok(graph) } else { Err(GenerateError::Stale { found: found.to_owned(), wanted }) }
+/// [`GenerateError`].
+pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateError> {
+    let mut graph = graph::read(graph_text, layout)?;
+    let proof = prove(layout, &graph)?;
+    let vectors = (0..CARRIED).map(|index| {
+        let vectors = at(layout, Regime::Moving, index)?;
+        let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::from)?;
+        Ok(vectors.to_json(&found))
+    });
+    let vectors = vectors.collect::<Result<Vec<_>, GenerateError>>()?;
+    // a state a line, after what the derivation wrote
+    let lines: Vec<String> = vectors.iter().map(|vectors| format!("  {vectors}")).collect();
+    let end = graph_text.trim_end().strip_suffix('}').unwrap_or(graph_text).trim_end();
+    let text = format!("{end},\n \"{VECTORS}\": [\n{}\n ]\n}}\n", lines.join(",\n"));
+    graph[VECTORS] = Value::Array(vectors);
+    Ok(Proved { graph, text, proof })
 }
 
 /// Compares a graph, computed as it stands, with the generic implementation: every result of every function at states of
@@ -100,10 +115,12 @@ pub fn prove(layout: &Layout, graph: &Value) -> Result<Proof, GenerateError> {
     for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
             let vectors = at(layout, regime, index)?;
-            let found = interpret(graph, &vectors.inputs()).map_err(GenerateError::Graph)?;
+            let found = interpret(graph, &vectors.inputs()).map_err(GraphError::from)?;
             let found = || found.iter().filter(|found| found.output != "smallest_pivot");
             if found().count() != vectors.expected.len() {
-                return Err(GenerateError::Graph("it has other results than the generic implementation".to_owned()));
+                return Err(
+                    GraphError::Format("it has other results than the generic implementation".to_owned()).into()
+                );
             }
             for (found, expected) in found().zip(&vectors.expected) {
                 let same = found.function == expected.function && found.output == expected.output;
@@ -119,61 +136,6 @@ pub fn prove(layout: &Layout, graph: &Value) -> Result<Proof, GenerateError> {
         }
     }
     Ok(proof)
-}
-
-/// A module for another crate.
-#[derive(Clone, Copy, Debug)]
-pub struct Module<'a> {
-    /// Whether it carries what it needs, or depends on this crate's core.
-    pub standalone: bool,
-    /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
-    pub item: bool,
-    /// What it is made from, for its header.
-    pub source: &'a str,
-    /// The command that makes it again, for its header.
-    pub command: &'a str,
-}
-
-impl Module<'_> {
-    /// The module's text, with reference vectors by the generic implementation. The same graph and the same
-    /// choices give the same bytes on every machine.
-    ///
-    /// # Errors
-    /// [`GenerateError`].
-    pub fn render(&self, layout: &Layout, graph: &Value) -> Result<String, GenerateError> {
-        let vectors = (0..CARRIED).map(|index| {
-            let vectors = at(layout, Regime::Moving, index)?;
-            let found = interpret(graph, &vectors.inputs()).map_err(GenerateError::Graph)?;
-            Ok(vectors.to_json(&found))
-        });
-        let vectors = Value::Array(vectors.collect::<Result<_, GenerateError>>()?);
-        let form = Form {
-            standalone: self.standalone,
-            item: self.item,
-            source: self.source,
-            command: self.command,
-            self_test: Some(&vectors),
-        };
-        renderer::render(graph, &form).map_err(GenerateError::Graph)
-    }
-}
-
-/// The command that generates a file from a layout, as it can be typed.
-#[must_use]
-pub fn command(layout: &str, out: &str, standalone: bool) -> String {
-    let option = if standalone { " --standalone" } else { "" };
-    format!("planar-capture generate {} --out {}{option}", quoted(layout), quoted(out))
-}
-
-/// A path as one word of a command line.
-#[must_use]
-pub fn quoted(path: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./\\:".contains(c) || !c.is_ascii();
-    if !path.is_empty() && path.chars().all(plain) {
-        path.to_owned()
-    } else {
-        format!("'{}'", path.replace('\'', "'\\''"))
-    }
 }
 
 fn at(layout: &Layout, regime: Regime, index: u64) -> Result<Vectors, GenerateError> {

@@ -6,7 +6,8 @@ mod phrases;
 mod tables;
 
 use json::{list, names, size, text};
-use operands::{Known, Scope, array_type, camel, collect_uses, prelude};
+pub use operands::camel;
+use operands::{Known, Scope, array_type, collect_uses, prelude};
 use planar_dynamics::standalone::PARTS;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
@@ -22,63 +23,43 @@ const TEMPLATES: [(&str, &str); 5] = [
     ("runtime.rs", include_str!("../../templates/runtime.rs.tera")),
 ];
 
-/// The format of the graphs that this renderer reads.
-const FORMAT: u64 = 1;
+/// The key of a graph's reference vectors.
+pub const VECTORS: &str = "self_test";
 
-/// What is to be made of a graph.
+/// What is to be made of a graph: a module of another crate.
 #[derive(Clone, Copy, Debug)]
-pub struct Form<'a> {
-    /// Whether the module carries what it needs, or takes it from `planar_capture`, whose traits it implements.
+pub struct Module<'a> {
+    /// Whether it carries what it needs, or takes it from `planar_capture`, whose traits it implements.
     pub standalone: bool,
     /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
     pub item: bool,
-    /// What it is made from, for the header.
+    /// What it is made from, for its header.
     pub source: &'a str,
-    /// The command that makes it again.
+    /// The command that makes it again, for its header.
     pub command: &'a str,
-    /// Reference vectors for the module's own test.
-    pub self_test: Option<&'a Value>,
 }
 
-/// Rust source of one graph, formatted, with its header.
-///
-/// # Errors
-/// A graph that is not of the format, or a template that does not render: what and where.
-pub fn render(graph: &Value, form: &Form) -> Result<String, String> {
-    let mut context = Context::from_serialize(&context(graph, form)?).map_err(|e| e.to_string())?;
-    let mut tera = Tera::default();
-    tera.add_raw_templates(TEMPLATES.to_vec()).map_err(|e| format!("{e:?}"))?;
-    let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
-    let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
-    let formatted = tables::names(&prettyplease::unparse(&file));
-    let text = match form.self_test {
-        Some(vectors) => tables::fill(&formatted, vectors),
-        None => formatted,
-    };
-    context.insert("text_sha256", &sha256(&text));
-    let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;
-    Ok(format!("{}\n\n{text}", header.trim_end()))
-}
-
-/// The text of a graph as data, if it is of the format.
-///
-/// # Errors
-/// What it is instead.
-pub fn read(graph_text: &str) -> Result<Value, String> {
-    let graph: Value = serde_json::from_str(graph_text).map_err(|e| format!("not JSON: {e}"))?;
-    if graph["format"] == json!(FORMAT) {
-        Ok(graph)
-    } else {
-        Err(format!("format {} where {FORMAT} is read", graph["format"]))
+impl Module<'_> {
+    /// The module's text, formatted, with its header, and with its own test where the graph has reference vectors. The same
+    /// graph and the same choices give the same bytes on every machine.
+    ///
+    /// # Errors
+    /// A graph that is not of the format, or a template that does not render: what and where.
+    pub fn render(&self, graph: &Value) -> Result<String, String> {
+        let mut context = Context::from_serialize(&context(graph, self)?).map_err(|e| e.to_string())?;
+        let mut tera = Tera::default();
+        tera.add_raw_templates(TEMPLATES.to_vec()).map_err(|e| format!("{e:?}"))?;
+        let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
+        let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
+        let formatted = tables::names(&prettyplease::unparse(&file));
+        let text = match graph.get(VECTORS) {
+            Some(vectors) => tables::fill(&formatted, vectors),
+            None => formatted,
+        };
+        context.insert("text_sha256", &sha256(&text));
+        let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;
+        Ok(format!("{}\n\n{text}", header.trim_end()))
     }
-}
-
-/// Content hash of the layout that a graph was derived from.
-///
-/// # Errors
-/// A graph without one.
-pub fn layout_hash(graph: &Value) -> Result<&str, String> {
-    text(&graph["layout"]["sha256"])
 }
 
 /// In hexadecimal.
@@ -87,7 +68,7 @@ pub fn sha256(text: &str) -> String {
     digest.iter().fold(String::new(), |hash, byte| hash + &format!("{byte:02x}"))
 }
 
-fn context(graph: &Value, form: &Form) -> Result<Value, String> {
+fn context(graph: &Value, module: &Module<'_>) -> Result<Value, String> {
     let arms = list(&graph["layout"]["arms"])?;
     let joints = arms.iter().map(|arm| size(&arm["links"])).sum::<Result<usize, _>>()?;
     let known = Known::of(graph)?;
@@ -98,12 +79,12 @@ fn context(graph: &Value, form: &Form) -> Result<Value, String> {
     let set_up = Scope { known: &known, staged: BTreeSet::new(), constants: false };
     let parts: Vec<Value> = PARTS.iter().map(|(name, text)| json!({"name": name, "text": text})).collect();
     Ok(json!({
-        "source": form.source,
-        "command": form.command,
-        "item": form.item,
-        "standalone": form.standalone,
+        "source": module.source,
+        "command": module.command,
+        "item": module.item,
+        "standalone": module.standalone,
         "parts": parts,
-        "self_test": form.self_test.map(|vectors| self_test(graph, vectors)).transpose()?,
+        "self_test": graph.get(VECTORS).map(|vectors| self_test(graph, vectors)).transpose()?,
         "layout": graph["layout"],
         "casadi": graph["casadi"],
         "arms": arms.len(),

@@ -155,6 +155,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 
 /// The names in backticks as an English list, such as `` `a`, `b` or `c` `` with the conjunction
 /// "or".
+#[must_use]
 pub fn listing(names: &[&str], conjunction: &str) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.split_last() {
@@ -165,6 +166,7 @@ pub fn listing(names: &[&str], conjunction: &str) -> String {
 }
 
 /// Text from an input as one short line that is safe to print.
+#[must_use]
 pub fn excerpt(text: &str) -> String {
     const LONGEST: usize = 48;
     let line = printable(&text.split_whitespace().collect::<Vec<_>>().join(" "));

@@ -6,6 +6,9 @@ use planar_dynamics::error::Error;
 use planar_dynamics::state::Forces;
 
 /// In the order of [`QUANTITIES`](super::QUANTITIES); `None` for those of an impact where there is no target.
+///
+/// # Errors
+/// What the model says of the state.
 pub fn values(model: &dyn CloneModel, instant: &Instant) -> Result<Vec<Option<Vec<f64>>>, Error> {
     let (arms, bodies) = (model.arms(), model.joints() + 1);
     let state = instant.state.view();
