@@ -67,8 +67,8 @@ pub use planar_dynamics::check;
 #[cfg(feature = "lanes")]
 pub use planar_dynamics::lanes;
 pub use planar_dynamics::{
-    body, contact, control, dynamics, error, impact, implement_dynamics, include_layout, manifest, motion, scalar,
-    state, target, trajectory,
+    body, contact, control, dynamics, error, impact, implement_dynamics, include_layout, manifest, motion, quantity,
+    scalar, state, target, trajectory,
 };
 
 #[cfg(feature = "build")]

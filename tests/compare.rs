@@ -4,7 +4,8 @@ use assert_cmd::Command;
 use planar_capture::compare::{Comparison, Worst};
 use planar_capture::layout::Layout;
 use planar_capture::models::SHIPPED;
-use planar_capture::quantities::{Difference, QUANTITIES};
+use planar_capture::quantities::Difference;
+use planar_capture::quantity::Quantity;
 use planar_capture::sampling::REGIMES;
 use std::path::Path;
 
@@ -23,7 +24,7 @@ fn every_quantity_is_printed_and_its_worst_state_can_be_replayed() {
     assert_eq!((code, problems.as_str()), (0, ""));
     assert!(table.contains("65 states, 5 of each regime, seed 7"), "{table}");
     assert_eq!(run(&arguments).1, table, "the same seed, the same states");
-    for quantity in QUANTITIES {
+    for quantity in Quantity::ALL.iter().map(|quantity| quantity.row()) {
         assert!(table.lines().any(|line| line.starts_with(quantity.name)), "{} is missing", quantity.name);
         let name = quantity.name.replace([' ', '.'], "_");
         for dynamics in ["generated", "generic"] {
@@ -66,9 +67,9 @@ fn an_error_over_its_bound_is_no_agreement() {
     let sample = REGIMES[0].sample(&Layout::parse(text, "shipped").expect("good"), 1, 0);
     let comparison = |error: f64| Comparison {
         states: 1,
-        worst: QUANTITIES
+        worst: Quantity::ALL
             .iter()
-            .map(|quantity| Worst {
+            .map(|&quantity| Worst {
                 difference: Difference { quantity, error, condition: 1.0 },
                 regime: REGIMES[0],
                 index: 0,

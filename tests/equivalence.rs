@@ -8,12 +8,13 @@ use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::owned::CloneModel;
-use planar_capture::quantities::{QUANTITIES, differences};
+use planar_capture::quantities::differences;
+use planar_capture::quantity::Quantity;
 use planar_capture::sampling::{REGIMES, Regime, Sample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
 use std::collections::BTreeSet;
-use support::tolerance::{EQUIVALENCE, INHERENT, LAYOUTS, SHORT_DISTANCE};
+use support::tolerance::{INHERENT, LAYOUTS, SHORT_DISTANCE, equivalence};
 
 /// States of each regime and layout.
 const SAMPLES: u64 = 40;
@@ -46,95 +47,67 @@ fn generated_and_generic_agree() {
                 let all = differences(&*model, &*generic(&sample.layout), &sample)
                     .unwrap_or_else(|errors| panic!("{name}: {errors:?}; {}", replay(regime, index, &sample)));
                 for difference in all {
-                    let quantity = difference.quantity.name;
-                    let (_, tolerance, _) =
-                        EQUIVALENCE.iter().find(|(entry, ..)| *entry == quantity).expect("an entry");
-                    let (error, bound) = (difference.error, tolerance.bound(difference.condition));
+                    let quantity = difference.quantity.row().name;
+                    let bound = equivalence(difference.quantity).bound(difference.condition);
+                    let error = difference.error;
                     assert!(bound <= difference.bound(), "{quantity}: the test allows more than `compare` does");
                     assert!(
                         error <= bound,
                         "{name}: {quantity} is off by {error:e}, bound {bound:e}; {}",
                         replay(regime, index, &sample)
                     );
-                    seen.insert(quantity);
+                    seen.insert(difference.quantity);
                 }
             }
-            let missing: Vec<_> = QUANTITIES.iter().filter(|quantity| !seen.contains(quantity.name)).collect();
+            let missing: Vec<_> = Quantity::ALL.iter().filter(|quantity| !seen.contains(quantity)).collect();
             assert!(missing.is_empty(), "{name}, {}: never compared: {missing:?}", regime.name());
         }
     }
 }
 
 #[test]
-fn every_layout_and_every_quantity_has_an_entry() {
+fn every_layout_has_an_entry() {
     let sorted = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
     let names: Vec<_> = LAYOUTS.iter().map(|(name, _)| *name).collect();
     let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
     assert_eq!(sorted(&names), sorted(&shipped), "tests/support/tolerance.rs: LAYOUTS");
     assert!(sorted(GENERATED).is_subset(&sorted(&names)), "tests/support/tolerance.rs: LAYOUTS");
-    let entries: Vec<_> = EQUIVALENCE.iter().map(|(name, ..)| *name).collect();
-    let quantities: Vec<_> = QUANTITIES.iter().map(|quantity| quantity.name).collect();
-    assert_eq!(sorted(&entries), sorted(&quantities), "tests/support/tolerance.rs: EQUIVALENCE");
-    assert_eq!(entries.len(), quantities.len(), "a quantity stands twice");
 }
 
-/// (function, output) of every generated function, and the entry that compares it. `None`: a pivot is no quantity.
-const OUTPUTS: &[(&str, &str, Option<&str>)] = &[
-    ("forward_dynamics", "base_acceleration", Some("base_acceleration")),
-    ("forward_dynamics", "joint_accelerations", Some("joint_accelerations")),
-    ("forward_dynamics_with_base_wrench", "base_acceleration", Some("base_acceleration")),
-    ("forward_dynamics_with_base_wrench", "joint_accelerations", Some("joint_accelerations")),
-    ("forward_dynamics_with_wrenches", "base_acceleration", Some("base_acceleration")),
-    ("forward_dynamics_with_wrenches", "joint_accelerations", Some("joint_accelerations")),
-    ("mass_matrix", "mass_matrix", Some("mass_matrix")),
-    ("bias", "bias", Some("bias")),
-    ("reduced_dynamics", "generalized_inertia", Some("generalized_inertia")),
-    ("reduced_dynamics", "generalized_bias", Some("generalized_bias")),
-    ("reduced_dynamics", "generalized_jacobian", Some("generalized_jacobian")),
-    ("generalized_jacobian", "generalized_jacobian", Some("generalized_jacobian alone")),
-    ("end_effector_poses", "end_effector_poses", Some("end_effector_poses")),
-    ("end_effector_jacobian", "end_effector_jacobian", Some("end_effector_jacobian")),
-    ("end_effector_twists", "end_effector_twists", Some("end_effector_twists")),
-    ("body_poses", "body_poses", Some("body_poses")),
-    ("body_twists", "body_twists", Some("body_twists")),
-    ("momentum", "linear_momentum", Some("linear_momentum")),
-    ("momentum", "angular_momentum", Some("angular_momentum")),
-    ("momentum", "kinetic_energy", Some("kinetic_energy")),
-    ("reduced_impact", "impact_matrix", Some("impact.G")),
-    ("reduced_impact", "impact_momentum", Some("impact.H")),
-    ("reduced_impact", "joint_rates_after", Some("impact.joint_rates_after")),
-    ("full_impact", "impact_matrix", Some("full impact_matrix")),
-    ("full_impact", "impact_momentum", Some("full impact_momentum")),
-    ("full_impact", "base_twist_after", Some("capture.base_twist_after")),
-    ("full_impact", "joint_rates_after", Some("capture.joint_rates_after")),
-];
-
+/// Names, units and shapes: what a graph says of its results, and what the table does.
 #[test]
-fn every_output_of_every_graph_has_an_entry() {
+fn every_result_of_every_graph_is_in_the_table_of_quantities() {
     for (name, _) in SHIPPED {
         let graph = support::json(&format!("codegen/graphs/{name}.json"));
-        let functions = graph["families"].as_array().expect("families").iter().flat_map(|family| {
-            family["functions"].as_array().expect("functions").iter().map(|function| {
-                let outputs = function["outputs"].as_array().expect("outputs");
-                (function["name"].as_str().expect("a name"), outputs)
+        let arms = graph["layout"]["arms"].as_array().expect("arms");
+        let joints = arms.iter().map(|arm| arm["links"].as_u64().expect("links")).sum::<u64>();
+        let (arms, joints) = (arms.len(), usize::try_from(joints).expect("a few"));
+        let wanted: BTreeSet<String> = Quantity::ALL
+            .iter()
+            .flat_map(|quantity| {
+                let row = quantity.row();
+                let shape: Vec<usize> = row.shape.iter().map(|extent| extent.of(arms, joints)).collect();
+                row.functions.iter().map(move |function| format!("{function}.{} {shape:?} {}", row.output, row.unit))
             })
-        });
-        let mut met = 0;
-        for (function, outputs) in functions {
-            for output in outputs.iter().map(|output| output["name"].as_str().expect("a name")) {
-                if output == "smallest_pivot" {
-                    continue;
+            .collect();
+        let mut found = BTreeSet::new();
+        for family in graph["families"].as_array().expect("families") {
+            for function in family["functions"].as_array().expect("functions") {
+                for output in function["outputs"].as_array().expect("outputs") {
+                    let text = |key: &str| output[key].as_str().expect("text").to_owned();
+                    let shape = output["shape"].to_string().replace(',', ", ");
+                    found.insert(format!(
+                        "{}.{} {shape} {}",
+                        function["name"].as_str().expect("a name"),
+                        text("name"),
+                        text("unit")
+                    ));
                 }
-                let entry = OUTPUTS.iter().find(|(f, o, _)| *f == function && *o == output);
-                let (.., entry) = entry.unwrap_or_else(|| panic!("{name}: {function}.{output} is compared nowhere"));
-                let known = |entry: &str| {
-                    EQUIVALENCE.iter().any(|(e, ..)| *e == entry) || INHERENT.iter().any(|(e, ..)| *e == entry)
-                };
-                assert!(entry.is_none_or(known), "{entry:?} has no tolerance");
-                met += 1;
             }
         }
-        assert_eq!(met, OUTPUTS.len(), "{name}: an output has gone");
+        // a pivot says how well a result is conditioned; it is no quantity
+        found.retain(|result| !result.contains(".smallest_pivot "));
+        assert_eq!(found, wanted, "{name}: the graph's results, and the table's");
     }
 }
 
@@ -295,7 +268,8 @@ fn a_change_of_a_millionth_is_seen() {
         changed.arms[0].links[0].mass *= 1.0 + 1e-6;
         let sample = Regime::Moving.sample(&layout, SEED, 0);
         let all = differences(&*generated(&changed).expect("generated code"), &*generic(&layout), &sample);
-        let seen: Vec<_> = all.expect("answers").iter().filter(|d| d.ratio() > 1.0).map(|d| d.quantity.name).collect();
+        let seen: Vec<_> =
+            all.expect("answers").iter().filter(|d| d.ratio() > 1.0).map(|d| d.quantity.row().name).collect();
         for quantity in ["mass_matrix", "linear_momentum", "kinetic_energy", "joint_accelerations"] {
             assert!(seen.contains(&quantity), "{name}: {quantity} hides a change of 1e-6; seen in {seen:?}");
         }
@@ -336,8 +310,8 @@ fn short_distances_cost_generated_accelerations_no_more_than_their_share() {
                 let (model, reference) = (generated(&layout).expect("generated code"), generic(&layout));
                 let all = differences(&*model, &*reference, &sample).expect("answers");
                 let bound = (SHORT_DISTANCE * f64::EPSILON / ratio).max(1e-13);
-                for difference in all.iter().filter(|d| d.quantity.name.contains("acceleration")) {
-                    let (name, error) = (difference.quantity.name, difference.error);
+                for difference in all.iter().filter(|d| d.quantity.row().name.contains("acceleration")) {
+                    let (name, error) = (difference.quantity.row().name, difference.error);
                     assert!(error <= bound, "{name} is off by {error:e}, bound {bound:e} at ratio {ratio}");
                 }
             }

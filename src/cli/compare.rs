@@ -3,7 +3,7 @@
 use super::{Problem, layout};
 use planar_capture::compare::{Comparison, Worst, compare, states_text};
 use planar_capture::output::{make_folder, write_whole};
-use planar_capture::quantities::QUANTITIES;
+use planar_capture::quantity::Quantity;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
         .map_err(|source| Problem::Model { file, source: Box::new(source) })?;
     make_folder(&folder)?;
     for worst in &comparison.worst {
-        let name = file_name(worst.difference.quantity.name);
+        let name = file_name(worst.difference.quantity.row().name);
         let write = |extension: &str, text: String| {
             write_whole(&folder.join(format!("{name}.{extension}")), |to| to.write_all(text.as_bytes()))
         };
@@ -58,9 +58,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
         };
         eprintln!("compare: {}, state {}: only {who} says: {error}", refusal.regime.name(), refusal.index);
     }
-    for quantity in QUANTITIES {
-        if !comparison.worst.iter().any(|worst| worst.difference.quantity == quantity) {
-            eprintln!("compare: {} was never compared", quantity.name);
+    for quantity in Quantity::ALL {
+        if !comparison.worst.iter().any(|worst| worst.difference.quantity == *quantity) {
+            eprintln!("compare: {} was never compared", quantity.row().name);
         }
     }
     Ok(if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) })
@@ -72,7 +72,7 @@ fn print(comparison: &Comparison, name: &str, arguments: &Arguments, out: &mut i
     writeln!(out, "{name}: generated against generic at {states} states, {samples} of each regime, seed {seed}\n")?;
     writeln!(out, "{:<28} {:>9} {:>9}  {:<14} {:>6}", "quantity", "error", "bound", "regime", "state")?;
     for Worst { difference, regime, index, .. } in &comparison.worst {
-        let (quantity, error, bound) = (difference.quantity.name, difference.error, difference.bound());
+        let (quantity, error, bound) = (difference.quantity.row().name, difference.error, difference.bound());
         let over = if difference.ratio() <= 1.0 { "" } else { "  over its bound" };
         writeln!(out, "{quantity:<28} {error:>9.1e} {bound:>9.1e}  {:<14} {index:>6}{over}", regime.name())?;
     }

@@ -4,7 +4,7 @@ use super::dynamics::Dynamics;
 use super::{Problem, layout};
 use planar_capture::dynamics::Model;
 use planar_capture::evaluation::evaluate;
-use planar_capture::states::States;
+use planar_capture::states::{States, result_to_json};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::process::ExitCode;
@@ -80,7 +80,7 @@ fn each(
             evaluate(model, &state).map_err(|source| Problem::Evaluation { file: arguments.shown(), index, source })?;
         line.clear();
         line.extend_from_slice(if index == 0 { b"\n" } else { b",\n" });
-        serde_json::to_writer(&mut line, &result.to_json()).map_err(io::Error::from)?;
+        serde_json::to_writer(&mut line, &result_to_json(&result, &state.targets)).map_err(io::Error::from)?;
         out.write_all(&line)?;
         index += 1;
     }

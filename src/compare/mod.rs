@@ -7,7 +7,8 @@ pub use replay::states_text;
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::models::{NoModel, generated, generic};
-use crate::quantities::{Difference, QUANTITIES, Quantity, differences};
+use crate::quantities::{Difference, differences};
+use crate::quantity::Quantity;
 use crate::sampling::{REGIMES, Regime, Sample};
 
 /// The worst that was found in one quantity.
@@ -41,7 +42,7 @@ pub struct Refusal {
 pub struct Comparison {
     /// Number of states compared.
     pub states: u64,
-    /// One per quantity, in the order of [`QUANTITIES`], by the ratio of error and bound.
+    /// One per quantity, in the order of [`Quantity::ALL`], by the ratio of error and bound.
     pub worst: Vec<Worst>,
     /// States without an answer from one or both.
     pub refusals: Vec<Refusal>,
@@ -51,15 +52,13 @@ impl Comparison {
     /// Whether every error is within its bound, and both implementations have answers for the same states.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.worst.len() == QUANTITIES.len()
+        self.worst.len() == Quantity::ALL.len()
             && self.worst.iter().all(|worst| worst.difference.ratio() <= 1.0)
             && self.refusals.iter().all(|refusal| refusal.generated.is_some() && refusal.generic.is_some())
     }
 
     fn record(&mut self, worst: Worst) {
-        let rank = |quantity: &Quantity| QUANTITIES.iter().position(|q| q.name == quantity.name);
-        let new = rank(worst.difference.quantity);
-        match self.worst.binary_search_by_key(&new, |old| rank(old.difference.quantity)) {
+        match self.worst.binary_search_by_key(&worst.difference.quantity, |old| old.difference.quantity) {
             Err(place) => self.worst.insert(place, worst),
             Ok(place) => {
                 let Some(old) = self.worst.get_mut(place) else { return };

@@ -6,11 +6,13 @@
 mod elements;
 mod places;
 mod reader;
+mod result;
 mod write;
 
 use crate::dynamics::Model;
 use crate::evaluation::Instant;
 use elements::Elements;
+pub use result::result_to_json;
 use std::io::{self, BufRead};
 pub use write::to_json;
 

@@ -107,6 +107,8 @@ pub const SAMPLED: f64 = 1e-9;
 /// A layout from a URDF against numbers worked out by hand, and a mount angle through sine, cosine and arctangent.
 pub const URDF: f64 = 1e-14;
 
+use planar_capture::quantity::{Quantity, Rounding};
+
 /// What rounding may do to a quantity that two formulations compute.
 #[derive(Clone, Copy, Debug)]
 pub enum Equivalence {
@@ -126,38 +128,20 @@ impl Equivalence {
     }
 }
 
-use Equivalence::{Condition, Scaled};
-
-/// Generated against generic: a bound for every quantity, and why. Measured over all layouts and regimes.
-pub const EQUIVALENCE: &[(&str, Equivalence, &str)] = &[
-    ("body_inertias", Scaled(0.0), "parameters, handed through"),
-    ("body_poses", Scaled(1e-14), "sums of link vectors; 3e-16 measured"),
-    ("body_twists", Scaled(1e-14), "absolute rates against Jacobian columns; 4e-16 measured"),
-    ("end_effector_poses", Scaled(1e-14), "sums of link vectors; the same to the bit here"),
-    ("end_effector_twists", Scaled(1e-14), "absolute rates against Jacobian columns; 5e-16 measured"),
-    ("end_effector_jacobian", Scaled(1e-14), "differences of positions; 2e-15 measured"),
-    ("mass_matrix", Scaled(1e-14), "composite inertias against sums over bodies; 3e-15 measured"),
-    ("bias", Scaled(1e-14), "centripetal sweep against differentiated Jacobians; 6e-16 measured"),
-    ("linear_momentum", Scaled(1e-14), "sums over bodies; 4e-16 measured"),
-    ("angular_momentum", Scaled(1e-14), "sums over bodies; 9e-16 measured"),
-    ("kinetic_energy", Scaled(1e-14), "sums over bodies; 4e-16 measured"),
-    ("generalized_inertia", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.05 of it measured"),
-    ("generalized_bias", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.01 of it measured"),
-    ("generalized_jacobian", Condition(4.0), "system COM eliminated against a 3 × 3 solve; 0.4 of it measured"),
-    ("base_acceleration", Condition(4.0), "articulated masses against dense Cholesky; 0.04 of it measured"),
-    ("joint_accelerations", Condition(4.0), "articulated masses against dense Cholesky; 0.06 of it measured"),
-    ("impact.G", Condition(4.0), "the errors of generalized inertia and Jacobian; 0.05 of it measured"),
-    ("impact.H", Condition(4.0), "the errors of generalized inertia and Jacobian; 0.02 of it measured"),
-    ("impact.joint_rates_after", Condition(4.0), "a solve with G, and G's own error; 0.08 of it measured"),
-    ("capture.base_twist_after", Condition(4.0), "arrow LDLᵀ against dense Cholesky; 0.05 of it measured"),
-    ("capture.joint_rates_after", Condition(4.0), "arrow LDLᵀ against dense Cholesky; 0.06 of it measured"),
-    ("capture.target_twists_after", Condition(4.0), "from the velocities after it; 0.01 of it measured"),
-    ("capture.impulses", Condition(4.0), "target twists, after less before; 0.004 of it measured"),
-    ("merged body_inertias", Scaled(1e-14), "reduced mass against two parallel axes; 1e-16 measured"),
-    ("merged mass_matrix", Scaled(1e-14), "as the mass matrix; 2e-15 measured"),
-    ("merged base_acceleration", Condition(4.0), "as the base acceleration"),
-    ("merged joint_accelerations", Condition(4.0), "as the joint accelerations"),
-];
+/// Generated against generic, measured over all layouts and regimes: a bound for every quantity by how rounding gets into it,
+/// and for those that are better, their own.
+pub fn equivalence(quantity: Quantity) -> Equivalence {
+    match (quantity, quantity.row().rounding) {
+        // parameters, handed through
+        (Quantity::BodyInertias, _) => Equivalence::Scaled(0.0),
+        // sums and products in two orders: composite inertias against sums over bodies 3e-15 measured, positions,
+        // twists and momenta below 2e-15, the bias by a centripetal sweep against differentiated Jacobians 6e-16
+        (_, Rounding::Polynomial) => Equivalence::Scaled(1e-14),
+        // articulated inertias, eliminated centre of mass and arrow LDLᵀ against dense Cholesky: 0.1 of it measured for
+        // accelerations and velocities after impacts, 0.4 for the generalized Jacobian
+        (_, Rounding::Solved) => Equivalence::Condition(4.0),
+    }
+}
 
 /// Outputs of generated functions that no trait hands out, generated against generic, relative to the largest entry.
 pub const INHERENT: &[(&str, f64, &str)] = &[

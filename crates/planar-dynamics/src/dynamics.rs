@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::target::Target;
+use crate::with_quantities;
 
 /// Size and bodies of a robot.
 pub trait Robot<T: Real> {
@@ -23,53 +24,52 @@ pub trait Robot<T: Real> {
     fn body_inertias(&self, inertias: &mut [[T; 2]]) -> Result<(), Error>;
 }
 
-/// Poses, twists and Jacobians.
-pub trait Kinematics<T: Real> {
-    /// [yaw, x, y] of each tip, inertial frame; the yaw is not wrapped.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn end_effector_poses(&self, base_pose: &[T; 3], joint_angles: &[T], poses: &mut [[T; 3]]) -> Result<(), Error>;
-
-    /// `[J_be J_me]`: 3 arms × (3 + joints).
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn end_effector_jacobian(&self, base_pose: &[T; 3], joint_angles: &[T], jacobian: &mut [T]) -> Result<(), Error>;
-
-    /// [ω, vx, vy] of each tip, inertial axes.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn end_effector_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error>;
-
-    /// [yaw, x, y] of every body's COM: the base, then the links arm by arm.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn body_poses(&self, base_pose: &[T; 3], joint_angles: &[T], poses: &mut [[T; 3]]) -> Result<(), Error>;
-
-    /// [ω, vx, vy] of every body's COM: the base, then the links arm by arm.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn body_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error>;
+macro_rules! method {
+    ($(#[$doc:meta])* $method:ident(configuration) $kind:ident) => {
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// [`Error::Length`], [`Error::NotFinite`].
+        fn $method(
+            &self,
+            base_pose: &[T; 3],
+            joint_angles: &[T],
+            $method: &mut [element!($kind)],
+        ) -> Result<(), Error>;
+    };
+    ($(#[$doc:meta])* $method:ident(state) $kind:ident) => {
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// [`Error::Length`], [`Error::NotFinite`].
+        fn $method(&self, state: &State<'_, T>, $method: &mut [element!($kind)]) -> Result<(), Error>;
+    };
 }
 
-/// The full coordinates: M and `[c_b; c_m]` of eq. (1).
-pub trait EquationsOfMotion<T: Real> {
-    /// M: (3 + joints)².
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn mass_matrix(&self, base_pose: &[T; 3], joint_angles: &[T], mass_matrix: &mut [T]) -> Result<(), Error>;
-
-    /// `[c_b; c_m]`: 3 + joints.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`].
-    fn bias(&self, state: &State<'_, T>, bias: &mut [T]) -> Result<(), Error>;
+macro_rules! element {
+    (triples) => {
+        [T; 3]
+    };
+    ($matrix_or_vector:ident) => {
+        T
+    };
 }
+
+macro_rules! traits {
+    (
+        functions { $($(#[$doc:meta])* trait $trait:ident {
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+        })* }
+        results $results:tt
+    ) => {
+        $($(#[$doc])* pub trait $trait<T: Real> {
+            $(method!($(#[$of_method])* $method($inputs) $kind);)*
+        })*
+    };
+}
+
+// `Kinematics` and `EquationsOfMotion`: the functions of the table of quantities
+with_quantities!(traits);
 
 /// The reduced coordinates of eq. (2).
 pub trait ReducedDynamics<T: Real> {

@@ -10,10 +10,7 @@ macro_rules! implement_dynamics {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
             use $crate::check::{array, finite, finite_configuration, finite_state, pivot, store, store_rows};
-            use $crate::dynamics::{
-                Conserved, EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge, Momentum, ReducedDynamics,
-                Robot,
-            };
+            use $crate::dynamics::{Conserved, ForwardDynamics, Impact, Merge, Momentum, ReducedDynamics, Robot};
             use $crate::error::Error;
             use $crate::manifest::Quantity;
             use $crate::scalar::Real;
@@ -43,77 +40,7 @@ macro_rules! implement_dynamics {
                 }
             }
 
-            impl<T: Real> Kinematics<T> for Model<T> {
-                fn end_effector_poses(
-                    &self,
-                    base_pose: &[T; 3],
-                    joint_angles: &[T],
-                    poses: &mut [[T; 3]],
-                ) -> Result<(), Error> {
-                    finite_configuration(base_pose, joint_angles)?;
-                    let result = Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
-                    store_rows("end_effector_poses", &result, poses)
-                }
-
-                fn end_effector_jacobian(
-                    &self,
-                    base_pose: &[T; 3],
-                    joint_angles: &[T],
-                    jacobian: &mut [T],
-                ) -> Result<(), Error> {
-                    finite_configuration(base_pose, joint_angles)?;
-                    let result = Model::end_effector_jacobian(self, base_pose, array("joint_angles", joint_angles)?);
-                    store("end_effector_jacobian", result.as_flattened(), jacobian)
-                }
-
-                fn end_effector_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error> {
-                    finite_state(state)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
-                    let result = Model::end_effector_twists(self, &state.base_pose, angles, &state.base_twist, rates);
-                    store_rows("end_effector_twists", &result, twists)
-                }
-
-                fn body_poses(
-                    &self,
-                    base_pose: &[T; 3],
-                    joint_angles: &[T],
-                    poses: &mut [[T; 3]],
-                ) -> Result<(), Error> {
-                    finite_configuration(base_pose, joint_angles)?;
-                    let result = Model::body_poses(self, base_pose, array("joint_angles", joint_angles)?);
-                    store_rows("body_poses", &result, poses)
-                }
-
-                fn body_twists(&self, state: &State<'_, T>, twists: &mut [[T; 3]]) -> Result<(), Error> {
-                    finite_state(state)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
-                    let result = Model::body_twists(self, &state.base_pose, angles, &state.base_twist, rates);
-                    store_rows("body_twists", &result, twists)
-                }
-            }
-
-            impl<T: Real> EquationsOfMotion<T> for Model<T> {
-                fn mass_matrix(
-                    &self,
-                    base_pose: &[T; 3],
-                    joint_angles: &[T],
-                    mass_matrix: &mut [T],
-                ) -> Result<(), Error> {
-                    finite_configuration(base_pose, joint_angles)?;
-                    let result = Model::mass_matrix(self, base_pose, array("joint_angles", joint_angles)?);
-                    store("mass_matrix", result.as_flattened(), mass_matrix)
-                }
-
-                fn bias(&self, state: &State<'_, T>, bias: &mut [T]) -> Result<(), Error> {
-                    finite_state(state)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
-                    let result = Model::bias(self, &state.base_pose, angles, &state.base_twist, rates);
-                    store("bias", &result, bias)
-                }
-            }
+            $crate::with_quantities!($crate::implement_functions);
 
             impl<T: Real> ReducedDynamics<T> for Model<T> {
                 fn reduced_dynamics(
@@ -298,6 +225,53 @@ macro_rules! implement_dynamics {
     ($other:tt) => {
         compile_error!("this code was generated for another version of planar-capture: generate it again");
     };
+}
+
+/// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model, by its inherent functions of the same
+/// names.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_functions {
+    (
+        functions { $($(#[$doc:meta])* trait $trait:ident {
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+        })* }
+        results $results:tt
+    ) => {
+        $(impl<T: Real> $crate::dynamics::$trait<T> for Model<T> {
+            $($crate::implement_functions!(@method $method($inputs) $kind);)*
+        })*
+    };
+    (@method $method:ident(configuration) $kind:ident) => {
+        fn $method(
+            &self,
+            base_pose: &[T; 3],
+            joint_angles: &[T],
+            into: &mut [$crate::implement_functions!(@element $kind)],
+        ) -> Result<(), Error> {
+            finite_configuration(base_pose, joint_angles)?;
+            let result = Model::$method(self, base_pose, array("joint_angles", joint_angles)?);
+            $crate::implement_functions!(@store $kind $method result into)
+        }
+    };
+    (@method $method:ident(state) $kind:ident) => {
+        fn $method(
+            &self,
+            state: &State<'_, T>,
+            into: &mut [$crate::implement_functions!(@element $kind)],
+        ) -> Result<(), Error> {
+            finite_state(state)?;
+            let angles = array("joint_angles", state.joint_angles)?;
+            let rates = array("joint_rates", state.joint_rates)?;
+            let result = Model::$method(self, &state.base_pose, angles, &state.base_twist, rates);
+            $crate::implement_functions!(@store $kind $method result into)
+        }
+    };
+    (@element triples) => { [T; 3] };
+    (@element $matrix_or_vector:ident) => { T };
+    (@store triples $method:ident $result:ident $into:ident) => { store_rows(stringify!($method), &$result, $into) };
+    (@store matrix $method:ident $result:ident $into:ident) => { store(stringify!($method), $result.as_flattened(), $into) };
+    (@store vector $method:ident $result:ident $into:ident) => { store(stringify!($method), &$result, $into) };
 }
 
 /// The module of a layout that [`build::render`](https://docs.rs/planar-capture) rendered in the crate's build script.

@@ -20,6 +20,7 @@ mod linear;
 pub mod manifest;
 mod momentum_equation;
 pub mod motion;
+pub mod quantity;
 pub mod scalar;
 #[doc(hidden)]
 pub mod standalone;

@@ -1,11 +1,12 @@
 //! Reference vectors: what the generic implementation says of a state, for every result of every generated function.
 
 use super::interpreter::Found;
-use crate::prove::evaluation::Instant;
+use crate::prove::evaluation::{Instant, evaluate_all};
 use crate::prove::generic::Generic;
-use crate::prove::quantities::{Class, QUANTITIES, Quantity, Scale, Scales, values};
+use crate::prove::quantities::{NaturalSize, natural_sizes};
 use crate::prove::sampling::{Regime, Sample};
 use planar_dynamics::error::Error;
+use planar_dynamics::quantity::{Quantity, Rounding};
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
 use serde_json::{Value, json};
@@ -56,40 +57,9 @@ impl Expected {
 #[derive(Clone, Debug)]
 pub struct Vectors {
     instant: Instant,
-    /// In the graph's order.
+    /// One per result of every function.
     pub expected: Vec<Expected>,
 }
-
-/// Results as the generated functions name them, in the graph's order, with the quantity that each is.
-const OUTPUTS: [(&str, &str, &str); 27] = [
-    ("forward_dynamics", "base_acceleration", "base_acceleration"),
-    ("forward_dynamics", "joint_accelerations", "joint_accelerations"),
-    ("forward_dynamics_with_base_wrench", "base_acceleration", "base_acceleration"),
-    ("forward_dynamics_with_base_wrench", "joint_accelerations", "joint_accelerations"),
-    ("forward_dynamics_with_wrenches", "base_acceleration", "base_acceleration"),
-    ("forward_dynamics_with_wrenches", "joint_accelerations", "joint_accelerations"),
-    ("mass_matrix", "mass_matrix", "mass_matrix"),
-    ("bias", "bias", "bias"),
-    ("reduced_dynamics", "generalized_inertia", "generalized_inertia"),
-    ("reduced_dynamics", "generalized_bias", "generalized_bias"),
-    ("reduced_dynamics", "generalized_jacobian", "generalized_jacobian"),
-    ("generalized_jacobian", "generalized_jacobian", "generalized_jacobian"),
-    ("end_effector_poses", "end_effector_poses", "end_effector_poses"),
-    ("end_effector_jacobian", "end_effector_jacobian", "end_effector_jacobian"),
-    ("end_effector_twists", "end_effector_twists", "end_effector_twists"),
-    ("body_poses", "body_poses", "body_poses"),
-    ("body_twists", "body_twists", "body_twists"),
-    ("momentum", "linear_momentum", "linear_momentum"),
-    ("momentum", "angular_momentum", "angular_momentum"),
-    ("momentum", "kinetic_energy", "kinetic_energy"),
-    ("reduced_impact", "impact_matrix", "impact.G"),
-    ("reduced_impact", "impact_momentum", "impact.H"),
-    ("reduced_impact", "joint_rates_after", "impact.joint_rates_after"),
-    ("full_impact", "impact_matrix", "merged mass_matrix"),
-    ("full_impact", "impact_momentum", "capture.H"),
-    ("full_impact", "base_twist_after", "capture.base_twist_after"),
-    ("full_impact", "joint_rates_after", "capture.joint_rates_after"),
-];
 
 impl Vectors {
     /// At one random state of a regime that leaves the layout as it is. Numbers of the state have four digits, so that
@@ -111,19 +81,29 @@ impl Vectors {
         let torques_alone = Instant { base_wrench: None, end_effector_wrenches: None, ..instant.clone() };
         let base_wrench = Instant { end_effector_wrenches: None, ..instant.clone() };
         let [torques_alone, base_wrench, all] =
-            [&torques_alone, &base_wrench, &instant].map(|instant| Quantities::new(layout, instant));
+            [&torques_alone, &base_wrench, &instant].map(|instant| results(layout, instant));
         let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
-        let expected = OUTPUTS.into_iter().map(|(function, output, quantity)| {
-            let quantities = match function {
+        let results = Quantity::ALL.iter().flat_map(|quantity| {
+            let row = quantity.row();
+            row.functions.iter().map(move |function| (*quantity, *function, row.output))
+        });
+        let expected = results.filter_map(|(quantity, function, output)| {
+            let results = match function {
                 "forward_dynamics" => &torques_alone,
                 "forward_dynamics_with_base_wrench" => &base_wrench,
                 _ => &all,
             };
-            let (values, sizes) = quantities.of(quantity);
-            Expected { function: function.to_owned(), output: output.to_owned(), values, sizes }
+            let Known { values, sizes, .. } = results.iter().find(|known| known.quantity == quantity)?.clone();
+            Some(Expected { function: function.to_owned(), output: output.to_owned(), values, sizes })
         });
         let expected = expected.collect();
         Ok(Self { instant, expected })
+    }
+
+    /// What one result has to be; `None` for one that the table does not have.
+    #[must_use]
+    pub fn expected(&self, found: &Found) -> Option<&Expected> {
+        self.expected.iter().find(|expected| expected.function == found.function && expected.output == found.output)
     }
 
     /// The inputs of all functions, row-major, by name.
@@ -158,11 +138,7 @@ impl Vectors {
             values: found.values.clone(),
             sizes: vec![PIVOT_ROUNDINGS; found.values.len()],
         };
-        let by_generic = |found: &Found| {
-            let same = |e: &&Expected| e.function == found.function && e.output == found.output;
-            self.expected.iter().find(same).cloned()
-        };
-        let expected = found.iter().map(|found| by_generic(found).unwrap_or_else(|| pivot(found)));
+        let expected = found.iter().map(|found| self.expected(found).cloned().unwrap_or_else(|| pivot(found)));
         let expected = expected.map(|Expected { function, output, values, sizes }| {
             // two digits of a size are enough
             let sizes: Vec<f64> = sizes.iter().map(|size| format!("{size:.1e}").parse().unwrap_or(*size)).collect();
@@ -172,54 +148,29 @@ impl Vectors {
     }
 }
 
-/// Everything that the generic implementation knows of one instant.
-struct Quantities {
-    values: Vec<Option<Vec<f64>>>,
-    scales: Vec<Option<Scale>>,
+/// A quantity by the generic implementation.
+#[derive(Clone, Debug)]
+struct Known {
+    quantity: Quantity,
+    values: Vec<f64>,
+    /// How many rounding units each entry may be off.
+    sizes: Vec<f64>,
 }
 
-impl Quantities {
-    fn new(layout: &Layout, instant: &Instant) -> Result<Self, Error> {
-        let sample = Sample { layout: layout.clone(), instant: instant.clone() };
-        let values = values(&Generic::new(layout), instant)?;
-        let scales = Scales::new(&sample, &values).all();
-        Ok(Self { values, scales })
-    }
-
-    /// Values and what they may be off; none of a quantity that is not known, which no result equals.
-    fn of(&self, name: &str) -> (Vec<f64>, Vec<f64>) {
-        if name == "capture.H" {
-            return self.capture_momentum();
-        }
-        let Some((quantity, values, scale)) = self.find(name) else { return (Vec::new(), Vec::new()) };
-        let roundings = match quantity.class {
-            Class::Polynomial => ROUNDINGS,
-            Class::Solved => ROUNDINGS.max(8.0 * scale.condition),
+/// Every quantity of one instant by the generic implementation.
+fn results(layout: &Layout, instant: &Instant) -> Result<Vec<Known>, Error> {
+    let sample = Sample { layout: layout.clone(), instant: instant.clone() };
+    let values = evaluate_all(&Generic::new(layout), instant)?;
+    let sizes = natural_sizes(&sample, &values).into_iter();
+    let each = sizes.filter_map(|(quantity, NaturalSize { sizes, condition })| {
+        let roundings = match quantity.row().rounding {
+            Rounding::Polynomial => ROUNDINGS,
+            Rounding::Solved => ROUNDINGS.max(8.0 * condition),
         };
-        (values.to_vec(), scale.sizes.iter().map(|size| size * roundings).collect())
-    }
-
-    fn find(&self, name: &str) -> Option<(&'static Quantity, &[f64], &Scale)> {
-        let place = QUANTITIES.iter().position(|quantity| quantity.name == name)?;
-        Some((QUANTITIES.get(place)?, self.values.get(place)?.as_deref()?, self.scales.get(place)?.as_ref()?))
-    }
-
-    /// H = G x of the exact capture, with the mass matrix of the merged robot as G.
-    fn capture_momentum(&self) -> (Vec<f64>, Vec<f64>) {
-        let parts = ["merged mass_matrix", "capture.base_twist_after", "capture.joint_rates_after"];
-        let [Some((_, matrix, sizes)), Some((_, base, base_scale)), Some((_, joints, joint_scale))] =
-            parts.map(|name| self.find(name))
-        else {
-            return (Vec::new(), Vec::new());
-        };
-        let product = |matrix: &[f64], vector: &[f64]| -> Vec<f64> {
-            let rows = matrix.chunks(vector.len().max(1));
-            rows.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum()).collect()
-        };
-        let values = product(matrix, &[base, joints].concat());
-        let sizes = product(&sizes.sizes, &[base_scale.sizes.as_slice(), &joint_scale.sizes].concat());
-        (values, sizes.iter().map(|size| size * ROUNDINGS).collect())
-    }
+        let sizes = sizes.iter().map(|size| size * roundings).collect();
+        Some(Known { quantity, values: values.get(quantity)?.to_vec(), sizes })
+    });
+    Ok(each.collect())
 }
 
 /// Four digits of every number.

@@ -1,4 +1,4 @@
-//! One rigid body of the tree, and the places that something is mounted on.
+//! One rigid body of the tree, and the frames that are mounted on it.
 
 use planar_layout::layout::{Base, Link};
 
@@ -11,13 +11,13 @@ pub struct Body {
     pub inertia: f64,
     /// In its frame, m.
     pub com: [f64; 2],
-    /// Where its joint sits; `None` for the base.
-    pub joint: Option<Tip>,
+    /// The frame of its joint; `None` for the base.
+    pub joint: Option<MountedFrame>,
 }
 
-/// A place on a body: the seat of a joint, or a tip.
+/// A frame fixed to a body: of a joint, or of an end effector.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tip {
+pub struct MountedFrame {
     /// Which body.
     pub body: usize,
     /// In the body's frame, m.
@@ -32,8 +32,8 @@ impl Body {
         Self { mass: base.mass, inertia: base.inertia, com: [0.0; 2], joint: None }
     }
 
-    /// A link whose joint sits at `seat`.
-    pub fn link(link: &Link, seat: &Tip) -> Self {
-        Self { mass: link.mass, inertia: link.inertia, com: link.com, joint: Some(seat.clone()) }
+    /// A link whose joint has this frame.
+    pub fn link(link: &Link, joint: &MountedFrame) -> Self {
+        Self { mass: link.mass, inertia: link.inertia, com: link.com, joint: Some(joint.clone()) }
     }
 }

@@ -1,15 +1,18 @@
 //! Where everything is, and the Jacobians that follow from it.
 
-use super::{Generic, length};
+use super::{Generic, length, velocity};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2, Vector3};
 use planar_dynamics::check::finite_configuration;
 use planar_dynamics::error::Error;
+use planar_dynamics::state::State;
 
 /// The robot at one configuration. Positions count from the base COM, in inertial axes, so that a robot far from the
 /// origin loses no digits.
 #[derive(Clone, Debug)]
 pub struct Configuration<'a> {
-    robot: &'a Generic,
+    pub(super) robot: &'a Generic,
+    /// [x, y] of the base COM, inertial frame, m.
+    base_position: [f64; 2],
     /// Direction of each body's frame, rad.
     yaws: Vec<f64>,
     /// Origin of each body's frame, at its joint.
@@ -24,11 +27,12 @@ impl<'a> Configuration<'a> {
     pub fn new(robot: &'a Generic, base_pose: &[f64; 3], joint_angles: &[f64]) -> Result<Self, Error> {
         finite_configuration(base_pose, joint_angles)?;
         length("joint_angles", robot.bodies.len() - 1, joint_angles.len())?;
-        let mut at = Self { robot, yaws: vec![base_pose[0]], origins: vec![Vector2::zeros()] };
+        let [yaw, x, y] = *base_pose;
+        let mut at = Self { robot, base_position: [x, y], yaws: vec![yaw], origins: vec![Vector2::zeros()] };
         for (body, joint_angle) in robot.bodies.iter().skip(1).zip(joint_angles) {
-            let Some(seat) = &body.joint else { continue };
-            let origin = at.point(seat.body, &seat.position);
-            at.yaws.push(at.yaws[seat.body] + seat.angle + joint_angle);
+            let Some(frame) = &body.joint else { continue };
+            let origin = at.point(frame.body, &frame.position);
+            at.yaws.push(at.yaws[frame.body] + frame.angle + joint_angle);
             at.origins.push(origin);
         }
         Ok(at)
@@ -44,15 +48,21 @@ impl<'a> Configuration<'a> {
         (self.yaws[body], self.point(body, &self.robot.bodies[body].com))
     }
 
-    /// Direction and position of an arm's tip.
-    pub fn tip(&self, arm: usize) -> (f64, Vector2<f64>) {
-        let tip = &self.robot.tips[arm];
-        (self.yaws[tip.body] + tip.angle, self.point(tip.body, &tip.position))
+    /// Direction and position of an arm's end effector.
+    pub fn end_effector(&self, arm: usize) -> (f64, Vector2<f64>) {
+        let frame = &self.robot.end_effectors[arm];
+        (self.yaws[frame.body] + frame.angle, self.point(frame.body, &frame.position))
+    }
+
+    /// [yaw, x, y] in the inertial frame, of a direction and a position.
+    pub fn pose(&self, (yaw, position): (f64, Vector2<f64>)) -> [f64; 3] {
+        let [x, y] = self.base_position;
+        [yaw, x + position.x, y + position.y]
     }
 
     /// The links between a body and the base, the body first.
     fn chain(&self, body: usize) -> impl Iterator<Item = usize> {
-        let parent = |link: &usize| self.robot.bodies[*link].joint.as_ref().map(|seat| seat.body);
+        let parent = |link: &usize| self.robot.bodies[*link].joint.as_ref().map(|frame| frame.body);
         std::iter::successors(Some(body), parent).take_while(|link| *link > 0)
     }
 
@@ -76,9 +86,9 @@ impl<'a> Configuration<'a> {
         self.jacobian(body, &self.body(body).1)
     }
 
-    /// `[J_be J_me]` of one arm, at its tip.
-    pub fn tip_jacobian(&self, arm: usize) -> DMatrix<f64> {
-        self.jacobian(self.robot.tips[arm].body, &self.tip(arm).1)
+    /// `[J_be J_me]` of one arm.
+    pub fn arm_jacobian(&self, arm: usize) -> DMatrix<f64> {
+        self.jacobian(self.robot.end_effectors[arm].body, &self.end_effector(arm).1)
     }
 
     /// Velocity of a body's point less that of the base COM: it turns only with the base and the joints.
@@ -96,6 +106,27 @@ impl<'a> Configuration<'a> {
             linear += velocity[2 + link] * quarter_turn(&(com - joint));
         }
         Vector3::new(0.0, linear.x, linear.y)
+    }
+}
+
+/// The robot at one state.
+#[derive(Clone, Debug)]
+pub struct GenericState<'a> {
+    /// Where everything is.
+    pub at: Configuration<'a>,
+    /// v: the base twist, then the joint rates.
+    pub velocity: DVector<f64>,
+}
+
+impl<'a> GenericState<'a> {
+    /// Of a view.
+    ///
+    /// # Errors
+    /// [`Error::Length`], [`Error::NotFinite`].
+    pub fn new(robot: &'a Generic, state: &State<'_, f64>) -> Result<Self, Error> {
+        robot.check_state(state)?;
+        let at = Configuration::new(robot, &state.base_pose, state.joint_angles)?;
+        Ok(Self { at, velocity: velocity(&state.base_twist, state.joint_rates) })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Accelerations from forces, by one dense solve.
 
 use super::solve::factor;
-use super::{Configuration, Generic, length, store_split, velocity};
+use super::{Generic, GenericState, length, store_split, velocity};
 use planar_dynamics::check::finite;
 use planar_dynamics::dynamics::{ForwardDynamics, Robot};
 use planar_dynamics::error::Error;
@@ -15,22 +15,20 @@ impl ForwardDynamics<f64> for Generic {
         forces: &Forces<'_, f64>,
         joint_accelerations: &mut [f64],
     ) -> Result<[f64; 3], Error> {
-        self.check_state(state)?;
+        let now = GenericState::new(self, state)?;
         finite("joint_torques", forces.joint_torques)?;
         self.check_joints("joint_torques", forces.joint_torques)?;
         let wrench = forces.base_wrench.unwrap_or([0.0; 3]);
         finite("base_wrench", &wrench)?;
-        let at = Configuration::new(self, &state.base_pose, state.joint_angles)?;
-        let bias = self.bias_at(&at, &velocity(&state.base_twist, state.joint_rates));
-        let mut right = velocity(&wrench, forces.joint_torques) - bias;
+        let mut right = velocity(&wrench, forces.joint_torques) - now.bias();
         if let Some(wrenches) = forces.end_effector_wrenches {
             finite("end_effector_wrenches", wrenches.as_flattened())?;
             length("end_effector_wrenches", self.arms(), wrenches.len())?;
             for (arm, wrench) in wrenches.iter().enumerate() {
-                right += at.tip_jacobian(arm).transpose() * nalgebra::Vector3::from(*wrench);
+                right += now.at.arm_jacobian(arm).transpose() * nalgebra::Vector3::from(*wrench);
             }
         }
-        let acceleration = factor("the mass matrix M", &self.mass_matrix_at(&at))?.solve(&right);
+        let acceleration = factor("the mass matrix M", &now.at.mass_matrix())?.solve(&right);
         store_split(["base_acceleration", "joint_accelerations"], &acceleration, joint_accelerations)
     }
 }

@@ -1,7 +1,7 @@
 //! Rigid capture with explicit contact matrices.
 
 use super::solve::factor;
-use super::{Configuration, Generic, length, store_matrix, store_split, velocity};
+use super::{Configuration, Generic, GenericState, length, store_matrix, store_split};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use planar_dynamics::check::{finite, store};
 use planar_dynamics::dynamics::{Impact, Robot};
@@ -95,10 +95,9 @@ impl Impact<f64> for Generic {
     ) -> Result<[f64; 3], Error> {
         self.check_state(state)?;
         let contacts = self.contacts(targets)?;
-        let at = Configuration::new(self, &state.base_pose, state.joint_angles)?;
-        let mass_matrix = self.mass_matrix_at(&at);
-        let momentum = &mass_matrix * velocity(&state.base_twist, state.joint_rates);
-        let jacobian = self.end_effector_jacobian_at(&at);
+        let now = GenericState::new(self, state)?;
+        let (mass_matrix, jacobian) = (now.at.mass_matrix(), now.at.end_effector_jacobian());
+        let momentum = &mass_matrix * &now.velocity;
         let (matrix, momentum) = Self::with_contacts(&contacts, &jacobian, mass_matrix, momentum);
         let after = factor("the impact matrix G in full coordinates", &matrix)?.solve(&momentum);
         store_split(["base_twist_after", "joint_rates_after"], &after, joint_rates_after)

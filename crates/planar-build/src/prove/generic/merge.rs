@@ -1,4 +1,4 @@
-//! Becoming one with what was captured: the composition of two rigid bodies.
+//! The merged robot: each last link composed with the target that it holds.
 
 use super::body::Body;
 use super::impact::check_target;
@@ -37,16 +37,16 @@ impl Merge<f64> for Generic {
         for (arm, target) in targets.iter().enumerate() {
             let Some(target) = target else { continue };
             check_target(target)?;
-            let tip = &self.tips[arm];
-            if tip.body == 0 {
+            let frame = &self.end_effectors[arm];
+            if frame.body == 0 {
                 // a base with its COM elsewhere would be another coordinate
                 return Err(Error::Length { quantity: "links of an arm with a target", expected: 1, found: 0 });
             }
-            let (yaw, _) = at.tip(arm);
-            let com = Vector2::from(tip.position) - Rotation2::new(-yaw) * Vector2::from(target.contact);
-            let merged = composed(&bodies[tip.body], target.mass, target.inertia, com);
+            let (yaw, _) = at.end_effector(arm);
+            let com = Vector2::from(frame.position) - Rotation2::new(-yaw) * Vector2::from(target.contact);
+            let merged = composed(&bodies[frame.body], target.mass, target.inertia, com);
             finite("merged parameters", &[merged.mass, merged.inertia, merged.com[0], merged.com[1]])?;
-            bodies[tip.body] = merged;
+            bodies[frame.body] = merged;
         }
         self.bodies = bodies;
         Ok(())

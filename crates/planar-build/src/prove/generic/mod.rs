@@ -14,6 +14,7 @@ mod body;
 mod configuration;
 mod equations;
 mod forward;
+mod functions;
 mod impact;
 mod kinematics;
 mod merge;
@@ -21,8 +22,8 @@ mod momentum;
 mod reduced;
 mod solve;
 
-use body::{Body, Tip};
-use configuration::Configuration;
+use body::{Body, MountedFrame};
+use configuration::{Configuration, GenericState};
 use nalgebra::{DMatrix, DVector};
 use planar_dynamics::check::{finite, length};
 use planar_dynamics::dynamics::Robot;
@@ -36,7 +37,7 @@ pub struct Generic {
     /// The base, then the links arm by arm; body i > 0 is moved by joint i − 1.
     bodies: Vec<Body>,
     /// One per arm.
-    tips: Vec<Tip>,
+    end_effectors: Vec<MountedFrame>,
 }
 
 impl Generic {
@@ -44,17 +45,17 @@ impl Generic {
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
         let mut bodies = vec![Body::base(&layout.base)];
-        let mut tips = Vec::with_capacity(layout.arms.len());
+        let mut end_effectors = Vec::with_capacity(layout.arms.len());
         for arm in &layout.arms {
-            // where the next joint or the tip sits: on which body, where, and turned by how much
-            let mut end = Tip { body: 0, position: arm.mount, angle: arm.mount_angle };
+            // of the next joint, in the end of the end effector
+            let mut frame = MountedFrame { body: 0, position: arm.mount, angle: arm.mount_angle };
             for link in &arm.links {
-                bodies.push(Body::link(link, &end));
-                end = Tip { body: bodies.len() - 1, position: [link.length, 0.0], angle: 0.0 };
+                bodies.push(Body::link(link, &frame));
+                frame = MountedFrame { body: bodies.len() - 1, position: [link.length, 0.0], angle: 0.0 };
             }
-            tips.push(end);
+            end_effectors.push(frame);
         }
-        Self { bodies, tips }
+        Self { bodies, end_effectors }
     }
 
     /// Number of full coordinates: the base's three, then the joints.
@@ -77,7 +78,7 @@ impl Generic {
 
 impl Robot<f64> for Generic {
     fn arms(&self) -> usize {
-        self.tips.len()
+        self.end_effectors.len()
     }
 
     fn joints(&self) -> usize {

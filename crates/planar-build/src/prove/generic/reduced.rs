@@ -1,7 +1,7 @@
 //! The reduced coordinates of eq. (2): the base eliminated block by block.
 
 use super::solve::factor;
-use super::{Configuration, Generic, store_matrix, velocity};
+use super::{Configuration, Generic, GenericState, store_matrix};
 use nalgebra::{DMatrix, DVector};
 use planar_dynamics::check::store;
 use planar_dynamics::dynamics::{ReducedDynamics, Robot};
@@ -30,11 +30,11 @@ impl Generic {
     /// The blocks of M = [`I_b` `I_bm`; `I_bmᵀ` `I_m`] and of the Jacobian, put together as the paper has it.
     pub(super) fn reduced_at(&self, at: &Configuration<'_>) -> Result<Reduced, Error> {
         let joints = self.joints();
-        let mass_matrix = self.mass_matrix_at(at);
+        let mass_matrix = at.mass_matrix();
         let base = mass_matrix.view((0, 0), (3, 3)).into_owned();
         let coupling = mass_matrix.view((0, 3), (3, joints)).into_owned();
         let arms = mass_matrix.view((3, 3), (joints, joints));
-        let jacobian = self.end_effector_jacobian_at(at);
+        let jacobian = at.end_effector_jacobian();
         let (of_base, of_joints) = jacobian.columns_range_pair(0..3, 3..);
         let base_from_joints = factor("the base inertia I_b", &base)?.solve(&coupling);
         Ok(Reduced {
@@ -53,12 +53,10 @@ impl ReducedDynamics<f64> for Generic {
         generalized_bias: &mut [f64],
         generalized_jacobian: &mut [f64],
     ) -> Result<(), Error> {
-        self.check_state(state)?;
-        let at = Configuration::new(self, &state.base_pose, state.joint_angles)?;
-        let reduced = self.reduced_at(&at)?;
-        let bias = self.bias_at(&at, &velocity(&state.base_twist, state.joint_rates));
+        let now = GenericState::new(self, state)?;
+        let reduced = self.reduced_at(&now.at)?;
         store_matrix("generalized_inertia", &reduced.inertia, generalized_inertia)?;
-        store("generalized_bias", reduced.bias(&bias).as_slice(), generalized_bias)?;
+        store("generalized_bias", reduced.bias(&now.bias()).as_slice(), generalized_bias)?;
         store_matrix("generalized_jacobian", &reduced.jacobian, generalized_jacobian)
     }
 }

@@ -1,24 +1,22 @@
-//! Every quantity of a model at one state: its values, its natural sizes, and how far two models are apart in it.
+//! How far two models are apart in each quantity of the table, in units of the quantity's natural size.
 
-mod bounds;
-mod quantity;
-mod scale;
+mod magnitudes;
+mod natural_sizes;
 mod system;
-mod values;
 
-pub use quantity::{Class, QUANTITIES, Quantity};
-pub use scale::{Scale, Scales};
-pub use values::values;
+pub use natural_sizes::{NaturalSize, natural_sizes};
 
+use crate::prove::evaluation::evaluate_all;
 use crate::prove::owned::CloneModel;
 use crate::prove::sampling::Sample;
 use planar_dynamics::error::Error;
+use planar_dynamics::quantity::{Quantity, Rounding};
 
 /// How far two models are apart in one quantity at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// Which quantity.
-    pub quantity: &'static Quantity,
+    pub quantity: Quantity,
     /// Largest difference of an entry over the entry's natural size: the sum of the magnitudes that make it up.
     pub error: f64,
     /// Condition number of the matrices that were solved on the way, scaled to unit diagonals; 1 where none was.
@@ -26,10 +24,13 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// What is allowed.
+    /// What is allowed: 10⁻¹², or max(10⁻¹³, 8 ε condition) where equations are solved.
     #[must_use]
     pub fn bound(&self) -> f64 {
-        self.quantity.class.bound(self.condition)
+        match self.quantity.row().rounding {
+            Rounding::Polynomial => 1e-12,
+            Rounding::Solved => (8.0 * f64::EPSILON * self.condition).max(1e-13),
+        }
     }
 
     /// Over 1 where the bound is exceeded.
@@ -48,20 +49,16 @@ pub fn differences(
     reference: &dyn CloneModel,
     sample: &Sample,
 ) -> Result<Vec<Difference>, [Option<Error>; 2]> {
-    let (found, expected) = match (values(model, &sample.instant), values(reference, &sample.instant)) {
+    let (found, expected) = match (evaluate_all(model, &sample.instant), evaluate_all(reference, &sample.instant)) {
         (Ok(found), Ok(expected)) => (found, expected),
         (found, expected) => return Err([found.err(), expected.err()]),
     };
-    let scales = Scales::new(sample, &expected).all();
-    let pairs = found.iter().zip(&expected);
-    let each = QUANTITIES.iter().zip(pairs.zip(&scales));
-    Ok(each
-        .filter_map(|(quantity, ((found, expected), scale))| {
-            let (found, expected, scale) = (found.as_ref()?, expected.as_ref()?, scale.as_ref()?);
-            let error = error(found, expected, &scale.sizes);
-            Some(Difference { quantity, error, condition: scale.condition })
-        })
-        .collect())
+    let sizes = natural_sizes(sample, &expected);
+    let each = sizes.into_iter().filter_map(|(quantity, NaturalSize { sizes, condition })| {
+        let error = error(found.get(quantity)?, expected.get(quantity)?, &sizes);
+        Some(Difference { quantity, error, condition })
+    });
+    Ok(each.collect())
 }
 
 /// Largest |a − b| over the entry's size; entries of size zero must be equal.

@@ -1,10 +1,10 @@
-//! Bounds of the body Jacobians, from lengths alone.
+//! Magnitudes of the body Jacobians, from lengths alone.
 
-use super::Sample;
+use crate::prove::sampling::Sample;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 use planar_dynamics::target::Target;
 
-/// A body, or a tip without mass.
+/// A body, or an end effector without mass.
 pub struct Point {
     /// kg.
     pub mass: f64,
@@ -17,16 +17,16 @@ pub struct Point {
 }
 
 /// All of a robot's.
-pub struct Bounds {
+pub struct Magnitudes {
     /// The base, then the links arm by arm.
     pub bodies: Vec<Point>,
     /// One per arm.
-    pub tips: Vec<Point>,
+    pub end_effectors: Vec<Point>,
     /// Length and distance of the COM from the joint of each arm's last link.
     pub last: Vec<[f64; 2]>,
 }
 
-impl Bounds {
+impl Magnitudes {
     pub fn new(Sample { layout, instant }: &Sample) -> Self {
         let size = 3 + layout.joints();
         let point = |mass: f64, inertia: f64, levers: &[(usize, f64)], angle: f64| {
@@ -40,7 +40,7 @@ impl Bounds {
         };
         let yaw = instant.state.base_pose[0].abs();
         let mut bodies = vec![point(layout.base.mass, layout.base.inertia, &[(0, 0.0)], yaw)];
-        let (mut tips, mut last, mut column) = (Vec::new(), Vec::new(), 3);
+        let (mut end_effectors, mut last, mut column) = (Vec::new(), Vec::new(), 3);
         for arm in &layout.arms {
             let mut angle = yaw + arm.mount_angle.abs();
             let mut levers = vec![(0, arm.mount[0].hypot(arm.mount[1]))];
@@ -57,10 +57,10 @@ impl Bounds {
                 }
                 end = [link.length, com];
             }
-            tips.push(point(0.0, 0.0, &levers, angle));
+            end_effectors.push(point(0.0, 0.0, &levers, angle));
             last.push(end);
         }
-        Self { bodies, tips, last }
+        Self { bodies, end_effectors, last }
     }
 
     /// M̂ = Σ |B|ᵀ I |B|.
@@ -70,10 +70,10 @@ impl Bounds {
     }
 
     /// `[Ĵ_be Ĵ_me]` of all arms.
-    pub fn tip_jacobian(&self, size: usize) -> DMatrix<f64> {
-        let mut jacobian = DMatrix::zeros(3 * self.tips.len(), size);
-        for (arm, tip) in self.tips.iter().enumerate() {
-            jacobian.rows_mut(3 * arm, 3).copy_from(&tip.jacobian);
+    pub fn end_effector_jacobian(&self, size: usize) -> DMatrix<f64> {
+        let mut jacobian = DMatrix::zeros(3 * self.end_effectors.len(), size);
+        for (arm, point) in self.end_effectors.iter().enumerate() {
+            jacobian.rows_mut(3 * arm, 3).copy_from(&point.jacobian);
         }
         jacobian
     }
@@ -88,7 +88,7 @@ pub fn convective(mass: f64, jacobian: &DMatrix<f64>, speeds: &DVector<f64>) -> 
     jacobian.transpose() * Vector3::new(0.0, force, force)
 }
 
-/// |`J_t⁻¹`| |J|: from the tip to the target's COM.
+/// |`J_t⁻¹`| |J|: from the end effector to the target's COM.
 pub fn captured(target: &Target<f64>, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
     let [rx, ry] = target.contact.map(f64::abs);
     let rows = Matrix3xX::from_fn(jacobian.ncols(), |i, j| jacobian[(i, j)]);

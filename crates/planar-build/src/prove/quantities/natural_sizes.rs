@@ -1,0 +1,335 @@
+//! The natural size of every entry, and the condition numbers that magnify rounding.
+//!
+//! An entry's size is the sum of the magnitudes of what makes it up, computed from the layout's lengths alone: the
+//! bounds |B| of the body Jacobians put into the same equations. So a folded arm's small inertia is measured against
+//! the lengths that cancel in it, and an arm's entries never against the base's.
+
+use super::magnitudes::{Magnitudes, Point, captured, convective, inertia};
+use super::system::System;
+use crate::prove::evaluation::Values;
+use crate::prove::sampling::Sample;
+use nalgebra::{DMatrix, DVector, Vector3};
+use planar_dynamics::quantity::Quantity;
+use planar_dynamics::with_quantities;
+
+/// Sizes of one quantity's entries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NaturalSize {
+    /// One per entry, row-major.
+    pub sizes: Vec<f64>,
+    /// Of the matrices solved on the way, 1 without any.
+    pub condition: f64,
+}
+
+impl NaturalSize {
+    /// Of what no equation is solved for.
+    fn direct(sizes: impl Into<Vec<f64>>) -> Self {
+        Self { sizes: sizes.into(), condition: 1.0 }
+    }
+}
+
+/// Of every quantity that a sample has, in the table's order; `values` is what the reference says of it.
+#[must_use]
+pub fn natural_sizes(sample: &Sample, values: &Values) -> Vec<(Quantity, NaturalSize)> {
+    let at = SizesAt::new(sample, values);
+    let mut all = at.functions();
+    all.extend(at.momentum());
+    all.extend(at.reduced());
+    all.extend(at.accelerations());
+    if sample.instant.targets.iter().any(Option::is_some) {
+        all.extend(at.reduced_impact());
+        all.extend(at.capture());
+    }
+    all.sort_by_key(|(quantity, _)| *quantity);
+    all
+}
+
+/// Magnitudes of everything at one state; hats are left out of the names.
+struct SizesAt<'a> {
+    sample: &'a Sample,
+    magnitudes: Magnitudes,
+    mass_matrix: DMatrix<f64>,
+    end_effector_jacobian: DMatrix<f64>,
+    /// |v|.
+    speeds: DVector<f64>,
+    /// What the reference says, for the matrices and solutions.
+    values: &'a Values,
+}
+
+macro_rules! functions {
+    (
+        functions { $($(#[$doc:meta])* trait $trait:ident {
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+        })* }
+        results $results:tt
+    ) => {
+        /// The functions of configuration or state alone, each by the method of its name.
+        fn functions(&self) -> Vec<(Quantity, NaturalSize)> {
+            vec![$($((Quantity::$quantity, NaturalSize::direct(self.$method())),)*)*]
+        }
+    };
+}
+
+/// Functions of configuration or state alone: the formulas of the generic implementation, of magnitudes.
+impl SizesAt<'_> {
+    fn body_poses(&self) -> Vec<f64> {
+        self.magnitudes.bodies.iter().flat_map(|body| self.pose(body)).collect()
+    }
+
+    fn body_twists(&self) -> Vec<f64> {
+        self.magnitudes.bodies.iter().flat_map(|body| self.twist(body)).collect()
+    }
+
+    fn end_effector_poses(&self) -> Vec<f64> {
+        self.magnitudes.end_effectors.iter().flat_map(|point| self.pose(point)).collect()
+    }
+
+    fn end_effector_twists(&self) -> Vec<f64> {
+        self.magnitudes.end_effectors.iter().flat_map(|point| self.twist(point)).collect()
+    }
+
+    fn end_effector_jacobian(&self) -> Vec<f64> {
+        rows(&self.end_effector_jacobian)
+    }
+
+    fn mass_matrix(&self) -> Vec<f64> {
+        rows(&self.mass_matrix)
+    }
+
+    fn bias(&self) -> Vec<f64> {
+        self.convective_forces().as_slice().to_vec()
+    }
+}
+
+impl<'a> SizesAt<'a> {
+    fn new(sample: &'a Sample, values: &'a Values) -> Self {
+        let magnitudes = Magnitudes::new(sample);
+        let state = &sample.instant.state;
+        let size = 3 + sample.layout.joints();
+        let speeds = state.base_twist.iter().chain(&state.joint_rates).map(|v| v.abs());
+        let speeds = DVector::from_iterator(size, speeds);
+        let mass_matrix = magnitudes.mass_matrix(size);
+        let end_effector_jacobian = magnitudes.end_effector_jacobian(size);
+        Self { sample, magnitudes, mass_matrix, end_effector_jacobian, speeds, values }
+    }
+
+    with_quantities!(functions);
+
+    /// The reference's numbers; none where it has none.
+    fn value(&self, quantity: Quantity) -> &[f64] {
+        self.values.get(quantity).unwrap_or_default()
+    }
+
+    fn matrix(&self, quantity: Quantity) -> DMatrix<f64> {
+        let values = self.value(quantity);
+        let size = values.len().isqrt();
+        DMatrix::from_row_slice(size, size, values)
+    }
+
+    fn pose(&self, point: &Point) -> [f64; 3] {
+        let [_, x, y] = self.sample.instant.state.base_pose;
+        let reach = point.jacobian[(1, 0)];
+        [point.angle, x.abs() + reach, y.abs() + reach]
+    }
+
+    fn twist(&self, point: &Point) -> [f64; 3] {
+        let twist = &point.jacobian * &self.speeds;
+        [twist[0], twist[1], twist[2]]
+    }
+
+    fn convective_forces(&self) -> DVector<f64> {
+        let parts = self.magnitudes.bodies.iter().map(|body| convective(body.mass, &body.jacobian, &self.speeds));
+        parts.fold(DVector::zeros(self.speeds.len()), |sum, part| sum + part)
+    }
+
+    /// Momentum and energy, and the bodies' own inertias.
+    fn momentum(&self) -> [(Quantity, NaturalSize); 4] {
+        let (mut linear, mut angular, mut energy) = ([0.0; 2], 0.0, 0.0);
+        for body in &self.magnitudes.bodies {
+            let ([omega, vx, vy], [_, x, y]) = (self.twist(body), self.pose(body));
+            linear[0] += body.mass * vx;
+            linear[1] += body.mass * vy;
+            angular += body.inertia * omega + body.mass * (x * vy + y * vx);
+            energy += body.inertia * omega * omega + body.mass * (vx * vx + vy * vy);
+        }
+        let inertias: Vec<f64> = self.magnitudes.bodies.iter().flat_map(|body| [body.mass, body.inertia]).collect();
+        [
+            (Quantity::BodyInertias, NaturalSize::direct(inertias)),
+            (Quantity::LinearMomentum, NaturalSize::direct(linear)),
+            (Quantity::AngularMomentum, NaturalSize::direct([angular])),
+            (Quantity::KineticEnergy, NaturalSize::direct([energy / 2.0])),
+        ]
+    }
+
+    /// The base's block of M, which the reduced quantities solve with.
+    fn base_condition(&self) -> f64 {
+        let matrix = self.matrix(Quantity::MassMatrix).view((0, 0), (3, 3)).into_owned();
+        System { sizes: &self.base(), matrix: &matrix }.condition()
+    }
+
+    fn base(&self) -> DMatrix<f64> {
+        self.mass_matrix.view((0, 0), (3, 3)).into_owned()
+    }
+
+    /// I, c and J: what is subtracted is as large as what it is subtracted from.
+    fn reduced(&self) -> [(Quantity, NaturalSize); 3] {
+        let (base, bias, condition) = (self.base(), self.convective_forces(), self.base_condition());
+        let in_base = System { sizes: &base, matrix: &base }.norm(&bias.rows(0, 3).into_owned());
+        let bias = (3..bias.len()).map(|j| bias[j] + self.root(j) * in_base).collect();
+        [
+            (Quantity::GeneralizedInertia, NaturalSize { sizes: rows(&self.reduced_inertia()), condition }),
+            (Quantity::GeneralizedBias, NaturalSize { sizes: bias, condition }),
+            (Quantity::GeneralizedJacobian, NaturalSize { sizes: rows(&self.reduced_jacobian()), condition }),
+        ]
+    }
+
+    /// √ of a diagonal entry of M.
+    fn root(&self, j: usize) -> f64 {
+        self.mass_matrix[(j, j)].sqrt()
+    }
+
+    fn reduced_inertia(&self) -> DMatrix<f64> {
+        let joints = self.speeds.len() - 3;
+        DMatrix::from_fn(joints, joints, |j, k| self.root(3 + j) * self.root(3 + k))
+    }
+
+    fn reduced_jacobian(&self) -> DMatrix<f64> {
+        let jacobian = &self.end_effector_jacobian;
+        DMatrix::from_fn(jacobian.nrows(), self.speeds.len() - 3, |row, j| {
+            let of_base: f64 = (0..3).map(|k| jacobian[(row, k)] / self.root(k)).sum();
+            jacobian[(row, 3 + j)] + of_base * self.root(3 + j)
+        })
+    }
+
+    /// |F| + |bias|.
+    fn forces(&self) -> DVector<f64> {
+        let instant = &self.sample.instant;
+        let wrench = instant.base_wrench.unwrap_or_default();
+        let forces = wrench.iter().chain(&instant.joint_torques).map(|force| force.abs());
+        let forces = DVector::from_iterator(self.speeds.len(), forces) + self.convective_forces();
+        let wrenches = instant.end_effector_wrenches.iter().flatten();
+        let at_points = self.magnitudes.end_effectors.iter().zip(wrenches);
+        at_points.fold(forces, |sum, (point, w)| sum + point.jacobian.transpose() * Vector3::from(w.map(f64::abs)))
+    }
+
+    fn accelerations(&self) -> [(Quantity, NaturalSize); 2] {
+        let matrix = self.matrix(Quantity::MassMatrix);
+        let system = System { sizes: &self.mass_matrix, matrix: &matrix };
+        self.split(&system, &self.forces(), [Quantity::BaseAcceleration, Quantity::JointAccelerations])
+    }
+
+    /// Sizes of a solution in two parts, base and joints.
+    fn split(
+        &self,
+        system: &System<'_>,
+        right: &DVector<f64>,
+        [of_base, of_joints]: [Quantity; 2],
+    ) -> [(Quantity, NaturalSize); 2] {
+        let condition = system.condition();
+        let sizes = system.solution_sizes(right, &[of_base, of_joints].map(|part| self.value(part)).concat());
+        let (base, joints) = sizes.split_at(3.min(sizes.len()));
+        [(of_base, base), (of_joints, joints)]
+            .map(|(quantity, sizes)| (quantity, NaturalSize { sizes: sizes.to_vec(), condition }))
+    }
+
+    /// G, H and the joint rates after it; the base's condition goes into all of them.
+    fn reduced_impact(&self) -> [(Quantity, NaturalSize); 3] {
+        let mut sizes = self.reduced_inertia();
+        let mut momentum = &sizes * self.speeds.rows(3, self.speeds.len() - 3);
+        self.add_contacts(&self.reduced_jacobian(), &mut sizes, &mut momentum);
+        let (matrix, base) = (self.matrix(Quantity::ImpactMatrix), self.base_condition());
+        let system = System { sizes: &sizes, matrix: &matrix };
+        let after = system.solution_sizes(&momentum, self.value(Quantity::ImpactJointRates));
+        let momentum = momentum.as_slice().to_vec();
+        let condition = base * system.condition();
+        [
+            (Quantity::ImpactMatrix, NaturalSize { sizes: rows(&sizes), condition: base }),
+            (Quantity::ImpactMomentum, NaturalSize { sizes: momentum, condition: base }),
+            (Quantity::ImpactJointRates, NaturalSize { sizes: after, condition }),
+        ]
+    }
+
+    /// The exact capture, then the robot that holds its targets: its mass matrix is M + `J_eᵀ N J_e`.
+    fn capture(&self) -> Vec<(Quantity, NaturalSize)> {
+        let (mut sizes, mut momentum) = (self.mass_matrix.clone(), &self.mass_matrix * &self.speeds);
+        self.add_contacts(&self.end_effector_jacobian, &mut sizes, &mut momentum);
+        let matrix = self.matrix(Quantity::MergedMassMatrix);
+        let system = System { sizes: &sizes, matrix: &matrix };
+        let after = self.split(&system, &momentum, [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates]);
+        let condition = system.condition();
+        let speeds = DVector::from_vec(after.each_ref().map(|(_, size)| size.sizes.as_slice()).concat());
+        let [twists, impulses] = self.targets(&speeds);
+        let mut forces = self.forces();
+        for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
+            if let Some(target) = target {
+                forces += convective(target.mass, &captured(target, &point.jacobian), &self.speeds);
+            }
+        }
+        let parts = [Quantity::MergedBaseAcceleration, Quantity::MergedJointAccelerations];
+        let accelerations = self.split(&system, &forces, parts);
+        let roots = sizes.diagonal().map(f64::sqrt);
+        let mass_matrix = &roots * roots.transpose();
+        let merged_momentum = (&mass_matrix * &speeds).as_slice().to_vec();
+        let mut all = vec![
+            (Quantity::CaptureTargetTwists, NaturalSize { sizes: twists, condition }),
+            (Quantity::CaptureImpulses, NaturalSize { sizes: impulses, condition }),
+            (Quantity::CaptureMomentum, NaturalSize::direct(merged_momentum)),
+            (Quantity::MergedBodyInertias, NaturalSize::direct(self.merged_inertias())),
+            (Quantity::MergedMassMatrix, NaturalSize::direct(rows(&mass_matrix))),
+        ];
+        all.extend(after);
+        all.extend(accelerations);
+        all
+    }
+
+    /// Twists after the capture and impulses, from the sizes of the velocities after it.
+    fn targets(&self, speeds: &DVector<f64>) -> [Vec<f64>; 2] {
+        let (mut twists, mut impulses) = (Vec::new(), Vec::new());
+        for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
+            let Some(target) = target else {
+                twists.extend([0.0; 3]);
+                impulses.extend([0.0; 3]);
+                continue;
+            };
+            let twist = captured(target, &point.jacobian) * speeds;
+            twists.extend(twist.iter());
+            let change = twist + Vector3::from(target.twist.map(f64::abs));
+            let change = inertia(target.mass, target.inertia) * change;
+            let [rx, ry] = target.contact.map(f64::abs);
+            impulses.extend([change[0] + ry * change[1] + rx * change[2], change[1], change[2]]);
+        }
+        [twists, impulses]
+    }
+
+    /// [mass, inertia] of every body, the last links with their targets.
+    fn merged_inertias(&self) -> Vec<f64> {
+        let mut bodies = self.magnitudes.bodies.iter().map(|body| [body.mass, body.inertia]);
+        let mut inertias: Vec<_> = bodies.next().into_iter().collect();
+        let Sample { layout, instant } = self.sample;
+        for ((arm, target), [length, com]) in layout.arms.iter().zip(&instant.targets).zip(&self.magnitudes.last) {
+            inertias.extend(bodies.by_ref().take(arm.links.len()));
+            if let (Some(target), Some([mass, inertia])) = (target, inertias.last_mut()) {
+                let lever = length + com + target.contact[0].hypot(target.contact[1]);
+                *inertia += target.inertia + (*mass + target.mass) * lever * lever;
+                *mass += target.mass;
+            }
+        }
+        inertias.concat()
+    }
+
+    /// Adds Σ Kᵀ `I_t` K and Σ Kᵀ `I_t` |`t_ti`|, K = `J_t⁻¹` J.
+    fn add_contacts(&self, jacobian: &DMatrix<f64>, matrix: &mut DMatrix<f64>, momentum: &mut DVector<f64>) {
+        for (arm, target) in self.sample.instant.targets.iter().enumerate() {
+            let Some(target) = target else { continue };
+            let rows = captured(target, &jacobian.rows(3 * arm, 3).into_owned());
+            let inertia = inertia(target.mass, target.inertia);
+            *matrix += rows.transpose() * inertia * &rows;
+            *momentum += rows.transpose() * (inertia * Vector3::from(target.twist.map(f64::abs)));
+        }
+    }
+}
+
+/// Row-major.
+fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().as_slice().to_vec()
+}

@@ -1,0 +1,216 @@
+//! The one table of quantities: name, unit, shape and origin of everything that a model computes.
+//!
+//! What follows from a row: the method of its trait and the implementations of that for generated models and the generic
+//! one, its place in `eval`, in `compare` and in the reference vectors of generated modules, and the tests that every
+//! layout's graph has it. What a row of [`with_quantities!`](crate::with_quantities) needs besides: its derivation
+//! (`codegen/`), and its formula and natural sizes in the generic implementation (`planar_build::prove`); the compiler asks for
+//! those.
+
+/// Number of entries along one axis of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// As many for every robot.
+    Fixed(usize),
+    /// One per arm.
+    Arms,
+    /// ω, vx and vy of every arm.
+    ArmTwists,
+    /// One per joint.
+    Joints,
+    /// The base and every link.
+    Bodies,
+    /// The base's three coordinates and the joints.
+    Coordinates,
+}
+
+impl Extent {
+    /// For a robot of so many arms and joints.
+    #[must_use]
+    pub const fn of(self, arms: usize, joints: usize) -> usize {
+        match self {
+            Self::Fixed(count) => count,
+            Self::Arms => arms,
+            Self::ArmTwists => 3 * arms,
+            Self::Joints => joints,
+            Self::Bodies => joints + 1,
+            Self::Coordinates => 3 + joints,
+        }
+    }
+}
+
+/// How rounding gets into a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rounding {
+    /// By sums and products alone.
+    Polynomial,
+    /// By solving equations too, which magnifies it by their condition number.
+    Solved,
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// As `compare` prints it. `impact.G` is the entry `G` of the block `impact` in the output of `eval`.
+    pub name: &'static str,
+    /// SI, as graphs have it.
+    pub unit: &'static str,
+    /// One entry per axis, row-major; none for a number.
+    pub shape: &'static [Extent],
+    /// The functions of a generated model that have it among their results, …
+    pub functions: &'static [&'static str],
+    /// … under this name.
+    pub output: &'static str,
+    /// How exact it can be.
+    pub rounding: Rounding,
+    /// Its place in the output of `eval`; `None` where that does not show it.
+    pub shown: Option<u8>,
+}
+
+/// Hands the table to a macro.
+///
+/// `functions` are results of the configuration, or of the state, alone: one method each of the trait before the brace, with
+/// numbers in a `matrix`, in a `vector`, or as `triples` in a list. `results` are what the other traits' methods give. The
+/// number of `shown` is the place in the output of `eval`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! with_quantities {
+    ($($apply:tt)+) => {
+        $($apply)+! {
+            functions {
+                /// Poses, twists and Jacobians.
+                trait Kinematics {
+                    /// [yaw, x, y] of every body's COM, inertial frame: the base, then the links arm by arm.
+                    BodyPoses body_poses(configuration) triples [Bodies] "rad, m, m", hidden();
+                    /// [ω, vx, vy] of every body's COM, inertial axes: the base, then the links arm by arm.
+                    BodyTwists body_twists(state) triples [Bodies] "rad/s, m/s, m/s", hidden();
+                    /// [yaw, x, y] of each end effector, inertial frame; the yaw is not wrapped.
+                    EndEffectorPoses end_effector_poses(configuration) triples [Arms] "rad, m, m", shown(5);
+                    /// [ω, vx, vy] of each end effector, inertial axes.
+                    EndEffectorTwists end_effector_twists(state) triples [Arms] "rad/s, m/s, m/s", hidden();
+                    /// `[J_be J_me]`: 3 arms × (3 + joints).
+                    EndEffectorJacobian end_effector_jacobian(configuration) matrix [ArmTwists, Coordinates] "1, m", shown(6);
+                }
+                /// The full coordinates: M and `[c_b; c_m]` of eq. (1).
+                trait EquationsOfMotion {
+                    /// M: (3 + joints)².
+                    MassMatrix mass_matrix(configuration) matrix [Coordinates, Coordinates] "kg m^2, kg m, kg", shown(1);
+                    /// `[c_b; c_m]`: 3 + joints.
+                    Bias bias(state) vector [Coordinates] "N m, N, N, then N m", shown(2);
+                }
+            }
+            results {
+                BodyInertias "body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2",
+                    [] "", hidden();
+                LinearMomentum "linear_momentum": Polynomial [Fixed(2)] "N s",
+                    ["momentum"] "linear_momentum", shown(10);
+                AngularMomentum "angular_momentum": Polynomial [] "N m s",
+                    ["momentum"] "angular_momentum", shown(11);
+                KineticEnergy "kinetic_energy": Polynomial [] "J",
+                    ["momentum"] "kinetic_energy", shown(12);
+                GeneralizedInertia "generalized_inertia": Solved [Joints, Joints] "kg m^2",
+                    ["reduced_dynamics"] "generalized_inertia", shown(3);
+                GeneralizedBias "generalized_bias": Solved [Joints] "N m",
+                    ["reduced_dynamics"] "generalized_bias", shown(4);
+                GeneralizedJacobian "generalized_jacobian": Solved [ArmTwists, Joints] "1, m, m per arm",
+                    ["reduced_dynamics", "generalized_jacobian"] "generalized_jacobian", shown(7);
+                BaseAcceleration "base_acceleration": Solved [Fixed(3)] "rad/s^2, m/s^2, m/s^2",
+                    ["forward_dynamics", "forward_dynamics_with_base_wrench", "forward_dynamics_with_wrenches"]
+                    "base_acceleration", shown(8);
+                JointAccelerations "joint_accelerations": Solved [Joints] "rad/s^2",
+                    ["forward_dynamics", "forward_dynamics_with_base_wrench", "forward_dynamics_with_wrenches"]
+                    "joint_accelerations", shown(9);
+                ImpactMatrix "impact.G": Solved [Joints, Joints] "kg m^2",
+                    ["reduced_impact"] "impact_matrix", shown(13);
+                ImpactMomentum "impact.H": Solved [Joints] "N m s",
+                    ["reduced_impact"] "impact_momentum", shown(14);
+                ImpactJointRates "impact.joint_rates_after": Solved [Joints] "rad/s",
+                    ["reduced_impact"] "joint_rates_after", shown(15);
+                CaptureBaseTwist "capture.base_twist_after": Solved [Fixed(3)] "rad/s, m/s, m/s",
+                    ["full_impact"] "base_twist_after", shown(16);
+                CaptureJointRates "capture.joint_rates_after": Solved [Joints] "rad/s",
+                    ["full_impact"] "joint_rates_after", shown(17);
+                CaptureTargetTwists "capture.target_twists_after": Solved [Arms, Fixed(3)] "rad/s, m/s, m/s",
+                    [] "", shown(18);
+                CaptureImpulses "capture.impulses": Solved [Arms, Fixed(3)] "N m s, N s, N s",
+                    [] "", shown(19);
+                CaptureMomentum "capture momentum": Polynomial [Coordinates] "N m s, N s, N s, then N m s",
+                    ["full_impact"] "impact_momentum", hidden();
+                MergedBodyInertias "merged body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2",
+                    [] "", hidden();
+                MergedMassMatrix "merged mass_matrix": Polynomial [Coordinates, Coordinates] "kg m^2, kg m, kg",
+                    ["full_impact"] "impact_matrix", hidden();
+                MergedBaseAcceleration "merged base_acceleration": Solved [Fixed(3)] "rad/s^2, m/s^2, m/s^2",
+                    [] "", hidden();
+                MergedJointAccelerations "merged joint_accelerations": Solved [Joints] "rad/s^2",
+                    [] "", hidden();
+            }
+        }
+    };
+}
+
+macro_rules! shape {
+    (triples [$rows:ident]) => {
+        &[Extent::$rows, Extent::Fixed(3)]
+    };
+    ($kind:ident [$($extent:ident $(($count:literal))?),*]) => {
+        &[$(Extent::$extent $(($count))?),*]
+    };
+}
+
+macro_rules! shown {
+    (shown($place:literal)) => {
+        Some($place)
+    };
+    (hidden()) => {
+        None
+    };
+}
+
+macro_rules! quantities {
+    (
+        functions { $($(#[$of_trait:meta])* trait $trait:ident {
+            $($(#[$doc:meta])* $function:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+        })* }
+        results { $($result:ident $name:literal: $rounding:ident $shape:tt $of:literal,
+            $functions:tt $output:literal, $visible:ident $rank:tt;)* }
+    ) => {
+        /// Everything that a model computes at one state.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Quantity {
+            $($($(#[$doc])* $function,)*)*
+            $(#[doc = concat!("`", $name, "`.")] $result,)*
+        }
+
+        impl Quantity {
+            /// All of them, in the order in which they are shown.
+            pub const ALL: &'static [Self] = &[$($(Self::$function,)*)* $(Self::$result,)*];
+
+            /// Its row.
+            #[must_use]
+            pub const fn row(self) -> &'static Row {
+                match self {
+                    $($(Self::$function => &Row {
+                        name: stringify!($method),
+                        unit: $unit,
+                        shape: shape!($kind $extents),
+                        functions: &[stringify!($method)],
+                        output: stringify!($method),
+                        rounding: Rounding::Polynomial,
+                        shown: shown!($seen $place),
+                    },)*)*
+                    $(Self::$result => &Row {
+                        name: $name,
+                        unit: $of,
+                        shape: shape!(result $shape),
+                        functions: &$functions,
+                        output: $output,
+                        rounding: Rounding::$rounding,
+                        shown: shown!($visible $rank),
+                    },)*
+                }
+            }
+        }
+    };
+}
+
+with_quantities!(quantities);
