@@ -121,12 +121,12 @@ fn excess(excess: &Excess) -> Value {
 
 /// One contact, with names for numbers.
 fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
-    let Touching { target, arm, kind, offset, miss } = result.touching;
+    let Touching { target, arm, law, offset, miss } = result.touching;
     let response = &result.response;
     let mut value = json!({
         "target": scenario.targets.get(target).map(|target| &target.name),
         "arm": scenario.layout.arms.get(arm).map(|arm| &arm.name),
-        "kind": kind.name(),
+        "kind": law.kind().name(),
         "offset": offset,
         "miss": miss,
         "impulse": result.impulse,

@@ -149,7 +149,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         let later = captured.further.iter().map(|one| (first + one.time, &one.impact));
         for (time, impact) in std::iter::once((first, &captured.impact)).chain(later) {
             for contact in &impact.contacts {
-                let Touching { target, arm, kind, .. } = contact.touching;
+                let Touching { target, arm, law, .. } = contact.touching;
                 let Some(of) = scenario.layout.arms.get(arm) else { continue };
                 let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
                 let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
@@ -160,7 +160,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
                     (false, None) => String::new(),
                 };
                 let [_, fx, fy] = contact.impulse;
-                let (exact, kind) = (fx.hypot(fy), kind.name());
+                let (exact, kind) = (fx.hypot(fy), law.kind().name());
                 let force = duration.map_or_else(String::new, |duration| format!("{:.3}", exact / duration));
                 let row = format!(
                     "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {force:>14}",

@@ -3,7 +3,7 @@
 mod support;
 
 use planar_capture::body::Body;
-use planar_capture::contact::{After, Closure, Contact, Kind, Other, Rows, impact, workspace_length};
+use planar_capture::contact::{After, Closure, Contact, ContactLaw, Other, Rows, impact, workspace_length};
 use planar_capture::control::Free;
 use planar_capture::dynamics::{Kinematics, Merge};
 use planar_capture::generated::dual_arm_3r::Model;
@@ -59,7 +59,8 @@ fn rigid_contacts_are_the_rigid_capture() {
         .flatten()
         .map(|t| Body { mass: t.mass, inertia: t.inertia, pose: [0.0; 3], twist: t.twist })
         .collect();
-    let contacts = [0, 1].map(|i| Contact { arm: i, other: Other::Body(i), offset: [0.3, -0.4], kind: Kind::Rigid });
+    let contacts =
+        [0, 1].map(|i| Contact { arm: i, other: Other::Body(i), offset: [0.3, -0.4], law: ContactLaw::Rigid });
     let found = solve(&model, &state, &bodies, &contacts);
     assert_close("base twist", &found.0, &base, tolerance::SAME_IMPACT);
     assert_close("joint rates", &found.1, &rates, tolerance::SAME_IMPACT);
@@ -72,7 +73,7 @@ fn rigid_contacts_are_the_rigid_capture() {
 fn a_rigid_hold_is_a_merged_link() {
     let state = state();
     let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
-    let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], kind: Kind::Rigid };
+    let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
     let tip = tips(&state)[1];
     let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
     let model = Model::<f64>::default();
@@ -101,14 +102,18 @@ fn a_loop_stays_closed() {
     let both @ [left, right] = tips(&state);
     let com = [f64::midpoint(left[1], right[1]) + 0.2, f64::midpoint(left[2], right[2])];
     let body = Body { mass: 200.0, inertia: 150.0, pose: [0.0, com[0], com[1]], twist: [0.3, 0.1, -0.2] };
-    for kinds in [[Kind::Rigid, Kind::Rigid], [Kind::Pin, Kind::Rigid], [Kind::Pin, Kind::Pin]] {
+    for kinds in [
+        [ContactLaw::Rigid, ContactLaw::Rigid],
+        [ContactLaw::Pin, ContactLaw::Rigid],
+        [ContactLaw::Pin, ContactLaw::Pin],
+    ] {
         let touching = both.iter().zip(kinds).enumerate();
         let contacts: Vec<_> = touching
             .map(|(arm, (tip, kind))| Contact {
                 arm,
                 other: Other::Body(0),
                 offset: [tip[1] - com[0], tip[2] - com[1]],
-                kind,
+                law: kind,
             })
             .collect();
         let model = Model::<f64>::default();

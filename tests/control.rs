@@ -5,10 +5,11 @@ mod support;
 use planar_capture::approach::Approach;
 use planar_capture::control::{Control, Limited, ProportionalDerivative};
 use planar_capture::models;
-use planar_capture::scenario::{Actuation, EndRates, Scenario, Tracking, TrajectoryKind};
+use planar_capture::scenario::{Actuation, EndRates, Scenario, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::state::State;
 use planar_capture::trajectory::Standing;
+use planar_capture::trajectory::TrajectoryKind;
 use support::{assert_close, scenario, tolerance};
 
 /// ReDySim's approach of one arm, 4 s long so that torques are tens of N m.

@@ -3,7 +3,7 @@
 
 mod support;
 
-use planar_capture::contact::{Closure, Contact, Kind, Other};
+use planar_capture::contact::{Closure, Contact, ContactLaw, Other};
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
 use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
@@ -197,10 +197,10 @@ fn a_closed_loop_by_every_scheme() {
     let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);
     let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [omega, vx - omega * ry, vy + omega * rx] };
     let hold = |arm: usize, kind| {
-        let contact = Contact { arm, other: Other::Body(0), offset: [0.0; 2], kind };
+        let contact = Contact { arm, other: Other::Body(0), offset: [0.0; 2], law: kind };
         Closure::new(&contact, &tips[arm], &pose).expect("a hold")
     };
-    let closures = [hold(0, Kind::Rigid), hold(1, Kind::Pin)];
+    let closures = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
     let system = System { model: &*model, bodies: &[body], closures: &closures };
     let wanted: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |scheme, step| {

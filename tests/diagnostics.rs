@@ -8,7 +8,8 @@ use std::path::Path;
 
 use planar_capture::diagnostic::{Report, nearest};
 use planar_capture::layout::Layout;
-use planar_capture::scenario::{EndRates, Scenario, Tracking, TrajectoryKind};
+use planar_capture::scenario::{EndRates, Scenario, Tracking};
+use planar_capture::trajectory::TrajectoryKind;
 
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 

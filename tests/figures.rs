@@ -32,7 +32,7 @@ fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
 #[cfg(feature = "figures")]
 mod drawn {
     use super::*;
-    use planar_capture::contact::Kind;
+    use planar_capture::contact::ContactLaw;
     use planar_capture::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
     use std::collections::BTreeSet;
     use std::fs;
@@ -262,7 +262,7 @@ mod drawn {
         }
         contacts.reverse(); // the first is on top
         for (i, contact) in contacts.iter().enumerate() {
-            let Kind::Bounce { normal: [nx, ny], restitution } = contact.touching.kind else { panic!("a bounce") };
+            let ContactLaw::Bounce { normal: [nx, ny], restitution } = contact.touching.law else { panic!("a bounce") };
             let [[bx, by, _], [ax, ay, _]] = ["before", "after"].map(|when| relative(&shown, when, i));
             let (closing, parting) = (-(bx * nx + by * ny), ax * nx + ay * ny);
             assert!(

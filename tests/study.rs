@@ -2,7 +2,7 @@
 
 mod support;
 
-use planar_capture::contact::Kind;
+use planar_capture::contact::ContactKind;
 use planar_capture::models;
 use planar_capture::simulate::audit::{Audit, Done, Drift};
 use planar_capture::state::State;
@@ -180,7 +180,7 @@ fn every_shipped_study_passes_its_audit() {
                 assert!(gained < tolerance::ENERGY_OF_AN_IMPACT, "{name} gains {gained}");
             }
             // the paper's equations are about rigid captures: there is no literal result of others
-            let rigid = |contact: &ContactResult| contact.touching.kind == Kind::Rigid;
+            let rigid = |contact: &ContactResult| contact.touching.law.kind() == ContactKind::Rigid;
             let contacts = &captured.impact.contacts;
             let of_the_paper = scenario(&name).targets.iter().all(|target| target.touches.len() == 1);
             assert_eq!(

@@ -8,13 +8,13 @@ use crate::approach::resolved::Tips;
 use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::owned::RobotState;
-use crate::scenario::{Scenario, Tracking, TrajectoryKind};
+use crate::scenario::{Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::limits::{Excesses, Watched};
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Stopped, Timing, simulate};
-use crate::trajectory::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
+use crate::trajectory::{AnyTrajectory, Ends};
 
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
@@ -87,8 +87,7 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with: zero, but for the
-    /// quintic one.
+    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with.
     ///
     /// # Errors
     /// When and why it stopped.
@@ -119,9 +118,10 @@ impl<'a> Approach<'a> {
             base_pose: self.scenario.initial.base_pose,
             joint_angles: self.scenario.initial.joint_angles.clone(),
             base_twist: self.scenario.initial.base_twist,
-            joint_rates: match self.scenario.approach.trajectory {
-                TrajectoryKind::Quintic => self.scenario.initial.joint_rates.clone(),
-                _ => vec![0.0; joints],
+            joint_rates: if self.scenario.approach.trajectory.properties().starts_at_rest {
+                vec![0.0; joints]
+            } else {
+                self.scenario.initial.joint_rates.clone()
             },
         };
         let limits = &self.scenario.approach.actuation.joint_limits;
@@ -130,40 +130,12 @@ impl<'a> Approach<'a> {
         Ok(watched.finish(phase))
     }
 
-    fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r> {
+    fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {
         let ends = Ends {
             initial_angles: &self.scenario.initial.joint_angles,
             final_angles: &self.scenario.approach.final_joint_angles,
             duration: self.scenario.approach.trajectory_time(),
         };
-        match self.scenario.approach.trajectory {
-            TrajectoryKind::Quartic => AnyTrajectory::Quartic(Quartic { ends, final_rates }),
-            TrajectoryKind::QuarticAsPrinted => AnyTrajectory::QuarticAsPrinted(QuarticAsPrinted { ends, final_rates }),
-            TrajectoryKind::Cycloidal => AnyTrajectory::Cycloidal(Cycloidal { ends }),
-            TrajectoryKind::Quintic => {
-                let initial_rates = &self.scenario.initial.joint_rates;
-                AnyTrajectory::Quintic(Quintic { ends, initial_rates, final_rates })
-            }
-        }
-    }
-}
-
-/// One of the trajectories that a scenario can name.
-#[derive(Clone, Copy, Debug)]
-enum AnyTrajectory<'a> {
-    Quartic(Quartic<'a, f64>),
-    QuarticAsPrinted(QuarticAsPrinted<'a, f64>),
-    Cycloidal(Cycloidal<'a, f64>),
-    Quintic(Quintic<'a, f64>),
-}
-
-impl Trajectory<f64> for AnyTrajectory<'_> {
-    fn joint(&self, joint: usize, time: f64) -> Option<Desired<f64>> {
-        match self {
-            Self::Quartic(t) => t.joint(joint, time),
-            Self::QuarticAsPrinted(t) => t.joint(joint, time),
-            Self::Cycloidal(t) => t.joint(joint, time),
-            Self::Quintic(t) => t.joint(joint, time),
-        }
+        self.scenario.approach.trajectory.between(ends, &self.scenario.initial.joint_rates, final_rates)
     }
 }

@@ -4,7 +4,7 @@ use super::figure::{Figure, Series};
 use super::frame::{self, Picture};
 use super::robot::{arrow, expected, pin, robot, target};
 use super::style::Colour;
-use crate::contact::Kind;
+use crate::contact::ContactKind;
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
 use crate::simulate::system::Body;
@@ -142,7 +142,7 @@ pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &Captured)
 fn held(captured: &Captured, time: f64) -> Vec<Touching> {
     let later = captured.further.iter().filter(|one| one.time <= time).map(|one| &one.impact);
     let contacts = std::iter::once(&captured.impact).chain(later).flat_map(|impact| &impact.contacts);
-    contacts.map(|one| one.touching).filter(|touch| !matches!(touch.kind, Kind::Bounce { .. })).collect()
+    contacts.map(|one| one.touching).filter(|touch| touch.law.kind().holds()).collect()
 }
 
 /// Each target where it is, with a line to each tip that touches it.
@@ -153,7 +153,7 @@ fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample, touching: 
             let tip = |touch: &Touching| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
             let own = || touching.iter().filter(|touch| touch.target == i);
             let mut series = target(object, colour(scenario, i), body.pose, own().filter_map(tip));
-            series.extend(own().filter(|touch| touch.kind == Kind::Pin).filter_map(tip).map(pin));
+            series.extend(own().filter(|touch| touch.law.kind() == ContactKind::Pin).filter_map(tip).map(pin));
             series
         })
         .collect()

@@ -3,7 +3,7 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
-use crate::contact::Kind;
+use crate::contact::ContactKind;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
 use crate::simulate::system::Body;
@@ -94,7 +94,8 @@ fn instants<'a>(study: &'a Study, result: &'a CaseResult) -> Vec<Instant<'a>> {
 
 fn contacts(scenario: &Scenario, result: &CaseResult, instant: &Instant<'_>) -> Vec<Contact> {
     let each = instant.impact.contacts.iter().filter_map(|contact| {
-        let Touching { target: i, arm, kind, offset: [rx, ry], .. } = contact.touching;
+        let Touching { target: i, arm, law, offset: [rx, ry], .. } = contact.touching;
+        let kind = law.kind();
         let (target, before) = (scenario.targets.get(i)?, instant.targets.get(i)?);
         let after = *instant.impact.target_twists.get(i)?;
         let tip = |now: &Sample| now.end_effector_twists.get(arm).copied();
@@ -107,13 +108,13 @@ fn contacts(scenario: &Scenario, result: &CaseResult, instant: &Instant<'_>) -> 
         if let Some(time) = instant.later {
             name = format!("{name}, {time:.1} s");
         }
-        if kind != Kind::Rigid {
+        if kind != ContactKind::Rigid {
             name = format!("{name} ({})", kind.name());
         }
         Some(Contact {
             name,
             twists: [tip(instant.before)?, at_contact(before.twist), at_contact(after), tip(instant.after)?],
-            rigid: kind == Kind::Rigid,
+            rigid: kind == ContactKind::Rigid,
         })
     });
     each.collect()

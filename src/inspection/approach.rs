@@ -3,7 +3,7 @@
 use super::number::short;
 use super::targets::distance_and_most;
 use crate::diagnostic::Oddity;
-use crate::scenario::{EndRates, Scenario, TipGoal, Tracking, TrajectoryKind};
+use crate::scenario::{EndRates, Scenario, TipGoal, Tracking};
 use std::f64::consts::TAU;
 
 /// Joints of space robots turn by degrees a second, not by more than a turn, in rad/s.
@@ -25,12 +25,8 @@ pub(super) fn largest_turn(scenario: &Scenario) -> (usize, f64) {
 
 /// The highest rate on the way that the angles alone ask for, in rad/s.
 pub(super) fn peak_rate(scenario: &Scenario) -> f64 {
-    // of the trajectory's shape, in units of its mean: 30 τ² (1 − τ)² and 1 − cos 2πτ at τ = ½
-    let shape = match scenario.approach.trajectory {
-        TrajectoryKind::Quartic | TrajectoryKind::QuarticAsPrinted | TrajectoryKind::Quintic => 1.875,
-        TrajectoryKind::Cycloidal => 2.0,
-    };
-    shape * largest_turn(scenario).1 / scenario.approach.trajectory_time()
+    let factor = scenario.approach.trajectory.properties().peak_factor;
+    factor * largest_turn(scenario).1 / scenario.approach.trajectory_time()
 }
 
 /// `joint 2 of arm1`, by the index over all arms.

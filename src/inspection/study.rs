@@ -6,10 +6,9 @@ use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
+use crate::contact::ContactKind;
 use crate::models;
-use crate::scenario::{
-    Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TipTwist, TouchKind, Tracking, TrajectoryKind,
-};
+use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TipTwist, Tracking, contact_name};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -90,12 +89,7 @@ fn by_tips(scenario: &Scenario) -> bool {
 }
 
 fn trajectory(scenario: &Scenario) -> String {
-    let shape = match scenario.approach.trajectory {
-        TrajectoryKind::Quartic => "quartic",
-        TrajectoryKind::QuarticAsPrinted => "quartic as printed",
-        TrajectoryKind::Cycloidal => "cycloidal",
-        TrajectoryKind::Quintic => "quintic",
-    };
+    let shape = scenario.approach.trajectory.properties().name.replace('_', " ");
     let end = match &scenario.approach.end {
         EndRates::Rest => "rest".to_owned(),
         EndRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
@@ -235,12 +229,12 @@ fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
 }
 
 /// `rigid`, or `rigid and pin`, or `bounce (0.5)`.
-fn contacts(kinds: &[TouchKind], restitution: f64) -> String {
+fn contacts(kinds: &[Option<ContactKind>], restitution: f64) -> String {
     let alike = kinds.iter().all(|kind| Some(kind) == kinds.first());
     let shown = if alike { kinds.get(..1).unwrap_or_default() } else { kinds };
     let names = shown.iter().map(|kind| match kind {
-        TouchKind::Bounce => format!("bounce ({})", short(restitution)),
-        kind => kind.name().to_owned(),
+        Some(ContactKind::Bounce) => format!("bounce ({})", short(restitution)),
+        kind => contact_name(*kind).to_owned(),
     });
     names.collect::<Vec<_>>().join(" and ")
 }

@@ -2,10 +2,11 @@
 
 use super::number::{point, short};
 use super::places::{center_of_mass, places};
+use crate::contact::ContactKind;
 use crate::diagnostic::Oddity;
 use crate::layout::Layout;
 use crate::models;
-use crate::scenario::{Detection, Scenario, Target, Touch, TouchKind};
+use crate::scenario::{Detection, Scenario, Target, Touch};
 use crate::study::assembly::turned;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
@@ -85,14 +86,8 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
 fn too_few_joints(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd> {
     let joints: usize =
         target.touches.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm)).map(|arm| arm.links.len()).sum();
-    let constraints = |kinds: &Vec<TouchKind>| -> usize {
-        let each = kinds.iter().map(|kind| match kind {
-            TouchKind::Rigid => 3,
-            TouchKind::Pin => 2,
-            TouchKind::Bounce | TouchKind::None => 0,
-        });
-        each.sum()
-    };
+    let constraints =
+        |kinds: &Vec<Option<ContactKind>>| -> usize { kinds.iter().flatten().map(|kind| kind.constraints()).sum() };
     let most = scenario.cases.iter().filter_map(|case| case.kinds.get(i)).map(constraints).max()?;
     // the target itself brings three degrees of freedom
     (most > joints + 3).then(|| {

@@ -1,9 +1,8 @@
 //! What the page shows of contacts: every impact of a case, what was missed, and how closed the holds stay.
 
 use super::data::digits;
-use crate::contact::Kind;
 use crate::record::rows;
-use crate::scenario::{Case, Detection, Scenario, TouchKind};
+use crate::scenario::{Case, Detection, Scenario};
 use crate::simulate::system::Body;
 use crate::study::assembly::turned;
 use crate::study::capture::{Capture, ContactResult, ImpactResult};
@@ -50,19 +49,15 @@ fn balance(result: &ImpactResult) -> Value {
 }
 
 fn contact(scenario: &Scenario, result: &ContactResult, tips: &[[f64; 3]], impact: &Capture) -> Value {
-    let Touching { target, arm, kind, miss, .. } = result.touching;
+    let Touching { target, arm, law, miss, .. } = result.touching;
     let response = &result.response;
     let literal = impact.paper.as_ref().and_then(|paper| paper.impulses.get(arm).copied().flatten());
-    let restitution = match kind {
-        Kind::Bounce { restitution, .. } => Some(restitution),
-        Kind::Rigid | Kind::Pin => None,
-    };
     let [_, vx, vy] = response.relative_twist;
     json!({
         "target": target,
         "arm": arm,
-        "kind": kind.name(),
-        "restitution": restitution,
+        "kind": law.kind().name(),
+        "restitution": law.bounce().map(|(_, restitution)| restitution),
         "tip": tips.get(arm).map(|[_, x, y]| [x, y]),
         "miss": miss,
         "impulse": result.impulse,
@@ -70,10 +65,7 @@ fn contact(scenario: &Scenario, result: &ContactResult, tips: &[[f64; 3]], impac
         "mean_force": scenario.contact.duration.map(|duration| result.impulse.map(|part| part / duration)),
         "relative_twist": response.relative_twist,
         // a tip closes in against the normal of what it bounces off
-        "closing_speed": match kind {
-            Kind::Bounce { normal: [x, y], .. } => -(vx * x + vy * y),
-            Kind::Rigid | Kind::Pin => vx.hypot(vy),
-        },
+        "closing_speed": law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)),
         "effective_masses": response.effective_masses,
         "impulse_index": response.impulse_index,
         "impulse_ellipse": {
@@ -88,7 +80,7 @@ pub(super) fn open(scenario: &Scenario, case: &Case) -> Vec<Value> {
     let targets = scenario.targets.iter().zip(&case.kinds).enumerate();
     let touches =
         targets.flat_map(|(i, (target, kinds))| target.touches.iter().zip(kinds).map(move |(t, k)| (i, t, k)));
-    let open = touches.filter(|(.., kind)| **kind == TouchKind::None);
+    let open = touches.filter(|(.., kind)| kind.is_none());
     open.map(|(target, touch, _)| json!({"target": target, "arm": touch.arm})).collect()
 }
 
@@ -101,7 +93,7 @@ pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result:
     let all: Vec<_> = rows(study, result).collect();
     let mut columns = Vec::new();
     for (i, (target, kinds)) in scenario.targets.iter().zip(&case.kinds).enumerate() {
-        for (touch, _) in target.touches.iter().zip(kinds).filter(|(_, kind)| **kind != TouchKind::None) {
+        for (touch, _) in target.touches.iter().zip(kinds).filter(|(_, kind)| kind.is_some()) {
             let distance = |targets: &[Body], tips: &[[f64; 3]]| {
                 Some(digits(gap(scenario, i, targets.get(i)?, tips.get(touch.arm)?).0))
             };
@@ -122,8 +114,9 @@ pub(super) fn holds(captured: &Captured) -> Vec<Value> {
     let mut merged = Vec::new();
     for (from, impact) in std::iter::once((0, &captured.impact)).chain(later) {
         let held = impact.contacts.iter().map(|one| one.touching);
-        for Touching { target, arm, kind, .. } in held.filter(|t| !matches!(t.kind, Kind::Bounce { .. })) {
-            if kind == Kind::Rigid && !merged.contains(&target) {
+        for Touching { target, arm, law, .. } in held.filter(|touch| touch.law.kind().holds()) {
+            let keeps_yaw = law.kind().holds_yaw();
+            if keeps_yaw && !merged.contains(&target) {
                 merged.push(target);
                 continue;
             }
@@ -134,7 +127,7 @@ pub(super) fn holds(captured: &Captured) -> Vec<Value> {
             let Some([yaw, x, y]) = seen(from) else { continue };
             let open = |i: usize| {
                 let [now_yaw, now_x, now_y] = seen(i).filter(|_| i >= from)?;
-                let turn = if kind == Kind::Rigid { (now_yaw - yaw).abs() } else { 0.0 };
+                let turn = if keeps_yaw { (now_yaw - yaw).abs() } else { 0.0 };
                 Some(digits((now_x - x).hypot(now_y - y).max(turn)))
             };
             let column = (0..captured.post_impact.samples.len()).map(open);

@@ -5,7 +5,8 @@ use super::integration::Integration;
 use super::joints::{Joints, check_length};
 use super::resolved;
 use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
-use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::diagnostic::{Quantity, Table, Value, every, listing};
+use crate::trajectory::TrajectoryKind;
 
 const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
 const DERIVATIVE_GAIN: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
@@ -24,7 +25,7 @@ pub struct Approach {
     /// How long the trajectory takes, in s, less than the duration, for one that ends at rest: what is wanted at its end stays
     /// wanted. `None` where it takes the whole duration, as by default.
     pub trajectory_duration: Option<f64>,
-    /// The shape of the joint trajectories.
+    /// The joint trajectories.
     pub trajectory: TrajectoryKind,
     /// Joint angles wanted at the end, arm by arm, in rad. Where tip poses are wanted, the first guess of the angles that
     /// give them, by default the initial ones; for resolved motion rate control these, which it does not look at.
@@ -52,27 +53,13 @@ pub enum TipGoal {
     Pose([f64; 3]),
 }
 
-/// The shape of the joint trajectories.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TrajectoryKind {
-    /// Joint rates quartic in time, equation (7) corrected: reaches the rates wanted at the end.
-    Quartic,
-    /// Equation (7) as printed: the rates at the end are too small by the duration in s.
-    QuarticAsPrinted,
-    /// From rest to rest along a cycloid.
-    Cycloidal,
-    /// Joint angles quintic in time, from the initial joint rates to those wanted at the end: quartic rates where the
-    /// arms start at rest.
-    Quintic,
-}
-
 /// [ω, vx, vy] wanted of a tip, rad/s, m/s; `None` where any will do.
 pub type TipTwist = [Option<f64>; 3];
 
 /// The rates wanted at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EndRates {
-    /// Rest: always and only for the cycloidal trajectory.
+    /// Rest: for a trajectory that ends so.
     Rest,
     /// Joint rates arm by arm, in rad/s.
     JointRates(Vec<f64>),
@@ -147,9 +134,9 @@ impl Approach {
         }
         let times = duration_and_step(table);
         resolved::reject_gains(table);
-        let trajectory = table
-            .require("trajectory", "`quartic`, `quartic_as_printed`, `cycloidal` or `quintic`")
-            .and_then(|value| value.choice(&TrajectoryKind::CHOICES));
+        let kinds: Vec<_> = TrajectoryKind::ALL.iter().map(|kind| (kind.properties().name, *kind)).collect();
+        let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
+        let trajectory = table.require("trajectory", &listing(&names, "or")).and_then(|value| value.choice(&kinds));
         let goals = table.get("final_end_effector_poses");
         let final_joint_angles = match (table.get("final_joint_angles"), &goals) {
             (None, Some(_)) => Some(initial.map_or_else(|| joints.repeat(0.0), <[f64]>::to_vec)),
@@ -195,15 +182,6 @@ impl Approach {
     }
 }
 
-impl TrajectoryKind {
-    const CHOICES: [(&'static str, Self); 4] = [
-        ("quartic", Self::Quartic),
-        ("quartic_as_printed", Self::QuarticAsPrinted),
-        ("cycloidal", Self::Cycloidal),
-        ("quintic", Self::Quintic),
-    ];
-}
-
 impl EndRates {
     fn from_table(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &Joints<'_>) -> Option<Self> {
         const NAMES: [&str; 2] = ["final_joint_rates", "final_end_effector_twists"];
@@ -214,10 +192,11 @@ impl EndRates {
             (None, None) => None,
         };
         match (trajectory?, rates, twists) {
-            (TrajectoryKind::Cycloidal, None, None) => return Some(Self::Rest),
-            (TrajectoryKind::Cycloidal, rates, twists) => {
+            (kind, None, None) if kind.properties().ends_at_rest => return Some(Self::Rest),
+            (kind, rates, twists) if kind.properties().ends_at_rest => {
                 for value in [rates, twists].into_iter().flatten() {
-                    value.reject("the cycloidal trajectory ends at rest, expected no such key");
+                    let name = kind.properties().name;
+                    value.reject(&format!("the {name} trajectory ends at rest, expected no such key"));
                 }
                 return None;
             }

@@ -5,7 +5,8 @@ use super::case::Case;
 use super::contact::{ContactRules, Detection};
 use super::joints::Joints;
 use super::post_impact::PostImpact;
-use super::target::{NO_BOUNCE, Target, TouchKind};
+use super::target::{NO_BOUNCE, Target};
+use crate::contact::ContactKind;
 use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
 use std::collections::HashSet;
@@ -95,13 +96,14 @@ fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout)
 fn merges_all(targets: &[Target], cases: &[Case], detection: Detection) -> bool {
     let one_arm_each = targets.iter().all(|target| target.touches.len() == 1);
     let at_once = detection == Detection::Time || targets.len() == 1;
-    let rigid = cases.iter().flat_map(|case| &case.kinds).flatten().all(|kind| *kind == TouchKind::Rigid);
+    let rigid = cases.iter().flat_map(|case| &case.kinds).flatten().all(|kind| *kind == Some(ContactKind::Rigid));
     one_arm_each && at_once && rigid
 }
 
 /// Notes restitutions of targets that nothing bounces off in any case.
 fn reject_idle_restitutions(tables: &[Table<'_>], cases: &[Case]) {
-    let bounces = |i: usize| cases.iter().any(|case| case.kinds.get(i).is_some_and(|k| k.contains(&TouchKind::Bounce)));
+    let bounces =
+        |i: usize| cases.iter().any(|case| case.kinds.get(i).is_some_and(|k| k.contains(&Some(ContactKind::Bounce))));
     for (_, table) in tables.iter().enumerate().filter(|(i, _)| !bounces(*i)) {
         if let Some(value) = table.get("restitution") {
             value.reject(NO_BOUNCE);

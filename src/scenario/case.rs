@@ -1,8 +1,9 @@
 //! `[[case]]`: variants of a capture.
 
 use super::contact::Detection;
-use super::target::{NO_BOUNCE, NO_NORMAL, Target, TouchKind, restitution};
+use super::target::{NO_BOUNCE, NO_NORMAL, Target, contact_kinds, restitution};
 use super::{FILE_NAME, TWIST, file_name};
+use crate::contact::ContactKind;
 use crate::diagnostic::{Quantity, Table, Value, every};
 
 const IMPULSE: Quantity = Quantity::non_negative("an impulse magnitude", "N s");
@@ -15,7 +16,7 @@ pub struct Case {
     /// Twist of each target before the impact; default the target's own.
     pub target_twists: Vec<[f64; 3]>,
     /// What each target's contacts do, in the order of its arms; default the target's own.
-    pub kinds: Vec<Vec<TouchKind>>,
+    pub kinds: Vec<Vec<Option<ContactKind>>>,
     /// Of bounces off each target; default the target's own.
     pub restitutions: Vec<f64>,
     /// Impulse magnitude at each target's contact as somebody else reports it, N s; shown beside what is computed, and
@@ -54,7 +55,7 @@ impl Case {
         });
         let kinds = of_targets(table, "kinds", names, |i, value| match value {
             Some(value) => {
-                let kinds = TouchKind::list(&value, target(i).map(|target| target.touches.len()))?;
+                let kinds = contact_kinds(&value, target(i).map(|target| target.touches.len()))?;
                 if detection == Detection::Time && target(i).is_some_and(|target| target.bounces_at_its_com(&kinds)) {
                     value.reject(NO_NORMAL);
                     return None;
@@ -65,8 +66,10 @@ impl Case {
         });
         let restitutions = of_targets(table, "restitutions", names, |i, value| match value {
             Some(value) => {
-                let idle =
-                    kinds.as_ref().and_then(|kinds| kinds.get(i)).is_some_and(|k| !k.contains(&TouchKind::Bounce));
+                let idle = kinds
+                    .as_ref()
+                    .and_then(|kinds| kinds.get(i))
+                    .is_some_and(|k| !k.contains(&Some(ContactKind::Bounce)));
                 if idle {
                     value.reject(NO_BOUNCE);
                 }

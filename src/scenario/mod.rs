@@ -17,12 +17,12 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
-pub use approach::{Approach, EndRates, TipGoal, TipTwist, Tracking, TrajectoryKind};
+pub use approach::{Approach, EndRates, TipGoal, TipTwist, Tracking};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
 pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
-pub use target::{Target, Touch, TouchKind};
+pub use target::{Target, Touch, contact_name};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
@@ -124,7 +124,7 @@ impl Scenario {
                 root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints, start));
             if let (Some(table), Some(approach)) = (&initial_table, &approach)
                 && approach.tracking == Tracking::Exact
-                && approach.trajectory != TrajectoryKind::Quintic
+                && approach.trajectory.properties().starts_at_rest
             {
                 require_rest(table, initial.as_ref());
             }

@@ -2,13 +2,13 @@
 
 use super::actuation::Actuation;
 use super::approach::{
-    Approach, EndRates, TipGoal, TipTwist, Tracking, TrajectoryKind, end_effector_twists, tip_goals,
-    trajectory_duration,
+    Approach, EndRates, TipGoal, TipTwist, Tracking, end_effector_twists, tip_goals, trajectory_duration,
 };
 use super::duration_and_step;
 use super::integration::Integration;
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table, Value};
+use crate::trajectory::TrajectoryKind;
 
 /// What only this tracking has.
 pub(super) const KEYS: [&str; 3] = ["pose_gain", "rate_gain", "singularity_threshold"];

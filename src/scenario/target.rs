@@ -2,7 +2,8 @@
 
 use super::joints::check_length;
 use super::{Detection, POSITION, TWIST};
-use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::contact::ContactKind;
+use crate::diagnostic::{Quantity, Table, Value, every, listing};
 use crate::layout::Layout;
 use crate::surface::Surface;
 use std::collections::HashSet;
@@ -53,49 +54,37 @@ pub struct Touch {
     /// From the target's COM to the contact point at the impact, [x, y] in m, inertial axes; zero where it is found by
     /// detection.
     pub contact: [f64; 2],
-    /// What the contact does.
-    pub kind: TouchKind,
+    /// What the contact does; `None` where it does nothing, and the grasp fails.
+    pub kind: Option<ContactKind>,
 }
 
-/// What a contact of a tip does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TouchKind {
-    /// Takes hold, so that tip and target are one from then on.
-    Rigid,
-    /// Takes hold of a point, about which the target turns freely.
-    Pin,
-    /// Bounces off without friction.
-    Bounce,
-    /// Does nothing: the grasp fails.
-    None,
+/// The kinds of contacts, and none: a grasp that fails.
+fn kinds() -> Vec<(&'static str, Option<ContactKind>)> {
+    let all = ContactKind::ALL.iter().map(|kind| (kind.name(), Some(*kind)));
+    all.chain([(NONE, None)]).collect()
 }
 
-impl TouchKind {
-    pub(super) const CHOICES: [(&'static str, Self); 4] =
-        [("rigid", Self::Rigid), ("pin", Self::Pin), ("bounce", Self::Bounce), ("none", Self::None)];
+/// The name of a contact that does nothing.
+const NONE: &str = "none";
 
-    /// As in a scenario.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::Pin => "pin",
-            Self::Bounce => "bounce",
-            Self::None => "none",
-        }
-    }
+/// As in a scenario.
+#[must_use]
+pub fn contact_name(kind: Option<ContactKind>) -> &'static str {
+    kind.map_or(NONE, ContactKind::name)
+}
 
-    /// One for all touches, or a list of as many.
-    pub(super) fn list(value: &Value<'_>, touches: Option<usize>) -> Option<Vec<Self>> {
-        if !value.is_array() {
-            let kind = value.choice(&Self::CHOICES)?;
-            return Some(vec![kind; touches.unwrap_or(1)]);
-        }
-        let wanted = for_each(touches, "`rigid`, `pin`, `bounce` or `none`");
-        let items = value.items(&wanted)?;
-        check_length(value, items.len(), touches, &wanted)?;
-        every(items.iter().map(|item| item.choice(&Self::CHOICES)))
+/// One kind for all touches, or a list of as many.
+pub(super) fn contact_kinds(value: &Value<'_>, touches: Option<usize>) -> Option<Vec<Option<ContactKind>>> {
+    let kinds = kinds();
+    if !value.is_array() {
+        let kind = value.choice(&kinds)?;
+        return Some(vec![kind; touches.unwrap_or(1)]);
     }
+    let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
+    let wanted = for_each(touches, &listing(&names, "or"));
+    let items = value.items(&wanted)?;
+    check_length(value, items.len(), touches, &wanted)?;
+    every(items.iter().map(|item| item.choice(&kinds)))
 }
 
 impl Target {
@@ -127,10 +116,10 @@ impl Target {
     }
 
     /// Whether one of these contacts, one per touch, would bounce where a disc has no outward normal: prescribed at its COM.
-    pub(super) fn bounces_at_its_com(&self, kinds: &[TouchKind]) -> bool {
+    pub(super) fn bounces_at_its_com(&self, kinds: &[Option<ContactKind>]) -> bool {
         let at_com = |touch: &Touch| touch.contact.iter().all(|x| *x == 0.0);
         let mut touches = self.touches.iter().zip(kinds);
-        let bounces = touches.any(|(touch, kind)| *kind == TouchKind::Bounce && at_com(touch));
+        let bounces = touches.any(|(touch, kind)| *kind == Some(ContactKind::Bounce) && at_com(touch));
         bounces && matches!(self.surface, Surface::Disc { .. })
     }
 
@@ -142,8 +131,8 @@ impl Target {
         let count = arms.as_ref().map(Vec::len);
         let contacts = contacts(table, count, detection);
         let kinds = match table.get("kind") {
-            Some(value) => TouchKind::list(&value, count),
-            None => count.map(|count| vec![TouchKind::Rigid; count]),
+            Some(value) => contact_kinds(&value, count),
+            None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
         };
         let mass = table.number("mass", &MASS);
         let inertia = table.number("inertia", &INERTIA);

@@ -1,20 +1,20 @@
 //! Robot and targets as they hang together between two impacts.
 
-use crate::contact::{Closure, Contact, Kind, Other};
+use crate::contact::{Closure, Contact, ContactKind, ContactLaw, Other};
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::simulate::system::{Body, System};
 use crate::target::Target;
 
-/// A tip that holds a target.
+/// A contact that lasts: an end effector that holds a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Grip {
+pub struct Attachment {
     /// Index of the target.
     pub target: usize,
     /// Index of the arm.
     pub arm: usize,
-    /// Whether the target turns freely about the tip.
-    pub pinned: bool,
+    /// Rigid or a pin.
+    pub kind: ContactKind,
 }
 
 /// How a target is part of what moves.
@@ -36,7 +36,7 @@ pub enum Place {
 /// A robot whose last links are one with what they hold rigidly, the other targets beside it, and the holds that close
 /// loops.
 ///
-/// Of the rigid grips on a target the first makes it one with its arm; all others, and pins, are closures.
+/// Of the rigid attachments on a target the first makes it one with its arm; all others, and pins, are closures.
 pub struct Assembly {
     /// The robot, with what its links have become.
     pub model: Box<dyn CloneModel>,
@@ -57,7 +57,7 @@ impl Assembly {
         mut model: Box<dyn CloneModel>,
         motion: &RobotState,
         targets: &[Body],
-        grips: &[Grip],
+        attachments: &[Attachment],
     ) -> Result<Self, Error> {
         let mut tips = vec![[0.0; 3]; model.arms()];
         model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips)?;
@@ -65,13 +65,13 @@ impl Assembly {
         let mut merged = vec![None; model.arms()];
         let (mut bodies, mut places) = (Vec::new(), Vec::new());
         for (i, target) in targets.iter().enumerate() {
-            let rigid = grips.iter().find(|grip| grip.target == i && !grip.pinned);
+            let rigid = attachments.iter().find(|attachment| attachment.target == i && attachment.kind.holds_yaw());
             places.push(match rigid {
                 None => {
                     bodies.push(*target);
                     Place::Beside(bodies.len() - 1)
                 }
-                Some(Grip { arm, .. }) => {
+                Some(Attachment { arm, .. }) => {
                     let (tip, [yaw, x, y]) = (tip_of(*arm), target.pose);
                     if let Some(place) = merged.get_mut(*arm) {
                         let contact = [tip[1] - x, tip[2] - y];
@@ -84,16 +84,20 @@ impl Assembly {
         }
         model.merge(&motion.base_pose, &motion.joint_angles, &merged)?;
         let mut closures = Vec::new();
-        for grip in grips {
-            let kind = if grip.pinned { Kind::Pin } else { Kind::Rigid };
-            let (other, pose) = match places.get(grip.target) {
-                Some(Place::Merged { arm, .. }) if *arm == grip.arm => continue,
+        for attachment in attachments {
+            let (other, pose) = match places.get(attachment.target) {
+                Some(Place::Merged { arm, .. }) if *arm == attachment.arm => continue,
                 Some(Place::Merged { arm, .. }) => (Other::Tip(*arm), tip_of(*arm)),
                 Some(Place::Beside(i)) => (Other::Body(*i), bodies.get(*i).map_or([0.0; 3], |body| body.pose)),
                 None => continue,
             };
-            let contact = Contact { arm: grip.arm, other, offset: [0.0; 2], kind };
-            closures.extend(Closure::new(&contact, &tip_of(grip.arm), &pose));
+            let contact = Contact {
+                arm: attachment.arm,
+                other,
+                offset: [0.0; 2],
+                law: ContactLaw::new(attachment.kind, Default::default, 0.0),
+            };
+            closures.extend(Closure::new(&contact, &tip_of(attachment.arm), &pose));
         }
         Ok(Self { model, bodies, closures, places })
     }

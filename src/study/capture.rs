@@ -1,6 +1,6 @@
 //! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
 
-use crate::contact::{self, Contact, Kind, Other, Rows, workspace_length};
+use crate::contact::{self, Contact, ContactKind, Other, Rows, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::impact::{self, After, Workspace};
@@ -116,7 +116,7 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[Touching]) ->
     for touch in touching {
         let alone = touching.iter().filter(|other| other.target == touch.target).count() == 1;
         let Body { mass, inertia, twist, .. } = *targets.get(touch.target)?;
-        let place = by_arm.get_mut(touch.arm).filter(|_| alone && touch.kind == Kind::Rigid)?;
+        let place = by_arm.get_mut(touch.arm).filter(|_| alone && touch.law.kind() == ContactKind::Rigid)?;
         *place = Some(Target { mass, inertia, contact: touch.offset, twist });
     }
     Some(by_arm)
@@ -183,7 +183,7 @@ fn of_any_kind(
             Some(Place::Beside(i)) => (Other::Body(*i), touch.offset),
             None => (Other::Body(usize::MAX), touch.offset),
         };
-        Contact { arm: touch.arm, other, offset, kind: touch.kind }
+        Contact { arm: touch.arm, other, offset, law: touch.law }
     });
     let held = assembly.holds(&tips, &bodies);
     let contacts: Vec<_> = new.chain(held).collect();

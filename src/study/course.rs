@@ -1,16 +1,15 @@
 //! The course of one case: impacts, and the motion between them.
 
 use crate::approach::Approach;
-use crate::contact::Kind;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scenario::{Case, PostImpact, Scenario, Settling, Target, TouchKind};
+use crate::scenario::{Case, PostImpact, Scenario, Settling, Target};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample, Stopped, Timing};
-use crate::study::assembly::{Assembly, Grip};
+use crate::study::assembly::{Assembly, Attachment};
 use crate::study::capture::{Capture, capture};
 use crate::study::gaps::{Flight, Gaps, Pair, gap};
-use crate::study::meeting::{Touching, contact_kind, in_time};
+use crate::study::meeting::{Touching, contact_law, in_time};
 use crate::study::remainder::Remainder;
 use crate::study::settle::{Settle, settle, wheels};
 use crate::study::{Captured, CaseResult, Closest, Further, MakeModel, Observer, StudyError};
@@ -98,12 +97,12 @@ impl Course<'_> {
             course: self,
             state: before.clone(),
             targets: targets.to_vec(),
-            grips: Vec::new(),
+            attachments: Vec::new(),
             assembly: free,
             angles: before.joint_angles.clone(),
         };
         let impact = moving.strike(touching)?;
-        let mut open = if detected { self.pairs(&moving.grips) } else { Vec::new() };
+        let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
         let (mut post_impact, mut flown) = moving.coast(&open, 0.0, observer)?;
         let mut further = Vec::new();
         let mut penetration = self.penetration(&open, &post_impact, &flown);
@@ -117,7 +116,7 @@ impl Course<'_> {
             if time >= self.after.duration {
                 break;
             }
-            open = self.pairs(&moving.grips);
+            open = self.pairs(&moving.attachments);
             let (next, along) = moving.coast(&open, time, observer)?;
             penetration = penetration.max(self.penetration(&open, &next, &along));
             post_impact = post_impact.then(next);
@@ -158,12 +157,12 @@ impl Course<'_> {
     }
 
     /// The tips and targets that may meet: those that are to, and do not hold each other yet.
-    fn pairs(self, grips: &[Grip]) -> Vec<Pair> {
+    fn pairs(self, attachments: &[Attachment]) -> Vec<Pair> {
         let mut pairs = Vec::new();
         for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
             for (k, (touch, kind)) in target.touches.iter().zip(kinds).enumerate() {
-                let held = grips.iter().any(|grip| grip.arm == touch.arm);
-                if *kind != TouchKind::None && !held {
+                let held = attachments.iter().any(|grip| grip.arm == touch.arm);
+                if kind.is_some() && !held {
                     pairs.push(Pair { target: i, touch: k, arm: touch.arm });
                 }
             }
@@ -179,10 +178,10 @@ impl Course<'_> {
             let (distance, normal) = gap(self.scenario, pair.target, body, tip);
             let kind = self.case.kinds.get(pair.target).and_then(|kinds| kinds.get(pair.touch));
             let restitution = self.case.restitutions.get(pair.target).copied();
-            let kind = kind.and_then(|kind| contact_kind(*kind, || normal, restitution));
-            if let (true, Some(kind)) = (i == event || distance.abs() <= TOGETHER, kind) {
+            let law = kind.and_then(|kind| contact_law(*kind, || normal, restitution));
+            if let (true, Some(law)) = (i == event || distance.abs() <= TOGETHER, law) {
                 let offset = [tip[1] - body.pose[1], tip[2] - body.pose[2]];
-                touching.push(Touching { target: pair.target, arm: pair.arm, kind, offset, miss: distance.abs() });
+                touching.push(Touching { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
             }
         }
         touching
@@ -233,7 +232,7 @@ struct Moving<'a> {
     course: Course<'a>,
     state: RobotState,
     targets: Vec<Body>,
-    grips: Vec<Grip>,
+    attachments: Vec<Attachment>,
     assembly: Assembly,
     /// Of the first impact, rad.
     angles: Vec<f64>,
@@ -250,8 +249,8 @@ impl Moving<'_> {
         for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
             target.twist = *twist;
         }
-        self.grips.extend(holds(touching));
-        self.assembly = Assembly::new((course.make)(), &self.state, &self.targets, &self.grips)
+        self.attachments.extend(holds(touching));
+        self.assembly = Assembly::new((course.make)(), &self.state, &self.targets, &self.attachments)
             .map_err(|source| course.unsolved(source))?;
         Ok(impact)
     }
@@ -266,7 +265,7 @@ impl Moving<'_> {
         let course = self.course;
         let Self { state, targets, assembly, .. } = self;
         let mut gaps = Gaps::new(course.scenario, Flight::Assembled(assembly, targets), pairs.to_vec());
-        let wheels = wheels(&course.scenario.layout, &self.grips);
+        let wheels = wheels(&course.scenario.layout, &self.attachments);
         let wanted = Settle { after: course.after, wheels: &wheels, angles: &self.angles };
         let timing = course.timing(course.after.duration - time);
         let phase = settle(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
@@ -283,7 +282,7 @@ impl Moving<'_> {
 
     /// What is left of the motion.
     fn remainder(&self, control: &Settling, phase: &Phase) -> Result<Remainder, StudyError> {
-        let wheels = wheels(&self.course.scenario.layout, &self.grips);
+        let wheels = wheels(&self.course.scenario.layout, &self.attachments);
         let beside = phase.end().map_or_else(Vec::new, |end| self.assembly.pinned(&end.bodies));
         Remainder::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
             .map_err(|source| self.course.stopped(phase.duration, source))
@@ -291,7 +290,7 @@ impl Moving<'_> {
 }
 
 /// The contacts that hold.
-fn holds(touching: &[Touching]) -> impl Iterator<Item = Grip> {
-    let held = touching.iter().filter(|touch| !matches!(touch.kind, Kind::Bounce { .. }));
-    held.map(|touch| Grip { target: touch.target, arm: touch.arm, pinned: touch.kind == Kind::Pin })
+fn holds(touching: &[Touching]) -> impl Iterator<Item = Attachment> {
+    let held = touching.iter().filter(|touch| touch.law.kind().holds());
+    held.map(|touch| Attachment { target: touch.target, arm: touch.arm, kind: touch.law.kind() })
 }

@@ -1,7 +1,7 @@
 //! Tips and targets at the instant of an impact: where they touch, and how.
 
-use crate::contact::Kind;
-use crate::scenario::{Case, Scenario, TouchKind};
+use crate::contact::{ContactKind, ContactLaw};
+use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::study::assembly::turned;
 
@@ -13,7 +13,7 @@ pub struct Touching {
     /// Index of the arm.
     pub arm: usize,
     /// What the contact does.
-    pub kind: Kind<f64>,
+    pub law: ContactLaw<f64>,
     /// From the COM of the target to the tip, inertial axes, m.
     pub offset: [f64; 2],
     /// Distance of the tip from where the contact was wanted on the target, m: between several tips on one target.
@@ -30,9 +30,9 @@ pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body
     for (i, target) in scenario.targets.iter().enumerate() {
         let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
         let each = || target.touches.iter().zip(kinds);
-        let closing = each().any(|(_, kind)| *kind != TouchKind::None);
+        let closing = each().any(|(_, kind)| kind.is_some());
         let placed: Vec<[f64; 2]> = each()
-            .filter(|(_, kind)| !closing || **kind != TouchKind::None)
+            .filter(|(_, kind)| !closing || kind.is_some())
             .filter_map(|(touch, _)| {
                 let [_, x, y] = tips.get(touch.arm)?;
                 Some([x - touch.contact[0], y - touch.contact[1]])
@@ -47,25 +47,20 @@ pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body
             let Some([_, tip_x, tip_y]) = tips.get(touch.arm) else { continue };
             let offset = [tip_x - x, tip_y - y];
             let outline = || turned(target.surface.gap(turned(touch.contact, -target.yaw)).normal, target.yaw);
-            if let Some(kind) = contact_kind(*kind, outline, case.restitutions.get(i).copied()) {
+            if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
                 let miss = (offset[0] - touch.contact[0]).hypot(offset[1] - touch.contact[1]);
-                touching.push(Touching { target: i, arm: touch.arm, kind, offset, miss });
+                touching.push(Touching { target: i, arm: touch.arm, law, offset, miss });
             }
         }
     }
     (bodies, touching)
 }
 
-/// The law of a contact; `None` where the tip does nothing.
-pub(crate) fn contact_kind(
-    kind: TouchKind,
+/// The law of a contact; `None` where the end effector does nothing.
+pub(crate) fn contact_law(
+    kind: Option<ContactKind>,
     normal: impl FnOnce() -> [f64; 2],
     restitution: Option<f64>,
-) -> Option<Kind<f64>> {
-    match kind {
-        TouchKind::Rigid => Some(Kind::Rigid),
-        TouchKind::Pin => Some(Kind::Pin),
-        TouchKind::Bounce => Some(Kind::Bounce { normal: normal(), restitution: restitution.unwrap_or_default() }),
-        TouchKind::None => None,
-    }
+) -> Option<ContactLaw<f64>> {
+    kind.map(|kind| ContactLaw::new(kind, normal, restitution.unwrap_or_default()))
 }

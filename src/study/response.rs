@@ -1,6 +1,6 @@
 //! What a contact asks of robot and target: extended inverse inertia, effective masses, impulse index and ellipse.
 
-use crate::contact::{ImpulseEllipse, InverseInertia, Kind};
+use crate::contact::{ImpulseEllipse, InverseInertia};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::owned::RobotState;
@@ -42,10 +42,8 @@ pub fn response(
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
     let relative = [tip_omega - omega, tip_x - (vx - omega * ry), tip_y - (vy + omega * rx)];
     let speed = relative[1].hypot(relative[2]);
-    let direction = match touch.kind {
-        Kind::Bounce { normal, .. } => Some(normal),
-        Kind::Rigid | Kind::Pin => (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]),
-    };
+    let along_velocity = || (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]);
+    let direction = touch.law.bounce().map(|(normal, _)| normal).or_else(along_velocity);
     let (pose, angles) = (&before.base_pose, &before.joint_angles);
     let mut scratch = vec![0.0; 2 * model.joints()];
     let of_tip = InverseInertia::of_tip(model, pose, angles, touch.arm, &mut tips, &mut scratch)?;
@@ -53,10 +51,10 @@ pub fn response(
     let of_both = of_tip.plus(&of_target);
     let masses = |along: &[f64; 2]| [of_tip, of_target, of_both].map(|inertia| inertia.effective_mass(along));
     let index = |along: &[f64; 2]| {
-        let [fx, fy] = match touch.kind {
+        let [fx, fy] = match touch.law.bounce() {
             // only the part along the normal
-            Kind::Bounce { .. } => along.map(|part| part * of_both.effective_mass(along)),
-            Kind::Rigid | Kind::Pin => of_both.stopping_impulse(along),
+            Some(_) => along.map(|part| part * of_both.effective_mass(along)),
+            None => of_both.stopping_impulse(along),
         };
         fx.hypot(fy)
     };

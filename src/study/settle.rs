@@ -8,14 +8,14 @@ use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Stopped, Timing};
-use crate::study::assembly::Grip;
+use crate::study::assembly::Attachment;
 use crate::trajectory::Standing;
 
 /// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.
 #[must_use]
-pub fn wheels(layout: &Layout, grips: &[Grip]) -> Vec<bool> {
+pub fn wheels(layout: &Layout, attachments: &[Attachment]) -> Vec<bool> {
     let arms = layout.arms.iter().enumerate();
-    let free = |i: usize| grips.iter().all(|grip| grip.arm != i);
+    let free = |i: usize| attachments.iter().all(|attachment| attachment.arm != i);
     arms.flat_map(|(i, arm)| std::iter::repeat_n(free(i) && is_wheel(arm), arm.links.len())).collect()
 }
 

@@ -5,6 +5,7 @@ use crate::maximal::body::Body;
 use crate::maximal::impact::{Contact, Kind, impact};
 use crate::maximal::motion::run;
 use crate::maximal::system::System;
+use crate::product::law;
 use crate::support::sample::{Sample, config, sample};
 use crate::support::{assert_close, tolerance};
 use crate::{close, layout, robot};
@@ -16,7 +17,7 @@ use planar_capture::scenario::{Integration, Scheme};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::{Phase, Sample as Instant, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::study::assembly::{Assembly, Grip};
+use planar_capture::study::assembly::{Assembly, Attachment};
 use proptest::prelude::*;
 
 /// A robot that holds a target of the sample's, in both terms.
@@ -43,7 +44,7 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
     let Body { mass, inertia, pose, twist } = all.bodies[body];
     let target = planar_capture::body::Body { mass, inertia, pose, twist };
     let grips: Vec<_> =
-        holding.iter().map(|(arm, kind)| Grip { target: 0, arm: *arm, pinned: *kind == Kind::Pin }).collect();
+        holding.iter().map(|(arm, kind)| Attachment { target: 0, arm: *arm, kind: law(*kind).kind() }).collect();
     let model = models::generated(layout).unwrap_or_else(|_| models::generic(layout));
     let assembly = Assembly::new(model, &state, &[target], &grips).expect("an assembly");
     Held { all, assembly, state, target }

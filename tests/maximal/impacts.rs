@@ -4,17 +4,17 @@ use crate::maximal::body::Body;
 use crate::maximal::impact::{Contact, Impact, Kind, impact};
 use crate::maximal::random::{Scene, Touch, random_contacts};
 use crate::maximal::system::System;
-use crate::product::{Outcome, assert_same, both_models, described, kind, strike, velocities};
+use crate::product::{Outcome, assert_same, both_models, described, law, strike, velocities};
 use crate::support::sample::{Sample, config, sample};
 use crate::support::tolerance;
 use crate::{close, layout, robot, state};
-use planar_capture::contact::{self, Other};
+use planar_capture::contact::{self, ContactKind, Other};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::state::State;
-use planar_capture::study::assembly::{Assembly, Grip};
+use planar_capture::study::assembly::{Assembly, Attachment};
 use planar_capture::study::capture::capture;
 use planar_capture::study::meeting::Touching;
 use proptest::prelude::*;
@@ -158,11 +158,11 @@ fn strike_singly(
         arm: c.arm,
         other: c.other,
         offset: c.offset.map(|value| value as f32),
-        kind: match c.kind {
-            contact::Kind::Rigid => contact::Kind::Rigid,
-            contact::Kind::Pin => contact::Kind::Pin,
-            contact::Kind::Bounce { normal, restitution } => {
-                contact::Kind::Bounce { normal: normal.map(|n| n as f32), restitution: restitution as f32 }
+        law: match c.law {
+            contact::ContactLaw::Rigid => contact::ContactLaw::Rigid,
+            contact::ContactLaw::Pin => contact::ContactLaw::Pin,
+            contact::ContactLaw::Bounce { normal, restitution } => {
+                contact::ContactLaw::Bounce { normal: normal.map(|n| n as f32), restitution: restitution as f32 }
             }
         },
     };
@@ -245,12 +245,12 @@ proptest! {
         let (second_other, second_offset) =
             if same { (Other::Tip(1), from_tip(2)) } else { (Other::Body(0), (point(2) - free).into()) };
         let contacts = [
-            contact::Contact { arm: 0, other: Other::Tip(1), offset: from_tip(0), kind: kind(first) },
-            contact::Contact { arm: 2, other: second_other, offset: second_offset, kind: kind(second) },
+            contact::Contact { arm: 0, other: Other::Tip(1), offset: from_tip(0), law: law(first) },
+            contact::Contact { arm: 2, other: second_other, offset: second_offset, law: law(second) },
         ];
         let [first, second] = held.targets()[..] else { unreachable!() };
         let motion = held.motion(&s);
-        let grip = [Grip { target: 0, arm: 1, pinned: false }];
+        let grip = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
         for model in both_models(&layout) {
             let merged = Assembly::new(model, &motion, &[first, second], &grip).expect("one with the link").model;
             let found = strike(&*merged, &motion.view(), &[second], &contacts).expect("an impact");
@@ -278,10 +278,10 @@ proptest! {
         after.apply(&contacts, &wanted);
 
         let motion = held.motion(&s);
-        let grips = [0, 1].map(|arm| Grip { target: 0, arm, pinned: holding[arm] == Kind::Pin });
+        let grips = [0, 1].map(|arm| Attachment { target: 0, arm, kind: law(holding[arm]).kind() });
         let target = usize::from(!same);
         let offset = held.before.position(&held.before.tips[2]) - held.before.bodies[held.bodies[target]].com();
-        let touching = [Touching { target, arm: 2, kind: kind(what), offset: offset.into(), miss: 0.0 }];
+        let touching = [Touching { target, arm: 2, law: law(what), offset: offset.into(), miss: 0.0 }];
         for model in both_models(&layout) {
             let assembly = Assembly::new(model, &motion, &held.targets(), &grips).expect("an assembly");
             let found = capture(&assembly, &motion, &held.targets(), &touching).expect("an impact");

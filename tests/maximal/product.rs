@@ -44,11 +44,11 @@ pub fn both_models(layout: &Layout) -> Vec<Box<dyn CloneModel>> {
     models::generated(layout).into_iter().chain([models::generic(layout)]).collect()
 }
 
-pub fn kind(kind: Kind) -> contact::Kind<f64> {
+pub fn law(kind: Kind) -> contact::ContactLaw<f64> {
     match kind {
-        Kind::Rigid => contact::Kind::Rigid,
-        Kind::Pin => contact::Kind::Pin,
-        Kind::Bounce { normal, restitution } => contact::Kind::Bounce { normal, restitution },
+        Kind::Rigid => contact::ContactLaw::Rigid,
+        Kind::Pin => contact::ContactLaw::Pin,
+        Kind::Bounce { normal, restitution } => contact::ContactLaw::Bounce { normal, restitution },
     }
 }
 
@@ -60,7 +60,7 @@ pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
         arm: touch.arm,
         other: Other::Body(touch.target),
         offset: touch.offset,
-        kind: kind(touch.kind),
+        law: law(touch.kind),
     };
     (scene.targets.iter().map(body).collect(), scene.touches.iter().map(contact).collect())
 }

@@ -6,7 +6,7 @@ use crate::support::{assert_close, tolerance};
 use crate::{close, layout, state};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SMatrix, Vector2};
 use planar_capture::body::Body;
-use planar_capture::contact::{Contact, InverseInertia, Kind, Other};
+use planar_capture::contact::{Contact, ContactLaw, InverseInertia, Other};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
@@ -133,16 +133,16 @@ proptest! {
         let closing = [tips[1][1] - (vx - omega * ry), tips[1][2] - (vy + omega * rx)];
         let speed = Vector2::from(closing);
         let both = of_tip(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
-        let hit = |kind| {
-            let contact = Contact { arm: 1, other: Other::Body(0), offset: [rx, ry], kind };
+        let hit = |law| {
+            let contact = Contact { arm: 1, other: Other::Body(0), offset: [rx, ry], law };
             strike(&*model, &state(&s), &[body], &[contact]).expect("an impact").impulses[0]
         };
         let [fx, fy] = both.stopping_impulse(&closing);
-        close("pin", &hit(Kind::Pin), &[0.0, fx, fy], tolerance::SAME_IMPACT);
+        close("pin", &hit(ContactLaw::Pin), &[0.0, fx, fy], tolerance::SAME_IMPACT);
         let towards = Vector2::new(direction.cos(), direction.sin());
         let normal = -towards * towards.dot(&speed).signum();
         let impulse = normal * ((1.0 + restitution) * -normal.dot(&speed) * both.effective_mass(&normal.into()));
-        close("bounce", &hit(Kind::Bounce { normal: normal.into(), restitution }), &[0.0, impulse.x, impulse.y], tolerance::SAME_IMPACT);
+        close("bounce", &hit(ContactLaw::Bounce { normal: normal.into(), restitution }), &[0.0, impulse.x, impulse.y], tolerance::SAME_IMPACT);
     }
 }
 

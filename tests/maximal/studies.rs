@@ -10,7 +10,7 @@ use crate::{close, support};
 use planar_capture::contact;
 use planar_capture::models;
 use planar_capture::owned::RobotState;
-use planar_capture::scenario::{Scenario, Settling, TouchKind};
+use planar_capture::scenario::{Scenario, Settling};
 use planar_capture::study::capture::Capture;
 use planar_capture::study::{Captured, CaseResult, Study, study};
 use planar_capture::surface::Surface;
@@ -79,10 +79,10 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<
     let mut holds = vec![];
     for contact in &capture.contacts {
         let touching = contact.touching;
-        let kind = match touching.kind {
-            contact::Kind::Rigid => Kind::Rigid,
-            contact::Kind::Pin => Kind::Pin,
-            contact::Kind::Bounce { normal, restitution } => {
+        let kind = match touching.law {
+            contact::ContactLaw::Rigid => Kind::Rigid,
+            contact::ContactLaw::Pin => Kind::Pin,
+            contact::ContactLaw::Bounce { normal, restitution } => {
                 let (_, wanted) = gap(scenario, before, touching.arm, touching.target);
                 assert_close("normal", &normal, &wanted, tolerance::IN_SERIES);
                 Kind::Bounce { normal, restitution }
@@ -169,7 +169,7 @@ fn three_arms_and_three_kinds() {
     let (_, study, impacts) = check_scenario("three_arms");
     assert_eq!(impacts, [1]);
     let contacts = &study.cases[0].capture.as_ref().expect("a capture").impact.contacts;
-    let names: Vec<_> = contacts.iter().map(|contact| contact.touching.kind.name()).collect();
+    let names: Vec<_> = contacts.iter().map(|contact| contact.touching.law.kind().name()).collect();
     assert_eq!(names, ["rigid", "pin", "bounce"]);
 }
 
@@ -187,7 +187,7 @@ fn a_missed_target_flies_on() {
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let captured = result.capture.as_ref().expect("a case");
         for (i, kinds) in case.kinds.iter().enumerate() {
-            if kinds.iter().any(|kind| *kind != TouchKind::None) {
+            if kinds.iter().any(Option::is_some) {
                 continue;
             }
             missed += 1;

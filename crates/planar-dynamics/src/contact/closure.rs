@@ -1,6 +1,6 @@
 //! What tips hold after an impact, and the forces that keep it so.
 
-use super::{Contact, Kind, Other};
+use super::{Contact, ContactLaw, Other};
 use crate::scalar::{Real, Scalar};
 
 /// A hold that closes a loop, or that holds a body which is no part of the robot's tree: a contact that lasts.
@@ -23,11 +23,11 @@ impl<T: Real> Closure<T> {
     pub fn new(contact: &Contact<T>, [tip_yaw, tip_x, tip_y]: &[T; 3], [yaw, x, y]: &[T; 3]) -> Option<Self> {
         let (sin, cos) = Scalar::sin_cos(*yaw);
         let (dx, dy) = (*tip_x - *x, *tip_y - *y);
-        let yaw = match contact.kind {
-            Kind::Rigid => Some(*tip_yaw - *yaw),
-            Kind::Pin => None,
-            Kind::Bounce { .. } => return None,
-        };
+        let kind = contact.law.kind();
+        if !kind.holds() {
+            return None;
+        }
+        let yaw = kind.holds_yaw().then_some(*tip_yaw - *yaw);
         Some(Self { arm: contact.arm, other: contact.other, offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw })
     }
 
@@ -36,8 +36,8 @@ impl<T: Real> Closure<T> {
     pub fn contact(&self, [yaw, ..]: &[T; 3]) -> Contact<T> {
         let (sin, cos) = Scalar::sin_cos(*yaw);
         let [x, y] = self.offset;
-        let kind = if self.yaw.is_some() { Kind::Rigid } else { Kind::Pin };
-        Contact { arm: self.arm, other: self.other, offset: [cos * x - sin * y, sin * x + cos * y], kind }
+        let law = if self.yaw.is_some() { ContactLaw::Rigid } else { ContactLaw::Pin };
+        Contact { arm: self.arm, other: self.other, offset: [cos * x - sin * y, sin * x + cos * y], law }
     }
 
     /// By how much the hold is open, in the order of the contact's rows: yaw (rad, rigid ones alone), x and y (m).

@@ -6,9 +6,9 @@
 //!
 //! | kind | rows | transmits |
 //! |---|---|---|
-//! | [`Kind::Rigid`] | relative twist | moment and force |
-//! | [`Kind::Pin`] | relative velocity of the contact points | force |
-//! | [`Kind::Bounce`] | relative velocity along the normal | force along the normal, pushing only |
+//! | [`ContactLaw::Rigid`] | relative twist | moment and force |
+//! | [`ContactLaw::Pin`] | relative velocity of the contact points | force |
+//! | [`ContactLaw::Bounce`] | relative velocity along the normal | force along the normal, pushing only |
 //!
 //! With W the rows' velocities per row impulses ([`Rows`]), an impact is solved by Poisson's law with the rigid and pinned
 //! contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed ([`Hold`]).
@@ -18,6 +18,7 @@ mod complementarity;
 mod hold;
 mod impact;
 mod inverse_inertia;
+mod kind;
 mod row;
 mod rows;
 
@@ -25,38 +26,10 @@ pub use closure::Closure;
 pub use hold::{Hold, Workspace};
 pub use impact::{After, impact};
 pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
+pub use kind::{ContactKind, ContactLaw};
 pub use rows::{Rows, workspace_length};
 
 use crate::scalar::Real;
-
-/// What a contact does to the motion of a tip relative to what it touches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind<T> {
-    /// The tip takes hold: no relative twist after the impact.
-    Rigid,
-    /// The contact points move together after the impact, and turn freely about each other.
-    Pin,
-    /// The tip is pushed away without friction: Poisson's restitution along the normal. It is a law for contacts that do not
-    /// hold; a holding contact with restitution could create energy.
-    Bounce {
-        /// Of the surface that the tip touches, outwards, unit length, inertial axes.
-        normal: [T; 2],
-        /// 0, nothing is given back, to 1, all of it.
-        restitution: T,
-    },
-}
-
-impl<T> Kind<T> {
-    /// As in a scenario.
-    #[must_use]
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::Pin => "pin",
-            Self::Bounce { .. } => "bounce",
-        }
-    }
-}
 
 /// What a tip touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,13 +50,13 @@ pub struct Contact<T> {
     /// From the COM of the body, or from the other tip, to the contact point, inertial axes, m.
     pub offset: [T; 2],
     /// What the contact does.
-    pub kind: Kind<T>,
+    pub law: ContactLaw<T>,
 }
 
 impl<T: Real> Contact<T> {
     /// Any contact, to fill working space with.
     #[must_use]
     pub fn any() -> Self {
-        Self { arm: 0, other: Other::Tip(0), offset: [T::ZERO; 2], kind: Kind::Pin }
+        Self { arm: 0, other: Other::Tip(0), offset: [T::ZERO; 2], law: ContactLaw::Pin }
     }
 }

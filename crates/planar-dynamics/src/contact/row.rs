@@ -1,6 +1,6 @@
 //! One row of a contact.
 
-use super::{Contact, Kind, Other};
+use super::{Contact, ContactLaw, Other};
 use crate::linear::dot;
 use crate::scalar::Real;
 
@@ -35,10 +35,10 @@ impl<T: Real> Contact<T> {
     /// Its rows: 3, 2 or 1.
     pub(super) fn rows(&self) -> impl Iterator<Item = Row<T>> + use<T> {
         let (zero, one) = (T::ZERO, T::ONE);
-        let (wrenches, count, restitution) = match self.kind {
-            Kind::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3, None),
-            Kind::Pin => ([[zero, one, zero], [zero, zero, one], [zero; 3]], 2, None),
-            Kind::Bounce { normal: [x, y], restitution } => {
+        let (wrenches, count, restitution) = match self.law {
+            ContactLaw::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3, None),
+            ContactLaw::Pin => ([[zero, one, zero], [zero, zero, one], [zero; 3]], 2, None),
+            ContactLaw::Bounce { normal: [x, y], restitution } => {
                 ([[zero, x, y], [zero; 3], [zero; 3]], 1, Some(restitution))
             }
         };

@@ -2,7 +2,7 @@
 
 use super::complementarity::solve_rows;
 use super::row::{Row, Set};
-use super::{Contact, Kind, Other};
+use super::{Contact, Other};
 use crate::body::Body;
 use crate::check::{finite, length};
 use crate::dynamics::Model;
@@ -172,7 +172,7 @@ impl<'a, T: Real> Rows<'a, T> {
 fn check<T: Real>(contacts: &[Contact<T>], arms: usize, bodies: usize) -> Result<(), Error> {
     for contact in contacts {
         finite("contact offset", &contact.offset)?;
-        if let Kind::Bounce { normal: [x, y], restitution } = contact.kind {
+        if let Some(([x, y], restitution)) = contact.law.bounce() {
             finite("contact normal and restitution", &[x, y, restitution])?;
         }
         let (quantity, found, expected) = match contact.other {

@@ -1,6 +1,7 @@
-//! A polynomial between two states of motion.
+//! Joint angles as polynomials of fifth order, between two angles and rates.
 
-use super::{Desired, Ends, Trajectory};
+use super::kind::{JointTrajectory, Properties};
+use super::{Desired, Ends, Trajectory, part};
 use crate::scalar::{Real, Scalar};
 
 /// The fifth-order polynomial of the angle with given angles and rates at both ends, and no acceleration there.
@@ -9,8 +10,7 @@ use crate::scalar::{Real, Scalar};
 /// θ(t) = θ(0) + Δθ(10τ³ − 15τ⁴ + 6τ⁵) + T θ̇(0)(τ − 6τ³ + 8τ⁴ − 3τ⁵) + T θ̇(T)(−4τ³ + 7τ⁴ − 3τ⁵),  τ = t/T
 /// ```
 ///
-/// From rest it is eq. (6), [`Quartic`](super::Quartic): the rate of a quintic is a quartic, and the conditions at the ends
-/// are the same six.
+/// From rest it is eq. (6), [`Quartic`](super::Quartic).
 #[derive(Clone, Copy, Debug)]
 pub struct Quintic<'a, T> {
     /// Angles and duration.
@@ -23,9 +23,18 @@ pub struct Quintic<'a, T> {
 
 impl<T: Real> Trajectory<T> for Quintic<'_, T> {
     fn joint(&self, joint: usize, time: T) -> Option<Desired<T>> {
-        let (initial, change, tau) = self.ends.at(joint, time)?;
         let rates = [*self.initial_rates.get(joint)?, *self.final_rates.get(joint)?];
-        Some(quintic([initial, initial + change], rates, self.ends.duration, tau))
+        let duration = self.ends.duration;
+        Some(quintic(self.ends.angles(joint)?, rates, duration, part(time, duration)))
+    }
+}
+
+impl<'a, T: Real> JointTrajectory<'a, T> for Quintic<'a, T> {
+    const PROPERTIES: Properties =
+        Properties { name: "quintic", starts_at_rest: false, ends_at_rest: false, peak_factor: 1.875 };
+
+    fn between(ends: Ends<'a, T>, initial_rates: &'a [T], final_rates: &'a [T]) -> Self {
+        Self { ends, initial_rates, final_rates }
     }
 }
 

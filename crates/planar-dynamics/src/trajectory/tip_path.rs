@@ -1,6 +1,6 @@
 //! Where the tips should be on their way.
 
-use super::quintic;
+use super::{part, quintic};
 use crate::scalar::Real;
 
 /// What one tip should do at one time, inertial axes.
@@ -37,9 +37,7 @@ pub struct TipPath<'a, T> {
 impl<T: Real> TipPath<'_, T> {
     /// What the tip of `arm` should do at `time` (s); `None` for an arm that the path does not have.
     pub fn tip(&self, arm: usize, time: T) -> Option<DesiredTip<T>> {
-        let tau = time / self.duration;
-        let tau = if tau > T::ONE { T::ONE } else { tau };
-        let tau = if tau < T::ZERO { T::ZERO } else { tau };
+        let tau = part(time, self.duration);
         let [x0, y0, z0] = *self.initial_poses.get(arm)?;
         let [x1, y1, z1] = *self.final_poses.get(arm)?;
         let [u0, v0, w0] = *self.initial_twists.get(arm)?;
