@@ -108,8 +108,8 @@ fn phase(phase: &Phase, tips: bool) -> Value {
         value["joints_saturated"] = json!(phase.saturation.joints);
     }
     if end.base_torque.is_some() {
-        value["base_impulse"] = json!(end.base_impulse);
-        value["base_work"] = json!(end.base_work);
+        value["base_impulse"] = json!(end.work.base_impulse);
+        value["base_work"] = json!(end.work.base_work);
         value["base_saturated"] = json!(phase.saturation.base);
     }
     value

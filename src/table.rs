@@ -274,7 +274,7 @@ fn remainders(out: &mut String, study: &Study) -> std::fmt::Result {
             writeln!(
                 out,
                 "    the base torque took {:.6} N m s and did {:.6} J; {:.3} s at its limit",
-                -end.base_impulse, end.base_work, phase.saturation.base
+                -end.work.base_impulse, end.work.base_work, phase.saturation.base
             )?;
         }
         if !phase.saturation.joints.is_empty() {

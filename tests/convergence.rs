@@ -58,7 +58,7 @@ fn end(phase: &Phase) -> &Sample {
 }
 
 fn error(phase: &Phase, reference: &Phase) -> f64 {
-    let values = |phase| [&values(&end(phase).state)[..], &[end(phase).work]].concat();
+    let values = |phase| [&values(&end(phase).state)[..], &[end(phase).work.joint_work]].concat();
     difference(&values(phase), &values(reference))
 }
 
@@ -154,7 +154,8 @@ fn both_coordinates_take_a_base_torque() {
     let [full, reduced] = phases.each_ref().map(end);
     assert!(full.base_impulse.abs() > 1.0, "{} N m s", full.base_impulse);
     assert_close("motion", &values(&full.state), &values(&reduced.state), tolerance::CONTROLLED);
-    let [of_full, of_reduced] = [full, reduced].map(|end| [end.base_impulse, end.base_work, end.work]);
+    let [of_full, of_reduced] =
+        [full, reduced].map(|end| [end.work.base_impulse, end.work.base_work, end.work.joint_work]);
     assert_close("effort", &of_full, &of_reduced, tolerance::CONTROLLED);
     let drift = phases[1].drift.momentum_drift;
     assert!(drift < tolerance::MOMENTUM_RECOVERED, "{drift:e}");
@@ -284,8 +285,8 @@ fn a_thousand_seconds() {
     };
     // the largest energy error of each quarter
     let errors = |phase: &Phase| -> Vec<f64> {
-        let energy = phase.samples[0].kinetic_energy;
-        let error = |sample: &Sample| (sample.kinetic_energy - energy).abs() / energy;
+        let energy = phase.samples[0].momentum.kinetic_energy;
+        let error = |sample: &Sample| (sample.momentum.kinetic_energy - energy).abs() / energy;
         phase.samples.chunks(251).map(|part| part.iter().map(error).fold(0.0, f64::max)).collect()
     };
     let (gauss, runge_kutta) = (run(Scheme::GaussLegendre, 0.25), run(Scheme::RungeKutta4, 0.1));

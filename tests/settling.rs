@@ -72,7 +72,9 @@ fn stabilised_by_joints_alone_the_robot_turns_as_one_body() {
         let wanted: Vec<_> = start.joint_rates.iter().map(|rate| rate * decay).collect();
         assert_close("joint rates", &end.joint_rates, &wanted, tolerance::SETTLED);
         assert_close("base rate", &[left.base_rate], &[left.rigid_rate], tolerance::SETTLED);
-        assert!(captured.post_impact.end().is_some_and(|end| end.base_torque.is_none() && end.base_impulse == 0.0));
+        assert!(
+            captured.post_impact.end().is_some_and(|end| end.base_torque.is_none() && end.work.base_impulse == 0.0)
+        );
     }
 }
 

@@ -11,9 +11,8 @@ use crate::owned::RobotState;
 use crate::scenario::{Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
-use crate::simulate::limits::{Excesses, Watched};
 use crate::simulate::system::System;
-use crate::simulate::{Phase, Stopped, Timing, simulate};
+use crate::simulate::{Phase, Stopped, Timing, simulate_within};
 use crate::trajectory::{AnyTrajectory, Ends};
 
 /// The approach of one scenario.
@@ -108,7 +107,7 @@ impl<'a> Approach<'a> {
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, Stopped> {
         let joints = model.joints();
-        let law = ExactTracking {
+        let mut law = ExactTracking {
             trajectory: self.trajectory(rates),
             generalized_inertia: &mut vec![0.0; joints * joints],
             generalized_bias: &mut vec![0.0; joints],
@@ -125,9 +124,7 @@ impl<'a> Approach<'a> {
             },
         };
         let limits = &self.scenario.approach.actuation.joint_limits;
-        let mut watched = Watched { law, limits, excesses: Excesses::default() };
-        let phase = simulate(&System::alone(model), &mut watched, &initial, &self.timing, events, tick)?;
-        Ok(watched.finish(phase))
+        simulate_within(&System::alone(model), limits, &mut law, &initial, &self.timing, events, tick)
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {

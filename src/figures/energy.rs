@@ -9,15 +9,15 @@ use crate::study::{CaseResult, Study};
 pub(super) fn figure(study: &Study, result: &CaseResult) -> Figure {
     let approach = result.approach(study);
     let of_targets: f64 = result.targets.iter().map(|target| target.momentum().1).sum();
-    let done = approach.end().map_or(0.0, |end| end.work + end.base_work);
+    let done = approach.end().map_or(0.0, |end| end.work.total());
     let before = approach.samples.iter().map(|now| {
-        let energy = now.kinetic_energy + of_targets;
-        (now.time, [energy, energy - now.work - now.base_work])
+        let energy = now.momentum.kinetic_energy + of_targets;
+        (now.time, [energy, energy - now.work.total()])
     });
     let samples = result.capture.iter().flat_map(|captured| &captured.post_impact.samples);
     let after = samples.map(|now| {
-        let energy = now.kinetic_energy;
-        (approach.duration + now.time, [energy, energy - done - now.work - now.base_work])
+        let energy = now.momentum.kinetic_energy;
+        (approach.duration + now.time, [energy, energy - done - now.work.total()])
     });
     let all: Vec<(f64, [f64; 2])> = before.chain(after).collect();
     let curve = |label: &str, i: usize, colour: Colour, dash: Dash| Series {

@@ -71,14 +71,14 @@ fn impacts(study: &Study, result: &CaseResult, series: &[Series], curves: usize)
 /// One component of the robot's momentum over a phase, `more` added.
 fn part(phase: &Phase, start: f64, component: usize, more: f64) -> Vec<(f64, f64)> {
     let value = |s: &crate::simulate::Sample| match component {
-        0 => s.angular_momentum,
-        i => s.linear_momentum[i - 1],
+        0 => s.momentum.angular_momentum,
+        i => s.momentum.linear_momentum[i - 1],
     };
     phase.samples.iter().map(|sample| (start + sample.time, value(sample) + more)).collect()
 }
 
 /// [angular, linear]: a part of what the robot would have if all its kinetic energy were in one motion.
 fn least(scenario: &Scenario, study: &Study) -> [f64; 2] {
-    let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.kinetic_energy));
+    let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.momentum.kinetic_energy));
     [scenario.layout.base.inertia, scenario.layout.mass()].map(|inertia| LEAST_PART * (2.0 * energy * inertia).sqrt())
 }

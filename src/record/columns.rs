@@ -63,11 +63,11 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     list.vector("momentum", "linear_momentum", [("x", "N s"), ("y", "N s")], |row| row.whole().linear_momentum);
     list.one("momentum", "angular_momentum", "N m s", |row| row.whole().angular_momentum);
     list.one("energy", "kinetic_energy", "J", |row| row.whole().kinetic_energy);
-    list.one("energy", "joint_work", "J", |row| row.sample.work);
+    list.one("energy", "joint_work", "J", |row| row.sample.work.joint_work);
     if has_base_torque(case) {
         list.one("state", "base_torque", "N m", |row| row.sample.base_torque.unwrap_or_default());
-        list.one("energy", "base_work", "J", |row| row.sample.base_work);
-        list.one("momentum", "base_impulse", "N m s", |row| row.sample.base_impulse);
+        list.one("energy", "base_work", "J", |row| row.sample.work.base_work);
+        list.one("momentum", "base_impulse", "N m s", |row| row.sample.work.base_impulse);
     }
     // of the COM: no name of theirs can be that of a column of the robot
     for (i, target) in scenario.targets.iter().enumerate() {

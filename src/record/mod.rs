@@ -36,15 +36,9 @@ impl Row<'_> {
     /// Momentum and energy of robot and targets together.
     #[must_use]
     pub fn whole(&self) -> Momentum<f64> {
-        let sample = self.sample;
-        let moved = Momentum {
-            linear_momentum: sample.linear_momentum,
-            angular_momentum: sample.angular_momentum,
-            kinetic_energy: sample.kinetic_energy,
-        };
         // after the impact the targets are counted in already
         let alone = if self.phase == APPROACH { &self.targets[..] } else { &[] };
-        with_bodies(moved, alone)
+        with_bodies(self.sample.momentum, alone)
     }
 }
 

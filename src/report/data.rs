@@ -107,10 +107,10 @@ fn phase(phase: &Phase) -> Value {
         "tips": (0..tips).map(|arm| {
             columns(3, &|sample, i| sample.end_effector_poses.get(arm)?.get(i).copied())
         }).collect::<Vec<_>>(),
-        "linear_momentum": columns(2, &|sample, i| sample.linear_momentum.get(i).copied()),
-        "angular_momentum": column(&|sample| sample.angular_momentum),
-        "kinetic_energy": column(&|sample| sample.kinetic_energy),
-        "work": column(&|sample| sample.work + sample.base_work),
+        "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum.get(i).copied()),
+        "angular_momentum": column(&|sample| sample.momentum.angular_momentum),
+        "kinetic_energy": column(&|sample| sample.momentum.kinetic_energy),
+        "work": column(&|sample| sample.work.total()),
         "momentum_drift": phase.drift.momentum_drift,
         "energy_error": phase.drift.energy_error,
         "center_of_mass_drift": phase.drift.center_of_mass_drift,

@@ -1,9 +1,5 @@
 //! How far and how fast joints may turn: watched in every run, not enforced.
 
-use crate::control::{BaseTorque, Control};
-use crate::dynamics::Model;
-use crate::error::Error;
-use crate::simulate::Phase;
 use crate::state::State;
 
 /// What one joint may do.
@@ -107,55 +103,5 @@ impl Excesses {
             .into_iter()
             .flatten()
             .collect()
-    }
-}
-
-/// A law whose robot is watched: it looks as every step begins.
-#[derive(Debug)]
-pub struct Watched<'a, C> {
-    /// The law, as it is.
-    pub law: C,
-    /// One per joint; empty where nothing is limited.
-    pub limits: &'a [JointLimits],
-    /// What was seen so far.
-    pub excesses: Excesses,
-}
-
-impl<C> Watched<'_, C> {
-    /// Looks at the end of a phase, and puts what was seen into it.
-    #[must_use]
-    pub fn finish(mut self, phase: Phase) -> Phase {
-        if self.limits.is_empty() {
-            return phase;
-        }
-        if let Some(end) = phase.end() {
-            self.excesses.look(self.limits, end.time, &end.state.view());
-        }
-        Phase { excesses: Some(self.excesses), ..phase }
-    }
-}
-
-impl<C: Control<f64>> Control<f64> for Watched<'_, C> {
-    fn joint_torques(
-        &mut self,
-        time: f64,
-        model: &dyn Model<f64>,
-        state: &State<'_, f64>,
-        torques: &mut [f64],
-    ) -> Result<(), Error> {
-        self.law.joint_torques(time, model, state, torques)
-    }
-
-    fn begin_step(&mut self, time: f64, model: &dyn Model<f64>, state: &State<'_, f64>) -> Result<(), Error> {
-        self.excesses.look(self.limits, time, state);
-        self.law.begin_step(time, model, state)
-    }
-
-    fn base_torque(&self) -> Option<BaseTorque<f64>> {
-        self.law.base_torque()
-    }
-
-    fn saturated(&self) -> &[bool] {
-        self.law.saturated()
     }
 }

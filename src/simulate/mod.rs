@@ -12,16 +12,18 @@ pub mod system;
 mod watch;
 
 use crate::control::Control;
+use crate::dynamics::Momentum;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scenario::Integration;
 use crate::simulate::audit::Drift;
 use crate::simulate::event::Events;
 use crate::simulate::flow::Flow;
-use crate::simulate::limits::Excesses;
+use crate::simulate::limits::{Excesses, JointLimits};
 use crate::simulate::recorder::Recorder;
 use crate::simulate::system::{Body, System};
 use crate::simulate::watch::Watch;
+use crate::state::ActuatorWork;
 
 /// Everything that is known of one instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,20 +38,12 @@ pub struct Sample {
     pub end_effector_poses: Vec<[f64; 3]>,
     /// [ω, vx, vy] of each tip; rad/s, m/s.
     pub end_effector_twists: Vec<[f64; 3]>,
-    /// N s, inertial axes.
-    pub linear_momentum: [f64; 2],
-    /// About the inertial origin, N m s.
-    pub angular_momentum: f64,
-    /// J.
-    pub kinetic_energy: f64,
-    /// Work of the joint torques since the start of the phase, J.
-    pub work: f64,
+    /// Of robot and the bodies beside it together.
+    pub momentum: Momentum<f64>,
+    /// Since the start of the phase.
+    pub work: ActuatorWork<f64>,
     /// On the base, N m; `None` where there is no such actuator.
     pub base_torque: Option<f64>,
-    /// Work of the base torque since the start of the phase, J.
-    pub base_work: f64,
-    /// Angular momentum that the base torque gave the robot since the start of the phase, N m s.
-    pub base_impulse: f64,
     /// The bodies beside the robot, in the system's order.
     pub bodies: Vec<Body>,
 }
@@ -128,13 +122,10 @@ impl Phase {
     /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
     #[must_use]
     pub fn then(mut self, next: Self) -> Self {
-        let (work, base_work, base_impulse) =
-            self.end().map_or((0.0, 0.0, 0.0), |end| (end.work, end.base_work, end.base_impulse));
+        let work = self.end().map_or_else(ActuatorWork::default, |end| end.work);
         self.samples.extend(next.samples.into_iter().map(|sample| Sample {
             time: self.duration + sample.time,
-            work: work + sample.work,
-            base_work: base_work + sample.base_work,
-            base_impulse: base_impulse + sample.base_impulse,
+            work: work.plus(&sample.work),
             ..sample
         }));
         let joints = self.saturation.joints.iter_mut().zip(next.saturation.joints);
@@ -197,11 +188,27 @@ pub fn simulate(
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
+    simulate_within(system, &[], control, initial, timing, events, tick)
+}
+
+/// The same, and reports where joints go beyond their limits: one per joint, or none.
+///
+/// # Errors
+/// As [`simulate()`].
+pub fn simulate_within(
+    system: &System<'_>,
+    limits: &[JointLimits],
+    control: &mut dyn Control<f64>,
+    initial: &RobotState,
+    timing: &Timing,
+    events: &mut dyn Events,
+    tick: &mut dyn FnMut(),
+) -> Result<Phase, Stopped> {
     let mut x = system.vector(&initial.view());
     let at = |time| move |source| Stopped { time, source };
     let mut flow = Flow::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut watch = Watch::new(system, events);
-    let mut phase = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
+    let mut phase = Recorder::new(system, limits, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);

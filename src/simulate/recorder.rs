@@ -4,9 +4,10 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::audit::{Audit, Done};
+use crate::simulate::limits::{Excesses, JointLimits};
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
-use crate::state::{Effort, State};
+use crate::state::{ActuatorWork, State};
 
 /// Looks at a phase at the start of every step, and at its end.
 pub(crate) struct Recorder<'a> {
@@ -19,6 +20,8 @@ pub(crate) struct Recorder<'a> {
     saturated: Vec<bool>,
     base_saturated: bool,
     constraint_errors: [f64; 2],
+    limits: &'a [JointLimits],
+    excesses: Excesses,
 }
 
 impl<'a> Recorder<'a> {
@@ -26,7 +29,11 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
+    pub(crate) fn new(
+        system: &'a System<'a>,
+        limits: &'a [JointLimits],
+        start: &State<'_, f64>,
+    ) -> Result<Self, Error> {
         Ok(Self {
             system,
             audit: Audit::new(system.model, start, system.bodies)?,
@@ -36,6 +43,8 @@ impl<'a> Recorder<'a> {
             saturated: Vec::new(),
             base_saturated: false,
             constraint_errors: [0.0; 2],
+            limits,
+            excesses: Excesses::default(),
         })
     }
 
@@ -54,11 +63,11 @@ impl<'a> Recorder<'a> {
         let model = self.system.model;
         let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
         let state = State::from_vector(x, model.joints()).ok_or(wrong)?;
-        let effort = Effort::from_vector(x).unwrap_or_default();
-        let work = effort.joint_work + effort.base_work;
-        let done = Done { time, work, impulse: [effort.base_impulse, 0.0, 0.0] };
+        let work = ActuatorWork::from_vector(x).unwrap_or_default();
+        let done = Done { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let open = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
+        self.excesses.look(self.limits, time, &state);
         let bodies = self.system.bodies_at(x);
         let momentum = self.audit.record(&state, &bodies, &done)?;
         if begins {
@@ -80,13 +89,9 @@ impl<'a> Recorder<'a> {
             joint_torques: self.torques.clone(),
             end_effector_poses: vec![[0.0; 3]; model.arms()],
             end_effector_twists: vec![[0.0; 3]; model.arms()],
-            linear_momentum: momentum.linear_momentum,
-            angular_momentum: momentum.angular_momentum,
-            kinetic_energy: momentum.kinetic_energy,
-            work: effort.joint_work,
+            momentum,
+            work,
             base_torque: control.base_torque().map(|base| base.torque),
-            base_work: effort.base_work,
-            base_impulse: effort.base_impulse,
             bodies,
         };
         model.end_effector_poses(&state.base_pose, state.joint_angles, &mut sample.end_effector_poses)?;
@@ -106,7 +111,7 @@ impl<'a> Recorder<'a> {
 
     /// The phase, so long.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
-        let Self { samples, audit, saturation, constraint_errors, .. } = self;
+        let Self { samples, audit, saturation, constraint_errors, limits, excesses, .. } = self;
         Phase {
             duration,
             event,
@@ -115,7 +120,7 @@ impl<'a> Recorder<'a> {
             saturation,
             constraint_errors,
             singularity_margin: None,
-            excesses: None,
+            excesses: (!limits.is_empty()).then_some(excesses),
         }
     }
 }

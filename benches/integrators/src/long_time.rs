@@ -84,7 +84,7 @@ fn runs(start: &RobotState, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Ve
             let how = method.with(fineness, SAMPLE);
             let (phase, evaluations) = problems.free(start, DURATION, SAMPLE, how)?;
             let series = |error: &dyn Fn(&Sample, &Sample) -> f64| errors(&phase, error);
-            let energy = series(&|now, start| (now.kinetic_energy - start.kinetic_energy).abs() / start.kinetic_energy);
+            let energy = series(&|now, start| (now.momentum.kinetic_energy - start.momentum.kinetic_energy).abs() / start.momentum.kinetic_energy);
             let momentum = series(&|now, start| scale.momentum_error(now, start));
             Ok(Run { method, fineness, evaluations, energy, momentum })
         })
@@ -119,8 +119,8 @@ impl Scale {
     }
 
     fn momentum_error(&self, now: &Sample, start: &Sample) -> f64 {
-        let [dx, dy] = [0, 1].map(|i| now.linear_momentum[i] - start.linear_momentum[i]);
-        let angular = now.angular_momentum - start.angular_momentum;
+        let [dx, dy] = [0, 1].map(|i| now.momentum.linear_momentum[i] - start.momentum.linear_momentum[i]);
+        let angular = now.momentum.angular_momentum - start.momentum.angular_momentum;
         (dx.hypot(dy) / self.linear).max(angular.abs() / self.angular)
     }
 }

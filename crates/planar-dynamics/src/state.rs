@@ -1,5 +1,7 @@
 //! A robot's state, and the forces on it.
 
+use crate::scalar::Scalar;
+
 /// Where the robot is and how it moves; J holds one number per joint: an array, a vector, a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobotState<T, J> {
@@ -64,8 +66,8 @@ impl<'a, T> Forces<'a, T> {
     }
 }
 
-/// Number of entries of the vector that is integrated: `[base_pose, joint_angles, base_twist, joint_rates, effort]`, the
-/// last an [`Effort`].
+/// Number of entries of the vector that is integrated: `[base_pose, joint_angles, base_twist, joint_rates, work]`, the
+/// last an [`ActuatorWork`].
 ///
 /// A vector may be longer by 6 for each free body beside the robot, their poses after the joint angles and their twists
 /// after the joint rates: the first half are positions, the second their rates, whatever there is.
@@ -79,7 +81,7 @@ const fn half(length: usize) -> usize {
     length.saturating_sub(3) / 2
 }
 
-/// The positions of an integrated vector and their rates; `None` where the vector is not two halves and an effort.
+/// The positions of an integrated vector and their rates; `None` where the vector is not two halves and actuator work.
 pub fn halves<T>(vector: &[T]) -> Option<(&[T], &[T])> {
     let (state, _) = vector.split_last_chunk::<3>()?;
     let (positions, rates) = state.split_at_checked(half(vector.len()))?;
@@ -89,14 +91,14 @@ pub fn halves<T>(vector: &[T]) -> Option<(&[T], &[T])> {
 /// Positions, rates and what follows them in an integrated vector, to be changed; `None` as [`halves`].
 pub fn halves_mut<T>(vector: &mut [T]) -> Option<(&mut [T], &mut [T], &mut [T; 3])> {
     let places = half(vector.len());
-    let (state, effort) = vector.split_last_chunk_mut::<3>()?;
+    let (state, work) = vector.split_last_chunk_mut::<3>()?;
     let (positions, rates) = state.split_at_mut_checked(places)?;
-    (positions.len() == rates.len()).then_some((positions, rates, effort))
+    (positions.len() == rates.len()).then_some((positions, rates, work))
 }
 
 /// What the actuators have done, integrated beside the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Effort<T> {
+pub struct ActuatorWork<T> {
     /// Work of the joint torques, J.
     pub joint_work: T,
     /// Work of the base torque, J.
@@ -105,7 +107,23 @@ pub struct Effort<T> {
     pub base_impulse: T,
 }
 
-impl<T: Copy> Effort<T> {
+impl<T: Scalar> ActuatorWork<T> {
+    /// Both together, of phases that follow each other.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            joint_work: self.joint_work + other.joint_work,
+            base_work: self.base_work + other.base_work,
+            base_impulse: self.base_impulse + other.base_impulse,
+        }
+    }
+
+    /// Of all actuators together, J.
+    #[must_use]
+    pub fn total(&self) -> T {
+        self.joint_work + self.base_work
+    }
+
     /// The last three entries of an integrated vector; `None` where there are not so many.
     pub fn from_vector(vector: &[T]) -> Option<Self> {
         let [joint_work, base_work, base_impulse] = *vector.last_chunk::<3>()?;

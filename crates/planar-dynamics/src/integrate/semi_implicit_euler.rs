@@ -7,7 +7,7 @@ use crate::state::halves_mut;
 
 /// Rates by their derivatives, then positions by the *new* rates; the global error is O(step).
 ///
-/// For vectors of positions, their rates and an [`Effort`](crate::state::Effort), see
+/// For vectors of positions, their rates and an [`ActuatorWork`](crate::state::ActuatorWork), see
 /// [`vector_length`](crate::state::vector_length). One evaluation per step. Where the mass matrix is constant the method is
 /// symplectic (symplectic Euler, the method of most game engines); the mass matrix of an arm is not, so that momentum and
 /// energy stray by O(step).
@@ -38,7 +38,7 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
         Ok(())
     }
 
-    /// The first half of a step: rates and effort. What may be done to the rates then comes before [`drift`].
+    /// The first half of a step: rates and work. What may be done to the rates then comes before [`drift`].
     ///
     /// # Errors
     /// As [`Self::step`].

@@ -14,7 +14,7 @@ use crate::state::{Forces, State, halves, vector_length};
 
 /// d/dt of `[base_pose, joint_angles, base_twist, joint_rates, joint_work, base_work, base_impulse]` under a control law:
 /// its joint torques and, where it has one, its base torque; no other forces. The last three are an
-/// [`Effort`](crate::state::Effort).
+/// [`ActuatorWork`](crate::state::ActuatorWork).
 ///
 /// Free bodies beside the robot, see [`vector_length`], keep their twists.
 /// `torques` (joints) is left with the torques at this time.
@@ -41,7 +41,7 @@ pub fn derivative<T: Real>(
     let (_, twists) = halves(x).ok_or(wrong(x.len()))?;
     let (velocities, accelerations) = rate.split_at_mut(twists.len());
     velocities.copy_from_slice(twists);
-    let (accelerations, effort) = accelerations.split_at_mut(twists.len());
+    let (accelerations, work) = accelerations.split_at_mut(twists.len());
     let (base, rest) = accelerations.split_at_mut(3);
     let (joint_accelerations, of_bodies) = rest.split_at_mut(joints);
     of_bodies.fill(T::ZERO);
@@ -52,7 +52,7 @@ pub fn derivative<T: Real>(
     let joint_power = torques.iter().zip(state.joint_rates).fold(T::ZERO, |sum, (t, r)| sum + *t * *r);
     let [omega, ..] = state.base_twist;
     let base_torque = base_torque.unwrap_or(T::ZERO);
-    for (place, value) in effort.iter_mut().zip([joint_power, base_torque * omega, base_torque]) {
+    for (place, value) in work.iter_mut().zip([joint_power, base_torque * omega, base_torque]) {
         *place = value;
     }
     Ok(())

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::linear::{dot, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
-use crate::state::{Effort, State, halves, halves_mut, vector_length};
+use crate::state::{ActuatorWork, State, halves, halves_mut, vector_length};
 
 /// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
 ///
@@ -20,7 +20,7 @@ use crate::state::{Effort, State, halves, halves_mut, vector_length};
 /// [`recover`](Self::recover) after every step. Everything but the momentum is working space.
 #[derive(Debug)]
 pub struct Reduced<'a, T> {
-    /// [l, px, py] when the effort was zero, about the inertial origin; N m s, N s.
+    /// [l, px, py] when the work was zero, about the inertial origin; N m s, N s.
     pub momentum: [T; 3],
     /// (3 + joints)².
     pub mass_matrix: &'a mut [T],
@@ -55,7 +55,7 @@ impl<T: Real> Reduced<'_, T> {
         let base_torque = control.base_torque().map_or(T::ZERO, |base| base.torque);
         model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
 
-        let (velocities, accelerations, effort) = halves_mut(rate).ok_or(wrong)?;
+        let (velocities, accelerations, work) = halves_mut(rate).ok_or(wrong)?;
         let (base, joints) = velocities.split_first_chunk_mut::<3>().ok_or(wrong)?;
         *base = state.base_twist;
         let (of_base, joint_accelerations) = accelerations.split_first_chunk_mut::<3>().ok_or(wrong)?;
@@ -72,7 +72,7 @@ impl<T: Real> Reduced<'_, T> {
         }
         solve("the generalized inertia I", generalized_inertia, joint_accelerations)?;
         let [omega, ..] = state.base_twist;
-        *effort = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
+        *work = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
         Ok(())
     }
 
@@ -102,7 +102,7 @@ fn recovered<'x, 'm, T: Real>(
         return Err(wrong);
     }
     let state = State::from_vector(x, joints).ok_or(wrong)?;
-    let impulse = Effort::from_vector(x).ok_or(wrong)?.base_impulse;
+    let impulse = ActuatorWork::from_vector(x).ok_or(wrong)?.base_impulse;
     model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
     let equation = MomentumEquation::new(mass_matrix, joints)?;
     let base_twist = equation.base_twist([*l + impulse, *px, *py], &state.base_pose, state.joint_rates);
