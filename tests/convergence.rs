@@ -152,7 +152,7 @@ fn both_coordinates_take_a_base_torque() {
         run(&mut law, 4.0, 0.01, Scheme::RungeKutta4, coordinates)
     });
     let [full, reduced] = phases.each_ref().map(end);
-    assert!(full.base_impulse.abs() > 1.0, "{} N m s", full.base_impulse);
+    assert!(full.work.base_impulse.abs() > 1.0, "{} N m s", full.work.base_impulse);
     assert_close("motion", &values(&full.state), &values(&reduced.state), tolerance::CONTROLLED);
     let [of_full, of_reduced] =
         [full, reduced].map(|end| [end.work.base_impulse, end.work.base_work, end.work.joint_work]);

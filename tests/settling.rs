@@ -90,7 +90,7 @@ fn a_base_torque_takes_the_angular_momentum() {
         let [before, rest @ ..] = free.remainder.as_ref().expect("a remainder").momentum;
         assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::SETTLED);
         let end = captured.post_impact.end().expect("an end");
-        assert_close("impulse", &[end.base_impulse], &[-before], tolerance::SETTLED);
+        assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::SETTLED);
         assert!(captured.post_impact.saturation.base == 0.0);
     }
 }
@@ -105,7 +105,7 @@ fn a_weak_base_torque_takes_longer() {
         let largest = largest.fold(0.0, |most: f64, torque| most.max(torque.abs()));
         assert!(largest <= limit, "{largest}");
         let time = captured.post_impact.saturation.base;
-        let impulse = captured.post_impact.end().expect("an end").base_impulse.abs();
+        let impulse = captured.post_impact.end().expect("an end").work.base_impulse.abs();
         assert!(impulse <= limit * captured.post_impact.duration);
         assert!(time <= captured.post_impact.duration + 1e-6 && (time > 1.0 || impulse < 0.1), "{time} s");
     }

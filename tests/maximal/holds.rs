@@ -110,7 +110,7 @@ fn check(layout: &Layout, s: &Sample, holding: &[(usize, Kind)], controlled: boo
     let (target, body) = (held.target_at(end), all.bodies.last().expect("the target"));
     close("target pose", &target.pose, &body.pose, bound);
     close("target twist", &target.twist, &body.twist, bound);
-    assert_close("work", &[end.work], &[seen.work], bound * end.kinetic_energy.max(1.0));
+    assert_close("work", &[end.work.joint_work], &[seen.work], bound * end.momentum.kinetic_energy.max(1.0));
     true
 }
 
