@@ -77,20 +77,13 @@ pub fn capture(
     touching: &[Touching],
 ) -> Result<Capture, Error> {
     let model = &*assembly.model;
-    let (exact, paper) = match rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty()) {
-        Some(by_arm) => {
-            let by = |literal| rigid(model, before, targets, touching, &by_arm, literal);
-            (by(false)?, Some(by(true)?))
-        }
-        None => (of_any_kind(assembly, before, targets, touching)?, None),
-    };
+    let exact = by_contacts(assembly, before, targets, touching)?;
+    let literal = rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty());
+    let paper =
+        literal.map(|by_arm| by_equations_of_the_paper(model, before, targets, touching, &by_arm)).transpose()?;
     let each = touching.iter().zip(&exact.impulses).map(|(touch, impulse)| {
-        let target = targets.get(touch.target).ok_or(Error::Length {
-            quantity: "targets",
-            expected: touch.target + 1,
-            found: targets.len(),
-        })?;
-        Ok(ContactResult { touching: *touch, impulse: *impulse, response: response(model, before, target, touch)? })
+        let response = response(model, before, &targets[touch.target], touch)?;
+        Ok(ContactResult { touching: *touch, impulse: *impulse, response })
     });
     let contacts = each.collect::<Result<_, Error>>()?;
     let result = |velocities: &Velocities| balance(assembly, before, targets, touching, velocities);
@@ -122,14 +115,13 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[Touching]) ->
     Some(by_arm)
 }
 
-/// The rigid capture in full coordinates, or by the paper's equations.
-fn rigid(
+/// The rigid capture by the paper's reduced equations.
+fn by_equations_of_the_paper(
     model: &dyn Model<f64>,
     before: &RobotState,
     targets: &[Body],
     touching: &[Touching],
     by_arm: &[Option<Target<f64>>],
-    literal: bool,
 ) -> Result<Velocities, Error> {
     let (joints, arms) = (model.joints(), model.arms());
     let size = 3 + joints;
@@ -137,32 +129,25 @@ fn rigid(
     let mut target_twists = vec![[0.0; 3]; arms];
     let mut impulses = vec![[0.0; 3]; arms];
     let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
-    let base_twist = if literal {
-        let mut workspace = Workspace {
-            impact_matrix: &mut vec![0.0; joints * joints],
-            impact_momentum: &mut vec![0.0; joints],
-            jacobian: &mut vec![0.0; 3 * arms * joints],
-            mass_matrix: &mut vec![0.0; size * size],
-        };
-        impact::paper(model, &before.view(), by_arm, &mut workspace, &mut after)?
-    } else {
-        impact::exact(model, &before.view(), by_arm, &mut after)?
+    let mut workspace = Workspace {
+        impact_matrix: &mut vec![0.0; joints * joints],
+        impact_momentum: &mut vec![0.0; joints],
+        jacobian: &mut vec![0.0; 3 * arms * joints],
+        mass_matrix: &mut vec![0.0; size * size],
     };
-    let of_arm = |values: &[[f64; 3]], arm: usize| values.get(arm).copied().unwrap_or_default();
-    let touched = |i: usize| touching.iter().find(|touch| touch.target == i);
+    let base_twist = impact::paper(model, &before.view(), by_arm, &mut workspace, &mut after)?;
+    let arm_of = |i: usize| touching.iter().find(|touch| touch.target == i).map(|touch| touch.arm);
     let of_targets = targets.iter().enumerate();
     Ok(Velocities {
         base_twist,
-        targets: of_targets
-            .map(|(i, target)| touched(i).map_or(target.twist, |touch| of_arm(&target_twists, touch.arm)))
-            .collect(),
-        impulses: touching.iter().map(|touch| of_arm(&impulses, touch.arm)).collect(),
+        targets: of_targets.map(|(i, target)| arm_of(i).map_or(target.twist, |arm| target_twists[arm])).collect(),
+        impulses: touching.iter().map(|touch| impulses[touch.arm]).collect(),
         joint_rates,
     })
 }
 
 /// Contacts of any kind, together with what is held already.
-fn of_any_kind(
+fn by_contacts(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
@@ -174,14 +159,12 @@ fn of_any_kind(
     // the tips and bodies as they are now
     let bodies: Vec<Body> = assembly.beside(targets);
     let new = touching.iter().map(|touch| {
-        let (other, offset) = match assembly.places.get(touch.target) {
-            Some(Place::Merged { arm, .. }) => {
-                let point = |arm: usize| tips.get(arm).copied().unwrap_or_default();
-                let ([_, x, y], [_, from_x, from_y]) = (point(touch.arm), point(*arm));
-                (Other::Tip(*arm), [x - from_x, y - from_y])
+        let (other, offset) = match assembly.places[touch.target] {
+            Place::Merged { arm, .. } => {
+                let ([_, x, y], [_, from_x, from_y]) = (tips[touch.arm], tips[arm]);
+                (Other::Tip(arm), [x - from_x, y - from_y])
             }
-            Some(Place::Beside(i)) => (Other::Body(*i), touch.offset),
-            None => (Other::Body(usize::MAX), touch.offset),
+            Place::Beside(i) => (Other::Body(i), touch.offset),
         };
         Contact { arm: touch.arm, other, offset, law: touch.law }
     });
