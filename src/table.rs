@@ -2,7 +2,7 @@
 
 use crate::scenario::{Detection, Scenario, Settling, Tracking};
 use crate::simulate::Phase;
-use crate::simulate::audit::Drift;
+use crate::simulate::conservation::Drift;
 use crate::study::capture::ImpactResult;
 use crate::study::meeting::Touching;
 use crate::study::{Captured, CaseResult, Study};

@@ -7,7 +7,7 @@ use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scenario::{Scenario, Settling, Tracking};
 use planar_capture::simulate::Phase;
-use planar_capture::simulate::audit::{Audit, Done};
+use planar_capture::simulate::conservation::{Audit, Done};
 use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
 use planar_capture::simulate::system::Body;
 use planar_capture::state::State;

@@ -122,7 +122,7 @@ fn reduced_coordinates_accelerate_as_full_ones() {
     for_every_layout(|model, s| {
         let (joints, state) = (model.joints(), state(s));
         let mut x = vec![0.0; vector_length(joints)];
-        state.write(&mut x);
+        state.write(&mut x).expect("room");
         let (mut full, mut reduced) = (x.clone(), x.clone());
         let mut torques = vec![0.0; joints];
         let mut law = Given(&s.joint_torques);

@@ -4,8 +4,9 @@ mod support;
 
 use planar_capture::models;
 use planar_capture::owned::RobotState;
-use planar_capture::scenario::{Actuation, Integration, PostImpact, Scenario, Settling};
+use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
 use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Timing};
 use planar_capture::study::Captured;

@@ -4,7 +4,7 @@ mod support;
 
 use planar_capture::contact::ContactKind;
 use planar_capture::models;
-use planar_capture::simulate::audit::{Audit, Done, Drift};
+use planar_capture::simulate::conservation::{Audit, Done, Drift};
 use planar_capture::state::State;
 use planar_capture::study::capture::ContactResult;
 use planar_capture::summary::summary;

@@ -1,11 +1,12 @@
 //! The `[approach]` table: how the arms move to the targets.
 
 use super::actuation::Actuation;
-use super::integration::Integration;
+use super::integration;
 use super::joints::{Joints, check_length};
 use super::resolved;
 use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
 use crate::diagnostic::{Quantity, Table, Value, every, listing};
+use crate::simulate::integration::Integration;
 use crate::trajectory::TrajectoryKind;
 
 const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
@@ -123,9 +124,9 @@ impl Approach {
         resolved::KEYS[2],
         Actuation::KEYS[0],
         Actuation::KEYS[1],
-        Integration::KEYS[0],
-        Integration::KEYS[1],
-        Integration::KEYS[2],
+        integration::KEYS[0],
+        integration::KEYS[1],
+        integration::KEYS[2],
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
@@ -165,7 +166,7 @@ impl Approach {
             }
             _ => Actuation::from_table(table, times, joints),
         };
-        let integration = Integration::from_table(table);
+        let integration = integration::integration(table);
         let (duration, step) = times?;
         Some(Self {
             duration,

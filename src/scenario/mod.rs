@@ -20,7 +20,6 @@ pub use actuation::Actuation;
 pub use approach::{Approach, EndRates, TipGoal, TipTwist, Tracking};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
-pub use integration::{Coordinates, Integration, Scheme};
 pub use post_impact::{PostImpact, Settling};
 pub use target::{Target, Touch, contact_name};
 

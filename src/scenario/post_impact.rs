@@ -2,9 +2,10 @@
 
 use super::actuation::Actuation;
 use super::duration_and_step;
-use super::integration::Integration;
+use super::integration;
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table};
+use crate::simulate::integration::Integration;
 
 const STIFFNESS: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
 const DAMPING: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
@@ -138,9 +139,9 @@ impl PostImpact {
     pub(super) const KEYS: [&'static str; 12] = [
         "duration",
         "step",
-        Integration::KEYS[0],
-        Integration::KEYS[1],
-        Integration::KEYS[2],
+        integration::KEYS[0],
+        integration::KEYS[1],
+        integration::KEYS[2],
         "control",
         "proportional_gain",
         "derivative_gain",
@@ -157,7 +158,7 @@ impl PostImpact {
             Some(Settling::None) => Some(Actuation::default()),
             _ => Actuation::from_table(table, times, joints),
         };
-        let integration = Integration::from_table(table);
+        let integration = integration::integration(table);
         let (duration, step) = times?;
         Some(Self { duration, step, control: control?, actuation: actuation?, integration: integration? })
     }

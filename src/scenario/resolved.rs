@@ -5,7 +5,7 @@ use super::approach::{
     Approach, EndRates, TipGoal, TipTwist, Tracking, end_effector_twists, tip_goals, trajectory_duration,
 };
 use super::duration_and_step;
-use super::integration::Integration;
+use super::integration;
 use super::joints::Joints;
 use crate::diagnostic::{Quantity, Table, Value};
 use crate::trajectory::TrajectoryKind;
@@ -56,7 +56,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         None => Some(0.04),
     };
     let actuation = Actuation::from_table(table, times, joints);
-    let integration = Integration::from_table(table);
+    let integration = integration::integration(table);
     let (duration, step) = times?;
     Some(Approach {
         duration,

@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::motion::{Canonical, Reduced};
 use crate::simulate::system::System;
-use crate::state::{State, halves, halves_mut};
+use crate::state::{CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut};
 
 /// What is integrated: full or reduced coordinates, or canonical variables.
 pub(crate) struct Equation<'a> {
@@ -99,7 +99,7 @@ impl<'a> Equation<'a> {
             return Err(Error::Beside { count });
         }
         let (joints, arms) = (system.model.joints(), system.model.arms());
-        let momentum = system.model.momentum(&state(x, joints)?)?;
+        let momentum = system.model.momentum(&State::from_vector(x, joints)?)?;
         let [px, py] = momentum.linear_momentum;
         let space = ReducedSpace {
             momentum: [momentum.angular_momentum, px, py],
@@ -132,7 +132,7 @@ impl<'a> Equation<'a> {
             bias: vec![0.0; size],
             results: vec![0.0; size],
         };
-        let at = state(x, joints)?;
+        let at = State::from_vector(x, joints)?;
         space.split().0.measure(system.model, &at.base_pose, at.joint_angles)?;
         Ok(Self { form: Form::Canonical(space), ..Self::full(system) })
     }
@@ -181,15 +181,15 @@ impl<'a> Equation<'a> {
         beside.x.copy_from_slice(x);
         replace(&mut canonical, system, beside.x, beside.results, Direction::ToRates)?;
         system.derivative(control, time, beside.x, rate, torques)?;
-        let now = state(beside.x, joints)?;
-        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: rate.len() };
-        let (_, rates, [.., base_torque]) = halves_mut(rate).ok_or(wrong)?;
-        let places = rates.get_mut(..3 + joints).ok_or(wrong)?;
+        let now = State::from_vector(beside.x, joints)?;
+        let HalvesMut { rates, work: [.., base_torque], .. } = halves_mut(rate)?;
         if system.bodies.is_empty() && system.closures.is_empty() {
-            let (base, of_joints) = places.split_first_chunk_mut::<3>().ok_or(wrong)?;
-            *base = [*base_torque, 0.0, 0.0];
-            of_joints.copy_from_slice(torques);
-        } else {
+            let forces = CoordinatesMut::new(rates, joints)?;
+            *forces.base = [*base_torque, 0.0, 0.0];
+            forces.joints.copy_from_slice(torques);
+        }
+        let places = &mut rates[..3 + joints];
+        if !system.bodies.is_empty() || !system.closures.is_empty() {
             model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
             model.bias(&now, beside.bias)?;
             let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());
@@ -271,23 +271,17 @@ fn replace(
     direction: Direction,
 ) -> Result<(), Error> {
     let joints = system.model.joints();
-    let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
-    let now = state(x, joints)?;
+    let now = State::from_vector(x, joints)?;
     match direction {
         Direction::ToMomenta => canonical.momenta(system.model, &now, results)?,
         Direction::ToRates => {
-            let momenta = halves(x).and_then(|(_, momenta)| momenta.get(..3 + joints)).ok_or(wrong)?;
-            let (base, of_joints) = results.split_first_chunk_mut::<3>().ok_or(wrong)?;
+            let Halves { rates: momenta, .. } = halves(x)?;
+            let CoordinatesMut { base, joints: of_joints, .. } = CoordinatesMut::new(results, joints)?;
+            let momenta = &momenta[..3 + joints];
             *base = canonical.velocities(system.model, now.base_pose, now.joint_angles, momenta, of_joints)?;
         }
     }
-    let places = halves_mut(x).and_then(|(_, rates, _)| rates.get_mut(..3 + joints)).ok_or(wrong)?;
-    places.copy_from_slice(results);
+    let HalvesMut { rates: places, .. } = halves_mut(x)?;
+    places[..3 + joints].copy_from_slice(results);
     Ok(())
-}
-
-fn state(x: &[f64], joints: usize) -> Result<State<'_, f64>, Error> {
-    let wrong =
-        Error::Length { quantity: "state vector", expected: crate::state::vector_length(joints), found: x.len() };
-    State::from_vector(x, joints).ok_or(wrong)
 }

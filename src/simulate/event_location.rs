@@ -1,4 +1,4 @@
-//! Looks for events while a phase runs, and finds when they were.
+//! Looks for events while a phase runs, and locates their times.
 
 use crate::error::Error;
 use crate::simulate::event::{Events, Instant};
@@ -19,7 +19,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 pub(crate) type StateAt<'a> = dyn FnMut(f64, &mut Vec<f64>) -> Result<(), Error> + 'a;
 
 /// Watches the values of events from step to step.
-pub(crate) struct Watch<'a> {
+pub(crate) struct EventLocator<'a> {
     system: &'a System<'a>,
     events: &'a mut dyn Events,
     armed: Vec<bool>,
@@ -33,7 +33,7 @@ struct Look {
     rates: Vec<f64>,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> EventLocator<'a> {
     pub(crate) fn new(system: &'a System<'a>, events: &'a mut dyn Events) -> Self {
         let count = events.count();
         let now = Look { values: vec![0.0; count], rates: vec![0.0; count] };
@@ -110,9 +110,8 @@ impl<'a> Watch<'a> {
     }
 
     fn values(&mut self, time: f64, x: &[f64], values: &mut [f64]) -> Result<(), Error> {
-        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
-        let state = State::from_vector(x, self.system.model.joints()).ok_or(wrong)?;
-        let bodies = self.system.bodies_at(x);
+        let state = State::from_vector(x, self.system.model.joints())?;
+        let bodies = self.system.bodies_at(x)?;
         self.events.values(&Instant { time, system: self.system, state, bodies: &bodies }, values)
     }
 

@@ -1,28 +1,29 @@
 //! One phase in time: steps of any integrator under a control law, audited at every step, up to its end or an event.
 
 pub mod actuators;
-pub mod audit;
 pub(crate) mod bodies;
+pub mod conservation;
 mod equation;
 pub mod event;
-mod flow;
+mod event_location;
+pub mod integration;
 pub mod limits;
 mod recorder;
+pub mod stepper;
 pub mod system;
-mod watch;
 
 use crate::control::Control;
 use crate::dynamics::Momentum;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scenario::Integration;
-use crate::simulate::audit::Drift;
+use crate::simulate::conservation::Drift;
 use crate::simulate::event::Events;
-use crate::simulate::flow::Flow;
+use crate::simulate::event_location::EventLocator;
+use crate::simulate::integration::Integration;
 use crate::simulate::limits::{Excesses, JointLimits};
 use crate::simulate::recorder::Recorder;
+use crate::simulate::stepper::Stepper;
 use crate::simulate::system::{Body, System};
-use crate::simulate::watch::Watch;
 use crate::state::ActuatorWork;
 
 /// Everything that is known of one instant.
@@ -204,10 +205,10 @@ pub fn simulate_within(
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, Stopped> {
-    let mut x = system.vector(&initial.view());
     let at = |time| move |source| Stopped { time, source };
-    let mut flow = Flow::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
-    let mut watch = Watch::new(system, events);
+    let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
+    let mut stepper = Stepper::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let mut locator = EventLocator::new(system, events);
     let mut phase = Recorder::new(system, limits, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
@@ -216,18 +217,18 @@ pub fn simulate_within(
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
         phase.look(control, time, &x, true, i % stride == 0).map_err(at(time))?;
-        if watch.is_idle() {
-            flow.advance(control, span, &mut x).map_err(at(time))?;
+        if locator.is_idle() {
+            stepper.advance(control, span, &mut x).map_err(at(time))?;
         } else {
             if i == 0 {
-                flow.rate(control, time, &x, &mut rate).map_err(at(time))?;
-                watch.start(time, end - time, &x, &rate).map_err(at(time))?;
+                stepper.rate(control, time, &x, &mut rate).map_err(at(time))?;
+                locator.start(time, end - time, &x, &rate).map_err(at(time))?;
             }
             before.copy_from_slice(&x);
-            flow.advance(control, span, &mut x).map_err(at(time))?;
-            flow.rate(control, end, &x, &mut rate).map_err(at(end))?;
-            let mut within = |t: f64, into: &mut Vec<f64>| flow.within(control, [time, t], &before, into);
-            if let Some((event, when)) = watch.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
+            stepper.advance(control, span, &mut x).map_err(at(time))?;
+            stepper.rate(control, end, &x, &mut rate).map_err(at(end))?;
+            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within(control, [time, t], &before, into);
+            if let Some((event, when)) = locator.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
                 within(when, &mut x).map_err(at(when))?;
                 phase.count(when - time);
                 phase.look(control, when, &x, false, true).map_err(at(when))?;

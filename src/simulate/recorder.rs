@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::simulate::audit::{Audit, Done};
+use crate::simulate::conservation::{Audit, Done};
 use crate::simulate::limits::{Excesses, JointLimits};
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
@@ -61,14 +61,13 @@ impl<'a> Recorder<'a> {
         wanted: bool,
     ) -> Result<(), Error> {
         let model = self.system.model;
-        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: x.len() };
-        let state = State::from_vector(x, model.joints()).ok_or(wrong)?;
-        let work = ActuatorWork::from_vector(x).unwrap_or_default();
+        let state = State::from_vector(x, model.joints())?;
+        let work = ActuatorWork::from_vector(x)?;
         let done = Done { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let open = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
         self.excesses.look(self.limits, time, &state);
-        let bodies = self.system.bodies_at(x);
+        let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &done)?;
         if begins {
             control.begin_step(time, model, &state)?;

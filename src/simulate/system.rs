@@ -5,7 +5,7 @@ use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::motion::derivative;
-use crate::state::{State, halves, vector_length};
+use crate::state::{Coordinates, CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut, vector_length};
 
 /// A rigid body beside the robot.
 pub type Body = crate::body::Body<f64>;
@@ -29,33 +29,31 @@ impl<'a> System<'a> {
     }
 
     /// The integrated vector at the start, from the robot's state.
-    #[must_use]
-    pub fn vector(&self, state: &State<'_, f64>) -> Vec<f64> {
+    ///
+    /// # Errors
+    /// [`Error::Length`] where the state is another robot's.
+    pub fn vector(&self, state: &State<'_, f64>) -> Result<Vec<f64>, Error> {
         let joints = self.model.joints();
         let mut x = vec![0.0; vector_length(joints) + 6 * self.bodies.len()];
-        state.write(&mut x);
-        let half = 3 + joints + 3 * self.bodies.len();
-        for (i, body) in self.bodies.iter().enumerate() {
-            let place = 3 + joints + 3 * i;
-            for (start, values) in [(place, body.pose), (half + place, body.twist)] {
-                if let Some(entries) = x.get_mut(start..start + 3) {
-                    entries.copy_from_slice(&values);
-                }
-            }
+        state.write(&mut x)?;
+        let HalvesMut { positions, rates, .. } = halves_mut(&mut x)?;
+        let (positions, rates) = (CoordinatesMut::new(positions, joints)?, CoordinatesMut::new(rates, joints)?);
+        for ((pose, twist), body) in positions.bodies.iter_mut().zip(rates.bodies).zip(self.bodies) {
+            (*pose, *twist) = (body.pose, body.twist);
         }
-        x
+        Ok(x)
     }
 
     /// The bodies at an integrated vector.
-    #[must_use]
-    pub fn bodies_at(&self, x: &[f64]) -> Vec<Body> {
-        let skip = 3 + self.model.joints();
-        let part = |half: &[f64], i: usize| {
-            half.get(skip + 3 * i..).and_then(|rest| rest.first_chunk::<3>()).copied().unwrap_or_default()
-        };
-        let (positions, rates) = halves(x).unwrap_or_default();
-        let each = self.bodies.iter().enumerate();
-        each.map(|(i, body)| Body { pose: part(positions, i), twist: part(rates, i), ..*body }).collect()
+    ///
+    /// # Errors
+    /// [`Error::StateVector`], [`Error::Length`] where the vector is another system's.
+    pub fn bodies_at(&self, x: &[f64]) -> Result<Vec<Body>, Error> {
+        let joints = self.model.joints();
+        let Halves { positions, rates, .. } = halves(x)?;
+        let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
+        let each = self.bodies.iter().zip(positions.bodies).zip(rates.bodies);
+        Ok(each.map(|((body, pose), twist)| Body { pose: *pose, twist: *twist, ..*body }).collect())
     }
 
     /// d/dt of the integrated vector under a control law; `torques` is left with its torques.

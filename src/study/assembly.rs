@@ -61,7 +61,6 @@ impl Assembly {
     ) -> Result<Self, Error> {
         let mut tips = vec![[0.0; 3]; model.arms()];
         model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips)?;
-        let tip_of = |arm: usize| tips.get(arm).copied().unwrap_or_default();
         let mut merged = vec![None; model.arms()];
         let (mut bodies, mut places) = (Vec::new(), Vec::new());
         for (i, target) in targets.iter().enumerate() {
@@ -72,12 +71,9 @@ impl Assembly {
                     Place::Beside(bodies.len() - 1)
                 }
                 Some(Attachment { arm, .. }) => {
-                    let (tip, [yaw, x, y]) = (tip_of(*arm), target.pose);
-                    if let Some(place) = merged.get_mut(*arm) {
-                        let contact = [tip[1] - x, tip[2] - y];
-                        let Body { mass, inertia, twist, .. } = *target;
-                        *place = Some(Target { mass, inertia, contact, twist });
-                    }
+                    let (tip, [yaw, x, y]) = (tips[*arm], target.pose);
+                    let Body { mass, inertia, twist, .. } = *target;
+                    merged[*arm] = Some(Target { mass, inertia, contact: [tip[1] - x, tip[2] - y], twist });
                     Place::Merged { arm: *arm, offset: turned([x - tip[1], y - tip[2]], -tip[0]), yaw: yaw - tip[0] }
                 }
             });
@@ -85,11 +81,10 @@ impl Assembly {
         model.merge(&motion.base_pose, &motion.joint_angles, &merged)?;
         let mut closures = Vec::new();
         for attachment in attachments {
-            let (other, pose) = match places.get(attachment.target) {
-                Some(Place::Merged { arm, .. }) if *arm == attachment.arm => continue,
-                Some(Place::Merged { arm, .. }) => (Other::Tip(*arm), tip_of(*arm)),
-                Some(Place::Beside(i)) => (Other::Body(*i), bodies.get(*i).map_or([0.0; 3], |body| body.pose)),
-                None => continue,
+            let (other, pose) = match places[attachment.target] {
+                Place::Merged { arm, .. } if arm == attachment.arm => continue,
+                Place::Merged { arm, .. } => (Other::Tip(arm), tips[arm]),
+                Place::Beside(i) => (Other::Body(i), bodies[i].pose),
             };
             let contact = Contact {
                 arm: attachment.arm,
@@ -97,7 +92,7 @@ impl Assembly {
                 offset: [0.0; 2],
                 law: ContactLaw::new(attachment.kind, Default::default, 0.0),
             };
-            closures.extend(Closure::new(&contact, &tip_of(attachment.arm), &pose));
+            closures.extend(Closure::new(&contact, &tips[attachment.arm], &pose));
         }
         Ok(Self { model, bodies, closures, places })
     }
@@ -125,20 +120,20 @@ impl Assembly {
     /// The holds as contacts, at poses of the tips and bodies.
     pub(crate) fn holds(&self, tips: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
         let pose = |other: Other| match other {
-            Other::Body(i) => bodies.get(i).map(|body| body.pose),
-            Other::Tip(arm) => tips.get(arm).copied(),
+            Other::Body(i) => bodies[i].pose,
+            Other::Tip(arm) => tips[arm],
         };
-        self.closures.iter().filter_map(|closure| Some(closure.contact(pose(closure.other).as_ref()?))).collect()
+        self.closures.iter().map(|closure| closure.contact(&pose(closure.other))).collect()
     }
 
     /// All targets, from poses and twists of the tips and the bodies beside the robot.
     #[must_use]
     pub fn targets(&self, targets: &[Body], tips: &[[f64; 3]], tip_twists: &[[f64; 3]], bodies: &[Body]) -> Vec<Body> {
         let of = |(target, place): (&Body, &Place)| match *place {
-            Place::Beside(i) => bodies.get(i).copied().unwrap_or(*target),
+            Place::Beside(i) => bodies[i],
             Place::Merged { arm, offset, yaw } => {
-                let [tip_yaw, x, y] = tips.get(arm).copied().unwrap_or_default();
-                let [omega, vx, vy] = tip_twists.get(arm).copied().unwrap_or_default();
+                let [tip_yaw, x, y] = tips[arm];
+                let [omega, vx, vy] = tip_twists[arm];
                 let [rx, ry] = turned(offset, tip_yaw);
                 Body {
                     pose: [tip_yaw + yaw, x + rx, y + ry],

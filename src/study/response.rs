@@ -38,7 +38,7 @@ pub fn response(
 ) -> Result<ContactResponse, Error> {
     let mut tips = vec![[0.0; 3]; model.arms()];
     model.end_effector_twists(&before.view(), &mut tips)?;
-    let [tip_omega, tip_x, tip_y] = tips.get(touch.arm).copied().unwrap_or_default();
+    let [tip_omega, tip_x, tip_y] = tips[touch.arm];
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
     let relative = [tip_omega - omega, tip_x - (vx - omega * ry), tip_y - (vy + omega * rx)];
     let speed = relative[1].hypot(relative[2]);

@@ -28,7 +28,8 @@ fn vector(sample: &Sample) -> Vec<f64> {
         base_twist: sample.base_twist,
         joint_rates: &sample.joint_rates,
     }
-    .write(&mut x);
+    .write(&mut x)
+    .expect("room");
     x
 }
 

@@ -13,8 +13,8 @@ use planar_capture::control::{Control, Free};
 use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::owned::RobotState;
-use planar_capture::scenario::{Integration, Scheme};
 use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::integration::{Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample as Instant, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::study::assembly::{Assembly, Attachment};
@@ -213,7 +213,7 @@ fn whole(held: &Held, x: &[f64]) -> ([f64; 2], [f64; 3]) {
         moments = [moments[0] + mass * x, moments[1] + mass * y];
     };
     inertias.iter().zip(&poses).for_each(|([mass, _], pose)| add(*mass, *pose));
-    for body in system.bodies_at(x) {
+    for body in system.bodies_at(x).expect("bodies") {
         add(body.mass, body.pose);
         momentum.iter_mut().zip(body.momentum().0).for_each(|(sum, part)| *sum += part);
     }
@@ -227,7 +227,7 @@ fn closing_keeps_centre_and_momentum() {
     for holding in MIXTURES {
         let held = held(&layout("dual_arm_3r"), &start(), holding);
         let system = held.assembly.system();
-        let closed = system.vector(&held.state.view());
+        let closed = system.vector(&held.state.view()).expect("a vector");
         let half = (closed.len() - 3) / 2;
         let off = |i: usize| tolerance::OPENED * (3.0 * f64::from(u8::try_from(i).expect("few"))).sin();
         let mut opened = closed.clone();

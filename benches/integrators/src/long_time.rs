@@ -6,7 +6,7 @@ use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::owned::RobotState;
-use planar_capture::scenario::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample};
 
 /// s.
@@ -84,7 +84,9 @@ fn runs(start: &RobotState, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Ve
             let how = method.with(fineness, SAMPLE);
             let (phase, evaluations) = problems.free(start, DURATION, SAMPLE, how)?;
             let series = |error: &dyn Fn(&Sample, &Sample) -> f64| errors(&phase, error);
-            let energy = series(&|now, start| (now.momentum.kinetic_energy - start.momentum.kinetic_energy).abs() / start.momentum.kinetic_energy);
+            let energy = series(&|now, start| {
+                (now.momentum.kinetic_energy - start.momentum.kinetic_energy).abs() / start.momentum.kinetic_energy
+            });
             let momentum = series(&|now, start| scale.momentum_error(now, start));
             Ok(Run { method, fineness, evaluations, energy, momentum })
         })

@@ -1,7 +1,7 @@
 //! The schemes that are compared, and how they are named and drawn.
 
 use planar_capture::figures::{Colour, Dash, Shape};
-use planar_capture::scenario::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 
 /// A scheme in one of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]

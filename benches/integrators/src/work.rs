@@ -3,7 +3,7 @@
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::{Problems, end};
-use planar_capture::scenario::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::{Phase, Stopped};
 
 /// Of one motion.

@@ -13,6 +13,22 @@ pub enum Error {
         /// The slice's number.
         found: usize,
     },
+    /// A vector that is no state: positions, as many rates, and three entries of actuator work.
+    #[error("a state vector has as many rates as positions and three entries of actuator work, not {found} entries")]
+    StateVector {
+        /// The vector's length.
+        found: usize,
+    },
+    /// An index of something that there is not.
+    #[error("there is no {what} {index}, there are {count}")]
+    Index {
+        /// What is counted.
+        what: &'static str,
+        /// From 0.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A number that is NaN or infinite.
     #[error("{quantity}[{index}] = {value} is not a finite number")]
     NotFinite {
@@ -42,6 +58,14 @@ pub enum Error {
         rounds: usize,
         /// Largest change in the last of them.
         change: f64,
+    },
+    /// A search that does not come to an end.
+    #[error("{what}: no solution after {rounds} exchanges")]
+    Exhausted {
+        /// What is solved.
+        what: &'static str,
+        /// Exchanges made.
+        rounds: u32,
     },
     /// An adaptive integrator that makes no way.
     #[error("the tolerance {tolerance:e} cannot be kept: steps of {step:e} s are still too long")]

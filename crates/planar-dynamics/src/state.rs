@@ -1,5 +1,6 @@
 //! A robot's state, and the forces on it.
 
+use crate::error::Error;
 use crate::scalar::Scalar;
 
 /// Where the robot is and how it moves; J holds one number per joint: an array, a vector, a slice.
@@ -76,24 +77,111 @@ pub const fn vector_length(joints: usize) -> usize {
     2 * (3 + joints) + 3
 }
 
-/// Where the second half of an integrated vector begins.
-const fn half(length: usize) -> usize {
-    length.saturating_sub(3) / 2
+/// Number of positions in an integrated vector, where it is two halves and actuator work.
+fn positions<T>(vector: &[T]) -> Result<usize, Error> {
+    let found = vector.len();
+    match found.checked_sub(3) {
+        Some(both) if both.is_multiple_of(2) => Ok(both / 2),
+        _ => Err(Error::StateVector { found }),
+    }
 }
 
-/// The positions of an integrated vector and their rates; `None` where the vector is not two halves and actuator work.
-pub fn halves<T>(vector: &[T]) -> Option<(&[T], &[T])> {
-    let (state, _) = vector.split_last_chunk::<3>()?;
-    let (positions, rates) = state.split_at_checked(half(vector.len()))?;
-    (positions.len() == rates.len()).then_some((positions, rates))
+/// An integrated vector in its parts.
+#[derive(Clone, Copy, Debug)]
+pub struct Halves<'a, T> {
+    /// Of base, joints and bodies beside the robot.
+    pub positions: &'a [T],
+    /// Of the positions.
+    pub rates: &'a [T],
+    /// Of the actuators.
+    pub work: &'a [T; 3],
 }
 
-/// Positions, rates and what follows them in an integrated vector, to be changed; `None` as [`halves`].
-pub fn halves_mut<T>(vector: &mut [T]) -> Option<(&mut [T], &mut [T], &mut [T; 3])> {
-    let places = half(vector.len());
-    let (state, work) = vector.split_last_chunk_mut::<3>()?;
-    let (positions, rates) = state.split_at_mut_checked(places)?;
-    (positions.len() == rates.len()).then_some((positions, rates, work))
+/// As [`Halves`], to be changed.
+#[derive(Debug)]
+pub struct HalvesMut<'a, T> {
+    /// Of base, joints and bodies beside the robot.
+    pub positions: &'a mut [T],
+    /// Of the positions.
+    pub rates: &'a mut [T],
+    /// Of the actuators.
+    pub work: &'a mut [T; 3],
+}
+
+/// The parts of an integrated vector.
+///
+/// # Errors
+/// [`Error::StateVector`] where the vector is not two halves and actuator work.
+pub fn halves<T>(vector: &[T]) -> Result<Halves<'_, T>, Error> {
+    let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
+    let (state, work) = vector.split_last_chunk::<3>().ok_or(wrong)?;
+    let (positions, rates) = state.split_at_checked(count).ok_or(wrong)?;
+    Ok(Halves { positions, rates, work })
+}
+
+/// The parts of an integrated vector, to be changed.
+///
+/// # Errors
+/// As [`halves`].
+pub fn halves_mut<T>(vector: &mut [T]) -> Result<HalvesMut<'_, T>, Error> {
+    let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
+    let (state, work) = vector.split_last_chunk_mut::<3>().ok_or(wrong)?;
+    let (positions, rates) = state.split_at_mut_checked(count).ok_or(wrong)?;
+    Ok(HalvesMut { positions, rates, work })
+}
+
+/// One half of an integrated vector by what it belongs to.
+#[derive(Clone, Copy, Debug)]
+pub struct Coordinates<'a, T> {
+    /// Of the base: a pose or a twist.
+    pub base: &'a [T; 3],
+    /// Of the joints.
+    pub joints: &'a [T],
+    /// Of the bodies beside the robot.
+    pub bodies: &'a [[T; 3]],
+}
+
+impl<'a, T> Coordinates<'a, T> {
+    /// The parts of a half.
+    ///
+    /// # Errors
+    /// [`Error::Length`] where there are fewer than base and joints have, or a part of a body.
+    pub fn new(half: &'a [T], joints: usize) -> Result<Self, Error> {
+        let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
+        let (base, rest) = half.split_first_chunk::<3>().ok_or(wrong)?;
+        let (joints, bodies) = rest.split_at_checked(joints).ok_or(wrong)?;
+        match bodies.as_chunks::<3>() {
+            (bodies, []) => Ok(Self { base, joints, bodies }),
+            _ => Err(wrong),
+        }
+    }
+}
+
+/// As [`Coordinates`], to be changed.
+#[derive(Debug)]
+pub struct CoordinatesMut<'a, T> {
+    /// Of the base: a pose or a twist, or its rate.
+    pub base: &'a mut [T; 3],
+    /// Of the joints.
+    pub joints: &'a mut [T],
+    /// Of the bodies beside the robot.
+    pub bodies: &'a mut [[T; 3]],
+}
+
+impl<'a, T> CoordinatesMut<'a, T> {
+    /// The parts of a half.
+    ///
+    /// # Errors
+    /// As [`Coordinates::new`].
+    pub fn new(half: &'a mut [T], joints: usize) -> Result<Self, Error> {
+        let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
+        let (base, rest) = half.split_first_chunk_mut::<3>().ok_or(wrong)?;
+        let (joints, bodies) = rest.split_at_mut_checked(joints).ok_or(wrong)?;
+        match bodies.as_chunks_mut::<3>() {
+            (bodies, []) => Ok(Self { base, joints, bodies }),
+            _ => Err(wrong),
+        }
+    }
 }
 
 /// What the actuators have done, integrated beside the state.
@@ -124,31 +212,44 @@ impl<T: Scalar> ActuatorWork<T> {
         self.joint_work + self.base_work
     }
 
-    /// The last three entries of an integrated vector; `None` where there are not so many.
-    pub fn from_vector(vector: &[T]) -> Option<Self> {
-        let [joint_work, base_work, base_impulse] = *vector.last_chunk::<3>()?;
-        Some(Self { joint_work, base_work, base_impulse })
+    /// The last three entries of an integrated vector.
+    ///
+    /// # Errors
+    /// [`Error::StateVector`] where there are not so many.
+    pub fn from_vector(vector: &[T]) -> Result<Self, Error> {
+        let wrong = Error::StateVector { found: vector.len() };
+        let [joint_work, base_work, base_impulse] = *vector.last_chunk::<3>().ok_or(wrong)?;
+        Ok(Self { joint_work, base_work, base_impulse })
     }
 }
 
 impl<'a, T: Copy> State<'a, T> {
-    /// The state in an integrated vector, see [`vector_length`]; `None` where the vector is too short.
-    pub fn from_vector(vector: &'a [T], joints: usize) -> Option<Self> {
-        let (positions, rates) = halves(vector)?;
-        let (base_pose, rest) = positions.split_first_chunk::<3>()?;
-        let joint_angles = rest.get(..joints)?;
-        let (base_twist, rest) = rates.split_first_chunk::<3>()?;
-        let joint_rates = rest.get(..joints)?;
-        Some(Self { base_pose: *base_pose, joint_angles, base_twist: *base_twist, joint_rates })
+    /// The state in an integrated vector, see [`vector_length`].
+    ///
+    /// # Errors
+    /// [`Error::StateVector`], [`Error::Length`] where the vector is no state of a robot with so many joints.
+    pub fn from_vector(vector: &'a [T], joints: usize) -> Result<Self, Error> {
+        let Halves { positions, rates, .. } = halves(vector)?;
+        let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
+        Ok(Self {
+            base_pose: *positions.base,
+            joint_angles: positions.joints,
+            base_twist: *rates.base,
+            joint_rates: rates.joints,
+        })
     }
 
     /// Writes the state to its places in an integrated vector; the other entries keep their values.
-    pub fn write(&self, vector: &mut [T]) {
-        let Some((positions, rates)) = vector.split_at_mut_checked(half(vector.len())) else { return };
+    ///
+    /// # Errors
+    /// [`Error::StateVector`] where the vector is not two halves and actuator work.
+    pub fn write(&self, vector: &mut [T]) -> Result<(), Error> {
+        let HalvesMut { positions, rates, .. } = halves_mut(vector)?;
         let of_positions = self.base_pose.iter().chain(self.joint_angles);
         let of_rates = self.base_twist.iter().chain(self.joint_rates);
         for (place, value) in positions.iter_mut().zip(of_positions).chain(rates.iter_mut().zip(of_rates)) {
             *place = *value;
         }
+        Ok(())
     }
 }

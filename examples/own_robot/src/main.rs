@@ -49,7 +49,7 @@ fn capture() -> Result<f64, Error> {
     let mut robot = Model::<f64>::default();
     let mut x = [0.0; LENGTH];
     State { base_pose: [0.0; 3], joint_angles: &FOLDED, base_twist: [0.0; 3], joint_rates: &[0.0; JOINTS] }
-        .write(&mut x);
+        .write(&mut x)?;
 
     let ends = Ends { initial_angles: &FOLDED, final_angles: &REACHED, duration: 20.0 };
     let mut law = ProportionalDerivative {
@@ -72,7 +72,7 @@ fn capture() -> Result<f64, Error> {
     let [n, fx, fy] = impulses[0];
     println!("impulse on the gripper: {n:.4} N m s, [{fx:.4}, {fy:.4}] N s");
     robot.merge(&state.base_pose, state.joint_angles, &targets)?;
-    State { base_twist, joint_rates: &joint_rates, ..state }.write(&mut x);
+    State { base_twist, joint_rates: &joint_rates, ..state }.write(&mut x)?;
     report("after the impact", &x);
 
     run(&robot, &mut Free, 10.0, &mut x)?;
@@ -91,8 +91,7 @@ fn debris_momentum(tip: [f64; 3]) -> f64 {
 
 fn run(robot: &Model<f64>, law: &mut dyn Control<f64>, duration: f64, x: &mut [f64; LENGTH]) -> Result<(), Error> {
     let (mut workspace, mut torques) = ([0.0; 3 * LENGTH], [0.0; JOINTS]);
-    let mut integrator =
-        RungeKutta4::new(&mut workspace).ok_or(Error::Length { quantity: "workspace", expected: 3, found: 0 })?;
+    let mut integrator = RungeKutta4::new(&mut workspace)?;
     let mut time = 0.0;
     while time < duration {
         integrator.step(time, STEP, x, |t, x, rate| derivative(robot, law, t, x, rate, &mut torques))?;
@@ -102,7 +101,7 @@ fn run(robot: &Model<f64>, law: &mut dyn Control<f64>, duration: f64, x: &mut [f
 }
 
 fn state(x: &[f64; LENGTH]) -> Result<State<'_, f64>, Error> {
-    State::from_vector(x, JOINTS).ok_or(Error::Length { quantity: "state vector", expected: LENGTH, found: 0 })
+    State::from_vector(x, JOINTS)
 }
 
 /// The coordinates, by the names of the manifest.

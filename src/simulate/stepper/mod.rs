@@ -1,37 +1,98 @@
 //! One step of a phase, by any scheme and in any coordinates.
 
+mod adaptive;
+mod gauss_legendre;
+mod runge_kutta4;
+mod semi_implicit_euler;
+
 use crate::control::Control;
 use crate::error::Error;
-use crate::integrate::semi_implicit_euler::drift;
-use crate::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
-use crate::scenario::{Coordinates, Integration, Scheme};
 use crate::simulate::equation::Equation;
+use crate::simulate::integration::{Coordinates, Integration, Scheme};
 use crate::simulate::system::System;
 
+/// What a scheme is and can.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Properties {
+    /// As scenarios have it.
+    pub name: &'static str,
+    /// Whether it takes steps of its own, to a tolerance.
+    pub is_adaptive: bool,
+    /// Whether it integrates canonical variables, and only those.
+    pub is_canonical: bool,
+}
+
+impl Scheme {
+    /// The tolerance where none is given: the paper's approach then is off by less than 1e-12 rad and m.
+    pub const DEFAULT_TOLERANCE: f64 = 1e-10;
+
+    /// All of them. A scheme stands in a file of its own, and here, in `properties` and in `method`.
+    pub const ALL: [Self; 4] = [
+        Self::RungeKutta4,
+        Self::SemiImplicitEuler,
+        Self::GaussLegendre,
+        Self::Adaptive { tolerance: Self::DEFAULT_TOLERANCE },
+    ];
+
+    /// What it is and can.
+    #[must_use]
+    pub const fn properties(self) -> Properties {
+        match self {
+            Self::RungeKutta4 => runge_kutta4::PROPERTIES,
+            Self::SemiImplicitEuler => semi_implicit_euler::PROPERTIES,
+            Self::GaussLegendre => gauss_legendre::PROPERTIES,
+            Self::Adaptive { .. } => adaptive::PROPERTIES,
+        }
+    }
+
+    /// Its steps, for a phase of `duration` (s) and vectors of `length`.
+    fn method(self, duration: f64, length: usize) -> Box<dyn Method> {
+        match self {
+            Self::RungeKutta4 => Box::new(runge_kutta4::Steps::new(length)),
+            Self::SemiImplicitEuler => Box::new(semi_implicit_euler::Steps::new(length)),
+            Self::GaussLegendre => Box::new(gauss_legendre::Steps::new(length)),
+            Self::Adaptive { tolerance } => Box::new(adaptive::Steps::new(tolerance, duration)),
+        }
+    }
+}
+
+/// Steps of one scheme, with what it remembers between them.
+trait Method {
+    /// Carries `x` on over `span` (from, to; s), the next step.
+    ///
+    /// # Errors
+    /// What model, law and scheme say.
+    fn advance(
+        &mut self,
+        equation: &mut Equation<'_>,
+        control: &mut dyn Control<f64>,
+        span: [f64; 2],
+        x: &mut [f64],
+    ) -> Result<(), Error>;
+
+    /// The same for a part of a step; what the method remembers is left alone.
+    ///
+    /// # Errors
+    /// As [`Method::advance`].
+    fn within(
+        &mut self,
+        equation: &mut Equation<'_>,
+        control: &mut dyn Control<f64>,
+        span: [f64; 2],
+        x: &mut [f64],
+    ) -> Result<(), Error> {
+        self.advance(equation, control, span, x)
+    }
+}
+
 /// Carries the integrated vector from one instant to another.
-pub(crate) struct Flow<'a> {
+pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
-    stepper: Stepper,
-    workspace: Vec<f64>,
-    /// When the phase ends, s.
-    duration: f64,
+    method: Box<dyn Method>,
 }
 
-/// A scheme, with what it remembers.
-enum Stepper {
-    RungeKutta4,
-    SemiImplicitEuler,
-    GaussLegendre,
-    Adaptive {
-        tolerance: f64,
-        solver: Adaptive,
-        /// Until when the torques are held, and with them the solver may go on, s; `None` before it is started.
-        until: Option<f64>,
-    },
-}
-
-impl<'a> Flow<'a> {
-    /// For a phase that starts at `x`.
+impl<'a> Stepper<'a> {
+    /// For a phase of `duration` (s) that starts at `x`.
     ///
     /// # Errors
     /// [`Error::Beside`] for reduced coordinates where there are bodies beside the robot, and what the model says.
@@ -41,20 +102,12 @@ impl<'a> Flow<'a> {
         duration: f64,
         x: &[f64],
     ) -> Result<Self, Error> {
-        let equation = match (integration.coordinates, integration.scheme) {
+        let equation = match (integration.coordinates, integration.scheme.properties().is_canonical) {
             (Coordinates::Reduced, _) => Equation::reduced(system, x)?,
-            (Coordinates::Full, Scheme::GaussLegendre) => Equation::canonical(system, x)?,
-            (Coordinates::Full, _) => Equation::full(system),
+            (Coordinates::Full, true) => Equation::canonical(system, x)?,
+            (Coordinates::Full, false) => Equation::full(system),
         };
-        let (stepper, vectors) = match integration.scheme {
-            Scheme::RungeKutta4 => (Stepper::RungeKutta4, 3),
-            Scheme::SemiImplicitEuler => (Stepper::SemiImplicitEuler, 1),
-            Scheme::GaussLegendre => (Stepper::GaussLegendre, GaussLegendre::<f64>::WORKSPACE),
-            Scheme::Adaptive { tolerance } => {
-                (Stepper::Adaptive { tolerance, solver: Adaptive::new(tolerance), until: None }, 0)
-            }
-        };
-        Ok(Self { equation, stepper, workspace: vec![0.0; vectors * x.len()], duration })
+        Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
     }
 
     /// Carries `x` on from `time` to `end`, the next step.
@@ -64,31 +117,13 @@ impl<'a> Flow<'a> {
     pub(crate) fn advance(
         &mut self,
         control: &mut dyn Control<f64>,
-        [time, end]: [f64; 2],
+        span: [f64; 2],
         x: &mut [f64],
     ) -> Result<(), Error> {
-        let Self { equation, stepper: Stepper::Adaptive { solver, until, .. }, duration, .. } = self else {
-            return self.fixed(control, [time, end], x);
-        };
-        // times are multiples of the step, rounded: half a step tells them apart
-        let half = 0.5 * (end - time);
-        if until.is_none_or(|until| until < time + half) {
-            let held = control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
-            let next = if held > *duration - half { *duration } else { held.max(end) };
-            *until = Some(next);
-            solver.start(time, next, x, &mut |t, x, rate| equation.derivative(control, t, x, rate))?;
-        }
-        let system = equation.system();
-        let mut restore = |x: &mut [f64]| {
-            let before = x.to_vec();
-            system.restore(x).map(|()| before != x)
-        };
-        solver.advance(end, x, &mut |t, x, rate| equation.derivative(control, t, x, rate), &mut restore)?;
-        self.equation.restore(x)
+        self.method.advance(&mut self.equation, control, span, x)
     }
 
-    /// The vector at `time` within a step that starts at `start` with `x`, into `into`; what the solver remembers is left
-    /// alone.
+    /// The vector at `time` within a step that starts at `start` with `x`, into `into`.
     ///
     /// # Errors
     /// As [`Self::advance`].
@@ -104,14 +139,7 @@ impl<'a> Flow<'a> {
         if time <= start {
             return Ok(());
         }
-        let Self { equation, stepper: Stepper::Adaptive { tolerance, .. }, .. } = self else {
-            return self.fixed(control, [start, time], into);
-        };
-        let mut solver = Adaptive::new(*tolerance).try_first(time - start);
-        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(control, t, x, rate);
-        solver.start(start, time, x, &mut derivative)?;
-        solver.advance(time, into, &mut derivative, &mut |_| Ok(false))?;
-        self.equation.restore(into)
+        self.method.within(&mut self.equation, control, [start, time], into)
     }
 
     /// d/dt of `x`, whatever is integrated.
@@ -126,30 +154,5 @@ impl<'a> Flow<'a> {
         rate: &mut [f64],
     ) -> Result<(), Error> {
         self.equation.derivative(control, time, x, rate)
-    }
-
-    /// One step of a scheme that takes the steps that it is given.
-    fn fixed(&mut self, control: &mut dyn Control<f64>, [time, end]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        let (equation, step) = (&mut self.equation, end - time);
-        let wrong = Error::Length { quantity: "state vector", expected: x.len(), found: self.workspace.len() };
-        match &self.stepper {
-            Stepper::SemiImplicitEuler => {
-                let mut euler = SemiImplicitEuler::new(&mut self.workspace);
-                euler.kick(time, step, x, |t, x, rate| equation.derivative(control, t, x, rate))?;
-                equation.recover(x)?;
-                drift(step, x);
-            }
-            Stepper::GaussLegendre => {
-                let mut gauss = GaussLegendre::new(&mut self.workspace).ok_or(wrong)?;
-                equation.put_momenta(x)?;
-                gauss.step(time, step, x, |t, x, rate| equation.canonical_derivative(control, t, x, rate))?;
-                equation.put_rates(x)?;
-            }
-            Stepper::RungeKutta4 | Stepper::Adaptive { .. } => {
-                let mut runge_kutta = RungeKutta4::new(&mut self.workspace).ok_or(wrong)?;
-                runge_kutta.step(time, step, x, |t, x, rate| equation.derivative(control, t, x, rate))?;
-            }
-        }
-        equation.restore(x)
     }
 }

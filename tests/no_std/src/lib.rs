@@ -18,7 +18,7 @@ use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
 use planar_capture::impact::{self, After, Workspace};
 use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
 use planar_capture::motion::{Canonical, Reduced, derivative};
-use planar_capture::state::{State, halves, halves_mut, vector_length};
+use planar_capture::state::{Halves, HalvesMut, State, halves, halves_mut, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};
 
@@ -91,11 +91,7 @@ pub fn computed_step(
     let limited = Limited { law, torque_limits: &[20.0; JOINTS], saturated: &mut saturated };
     let mut sampled = Sampled::new(limited, 1, &mut held);
     let before = *x;
-    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
-        quantity: "state vector",
-        expected: LENGTH,
-        found: 0,
-    })?;
+    let state = State::from_vector(&before, JOINTS)?;
     sampled.begin_step(time, model, &state)?;
     step(model, &mut sampled, time, x)?;
     Ok(saturated)
@@ -167,16 +163,12 @@ pub fn capture(
     x: &mut [f32; LENGTH],
 ) -> Result<[[f32; 3]; ARMS], Error> {
     let before = *x;
-    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
-        quantity: "state vector",
-        expected: LENGTH,
-        found: 0,
-    })?;
+    let state = State::from_vector(&before, JOINTS)?;
     let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
     let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = impact::exact(model, &state, targets, &mut after)?;
     model.merge(&state.base_pose, state.joint_angles, targets)?;
-    State { base_twist, joint_rates: &joint_rates, ..state }.write(x);
+    State { base_twist, joint_rates: &joint_rates, ..state }.write(x)?;
     Ok(impulses)
 }
 
@@ -236,7 +228,6 @@ pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [
 /// What the core says of the numbers.
 #[inline(never)]
 pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    let wrong = Error::Length { quantity: "state vector", expected: LENGTH, found: 0 };
     let mut canonical = Canonical {
         inertias: &mut [[0.0; 2]; JOINTS + 1],
         poses: &mut [[0.0; 3]; JOINTS + 1],
@@ -246,20 +237,20 @@ pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> 
         rates: &mut [0.0; JOINTS],
     };
     let before = *x;
-    let state = State::from_vector(&before, JOINTS).ok_or(wrong)?;
+    let state = State::from_vector(&before, JOINTS)?;
     canonical.measure(model, &state.base_pose, state.joint_angles)?;
-    canonical.momenta(model, &state, halves_mut(x).ok_or(wrong)?.1)?;
+    canonical.momenta(model, &state, halves_mut(x)?.rates)?;
     let mut workspace = [0.0; GaussLegendre::<f32>::WORKSPACE * LENGTH];
-    let mut gauss = GaussLegendre::new(&mut workspace).ok_or(wrong)?;
+    let mut gauss = GaussLegendre::new(&mut workspace)?;
     let mut joint_rates = [0.0; JOINTS];
     gauss.step(time, 0.05, x, |_, x, rate| {
-        let (_, momenta) = halves(x).ok_or(wrong)?;
-        let at = State::from_vector(x, JOINTS).ok_or(wrong)?;
+        let Halves { rates: momenta, .. } = halves(x)?;
+        let at = State::from_vector(x, JOINTS)?;
         let base_twist = canonical.velocities(model, at.base_pose, at.joint_angles, momenta, &mut joint_rates)?;
         let now = State { base_twist, joint_rates: &joint_rates, ..at };
         rate.fill(0.0);
-        now.write(rate);
-        let (velocities, forces, _) = halves_mut(rate).ok_or(wrong)?;
+        now.write(rate)?;
+        let HalvesMut { positions: velocities, rates: forces, .. } = halves_mut(rate)?;
         velocities.copy_from_slice(forces);
         forces.fill(0.0);
         canonical.add_energy_gradient(model, &now, forces)
@@ -279,9 +270,7 @@ pub fn look(model: &Model<f32>, state: &State<'_, f32>, tips: &mut [[f32; 3]; AR
 fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
     let mut workspace = [0.0; 3 * LENGTH];
     let mut torques = [0.0; JOINTS];
-    let Some(mut integrator) = RungeKutta4::new(&mut workspace) else {
-        return Err(Error::Length { quantity: "workspace", expected: 3 * LENGTH, found: 0 });
-    };
+    let mut integrator = RungeKutta4::new(&mut workspace)?;
     integrator.step(time, 0.005, x, |t, x, rate| derivative(model, law, t, x, rate, &mut torques))
 }
 
@@ -301,11 +290,7 @@ pub fn touch(
     x: &mut [f32; LENGTH],
 ) -> Result<[[f32; 3]; ARMS], Error> {
     let before = *x;
-    let state = State::from_vector(&before, JOINTS).ok_or(Error::Length {
-        quantity: "state vector",
-        expected: LENGTH,
-        found: 0,
-    })?;
+    let state = State::from_vector(&before, JOINTS)?;
     let bodies = [*body];
     let mut numbers = [0.0; NUMBERS];
     let length = workspace_length(JOINTS, ARMS, 1, Rows::count(contacts));
@@ -317,7 +302,7 @@ pub fn touch(
     let base_twist = contact::impact(model, &state, &bodies, rows, &mut after)?;
     let [twist] = body_twists;
     body.twist = twist;
-    State { base_twist, joint_rates: &joint_rates, ..state }.write(x);
+    State { base_twist, joint_rates: &joint_rates, ..state }.write(x)?;
     Ok(impulses)
 }
 
@@ -346,8 +331,7 @@ pub fn held_step(
     };
     let mut workspace = [0.0; 3 * (LENGTH + 6)];
     let mut torques = [0.0; JOINTS];
-    let length = Error::Length { quantity: "workspace", expected: 3 * (LENGTH + 6), found: 0 };
-    let mut integrator = RungeKutta4::new(&mut workspace).ok_or(length)?;
+    let mut integrator = RungeKutta4::new(&mut workspace)?;
     integrator.step(time, 0.005, x, |t, x, rate| {
         derivative(model, &mut Free, t, x, rate, &mut torques)?;
         hold.constrain(x, rate, &mut space)

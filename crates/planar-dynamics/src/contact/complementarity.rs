@@ -13,7 +13,7 @@ const MOST_EXCHANGES: u32 = 10_000;
 /// Murty's least-index principal pivoting, which ends because W is positive definite. `factors` is working space of W's size.
 ///
 /// # Errors
-/// [`Error::Singular`] where the rows that carry impulses depend on each other.
+/// [`Error::Singular`] where the rows that carry impulses depend on each other; [`Error::Exhausted`].
 pub(super) fn solve_contacts<T: Real>(
     matrix: &[T],
     velocities: &[T],
@@ -46,7 +46,7 @@ pub(super) fn solve_contacts<T: Real>(
             None => return Ok(()),
         }
     }
-    Err(Error::Singular { what: "the inverse inertia at the contacts", pivot: 0.0, limit: 0.0 })
+    Err(Error::Exhausted { what: "the impulses of the contacts", rounds: MOST_EXCHANGES })
 }
 
 /// Solves `W x = b` for the rows and columns of a set; x is zero for the others. b becomes x, `factors` is working space of

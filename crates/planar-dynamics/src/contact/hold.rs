@@ -7,7 +7,7 @@ use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::state::{State, halves, vector_length};
+use crate::state::{Coordinates, CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut, vector_length};
 
 /// The most corrections of positions after a step; one is enough but where a step was much too long.
 const MOST_CORRECTIONS: usize = 4;
@@ -61,23 +61,23 @@ impl<T: Real> Hold<'_, T> {
         let Workspace { contacts, numbers, forces, jacobian, tips } = workspace;
         let (state, _, twists) = self.parts(x)?;
         let mut rows = Rows::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
-        let (base, joints, bodies) = self.parts_mut(rate, Half::Rates)?;
+        let HalvesMut { rates: accelerations, .. } = halves_mut(rate)?;
+        let CoordinatesMut { base, joints, bodies } = CoordinatesMut::new(accelerations, self.model.joints())?;
         let free = State { base_twist: *base, joint_rates: joints, ..state };
         self.model.end_effector_twists(&free, rows.tips)?;
         self.model.end_effector_jacobian(&state.base_pose, state.joint_angles, jacobian)?;
         add_centripetal(&state, jacobian, rows.tips);
         self.model.end_effector_twists(&state, tips)?;
-        let (accelerations, _) = bodies.as_chunks::<3>();
         for (force, row) in forces.iter_mut().zip(rows.rows()) {
             let spin = match row.other {
                 Other::Body(i) => twists.get(i),
                 Other::Tip(arm) => tips.get(arm),
             };
             let omega = spin.map_or(T::ZERO, |[omega, ..]| *omega);
-            *force = -(row.velocity_of(rows.tips, accelerations) + omega * omega * row.reach);
+            *force = -(row.velocity_of(rows.tips, bodies) + omega * omega * row.reach);
         }
         rows.solve(forces)?;
-        rows.add_responses(forces, base, joints, bodies);
+        rows.add_responses(forces, base, joints, bodies.as_flattened_mut());
         Ok(())
     }
 
@@ -103,8 +103,10 @@ impl<T: Real> Hold<'_, T> {
                 }
             }
             rows.solve(forces)?;
-            let (base, joints, bodies) = self.parts_mut(x, if closed { Half::Rates } else { Half::Positions })?;
-            rows.add_responses(forces, base, joints, bodies);
+            let HalvesMut { positions, rates, .. } = halves_mut(x)?;
+            let half = if closed { rates } else { positions };
+            let CoordinatesMut { base, joints, bodies } = CoordinatesMut::new(half, self.model.joints())?;
+            rows.add_responses(forces, base, joints, bodies.as_flattened_mut());
             if closed {
                 return Ok(());
             }
@@ -138,10 +140,13 @@ impl<T: Real> Hold<'_, T> {
                 Other::Body(i) => poses.get(i),
                 Other::Tip(arm) => workspace.tips.get(arm),
             };
-            let (Some(tip), Some(held)) = (workspace.tips.get(closure.arm), held) else {
-                let found = self.closures.len();
-                return Err(Error::Length { quantity: "arms and bodies that are held", expected: 0, found });
-            };
+            let count = workspace.tips.len();
+            let tip = workspace.tips.get(closure.arm).ok_or(Error::Index {
+                what: "arm that holds",
+                index: closure.arm,
+                count,
+            })?;
+            let held = held.ok_or(closure.other.missing(count, poses.len()))?;
             *place = closure.contact(held);
             // the errors first: where they end, no force is taken
             for (error, force) in closure.errors(tip, held).zip(&mut forces) {
@@ -156,34 +161,11 @@ impl<T: Real> Hold<'_, T> {
     #[allow(clippy::type_complexity, reason = "three views of one vector")]
     fn parts<'x>(&self, x: &'x [T]) -> Result<(State<'x, T>, &'x [[T; 3]], &'x [[T; 3]]), Error> {
         let joints = self.model.joints();
-        let expected = vector_length(joints) + 6 * self.bodies.len();
-        let wrong = Error::Length { quantity: "state vector", expected, found: x.len() };
-        length("state vector", expected, x.len())?;
-        let state = State::from_vector(x, joints).ok_or(wrong)?;
-        let (positions, rates) = halves(x).ok_or(wrong)?;
-        let of_bodies = |half: &'x [T]| half.get(3 + joints..).unwrap_or_default().as_chunks::<3>().0;
-        Ok((state, of_bodies(positions), of_bodies(rates)))
+        length("state vector", vector_length(joints) + 6 * self.bodies.len(), x.len())?;
+        let Halves { positions, rates, .. } = halves(x)?;
+        let bodies = |half| Coordinates::new(half, joints).map(|parts| parts.bodies);
+        Ok((State::from_vector(x, joints)?, bodies(positions)?, bodies(rates)?))
     }
-
-    /// One half of an integrated vector: base, joints, bodies.
-    #[allow(clippy::type_complexity, reason = "three views of one vector")]
-    fn parts_mut<'x>(&self, x: &'x mut [T], half: Half) -> Result<(&'x mut [T; 3], &'x mut [T], &'x mut [T]), Error> {
-        let joints = self.model.joints();
-        let size = 3 + joints + 3 * self.bodies.len();
-        let wrong = Error::Length { quantity: "state vector", expected: 2 * size + 3, found: x.len() };
-        let skip = if half == Half::Rates { size } else { 0 };
-        let part = x.get_mut(skip..skip + size).ok_or(wrong)?;
-        let (base, rest) = part.split_first_chunk_mut::<3>().ok_or(wrong)?;
-        let (joints, bodies) = rest.split_at_mut_checked(joints).ok_or(wrong)?;
-        Ok((base, joints, bodies))
-    }
-}
-
-/// Which half of an integrated vector.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Half {
-    Positions,
-    Rates,
 }
 
 /// Adds `J̇ v` to the accelerations of the tips: `−Σ ω² d` over the segments d from the base COM to a tip, each turning

@@ -29,7 +29,7 @@ impl<T: Real> InverseInertia<T> {
     /// Of the tip of an arm.
     ///
     /// # Errors
-    /// [`Error::Length`] where there is no such arm or the slices do not fit the model: `wrenches` has one per arm,
+    /// [`Error::Index`] where there is no such arm, [`Error::Length`] where the slices do not fit the model: `wrenches` has one per arm,
     /// `scratch` twice as many numbers as there are joints; what the model says.
     pub fn of_tip(
         model: &dyn Model<T>,
@@ -47,7 +47,8 @@ impl<T: Real> InverseInertia<T> {
         for (i, column) in columns.iter_mut().enumerate() {
             wrenches.fill([T::ZERO; 3]);
             let arms = wrenches.len();
-            let wrench = wrenches.get_mut(arm).ok_or(Error::Length { quantity: "arm", expected: arms, found: arm })?;
+            let missing = Error::Index { what: "arm", index: arm, count: arms };
+            let wrench = wrenches.get_mut(arm).ok_or(missing)?;
             for (j, part) in wrench.iter_mut().enumerate() {
                 *part = if i == j { T::ONE } else { T::ZERO };
             }

@@ -29,6 +29,7 @@ pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
 pub use kind::{ContactKind, ContactLaw};
 pub use rows::{Rows, workspace_length};
 
+use crate::error::Error;
 use crate::scalar::Real;
 
 /// What a tip touches.
@@ -38,6 +39,16 @@ pub enum Other {
     Body(usize),
     /// Something that the tip of that arm holds rigidly, part of its last link.
     Tip(usize),
+}
+
+impl Other {
+    /// That it is not there, among so many arms and bodies.
+    pub(crate) fn missing(self, arms: usize, bodies: usize) -> Error {
+        match self {
+            Self::Body(index) => Error::Index { what: "body that is held", index, count: bodies },
+            Self::Tip(index) => Error::Index { what: "arm that is held", index, count: arms },
+        }
+    }
 }
 
 /// One contact at one instant.

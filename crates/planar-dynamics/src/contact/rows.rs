@@ -49,7 +49,7 @@ impl<'a, T: Real> Rows<'a, T> {
     /// At a configuration; `workspace` has [`workspace_length`] numbers.
     ///
     /// # Errors
-    /// [`Error::Length`] for another workspace, more than 64 rows, or contacts of arms and bodies that there are not;
+    /// [`Error::Length`] for another workspace or more than 64 rows; [`Error::Index`] for arms and bodies that there are not;
     /// [`Error::NotFinite`]; what the model says.
     pub fn new(
         model: &dyn Model<T>,
@@ -175,13 +175,13 @@ fn check<T: Real>(contacts: &[Contact<T>], arms: usize, bodies: usize) -> Result
         if let Some(([x, y], restitution)) = contact.law.bounce() {
             finite("contact normal and restitution", &[x, y, restitution])?;
         }
-        let (quantity, found, expected) = match contact.other {
+        let (what, index, count) = match contact.other {
             _ if contact.arm >= arms => ("arm of a contact", contact.arm, arms),
             Other::Tip(arm) if arm >= arms => ("arm that is touched", arm, arms),
             Other::Body(body) if body >= bodies => ("body that is touched", body, bodies),
             _ => continue,
         };
-        return Err(Error::Length { quantity, expected, found });
+        return Err(Error::Index { what, index, count });
     }
     Ok(())
 }

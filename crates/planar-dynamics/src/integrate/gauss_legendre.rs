@@ -2,6 +2,7 @@
 
 use crate::check::length;
 use crate::error::Error;
+use crate::linear::copy;
 use crate::scalar::Real;
 
 const STAGES: usize = 3;
@@ -53,17 +54,18 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
     /// How many times its vectors' length the workspace is long.
     pub const WORKSPACE: usize = STAGES + 2;
 
-    /// An integrator for vectors of a fifth of the workspace's length; `None` if that is not whole.
-    pub fn new(workspace: &'a mut [T]) -> Option<Self> {
+    /// An integrator for vectors of a fifth of the workspace's length.
+    ///
+    /// # Errors
+    /// [`Error::Length`] where that is not whole.
+    pub fn new(workspace: &'a mut [T]) -> Result<Self, Error> {
         let n = workspace.len() / Self::WORKSPACE;
-        if n * Self::WORKSPACE != workspace.len() {
-            return None;
-        }
+        length("integrator workspace", n * Self::WORKSPACE, workspace.len())?;
         let (first, rest) = workspace.split_at_mut(n);
         let (second, rest) = rest.split_at_mut(n);
         let (third, rest) = rest.split_at_mut(n);
         let (stage, next) = rest.split_at_mut(n);
-        Some(Self { slopes: [first, second, third], stage, next })
+        Ok(Self { slopes: [first, second, third], stage, next })
     }
 
     /// One step from `time` to `time + step`.
@@ -82,7 +84,7 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
         let tableau = Tableau::new();
         derivative(time, x, self.next)?;
         for slope in &mut self.slopes {
-            copy(slope, self.next);
+            copy(self.next, slope);
         }
         let scale = largest(x.iter().copied()) + largest(self.next.iter().map(|slope| step * *slope));
         let limit = T::constant(1e3) * T::EPSILON * scale;
@@ -120,7 +122,7 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
     ) -> Result<T, Error> {
         let mut change = T::ZERO;
         for (i, (node, row)) in tableau.nodes.iter().zip(&tableau.matrix).enumerate() {
-            copy(self.stage, x);
+            copy(x, self.stage);
             for (slope, entry) in self.slopes.iter().zip(row) {
                 add(self.stage, step * *entry, slope);
             }
@@ -128,16 +130,9 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
             let Some(slope) = self.slopes.get_mut(i) else { continue };
             let of_stage = largest(self.next.iter().zip(slope.iter()).map(|(new, old)| step * (*new - *old)));
             change = if of_stage > change { of_stage } else { change };
-            copy(slope, self.next);
+            copy(self.next, slope);
         }
         Ok(change)
-    }
-}
-
-/// As `copy_from_slice`, which can panic.
-fn copy<T: Real>(into: &mut [T], from: &[T]) {
-    for (place, value) in into.iter_mut().zip(from) {
-        *place = *value;
     }
 }
 

@@ -1,5 +1,6 @@
 //! The classical Runge–Kutta method of fourth order with a fixed step.
 
+use crate::check::length;
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -12,15 +13,19 @@ pub struct RungeKutta4<'a, T> {
 }
 
 impl<'a, T: Real> RungeKutta4<'a, T> {
-    /// An integrator for vectors of a third of the workspace's length; `None` if that is not whole.
-    pub fn new(workspace: &'a mut [T]) -> Option<Self> {
-        let n = workspace.len() / 3;
-        if n * 3 != workspace.len() {
-            return None;
-        }
+    /// How many times its vectors' length the workspace is long.
+    pub const WORKSPACE: usize = 3;
+
+    /// An integrator for vectors of a third of the workspace's length.
+    ///
+    /// # Errors
+    /// [`Error::Length`] where that is not whole.
+    pub fn new(workspace: &'a mut [T]) -> Result<Self, Error> {
+        let n = workspace.len() / Self::WORKSPACE;
+        length("integrator workspace", n * Self::WORKSPACE, workspace.len())?;
         let (slope, rest) = workspace.split_at_mut(n);
         let (sum, stage) = rest.split_at_mut(n);
-        Some(Self { slope, sum, stage })
+        Ok(Self { slope, sum, stage })
     }
 
     /// One step from `time` to `time + step`.
@@ -36,9 +41,7 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         mut derivative: impl FnMut(T, &[T], &mut [T]) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let Self { slope, sum, stage } = self;
-        if x.len() != slope.len() {
-            return Err(Error::Length { quantity: "state vector", expected: slope.len(), found: x.len() });
-        }
+        length("state vector", slope.len(), x.len())?;
         let half = step * T::constant(0.5);
         let two = T::constant(2.0);
         derivative(time, x, slope)?;

@@ -3,7 +3,7 @@
 use crate::check::length;
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::state::halves_mut;
+use crate::state::{HalvesMut, halves, halves_mut};
 
 /// Rates by their derivatives, then positions by the *new* rates; the global error is O(step).
 ///
@@ -34,8 +34,7 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
         derivative: impl FnMut(T, &[T], &mut [T]) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.kick(time, step, x, derivative)?;
-        drift(step, x);
-        Ok(())
+        drift(step, x)
     }
 
     /// The first half of a step: rates and work. What may be done to the rates then comes before [`drift`].
@@ -51,7 +50,7 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
     ) -> Result<(), Error> {
         length("state vector", self.slope.len(), x.len())?;
         derivative(time, x, self.slope)?;
-        let positions = halves_mut(x).map_or(0, |(positions, _, _)| positions.len());
+        let positions = halves(x)?.positions.len();
         for (x, slope) in x.iter_mut().zip(self.slope.iter()).skip(positions) {
             *x += step * *slope;
         }
@@ -60,9 +59,13 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
 }
 
 /// The second half of a step: positions by the rates in `x`.
-pub fn drift<T: Real>(step: T, x: &mut [T]) {
-    let Some((positions, rates, _)) = halves_mut(x) else { return };
+///
+/// # Errors
+/// [`Error::StateVector`] where `x` is no state.
+pub fn drift<T: Real>(step: T, x: &mut [T]) -> Result<(), Error> {
+    let HalvesMut { positions, rates, .. } = halves_mut(x)?;
     for (position, rate) in positions.iter_mut().zip(rates.iter()) {
         *position += step * *rate;
     }
+    Ok(())
 }

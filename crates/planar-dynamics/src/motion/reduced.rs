@@ -1,12 +1,13 @@
 //! The equation of motion in reduced coordinates: the base twist follows from the momentum.
 
+use crate::check::length;
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{dot, solve};
+use crate::linear::{copy, dot, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
-use crate::state::{ActuatorWork, State, halves, halves_mut, vector_length};
+use crate::state::{ActuatorWork, CoordinatesMut, HalvesMut, State, halves_mut, vector_length};
 
 /// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
 ///
@@ -47,23 +48,20 @@ impl<T: Real> Reduced<'_, T> {
         rate: &mut [T],
         torques: &mut [T],
     ) -> Result<(), Error> {
-        let wrong =
-            Error::Length { quantity: "state vector", expected: vector_length(model.joints()), found: rate.len() };
         let Self { momentum, mass_matrix, generalized_inertia, generalized_bias, generalized_jacobian } = self;
         let (state, equation) = recovered(model, momentum, mass_matrix, x)?;
         control.joint_torques(time, model, &state, torques)?;
         let base_torque = control.base_torque().map_or(T::ZERO, |base| base.torque);
         model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
 
-        let (velocities, accelerations, work) = halves_mut(rate).ok_or(wrong)?;
-        let (base, joints) = velocities.split_first_chunk_mut::<3>().ok_or(wrong)?;
-        *base = state.base_twist;
-        let (of_base, joint_accelerations) = accelerations.split_first_chunk_mut::<3>().ok_or(wrong)?;
-        *of_base = [T::ZERO; 3];
-        if joints.len() != state.joint_rates.len() || joint_accelerations.len() != torques.len() {
-            return Err(wrong);
-        }
-        joints.copy_from_slice(state.joint_rates);
+        length("state vector", x.len(), rate.len())?;
+        let HalvesMut { positions: velocities, rates: accelerations, work } = halves_mut(rate)?;
+        let velocities = CoordinatesMut::new(velocities, torques.len())?;
+        *velocities.base = state.base_twist;
+        copy(state.joint_rates, velocities.joints);
+        let CoordinatesMut { base, joints: joint_accelerations, .. } =
+            CoordinatesMut::new(accelerations, torques.len())?;
+        *base = [T::ZERO; 3];
         let by_base = equation.solve([base_torque, T::ZERO, T::ZERO]);
         let rows = mass_matrix.chunks_exact(3 + torques.len()).skip(3);
         let known = torques.iter().zip(generalized_bias.iter());
@@ -82,9 +80,8 @@ impl<T: Real> Reduced<'_, T> {
     /// As [`Self::derivative`].
     pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
         let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
-        if let Some(place) = halves_mut(x).and_then(|(_, rates, _)| rates.first_chunk_mut::<3>()) {
-            *place = base_twist;
-        }
+        let HalvesMut { rates, .. } = halves_mut(x)?;
+        *CoordinatesMut::new(rates, model.joints())?.base = base_twist;
         Ok(())
     }
 }
@@ -97,12 +94,9 @@ fn recovered<'x, 'm, T: Real>(
     x: &'x [T],
 ) -> Result<(State<'x, T>, MomentumEquation<'m, T>), Error> {
     let joints = model.joints();
-    let wrong = Error::Length { quantity: "state vector", expected: vector_length(joints), found: x.len() };
-    if x.len() != vector_length(joints) || halves(x).is_none() {
-        return Err(wrong);
-    }
-    let state = State::from_vector(x, joints).ok_or(wrong)?;
-    let impulse = ActuatorWork::from_vector(x).ok_or(wrong)?.base_impulse;
+    length("state vector", vector_length(joints), x.len())?;
+    let state = State::from_vector(x, joints)?;
+    let impulse = ActuatorWork::from_vector(x)?.base_impulse;
     model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
     let equation = MomentumEquation::new(mass_matrix, joints)?;
     let base_twist = equation.base_twist([*l + impulse, *px, *py], &state.base_pose, state.joint_rates);
