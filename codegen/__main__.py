@@ -68,8 +68,8 @@ def derive_file(layout_file: Path, graph_file: Path) -> int:
 
 
 def derive_shipped(options: argparse.Namespace) -> int:
+    from .cargo_features import FeatureError
     from .derive import graph_names, graph_path, layout_names
-    from .features import FeatureError
     from .layout import LayoutError
 
     shipped = layout_names()
@@ -95,8 +95,8 @@ def derive_shipped(options: argparse.Namespace) -> int:
 
 def artefacts(names: list[str], shipped: list[str]) -> Iterator[tuple[Path, str]]:
     """What the layouts give: (file, text)."""
+    from .cargo_features import CARGO_TOML, with_block
     from .derive import derive_text, graph_path, layout_path
-    from .features import CARGO_TOML, with_block
 
     for name in names:
         yield graph_path(name), derive_text(layout_path(name))

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import graph
+from .functions import Model
 from .layout import Layout, LayoutError, read
-from .model import Model
 
 HERE = Path(__file__).resolve().parent
 

@@ -1,15 +1,15 @@
 """Forward dynamics: articulated plane masses from the tips to the base, one division per link, 2 x 2 at the base.
 
-`articulated.py` has the step from body to body. The arms meet at the base, which is treated as one more
+`articulated_body.py` has the step from body to body. The arms meet at the base, which is treated as one more
 body, held at the first arm's mount: what is left is the 2 x 2 balance of forces there.
 """
 
 import casadi as ca
 
-from .articulated import ZERO, Body, Child, Inertia, InLine, body
+from .articulated_body import ZERO, Body, Child, Inertia, InLine, body
 from .kinematics import Inputs
 from .layout import Layout
-from .planar import Vector, add, cross, rotate, rotate_back, rotation, scale, subtract, turn_left
+from .plane_vectors import Vector, add, cross, rotate, rotate_back, rotation, scale, subtract, turn_left
 from .symbols import ArmSymbols, LinkSymbols, Symbols
 
 

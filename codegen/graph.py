@@ -2,11 +2,11 @@
 
 import casadi as ca
 
+from .casadi_import import Reader
+from .functions import INPUT_TEXT, Family, Function, Model
 from .layout import content_hash
-from .model import INPUT_TEXT, Family, Function, Model
-from .nodes import CALL, SETUP, Nodes, is_leaf
-from .reader import Reader
 from .statements import Statements, count
+from .value_numbering import CALL, SETUP, Nodes, is_leaf
 
 FORMAT = 1
 

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import casadi as ca
 
-from .planar import Vector, add, cross, dot, rotate, rotation, scale, turn_left
+from .plane_vectors import Vector, add, cross, dot, rotate, rotation, scale, turn_left
 from .symbols import Symbols
 
 

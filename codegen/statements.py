@@ -1,6 +1,6 @@
 """Nodes as single assignments that can be read, and how many operations they are."""
 
-from .nodes import PARAMETER, SETUP, DerivationError, Node, Nodes, is_leaf
+from .value_numbering import PARAMETER, SETUP, DerivationError, Node, Nodes, is_leaf
 
 COUNTED = ("mul", "add", "sub", "div", "sqrt", "atan2", "neg", "min")
 

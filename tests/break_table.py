@@ -40,19 +40,19 @@ FAULTS = [
     # derivation
     Fault(
         "sign of a centripetal term",
-        "codegen/dynamics.py",
+        "codegen/equations_of_motion.py",
         "moment = bias[k + 1] + moment - cross(arm.vector[k], total)",
         "moment = bias[k + 1] + moment + cross(arm.vector[k], total)",
     ),
     Fault(
         "coupling of base and joints with its rows exchanged",
-        "codegen/dynamics.py",
+        "codegen/equations_of_motion.py",
         "m[first + k, 1], m[first + k, 2] = turn_left(arm.moment[k])",
         "m[first + k, 2], m[first + k, 1] = turn_left(arm.moment[k])",
     ),
     Fault(
         "generalized bias without the base's moment",
-        "codegen/dynamics.py",
+        "codegen/equations_of_motion.py",
         "reduced.append(bias - cross(self.com_shift[k], force) - self.turn[k] * moment)",
         "reduced.append(bias - cross(self.com_shift[k], force))",
     ),
@@ -76,13 +76,13 @@ FAULTS = [
     ),
     Fault(
         "matrices stored by columns",
-        "codegen/model.py",
+        "codegen/functions.py",
         "[dense[i, j] for i in range(rows) for j in range(columns)]",
         "[dense[i, j] for j in range(columns) for i in range(rows)]",
     ),
     Fault(
         "far mass of a link from the near distance",
-        "codegen/articulated.py",
+        "codegen/articulated_body.py",
         "own.mass * (beyond * beyond)) * square",
         "own.mass * (com * com)) * square",
     ),

@@ -8,8 +8,8 @@ import numpy as np
 
 from codegen import graph
 from codegen.derive import layout_names, layout_path
+from codegen.functions import Model
 from codegen.layout import Arm, Base, Layout, Link, read
-from codegen.model import Model
 
 BASE = Base(60.0, 9.0)
 

@@ -11,8 +11,8 @@ import pytest
 
 from codegen import graph
 from codegen.derive import HERE, derive_text, dump, graph_path, layout_names, layout_path
+from codegen.functions import Model
 from codegen.layout import content_hash, read
-from codegen.model import Model
 
 from .samples import LAYOUTS, derived, parameters
 

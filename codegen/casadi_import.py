@@ -5,8 +5,8 @@ CasADi's instruction list reuses work slots and repeats itself; nodes do neither
 
 import casadi as ca
 
-from .model import CONFIGURATION, Model
-from .nodes import CALL, PARAMETER, SETUP, DerivationError, Nodes
+from .functions import CONFIGURATION, Model
+from .value_numbering import CALL, PARAMETER, SETUP, DerivationError, Nodes
 
 BINARY = {
     ca.OP_ADD: "add",

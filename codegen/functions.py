@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import casadi as ca
 
-from .dynamics import EquationsOfMotion, ReducedDynamics
+from .equations_of_motion import EquationsOfMotion, ReducedDynamics
 from .forward_dynamics import ForwardDynamics
 from .impact import impact_matrix, ldlt_solve, matrix_times
 from .kinematics import Geometry, Inputs, input_shapes

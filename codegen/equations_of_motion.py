@@ -8,7 +8,7 @@ that joint k carries, I_k its inertia about joint k, and M_jk = I_k + (p_k - p_j
 import casadi as ca
 
 from .kinematics import ArmGeometry, Geometry
-from .planar import Vector, add, cross, dot, rotate, scale, subtract, turn_left
+from .plane_vectors import Vector, add, cross, dot, rotate, scale, subtract, turn_left
 from .symbols import Symbols
 
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import casadi as ca
 
-from .planar import Vector, add, cross, scale, subtract, turn_left
+from .plane_vectors import Vector, add, cross, scale, subtract, turn_left
 from .symbols import Symbols
 
 ZERO = ca.SX(0)
