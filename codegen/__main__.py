@@ -49,28 +49,29 @@ def main() -> int:
 
 
 def derive(options: argparse.Namespace) -> int:
-    return derive_shipped(options) if options.layout is None else derive_file(options.layout, options.graph)
+    from .cargo_features import FeatureError
+    from .layout import LayoutError
+
+    try:
+        return derive_shipped(options) if options.layout is None else derive_file(options.layout, options.graph)
+    except (LayoutError, FeatureError) as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 2
 
 
 def derive_file(layout_file: Path, graph_file: Path) -> int:
     """The graph of any layout file, for the command ``planar-capture generate``."""
     from .derive import graph_text, write_whole
-    from .layout import LayoutError, read
+    from .layout import read
 
-    try:
-        layout = read(layout_file)
-    except LayoutError as problem:
-        environment.say(f"error: {problem}")
-        return 2
+    layout = read(layout_file)
     command = f"planar-capture generate {layout.name}.toml --out {layout.name}.json"
     write_whole(graph_file, graph_text(layout, command, lambda family: environment.say(f"{layout.name}: {family}")))
     return 0
 
 
 def derive_shipped(options: argparse.Namespace) -> int:
-    from .cargo_features import FeatureError
     from .derive import graph_names, graph_path, layout_names
-    from .layout import LayoutError
 
     shipped = layout_names()
     unknown = [name for name in options.names if name not in shipped]
@@ -78,13 +79,9 @@ def derive_shipped(options: argparse.Namespace) -> int:
         there_are = f"there are: {', '.join(shipped)}"
         print(f"error: no layout {', '.join(unknown)} in codegen/layouts; {there_are}", file=sys.stderr)
         return 2
-    try:
-        stale = [
-            path for path, text in artefacts(options.names or shipped, shipped) if not settle(path, text, options.check)
-        ]
-    except (LayoutError, FeatureError) as problem:
-        print(f"error: {problem}", file=sys.stderr)
-        return 2
+    stale = [
+        path for path, text in artefacts(options.names or shipped, shipped) if not settle(path, text, options.check)
+    ]
     orphans = [graph_path(name) for name in graph_names() if name not in shipped]
     for path in orphans:
         print(f"{path.relative_to(ROOT)}: has no layout; delete it, or put codegen/layouts/{path.stem}.toml back")

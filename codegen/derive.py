@@ -33,7 +33,8 @@ def derive_text(path: Path) -> str:
     """The graph of a layout file, as it is committed."""
     layout = read(path)
     if layout.name != path.stem:
-        raise LayoutError(f'{path}: name = "{layout.name}" must be the file\'s own name, "{path.stem}"')
+        found = json.dumps(layout.name, ensure_ascii=False)
+        raise LayoutError(f'{path}: name = {found} must be the file\'s own name, "{path.stem}"')
     return graph_text(layout)
 
 

@@ -1,31 +1,21 @@
-"""Arm layouts: the bodies and joints of a robot, read from TOML.
+"""Computes the bodies and joints of a robot, and the hash of their content, from a layout's TOML file.
 
-The same checks as src/layout.rs makes, which also shows the line; here the first problem ends the
-reading. Both compute the same content hash.
+`planar-capture check` alone validates layouts (crates/planar-layout). Here a missing or unknown key, or a value of the
+wrong type, ends the reading with one line that names that command.
 """
 
-import difflib
 import hashlib
-import math
-import re
 import struct
+import sys
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
-
-# Rust's keywords, strict and reserved, up to edition 2024.
-KEYWORDS = re.compile(
-    "abstract|as|async|await|become|box|break|const|continue|crate|do|dyn|else|enum|extern|false|"
-    "final|fn|for|gen|if|impl|in|let|loop|macro|match|mod|move|mut|override|priv|pub|ref|return|"
-    "self|static|struct|super|trait|true|try|type|typeof|unsafe|unsized|use|virtual|where|while|"
-    "yield"
-)
+from typing import Any
 
 
 class LayoutError(Exception):
-    """A layout that cannot be read: the file, the key, its value and what would be right."""
+    """A layout that cannot be read; one line that names the file."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +28,7 @@ class Base:
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid link; its frame has its origin at its joint and x towards the next one or the tip."""
+    """A rigid link; its frame has its origin at its joint and x towards the next joint or the end effector."""
 
     length: float  # m, >= 0
     mass: float  # kg, > 0
@@ -70,23 +60,19 @@ class Layout:
 
 
 def read(path: str | Path) -> Layout:
-    """The layout in a TOML file; raises LayoutError where the file or its content is wrong."""
+    """The layout in a TOML file; raises LayoutError where a number cannot be found."""
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
-        content = tomllib.loads(text)
+        content = tomllib.loads(Path(path).read_bytes().decode("utf-8-sig"))
+        return _layout(content)
     except OSError as error:
-        reason = error.strerror or error
-        raise LayoutError(f"{path}: cannot read it: {reason}, expected a TOML file") from None
-    except UnicodeDecodeError as error:
-        wrong = f"byte 0x{error.object[error.start]:02x} at offset {error.start}"
-        raise LayoutError(f"{path}: {wrong} is not UTF-8, save the file as UTF-8") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise LayoutError(f"{path}: not valid TOML: {error}") from None
-    return _Table(str(path), "", content, ("name", "base", "arm")).layout()
+        problem = f"cannot be read: {error.strerror}"
+    except (ValueError, RecursionError) as error:  # not UTF-8, not TOML, or without the keys of a layout
+        problem = " ".join(str(error).split())
+    raise LayoutError(f"{path}: {problem}; planar-capture check {path} says what is wrong")
 
 
 def content_hash(layout: Layout) -> str:
-    """SHA-256 in hexadecimal of the canonical text; the same as Layout::sha256 in src/layout.rs.
+    """SHA-256 in hexadecimal of the canonical text; the same as `Layout::sha256` of planar-layout.
 
     Lines ``key=value`` in a fixed order with defaults filled in; numbers are the 16 hexadecimal
     digits of their binary64 bits, most significant first, with -0 written as 0.
@@ -116,108 +102,71 @@ def _canonical_lines(layout: Layout) -> Iterator[str]:
 
 
 class _Table:
-    """A table of the file at a path such as ``arm[1].link[0]``, which may hold only these keys."""
+    """A TOML table at a path such as ``arm[1].link[0]``, with no keys but the given ones."""
 
-    def __init__(self, file: str, path: str, value: Any, keys: tuple[str, ...]) -> None:
-        self.file = file
+    def __init__(self, path: str, value: Any, keys: tuple[str, ...]) -> None:
         self.path = path
         if not isinstance(value, dict):
-            raise LayoutError(f"{file}: `{path}` is {value!r}, expected a table with {keys}")
+            raise ValueError(f"{path} is not a table")
         self.entries = value
         for key in value:
             if key not in keys:
-                close = difflib.get_close_matches(key, keys, 1)
-                hint = f"did you mean `{close[0]}`?" if close else f"expected {', '.join(keys)}"
-                found = f"{file}: unknown key `{self._full(key)}` ({value[key]!r})"
-                raise LayoutError(f"{found}, {hint}")
+                raise ValueError(f"{self.path_of(key)} is unknown")
 
-    def layout(self) -> Layout:
-        name = self._text("name")
-        if not re.fullmatch("[a-z][a-z0-9_]{0,63}", name) or KEYWORDS.fullmatch(name):
-            self._fail("name", "lower-case letters, digits and _, a letter first, no Rust keyword")
-        base = _Table(self.file, "base", self._get("base", "a table"), ("mass", "inertia"))
-        body = Base(base._positive("mass", "kg"), base._positive("inertia", "kg m^2"))
-        keys = ("name", "mount", "mount_angle", "link")
-        arms = tuple(table._arm() for table in self._tables("arm", keys))
-        names = [arm.name for arm in arms]
-        for i, arm_name in enumerate(names):
-            if arm_name in names[:i]:
-                first = names.index(arm_name)
-                self._fail(f"arm[{i}].name", f"another than that of `arm[{first}]`", arm_name)
-        return Layout(name, body, arms)
-
-    def _arm(self) -> Arm:
-        name = self._text("name")
-        mount = self._position("mount")
-        mount_angle = self._number("mount_angle", "rad", default=0.0)
-        if abs(mount_angle) > 2 * math.pi:
-            self._fail("mount_angle", f"radians (is it degrees? {math.radians(mount_angle)} rad)")
-        links = self._tables("link", ("length", "mass", "inertia", "com"))
-        return Arm(name, mount, mount_angle, tuple(table._link() for table in links))
-
-    def _link(self) -> Link:
-        length = self._number("length", "m")
-        if length < 0:
-            self._fail("length", "a number in m of 0 or more")
-        if length > 1e4:
-            self._fail("length", f"metres (is it millimetres? {length * 1e-3} m)")
-        mass = self._positive("mass", "kg")
-        inertia = self._positive("inertia", "kg m^2")
-        com = self._position("com") if "com" in self.entries else (length / 2, 0.0)
-        return Link(length, mass, inertia, com)
-
-    def _tables(self, key: str, keys: tuple[str, ...]) -> list["_Table"]:
-        value = self._get(key, f"at least one [[{key}]]")
-        if not isinstance(value, list) or not value:
-            self._fail(key, f"a list of at least one table, [[{key}]]")
-        path = self._full(key)
-        return [_Table(self.file, f"{path}[{i}]", item, keys) for i, item in enumerate(value)]
-
-    def _text(self, key: str) -> str:
-        value = self._get(key, "text in quotes")
-        is_text = isinstance(value, str) and value.strip() != ""
-        if not is_text or re.search("[\x00-\x1f\x7f-\x9f]", value):
-            self._fail(key, "text in quotes, on one line, not blank")
-        return value
-
-    def _number(self, key: str, unit: str, default: float | None = None) -> float:
-        if default is not None and key not in self.entries:
-            return default
-        number = _finite(self._get(key, f"a number in {unit}"))
-        return self._fail(key, f"a finite number in {unit}") if number is None else number
-
-    def _positive(self, key: str, unit: str) -> float:
-        number = self._number(key, unit)
-        return number if number > 0 else self._fail(key, f"a number in {unit} greater than 0")
-
-    def _position(self, key: str) -> tuple[float, float]:
-        value = self._get(key, "[x, y] in m")
-        numbers = [_finite(item) for item in value] if isinstance(value, list) else []
-        if len(numbers) != 2 or None in numbers:
-            self._fail(key, "[x, y] in m")
-        if max(map(abs, numbers)) > 1e4:
-            self._fail(key, "metres (is it millimetres?)")
-        return numbers[0], numbers[1]
-
-    def _get(self, key: str, wanted: str) -> Any:
-        if key not in self.entries:
-            raise LayoutError(f"{self.file}: missing key `{self._full(key)}`, expected {wanted}")
-        return self.entries[key]
-
-    def _full(self, key: str) -> str:
+    def path_of(self, key: str) -> str:
         return f"{self.path}.{key}" if self.path else key
 
-    def _fail(self, key: str, wanted: str, value: Any = None) -> NoReturn:
-        shown = self.entries.get(key, value)
-        raise LayoutError(f"{self.file}: `{self._full(key)}` is {shown!r}, expected {wanted}")
+    def value(self, key: str) -> Any:
+        if key not in self.entries:
+            raise ValueError(f"{self.path_of(key)} is missing")
+        return self.entries[key]
+
+    def text(self, key: str) -> str:
+        value = self.value(key)
+        if not isinstance(value, str):
+            raise ValueError(f"{self.path_of(key)} is not a string")
+        return value
+
+    def number(self, key: str) -> float:
+        return _number(self.path_of(key), self.value(key))
+
+    def position(self, key: str) -> tuple[float, float]:
+        value = self.value(key)
+        if not isinstance(value, list) or len(value) != 2:
+            raise ValueError(f"{self.path_of(key)} is not a pair [x, y]")
+        return _number(f"{self.path_of(key)}[0]", value[0]), _number(f"{self.path_of(key)}[1]", value[1])
+
+    def table(self, key: str, keys: tuple[str, ...]) -> "_Table":
+        return _Table(self.path_of(key), self.value(key), keys)
+
+    def tables(self, key: str, keys: tuple[str, ...]) -> list["_Table"]:
+        value = self.value(key)
+        if not isinstance(value, list) or not value:
+            raise ValueError(f"{self.path_of(key)} is not a list of tables")
+        return [_Table(f"{self.path_of(key)}[{i}]", item, keys) for i, item in enumerate(value)]
 
 
-def _finite(value: Any) -> float | None:
-    """A TOML number as a float; None for anything else, infinities and NaN."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return None
-    try:
-        number = float(value)
-    except OverflowError:
-        return None
-    return number if math.isfinite(number) else None
+def _number(path: str, value: Any) -> float:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not (is_number and abs(value) <= sys.float_info.max):
+        raise ValueError(f"{path} is not a finite number")
+    return float(value)
+
+
+def _layout(content: dict[str, Any]) -> Layout:
+    root = _Table("", content, ("name", "base", "arm"))
+    base = root.table("base", ("mass", "inertia"))
+    arms = root.tables("arm", ("name", "mount", "mount_angle", "link"))
+    return Layout(root.text("name"), Base(base.number("mass"), base.number("inertia")), tuple(map(_arm, arms)))
+
+
+def _arm(table: _Table) -> Arm:
+    mount_angle = table.number("mount_angle") if "mount_angle" in table.entries else 0.0
+    links = table.tables("link", ("length", "mass", "inertia", "com"))
+    return Arm(table.text("name"), table.position("mount"), mount_angle, tuple(map(_link, links)))
+
+
+def _link(table: _Table) -> Link:
+    length = table.number("length")
+    com = table.position("com") if "com" in table.entries else (length / 2, 0.0)
+    return Link(length, table.number("mass"), table.number("inertia"), com)
