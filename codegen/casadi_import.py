@@ -5,7 +5,8 @@ CasADi's instruction list reuses work slots and repeats itself; nodes do neither
 
 import casadi as ca
 
-from .functions import CONFIGURATION, Model
+from .functions import Model
+from .inputs import CONFIGURATION, element
 from .value_numbering import CALL, PARAMETER, SETUP, DerivationError, Nodes
 
 BINARY = {
@@ -78,10 +79,3 @@ class Reader:
         if op == ca.OP_INV:
             return build("div", self.nodes.leaf("number", 1.0, PARAMETER), args[0])
         raise DerivationError(f"CasADi operation {op} has no name in the graph")
-
-
-def element(name: str, shape: list[int], k: int) -> str:
-    """`name[i]` or `name[i][j]` of the k-th element in row-major order."""
-    if len(shape) == 1:
-        return f"{name}[{k}]"
-    return f"{name}[{k // shape[1]}][{k % shape[1]}]"

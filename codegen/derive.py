@@ -8,6 +8,7 @@ from pathlib import Path
 
 from . import graph
 from .functions import Model
+from .json_text import dump
 from .layout import Layout, LayoutError, read
 
 HERE = Path(__file__).resolve().parent
@@ -43,30 +44,6 @@ def graph_text(
 ) -> str:
     """The graph of a layout, with the command that makes it; `progress` hears of each family before it is worked on."""
     return dump(graph.build(Model(layout, progress), command)) + "\n"
-
-
-def dump(value, indent: int = 0) -> str:
-    """JSON with one statement, parameter or output per line: made to be read and compared."""
-    if not isinstance(value, dict | list) or is_line(value):
-        return json.dumps(value, allow_nan=False, ensure_ascii=False)
-    pad = " " * (indent + 1)
-    if isinstance(value, dict):
-        items = [f"{json.dumps(key)}: {dump(item, indent + 1)}" for key, item in value.items()]
-        opening, closing = "{", "}"
-    else:
-        items = [dump(item, indent + 1) for item in value]
-        opening, closing = "[", "]"
-    return opening + "\n" + ",\n".join(pad + item for item in items) + "\n" + " " * indent + closing
-
-
-def is_line(value: dict | list) -> bool:
-    """Whether a value stands on one line: no object inside, and no list of statements."""
-    items = value.values() if isinstance(value, dict) else value
-    return (
-        not any(isinstance(item, dict) for item in items)
-        and not any(isinstance(item, list) and any(isinstance(inner, list) for inner in item) for item in items)
-        and not (isinstance(value, list) and len(value) > 0 and all(isinstance(item, list) for item in value))
-    )
 
 
 def write_whole(path: Path, text: str) -> None:

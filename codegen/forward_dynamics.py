@@ -7,7 +7,7 @@ body, held at the first arm's mount: what is left is the 2 x 2 balance of forces
 import casadi as ca
 
 from .articulated_body import ZERO, Body, Child, Inertia, InLine, body
-from .kinematics import Inputs
+from .inputs import Inputs
 from .layout import Layout
 from .plane_vectors import Vector, add, cross, rotate, rotate_back, rotation, scale, subtract, turn_left
 from .symbols import ArmSymbols, LinkSymbols, Symbols

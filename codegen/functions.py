@@ -5,93 +5,20 @@ velocities and forces.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 import casadi as ca
 
-from .equations_of_motion import EquationsOfMotion, ReducedDynamics
+from .equations_of_motion import EquationsOfMotion
 from .forward_dynamics import ForwardDynamics
-from .impact import impact_matrix, ldlt_solve, matrix_times
-from .kinematics import Geometry, Inputs, input_shapes
+from .impact import impact_matrix
+from .inputs import CONFIGURATION, Inputs, input_shapes
+from .kinematics import Geometry
 from .layout import Layout
+from .linear_algebra import ldlt_solve, matrix_times
+from .momentum import momentum
+from .reduced_dynamics import ReducedDynamics
+from .signatures import Family, Function, matrix, per_item, pivot, scalar, vector
 from .symbols import Symbols
-
-CONFIGURATION = ("base_pose", "joint_angles")
-
-INPUT_TEXT = {
-    "base_pose": (["rad", "m", "m"], "[yaw, x, y] of the base COM, inertial frame"),
-    "joint_angles": (["rad"], "relative joint angles, arm by arm"),
-    "base_twist": (["rad/s", "m/s", "m/s"], "[omega, vx, vy] of the base COM, inertial axes"),
-    "joint_rates": (["rad/s"], "joint rates, arm by arm"),
-    "joint_torques": (["N m"], "joint torques, arm by arm"),
-    "base_wrench": (["N m", "N", "N"], "[n, fx, fy] on the base at its COM, inertial axes"),
-    "end_effector_wrenches": (["N m", "N", "N"], "[n, fx, fy] on the robot at each tip, inertial axes"),
-    "target_masses": (["kg"], "mass of each arm's target; 0 (with inertia 0) where the arm captures nothing"),
-    "target_inertias": (["kg m^2"], "inertia of each arm's target about its COM"),
-    "contacts": (["m"], "[rx, ry] from the target's COM to the contact point, inertial axes"),
-    "target_twists": (
-        ["rad/s", "m/s", "m/s"],
-        "[omega, vx, vy] of each target's COM before the impact, inertial axes",
-    ),
-}
-
-
-@dataclass(frozen=True)
-class Output:
-    """One result; ``flat`` holds its elements in row-major order."""
-
-    name: str
-    shape: list[int]
-    units: str
-    description: str
-    flat: list[ca.SX]
-
-
-@dataclass(frozen=True)
-class Function:
-    name: str
-    description: str
-    equation: str
-    source: str
-    inputs: list[str]
-    outputs: list[Output]
-
-
-@dataclass(frozen=True)
-class Family:
-    name: str
-    description: str
-    functions: list[Function] = field(default_factory=list)
-
-
-def matrix(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    rows, columns = expression.shape
-    dense = ca.densify(expression)
-    return Output(name, [rows, columns], units, description, [dense[i, j] for i in range(rows) for j in range(columns)])
-
-
-def vector(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    return Output(name, [expression.shape[0]], units, description, ca.vertsplit(ca.densify(expression)))
-
-
-def per_item(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    """A list of twists or poses, held as columns."""
-    rows, columns = expression.shape
-    dense = ca.densify(expression)
-    return Output(name, [columns, rows], units, description, [dense[i, j] for j in range(columns) for i in range(rows)])
-
-
-def scalar(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    return Output(name, [], units, description, [ca.SX(expression)])
-
-
-def pivot(expression: ca.SX) -> Output:
-    return scalar(
-        "smallest_pivot",
-        "1",
-        "smallest pivot relative to its scale; small, zero or NaN: singular",
-        expression,
-    )
 
 
 class Model:
@@ -319,7 +246,7 @@ class Model:
         )
 
     def _momentum(self) -> Family:
-        linear, angular, energy = self._geometry().momentum()
+        linear, angular, energy = momentum(self._geometry())
         return Family(
             "momentum",
             "Momentum and kinetic energy, body by body.",

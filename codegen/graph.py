@@ -3,8 +3,10 @@
 import casadi as ca
 
 from .casadi_import import Reader
-from .functions import INPUT_TEXT, Family, Function, Model
+from .functions import Model
+from .inputs import INPUT_TEXT
 from .layout import content_hash
+from .signatures import Family, Function
 from .statements import Statements, count
 from .value_numbering import CALL, SETUP, Nodes, is_leaf
 

@@ -1,55 +1,12 @@
 """Positions, Jacobians, body motions and momentum, in absolute link angles: one sin/cos pair per body."""
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import casadi as ca
 
-from .plane_vectors import Vector, add, cross, dot, rotate, rotation, scale, turn_left
+from .inputs import Inputs
+from .plane_vectors import Vector, add, rotate, rotation, scale, turn_left
 from .symbols import Symbols
-
-
-@dataclass(frozen=True)
-class Inputs:
-    """Symbols of every input that a function of the model can have."""
-
-    base_pose: ca.SX
-    joint_angles: ca.SX
-    base_twist: ca.SX
-    joint_rates: ca.SX
-    joint_torques: ca.SX
-    base_wrench: ca.SX
-    end_effector_wrenches: ca.SX
-    target_masses: ca.SX
-    target_inertias: ca.SX
-    contacts: ca.SX
-    target_twists: ca.SX
-
-    @staticmethod
-    def create(arms: int, joints: int) -> "Inputs":
-        shapes = input_shapes(arms, joints)
-        return Inputs(**{name: ca.SX.sym(name, *transposed(shape)) for name, shape in shapes.items()})
-
-
-def transposed(shape: list[int]) -> tuple[int, ...]:
-    """CasADi stores by columns, the contract by rows: a list of r twists is held as 3 x r."""
-    return tuple(reversed(shape))
-
-
-def input_shapes(arms: int, joints: int) -> dict[str, list[int]]:
-    return {
-        "base_pose": [3],
-        "joint_angles": [joints],
-        "base_twist": [3],
-        "joint_rates": [joints],
-        "joint_torques": [joints],
-        "base_wrench": [3],
-        "end_effector_wrenches": [arms, 3],
-        "target_masses": [arms],
-        "target_inertias": [arms],
-        "contacts": [arms, 2],
-        "target_twists": [arms, 3],
-    }
 
 
 class ArmGeometry:
@@ -153,25 +110,6 @@ class Geometry:
             for k in range(motion.arm.links):
                 columns.append(ca.vertcat(motion.rate[k], *motion.com_velocity(k)))
         return ca.horzcat(*columns)
-
-    def momentum(self) -> tuple[ca.SX, ca.SX, ca.SX]:
-        """(linear momentum, angular momentum about the inertial origin, kinetic energy), body by body."""
-        symbols = self.symbols
-        twist = self.inputs.base_twist
-        base_velocity = (twist[1], twist[2])
-        linear = scale(symbols.base_mass, base_velocity)
-        spin = symbols.base_inertia * twist[0]  # about the base COM
-        energy = symbols.base_inertia * (twist[0] * twist[0]) + symbols.base_mass * dot(base_velocity, base_velocity)
-        for motion in self.arm_motions():
-            for k, link in enumerate(motion.arm.symbols.links):
-                velocity = motion.com_velocity(k)
-                momentum = scale(link.mass, velocity)
-                com = add(motion.arm.position[k], motion.arm.com_offset(k))
-                rate = motion.rate[k]
-                linear = add(linear, momentum)
-                spin = spin + (link.inertia * rate + cross(com, momentum))
-                energy = energy + (link.inertia * (rate * rate) + dot(momentum, velocity))
-        return ca.vertcat(*linear), spin + cross(self.base_position, linear), 0.5 * energy
 
 
 class ArmMotion:

@@ -40,7 +40,7 @@ FAULTS = [
     # derivation
     Fault(
         "sign of a centripetal term",
-        "codegen/equations_of_motion.py",
+        "codegen/composite_inertia.py",
         "moment = bias[k + 1] + moment - cross(arm.vector[k], total)",
         "moment = bias[k + 1] + moment + cross(arm.vector[k], total)",
     ),
@@ -52,7 +52,7 @@ FAULTS = [
     ),
     Fault(
         "generalized bias without the base's moment",
-        "codegen/equations_of_motion.py",
+        "codegen/reduced_dynamics.py",
         "reduced.append(bias - cross(self.com_shift[k], force) - self.turn[k] * moment)",
         "reduced.append(bias - cross(self.com_shift[k], force))",
     ),
@@ -70,13 +70,13 @@ FAULTS = [
     ),
     Fault(
         "fill-in of the elimination dropped",
-        "codegen/impact.py",
+        "codegen/linear_algebra.py",
         "for j in [j for j in column if j <= i]:",
         "for j in [j for j in column if j <= i and (i, j) in work]:",
     ),
     Fault(
         "matrices stored by columns",
-        "codegen/functions.py",
+        "codegen/signatures.py",
         "[dense[i, j] for i in range(rows) for j in range(columns)]",
         "[dense[i, j] for j in range(columns) for i in range(rows)]",
     ),

@@ -10,8 +10,9 @@ from collections import Counter
 import pytest
 
 from codegen import graph
-from codegen.derive import HERE, derive_text, dump, graph_path, layout_names, layout_path
+from codegen.derive import HERE, derive_text, graph_path, layout_names, layout_path
 from codegen.functions import Model
+from codegen.json_text import dump
 from codegen.layout import content_hash, read
 
 from .samples import LAYOUTS, derived, parameters
