@@ -1,262 +1,202 @@
-"""Elimination of one body's angular acceleration, so that the body before it sees a mass and a force.
+"""Computes articulated inertia and bias force of one body from its inertia and those of its child bodies.
 
-A revolute joint passes no moment but its torque. What lies beyond a joint therefore acts on the body
-before it as a symmetric 2 x 2 articulated mass A and a force b: the force that it needs is F = A a + b,
-with a the acceleration of the joint point. All of it is written in the body's frame. For a body with
-first joint P, COM at c, angular acceleration alpha and rate omega, and children at d,
+A revolute joint transmits no moment but its torque. The parent of a body therefore sees the body, with all that is
+outboard of it, as a symmetric 2 x 2 articulated inertia A and a bias force b: the force that the joint transmits to
+the body is F = A a + b, with a the acceleration of the joint point (Featherstone's articulated-body algorithm, with
+the joint's rotation eliminated). All vectors are in the frame of the body. For a body with its joint at P, its COM at
+c from P, angular velocity omega and angular acceleration alpha, and children whose joints are at d from P,
 
-    F = m a_com + sum F',     a_com = a + alpha z x c - omega^2 c,    F' = A' (a + alpha z x d - omega^2 d) + b'
+    F = m a_com + sum F',     a_com = a + alpha z x c - omega^2 c,    F' = A' (a + alpha z x d - omega^2 d) + b',
     n = I_P alpha + m c x a + sum d x F',                             I_P = I + m |c|^2,
 
-n being the moment that acts on the body besides its children's forces. Eliminating alpha leaves A and b.
-Each class below is one way to do it; `body` chooses.
+where n is the moment on the body besides that of its children's forces. Eliminating alpha gives A and b. Each class
+of bodies does so for one geometry; `articulated_body` chooses.
 """
 
 from dataclasses import dataclass
 
 import casadi as ca
 
-from .plane_vectors import Vector, add, cross, scale, subtract, turn_left
+from .articulated_inertia import ArticulatedInertia
+from .plane_vectors import ZERO, Vector, add, cross, dot, perpendicular, scale, subtract
+from .rigid_body_inertia import RigidBodyInertia
 from .symbols import Symbols
-
-ZERO = ca.SX(0)
-
-
-@dataclass(frozen=True)
-class PlaneMass:
-    """A symmetric 2 x 2 articulated mass.
-
-    ``difference`` is xx - yy where that is known beforehand. A rotated constant is its constant plus a swing,
-    xx = fixed[0] - swing and yy = fixed[1] + swing: what is added to it can be added to the constant.
-    """
-
-    xx: ca.SX
-    xy: ca.SX
-    yy: ca.SX
-    difference: ca.SX | None = None
-    fixed: tuple[ca.SX, ca.SX] | None = None
-    swing: ca.SX | None = None
-
-    def rotate(self, rotation: Vector) -> "PlaneMass":
-        """R A R^T in 10 operations, 5 where xy is zero; the trace stays."""
-        c, s = rotation
-        difference = self.xx - self.yy if self.difference is None else self.difference
-        v = c * (self.xy + self.xy) + s * difference
-        swing = s * v
-        fixed = None if self.difference is None else (self.xx, self.yy)
-        return PlaneMass(self.xx - swing, c * v - self.xy, self.yy + swing, None, fixed, swing)
-
-    def times(self, a: Vector) -> Vector:
-        return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
-
-    def plus(self, other: "PlaneMass") -> "PlaneMass":
-        return PlaneMass(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
-
-    def xx_plus(self, symbols: Symbols, name: str, term: ca.SX, text: str) -> ca.SX:
-        """xx + term, for a term that is a constant."""
-        if self.fixed is None:
-            return self.xx + term
-        return (
-            symbols.constant(f"{name}_with_child", self.fixed[0] + term, "kg", f"{text} + (child's A_xx without swing)")
-            - self.swing
-        )
-
-    def yy_times_plus(self, symbols: Symbols, name: str, factor: ca.SX, term: ca.SX, text: str) -> ca.SX:
-        """factor yy + term, for a factor and a term that are constants."""
-        if self.fixed is None:
-            return factor * self.yy + term
-        constant = symbols.constant(
-            f"{name}_with_child", factor * self.fixed[1] + term, "kg", f"{text}, A'_yy without swing"
-        )
-        return factor * self.swing + constant
 
 
 @dataclass(frozen=True)
 class Child:
-    """What a body carries: an articulated mass at an offset, both in the body's frame."""
+    """A child body: the position of its joint and its articulated inertia, in the frame of the parent."""
 
-    offset: Vector
-    mass: PlaneMass
+    position: Vector
+    inertia: ArticulatedInertia
 
     @property
     def at_joint(self) -> bool:
-        """Whether it is carried where the body itself is held."""
-        return self.offset[0].is_zero() and self.offset[1].is_zero()
+        """Whether its joint coincides with that of the parent."""
+        return self.position[0].is_zero() and self.position[1].is_zero()
 
 
-@dataclass(frozen=True)
-class Inertia:
-    """Mass, inertia about the COM, and the COM from the first joint, of a body called `label`."""
+class CollinearBody:
+    """COM and the joint of the only child on the x axis, the joint at l.
 
-    label: str
-    mass: ca.SX
-    inertia: ca.SX
-    com: Vector
-
-    def about_joint(self, symbols: Symbols) -> ca.SX:
-        return symbols.constant(
-            f"{self.label}_pivot_inertia",
-            self.inertia + self.mass * (self.com[0] * self.com[0] + self.com[1] * self.com[1]),
-            "kg m^2",
-            "I + m |c|^2, about the first joint",
-        )
-
-    def first_moment(self, symbols: Symbols) -> Vector:
-        return (
-            symbols.constant(f"{self.label}_first_moment_x", self.mass * self.com[0], "kg m", "m c_x"),
-            symbols.constant(f"{self.label}_first_moment_y", self.mass * self.com[1], "kg m", "m c_y"),
-        )
-
-
-class InLine:
-    """COM and the one child on the x axis, the child at l: one division, and nothing cancels however short l is.
-
-    With l alpha as the unknown, J = I_P / l^2, mu = m c / l and D = J + A'_yy,
+    One division, and no cancellation however short l is. With l alpha as the unknown, J = I_P / l^2, mu = m c / l and
+    D = J + A'_yy,
 
         A_xx = m + A'_xx - A'_xy^2 / D,  A_xy = A'_xy e,  A_yy = (m I / l^2 + J' A'_yy) / D,  e = (J - mu) / D,
 
-    where J' = (I + m (l - c)^2) / l^2 belongs to the inertia about the child's joint. (A_yy = J' - (J - mu) e
-    would save an operation, and loses digits as the square of a short l.)
+    where J' = (I + m (l - c)^2) / l^2 belongs to the inertia about the child's joint. (A_yy = J' - (J - mu) e would
+    save an operation, but its rounding error grows with 1 / l^2.)
     """
 
-    def __init__(self, symbols: Symbols, own: Inertia, child: Child) -> None:
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, child: Child) -> None:
         label, com, constant = own.label, own.com[0], symbols.constant
-        self.length, self.child = child.offset[0], child.mass
-        self.inverse_length = symbols.inverse_constant(f"{label}_inverse_length", self.length, "1/m", "1 / l")
+        self.length, self.child = child.position[0], child.inertia
+        self.inverse_length = symbols.reciprocal_constant(f"{label}_inverse_length", self.length, "1/m", "1 / l")
         square = self.inverse_length * self.inverse_length
-        near = constant(f"{label}_near_mass", own.about_joint(symbols) * square, "kg", "J = (I + m c^2) / l^2")
+        about_joint = constant(f"{label}_near_mass", own.about_joint(symbols) * square, "kg", "J = (I + m c^2) / l^2")
         first = constant(f"{label}_first_mass", own.mass * com * self.inverse_length, "kg", "mu = m c / l")
-        coupling = constant(f"{label}_coupling_mass", near - first, "kg", "J - mu")
-        beyond = self.length - com
-        far = constant(
+        coupling = constant(f"{label}_coupling_mass", about_joint - first, "kg", "J - mu")
+        to_child = self.length - com
+        about_child = constant(
             f"{label}_far_mass",
-            (own.inertia + own.mass * (beyond * beyond)) * square,
+            (own.inertia + own.mass * (to_child * to_child)) * square,
             "kg",
             "J' = (I + m (l - c)^2) / l^2",
         )
-        turning = constant(f"{label}_turning_mass", own.mass * (own.inertia * square), "kg^2", "m I / l^2")
+        product = constant(f"{label}_turning_mass", own.mass * (own.inertia * square), "kg^2", "m I / l^2")
         self.inverse = symbols.reciprocal(
-            child.mass.yy_times_plus(symbols, f"{label}_near_mass", ca.SX(1), near, "J + A'_yy")
+            self.child.yy_times_plus(symbols, f"{label}_near_mass", ca.SX(1), about_joint, "J + A'_yy")
         )
-        self.row = self.child.xy * self.inverse
-        self.ratio = coupling * self.inverse
+        self.xy_ratio = self.child.xy * self.inverse
+        self.coupling_ratio = coupling * self.inverse  # e
         xx = self.child.xx_plus(symbols, f"{label}_mass", own.mass, "m")
-        yy = self.child.yy_times_plus(symbols, f"{label}_turning_mass", far, turning, "m I / l^2 + J' A'_yy")
-        self.mass = PlaneMass(xx - self.child.xy * self.row, self.child.xy * self.ratio, yy * self.inverse)
-        self.pull = self.child.xx_plus(symbols, f"{label}_first_mass", first, "mu")
+        yy = self.child.yy_times_plus(symbols, f"{label}_turning_mass", about_child, product, "m I / l^2 + J' A'_yy")
+        self.inertia = ArticulatedInertia(
+            xx - self.child.xy * self.xy_ratio, self.child.xy * self.coupling_ratio, yy * self.inverse
+        )
+        self.centripetal_mass = self.child.xx_plus(symbols, f"{label}_first_mass", first, "mu")
 
-    def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
+    def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         x, y = child_forces[0]
-        self.centripetal = rate_squared * self.length
-        x = x - self.centripetal * self.pull
+        self.centripetal = angular_velocity_squared * self.length
+        x = x - self.centripetal * self.centripetal_mass
         y = y - self.centripetal * self.child.xy
-        torque = moment * self.inverse_length
-        turn = torque - y
-        self.free = turn * self.inverse
-        return x + self.child.xy * self.free, torque - self.ratio * turn
+        force = moment * self.inverse_length
+        residual = force - y
+        self.y_0 = residual * self.inverse  # y acceleration of the child's joint for a = 0
+        return x + self.child.xy * self.y_0, force - self.coupling_ratio * residual
 
-    def accelerate(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        y = self.free - self.row * a[0] + self.ratio * a[1]
+    def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
+        y = self.y_0 - self.xy_ratio * a[0] + self.coupling_ratio * a[1]
         return (y - a[1]) * self.inverse_length, [(a[0] - self.centripetal, y)]
 
 
-class Tip:
-    """No children but at the joint itself (behind a wheel): everything depends on the parameters alone.
+class LeafBody:
+    """No children, or children whose joints coincide with its own, as those of a reaction wheel.
 
-    A = m 1 - r r^T / I_P with r = m z x c, written without a difference: m / I_P times
+    Of its own inertia, A = m 1 - r r^T / I_P with r = m z x c, written without a difference: m / I_P times
     [[I + m c_x^2, m c_x c_y], [., I + m c_y^2]].
     """
 
-    def __init__(self, symbols: Symbols, own: Inertia, children: list[Child]) -> None:
-        label, named = own.label, symbols.constant
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child]) -> None:
+        label, constant = own.label, symbols.constant
         self.first_moment = own.first_moment(symbols)
-        r = turn_left(self.first_moment)
-        pivot = own.about_joint(symbols)
-        self.inverse = symbols.inverse_constant(f"{label}_inverse_pivot", pivot, "1/(kg m^2)", "1 / (I + m |c|^2)")
-        self.gain = (
-            named(f"{label}_gain_x", r[0] * self.inverse, "1/m", "-m c_y / (I + m |c|^2)"),
-            named(f"{label}_gain_y", r[1] * self.inverse, "1/m", "m c_x / (I + m |c|^2)"),
+        r = perpendicular(self.first_moment)
+        about_joint = own.about_joint(symbols)
+        self.inverse = symbols.reciprocal_constant(
+            f"{label}_inverse_pivot", about_joint, "1/(kg m^2)", "1 / (I + m |c|^2)"
         )
-        share = named(f"{label}_mass_share", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
+        self.gain = (
+            constant(f"{label}_gain_x", r[0] * self.inverse, "1/m", "-m c_y / (I + m |c|^2)"),
+            constant(f"{label}_gain_y", r[1] * self.inverse, "1/m", "m c_x / (I + m |c|^2)"),
+        )
+        share = constant(f"{label}_mass_share", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
         (x, y), (mx, my) = own.com, self.first_moment
         what = "articulated mass at the first joint"
         xx = own.mass if y.is_zero() else share * (own.inertia + mx * x)
-        self.mass = PlaneMass(
-            named(f"{label}_articulated_mass_xx", xx, "kg", what),
-            named(f"{label}_articulated_mass_xy", share * (mx * y), "kg", what),
-            named(f"{label}_articulated_mass_yy", share * (own.inertia + my * y), "kg", what),
-            named(f"{label}_articulated_mass_difference", share * (mx * x - my * y), "kg", "xx - yy of it"),
+        self.inertia = ArticulatedInertia(
+            constant(f"{label}_articulated_mass_xx", xx, "kg", what),
+            constant(f"{label}_articulated_mass_xy", share * (mx * y), "kg", what),
+            constant(f"{label}_articulated_mass_yy", share * (own.inertia + my * y), "kg", what),
+            constant(f"{label}_articulated_mass_difference", share * (mx * x - my * y), "kg", "xx - yy of it"),
         )
-        self.places = [child.offset for child in children]
+        self.children = len(children)
         for child in children:
-            self.mass = self.mass.plus(child.mass)
+            self.inertia = self.inertia.plus(child.inertia)
 
-    def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
-        self.free = moment * self.inverse
-        total = tuple(-m * rate_squared for m in self.first_moment)
+    def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
+        self.alpha_0 = moment * self.inverse  # for a = 0
+        total = scale(-angular_velocity_squared, self.first_moment)
         for force in child_forces:
             total = add(total, force)
         return add(total, scale(moment, self.gain))
 
-    def accelerate(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        alpha = self.free - self.gain[0] * a[0] - self.gain[1] * a[1]
-        return alpha, [a for _ in self.places]
+    def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
+        return angular_acceleration(self.alpha_0, self.gain, a), [a] * self.children
 
 
-class General:
+class GeneralBody:
     """Any number of children anywhere: r = m z x c + sum A' (z x d), D = I_P + sum (z x d) . A' (z x d)."""
 
-    def __init__(self, symbols: Symbols, own: Inertia, children: list[Child]) -> None:
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child]) -> None:
         self.children = children
         self.first_moment = own.first_moment(symbols)
-        self.coupling = turn_left(self.first_moment)
-        pivot = own.about_joint(symbols)
-        total = PlaneMass(own.mass, ZERO, own.mass)
+        self.coupling = perpendicular(self.first_moment)  # r
+        pivot = own.about_joint(symbols)  # D
+        total = ArticulatedInertia(own.mass, ZERO, own.mass)
         for child in children:
-            total = total.plus(child.mass)
-            lever = turn_left(child.offset)
-            reaction = child.mass.times(lever)
+            total = total.plus(child.inertia)
+            lever = perpendicular(child.position)
+            reaction = child.inertia.times(lever)
             self.coupling = add(self.coupling, reaction)
-            pivot = pivot + (lever[0] * reaction[0] + lever[1] * reaction[1])
+            pivot = pivot + dot(lever, reaction)
         r = self.coupling
         self.inverse = symbols.reciprocal(pivot)
         self.gain = scale(self.inverse, r)
-        self.mass = PlaneMass(
+        self.inertia = ArticulatedInertia(
             total.xx - r[0] * self.gain[0], total.xy - r[0] * self.gain[1], total.yy - r[1] * self.gain[1]
         )
 
-    def force(self, rate_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
-        self.rate_squared = rate_squared
-        total = scale(-rate_squared, self.first_moment)
+    def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
+        self.angular_velocity_squared = angular_velocity_squared
+        total = scale(-angular_velocity_squared, self.first_moment)
         for child, force in zip(self.children, child_forces, strict=True):
-            force = subtract(force, scale(rate_squared, child.mass.times(child.offset)))
-            moment = moment - cross(child.offset, force)
+            force = subtract(force, scale(angular_velocity_squared, child.inertia.times(child.position)))
+            moment = moment - cross(child.position, force)
             total = add(total, force)
-        self.free = moment * self.inverse
-        return add(total, scale(self.free, self.coupling))
+        self.alpha_0 = moment * self.inverse  # for a = 0
+        return add(total, scale(self.alpha_0, self.coupling))
 
-    def accelerate(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        alpha = self.free - self.gain[0] * a[0] - self.gain[1] * a[1]
+    def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
+        alpha = angular_acceleration(self.alpha_0, self.gain, a)
         points = []
         for child in self.children:
-            relative = subtract(scale(alpha, turn_left(child.offset)), scale(self.rate_squared, child.offset))
-            points.append(add(a, relative))
+            tangential = scale(alpha, perpendicular(child.position))
+            centripetal = scale(self.angular_velocity_squared, child.position)
+            points.append(add(a, subtract(tangential, centripetal)))
         return alpha, points
 
 
-Body = InLine | Tip | General
+def angular_acceleration(alpha_0: ca.SX, gain: Vector, a: Vector) -> ca.SX:
+    """alpha from that for a = 0."""
+    return alpha_0 - gain[0] * a[0] - gain[1] * a[1]
 
 
-def body(symbols: Symbols, own: Inertia, children: list[Child], general: bool = False) -> Body:
+ArticulatedBody = CollinearBody | LeafBody | GeneralBody
+
+
+def articulated_body(
+    symbols: Symbols, own: RigidBodyInertia, children: list[Child], general: bool = False
+) -> ArticulatedBody:
     """A body with its angular acceleration eliminated.
 
-    ``mass`` is its articulated mass A; ``force(rate squared, moment, children's forces)`` gives b, and then
-    ``accelerate(a)`` the angular acceleration and the accelerations of the children's joint points.
-    ``general`` forbids the form that divides by the child's distance.
+    ``inertia`` is its articulated inertia A. ``bias_force(omega^2, n, bias forces of the children)`` gives b; after it,
+    ``accelerations(a)`` gives alpha and the accelerations of the children's joints. ``general`` excludes the form that
+    divides by the distance of the child.
     """
     if all(child.at_joint for child in children):
-        return Tip(symbols, own, children)
-    in_line = len(children) == 1 and own.com[1].is_zero() and children[0].offset[1].is_zero()
-    if in_line and not general:
-        return InLine(symbols, own, children[0])
-    return General(symbols, own, children)
+        return LeafBody(symbols, own, children)
+    collinear = len(children) == 1 and own.com[1].is_zero() and children[0].position[1].is_zero()
+    if collinear and not general:
+        return CollinearBody(symbols, own, children[0])
+    return GeneralBody(symbols, own, children)

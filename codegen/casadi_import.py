@@ -5,8 +5,8 @@ CasADi's instruction list reuses work slots and repeats itself; nodes do neither
 
 import casadi as ca
 
-from .functions import Model
-from .inputs import CONFIGURATION, element
+from .functions import Functions
+from .inputs import CONFIGURATION, element, input_shapes
 from .value_numbering import CALL, PARAMETER, SETUP, DerivationError, Nodes
 
 BINARY = {
@@ -23,25 +23,26 @@ UNARY = {ca.OP_NEG: "neg", ca.OP_SIN: "sin", ca.OP_COS: "cos", ca.OP_SQRT: "sqrt
 class Reader:
     """Reads scalar CasADi expressions into nodes."""
 
-    def __init__(self, model: Model) -> None:
-        self.model, self.nodes = model, Nodes()
+    def __init__(self, functions: Functions) -> None:
+        self.nodes = Nodes()
         self.leaves: list[tuple[ca.SX, list[int]]] = []  # symbol, node of each element
-        for parameter in model.symbols.parameters:
+        for parameter in functions.symbols.parameters:
             self._add_leaf(parameter.symbol, [self.nodes.leaf("parameter", parameter.name, PARAMETER)])
-        for name, shape in model.input_shapes.items():
+        shapes = input_shapes(len(functions.symbols.arms), functions.symbols.joints)
+        for name, shape in shapes.items():
             stage = SETUP if name in CONFIGURATION else CALL
-            symbol = getattr(model.inputs, name)
+            symbol = getattr(functions.inputs, name)
             ids = [self.nodes.leaf("input", element(name, shape, k), stage) for k in range(symbol.numel())]
             self._add_leaf(symbol, ids)
         self.constants: dict[str, int] = {}
-        for cut in model.symbols.cuts:
-            (value,) = self.read([cut.expression])
-            if cut.name is not None:
+        for variable in functions.symbols.auxiliary_variables:
+            (value,) = self.read([variable.expression])
+            if variable.name is not None:
                 if self.nodes.nodes[value].stage != PARAMETER:
-                    raise DerivationError(f"constant {cut.name} depends on more than parameters")
-                self.constants[cut.name] = value
-                value = self.nodes.leaf("constant", cut.name, PARAMETER)
-            self._add_leaf(cut.symbol, [value])
+                    raise DerivationError(f"constant {variable.name} depends on more than parameters")
+                self.constants[variable.name] = value
+                value = self.nodes.leaf("constant", variable.name, PARAMETER)
+            self._add_leaf(variable.symbol, [value])
 
     def _add_leaf(self, symbol: ca.SX, ids: list[int]) -> None:
         self.leaves.append((symbol, ids))

@@ -1,101 +1,104 @@
-"""Computes an arm's part of the mass matrix and bias, as composite inertias, from its kinematics.
+"""Computes an arm's blocks of the mass matrix and bias from its kinematics, by composite rigid bodies.
 
-Augmented first moment of link k: sigma_k = m_k c_k + (mass beyond) d_k, a constant in the link's frame.
-In inertial axes, from the tip: s_k = sum of sigma_j, j >= k, is the first moment about joint k of all
-that joint k carries, I_k its inertia about joint k, and M_jk = I_k + (p_k - p_j) . s_k.
+Composite body k is link k with all links outboard of it. The augmented first moment of link k,
+sigma_k = m_k c_k + (outboard mass) d_k, is constant in the frame of the link; d_k runs from joint k to joint k + 1. In
+inertial axes, s_k = sum of sigma_j, j >= k, is the first moment of composite body k about joint k, I_k its inertia
+about joint k, and M_jk = I_k + (p_k - p_j) . s_k.
 """
 
 import casadi as ca
 
-from .kinematics import ArmGeometry
-from .plane_vectors import Vector, add, cross, dot, rotate, scale, subtract
-from .symbols import Symbols
+from .kinematics import ArmPositions
+from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, cross, dot, rotate, scale, subtract
+from .symbols import LinkSymbols, Symbols
 
 
-class Composite:
-    """Composite inertias of one arm, from the tip to the mount, and the arm's part of M."""
+class CompositeInertia:
+    """Composite bodies of one arm, from the last link to the first.
 
-    def __init__(self, symbols: Symbols, arm: ArmGeometry, index: int) -> None:
-        self.arm = arm
-        label = f"arm{index + 1}"
+    ``mass[k]``, ``first_moment[k]`` s_k and ``inertia[k]`` I_k belong to composite body k, ``augmented_moment[k]`` is
+    sigma_k in inertial axes; ``mass_matrix[j][k]``, j <= k, is the arm's block of I_m, and ``base_coupling[k]`` the
+    entry of I_bm in the row of the base's rotation.
+    """
+
+    def __init__(self, symbols: Symbols, arm: ArmPositions) -> None:
+        self.positions = arm
         links = arm.symbols.links
-        beyond = ca.SX(0)
-        self.mass_from = [None] * len(links)
-        self.augmented: list[Vector] = [None] * len(links)  # sigma_k, inertial axes
-        self.moment: list[Vector] = [None] * len(links)  # s_k
-        self.inertia = [None] * len(links)  # I_k
-        self.entry: list[list[ca.SX]] = [[None] * len(links) for _ in links]  # M_jk, j <= k
+        self.mass = [ZERO] * len(links)
+        self.augmented_moment: list[Vector] = [ZERO_VECTOR] * len(links)
+        self.first_moment: list[Vector] = [ZERO_VECTOR] * len(links)
+        self.inertia = [ZERO] * len(links)
+        self.mass_matrix = [[ZERO] * len(links) for _ in links]
+        outboard_mass = ZERO
         for k in reversed(range(len(links))):
-            link, name = links[k], f"{label}_link{k + 1}"
-            last = k == len(links) - 1
-            sigma = (
-                symbols.constant(
-                    f"{name}_augmented_moment_x",
-                    link.mass * link.com_x + beyond * link.length,
-                    "kg m",
-                    "m c_x + (mass beyond) l",
-                ),
-                symbols.constant(f"{name}_augmented_moment_y", link.mass * link.com_y, "kg m", "m c_y"),
-            )
-            own = symbols.constant(
-                f"{name}_augmented_inertia",
-                link.inertia
-                + link.mass * (link.com_x * link.com_x + link.com_y * link.com_y)
-                + beyond * (link.length * link.length),
-                "kg m^2",
-                "I + m |c|^2 + (mass beyond) l^2, about the joint",
-            )
-            self.augmented[k] = rotate(arm.axis[k], sigma)
-            if last:
-                self.moment[k], self.inertia[k] = self.augmented[k], own
+            link = links[k]
+            sigma, own_inertia = augmented_body(symbols, link, outboard_mass)
+            self.augmented_moment[k] = rotate(arm.rotation[k], sigma)
+            if k == len(links) - 1:
+                self.first_moment[k], self.inertia[k] = self.augmented_moment[k], own_inertia
             else:
-                lever = dot(arm.vector[k], self.moment[k + 1])
-                self.moment[k] = add(self.moment[k + 1], self.augmented[k])
-                self.entry[k][k + 1] = self.inertia[k + 1] + lever
-                self.inertia[k] = (own + lever) + self.entry[k][k + 1]
-                if lever.is_zero() and self.inertia[k + 1].is_symbolic():  # wheels alone, up to the tip
+                offset = dot(arm.link[k], self.first_moment[k + 1])
+                self.first_moment[k] = add(self.first_moment[k + 1], self.augmented_moment[k])
+                self.mass_matrix[k][k + 1] = self.inertia[k + 1] + offset
+                self.inertia[k] = (own_inertia + offset) + self.mass_matrix[k][k + 1]
+                if offset.is_zero() and self.inertia[k + 1].is_symbolic():  # all outboard links are reaction wheels
                     self.inertia[k] = symbols.constant(
-                        f"{name}_composite_inertia",
+                        f"{link.label}_composite_inertia",
                         self.inertia[k],
                         "kg m^2",
                         "inertia of this link and of all beyond, about the joint",
                     )
-            self.entry[k][k] = self.inertia[k]
-            beyond = symbols.constant(
-                f"{name}_mass_from", link.mass + beyond, "kg", "mass of this link and of all beyond"
+            self.mass_matrix[k][k] = self.inertia[k]
+            outboard_mass = self.mass[k] = symbols.constant(
+                f"{link.label}_mass_from", link.mass + outboard_mass, "kg", "mass of this link and of all beyond"
             )
-            self.mass_from[k] = beyond
         for j in reversed(range(len(links) - 1)):
             for k in range(j + 2, len(links)):
-                self.entry[j][k] = self.entry[j + 1][k] + dot(arm.vector[j], self.moment[k])
-        # row of the base's rotation: one more step, from the first joint to the base COM
-        self.base_entry = [self.entry[0][k] + dot(arm.mount, self.moment[k]) for k in range(len(links))]
+                self.mass_matrix[j][k] = self.mass_matrix[j + 1][k] + dot(arm.link[j], self.first_moment[k])
+        # one more step of the recursion over j: from the first joint to the base COM
+        self.base_coupling = [
+            entry + dot(arm.mount, moment) for entry, moment in zip(self.mass_matrix[0], self.first_moment, strict=True)
+        ]
 
-    @property
-    def mass(self) -> ca.SX:
-        return self.mass_from[0]
+    def bias(self, angular_velocities: list[ca.SX], base_rate_squared: ca.SX) -> tuple[list[ca.SX], Vector, ca.SX]:
+        """(c_m of the arm, the force and the moment about the base COM that the arm adds to c_b).
 
-    def centripetal(self, rates: list[ca.SX], base_rate_squared: ca.SX) -> tuple[list[ca.SX], Vector, ca.SX]:
-        """(joint bias, force and moment about the base COM) that the rates alone need.
-
-        With a_k the acceleration of joint k and t_k = sum of omega_j^2 sigma_j, j >= k, the moment about
-        joint k is n_k = n_(k+1) + sigma_k x a_k - d_k x t_(k+1).
+        An outward recursion gives the centripetal acceleration a_k of joint k, an inward one
+        t_k = sum of omega_j^2 sigma_j, j >= k, and the moment n_k = n_(k+1) + sigma_k x a_k - d_k x t_(k+1).
         """
-        arm = self.arm
-        a = scale(-base_rate_squared, arm.mount)
-        mount_acceleration = a
-        squares = [rate * rate for rate in rates]
+        arm = self.positions
+        acceleration = scale(-base_rate_squared, arm.mount)
+        squares = [velocity * velocity for velocity in angular_velocities]
         accelerations = []
-        for k in range(arm.links):
-            accelerations.append(a)
-            a = subtract(a, scale(squares[k], arm.vector[k]))
-        bias: list[ca.SX] = [None] * arm.links
-        total = (ca.SX(0), ca.SX(0))  # t_(k+1)
+        for square, link in zip(squares, arm.link, strict=True):
+            accelerations.append(acceleration)
+            acceleration = subtract(acceleration, scale(square, link))
+        bias = [ZERO] * arm.links
+        total = ZERO_VECTOR  # t_(k+1)
         for k in reversed(range(arm.links)):
-            moment = cross(self.augmented[k], accelerations[k])
+            moment = cross(self.augmented_moment[k], accelerations[k])
             if k < arm.links - 1:
-                moment = bias[k + 1] + moment - cross(arm.vector[k], total)
-            total = add(total, scale(squares[k], self.augmented[k]))
+                moment = bias[k + 1] + moment - cross(arm.link[k], total)
+            total = add(total, scale(squares[k], self.augmented_moment[k]))
             bias[k] = moment
-        force = subtract(scale(self.mass, mount_acceleration), total)
+        force = subtract(scale(self.mass[0], accelerations[0]), total)
         return bias, force, bias[0] - cross(arm.mount, total)
+
+
+def augmented_body(symbols: Symbols, link: LinkSymbols, outboard_mass: ca.SX) -> tuple[Vector, ca.SX]:
+    """(sigma, inertia about the joint) of a link with the outboard mass at its end, in the frame of the link."""
+    (com_x, com_y), length = link.com, link.length
+    sigma_x = symbols.constant(
+        f"{link.label}_augmented_moment_x",
+        link.mass * com_x + outboard_mass * length,
+        "kg m",
+        "m c_x + (mass beyond) l",
+    )
+    sigma_y = symbols.constant(f"{link.label}_augmented_moment_y", link.mass * com_y, "kg m", "m c_y")
+    inertia = symbols.constant(
+        f"{link.label}_augmented_inertia",
+        link.inertia + link.mass * (com_x * com_x + com_y * com_y) + outboard_mass * (length * length),
+        "kg m^2",
+        "I + m |c|^2 + (mass beyond) l^2, about the joint",
+    )
+    return (sigma_x, sigma_y), inertia

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import graph
-from .functions import Model
+from .functions import Functions
 from .json_text import dump
 from .layout import Layout, LayoutError, read
 
@@ -43,7 +43,7 @@ def graph_text(
     layout: Layout, command: str | None = None, progress: Callable[[str], None] = lambda family: None
 ) -> str:
     """The graph of a layout, with the command that makes it; `progress` hears of each family before it is worked on."""
-    return dump(graph.build(Model(layout, progress), command)) + "\n"
+    return dump(graph.build(Functions(layout, progress), command)) + "\n"
 
 
 def write_whole(path: Path, text: str) -> None:

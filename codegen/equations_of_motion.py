@@ -1,83 +1,110 @@
 """Computes the mass matrix and bias of the full coordinates, eq. (1), from the arms' composite inertias."""
 
+from functools import cached_property
+
 import casadi as ca
 
-from .composite_inertia import Composite
-from .kinematics import Geometry
-from .plane_vectors import Vector, add, dot, rotate, turn_left
+from .composite_inertia import CompositeInertia
+from .inputs import CONFIGURATION, STATE
+from .kinematics import Kinematics, angular_velocities
+from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, dot, perpendicular, rotate
+from .signatures import Family, Function, matrix, vector
 from .symbols import Symbols
 
 
 class EquationsOfMotion:
-    """M and [c_b; c_m] of the full coordinates."""
+    """M = [[I_b, I_bm], [I_bm^T, I_m]] and [c_b; c_m] of eq. (1).
 
-    def __init__(self, symbols: Symbols, geometry: Geometry) -> None:
-        self.symbols, self.geometry = symbols, geometry
-        self.arms = [Composite(symbols, arm, i) for i, arm in enumerate(geometry.arms)]
-        self.total_mass = symbols.base_mass
+    ``inertia`` and ``first_moment`` of the robot are about the base COM.
+    """
+
+    def __init__(self, symbols: Symbols, kinematics: Kinematics) -> None:
+        self.symbols, self.kinematics = symbols, kinematics
+        self.arms = [CompositeInertia(symbols, arm) for arm in kinematics.arms]
+        total_mass, base_inertia = symbols.base_mass, symbols.base_inertia
         for arm in self.arms:
-            self.total_mass = self.total_mass + arm.mass
-        self.total_mass = symbols.constant("total_mass", self.total_mass, "kg", "mass of the robot")
-        base_inertia = symbols.base_inertia
-        self.first_moment = (ca.SX(0), ca.SX(0))  # of the robot about the base COM
-        inertia = ca.SX(0)
+            total_mass = total_mass + arm.mass[0]
+        self.total_mass = symbols.constant("total_mass", total_mass, "kg", "mass of the robot")
+        self.first_moment: Vector = ZERO_VECTOR
+        inertia = ZERO
         for i, arm in enumerate(self.arms, start=1):
-            mount = arm.arm.mount
-            own = arm.arm.symbols
-            base_inertia = base_inertia + arm.mass * (own.mount_x * own.mount_x + own.mount_y * own.mount_y)
-            sigma = tuple(
-                symbols.constant(
-                    f"arm{i}_mount_moment_{axis}",
-                    arm.mass * value,
-                    "kg m",
-                    f"(mass of arm {i}) mount, base frame, {axis}",
-                )
-                for axis, value in zip("xy", (own.mount_x, own.mount_y), strict=True)
+            mount_x, mount_y = arm.positions.symbols.mount
+            base_inertia = base_inertia + arm.mass[0] * (mount_x * mount_x + mount_y * mount_y)
+            mount_moment = symbols.constant_vector(
+                f"{arm.positions.symbols.label}_mount_moment",
+                (arm.mass[0] * mount_x, arm.mass[0] * mount_y),
+                "kg m",
+                f"(mass of arm {i}) mount, base frame",
             )
-            mounted = add(arm.moment[0], rotate(geometry.base_rotation, sigma))
-            self.first_moment = add(self.first_moment, mounted)
-            lever = dot(mount, arm.moment[0])
-            inertia = inertia + (arm.inertia[0] + (lever + lever))
-        named = symbols.constant(
+            at_mount = add(arm.first_moment[0], rotate(kinematics.base_rotation, mount_moment))
+            self.first_moment = add(self.first_moment, at_mount)
+            offset = dot(arm.positions.mount, arm.first_moment[0])
+            inertia = inertia + (arm.inertia[0] + (offset + offset))
+        augmented_inertia = symbols.constant(
             "base_augmented_inertia",
             base_inertia,
             "kg m^2",
             "inertia of the base with the arms' masses at their mounts",
         )
-        self.inertia = named + inertia  # M[0][0], about the base COM
+        self.inertia = augmented_inertia + inertia
 
     def mass_matrix(self) -> ca.SX:
+        """M of eq. (1)."""
         size = 3 + self.symbols.joints
         m = ca.SX(size, size)
         m[0, 0] = self.inertia
         m[1, 1] = m[2, 2] = self.total_mass
-        m[1, 0], m[2, 0] = turn_left(self.first_moment)
+        m[1, 0], m[2, 0] = perpendicular(self.first_moment)
         for arm in self.arms:
-            first = 3 + arm.arm.first_joint
-            for k in range(arm.arm.links):
-                m[first + k, 0] = arm.base_entry[k]
-                m[first + k, 1], m[first + k, 2] = turn_left(arm.moment[k])
+            first = 3 + arm.positions.symbols.first_joint
+            for k in range(arm.positions.links):
+                m[first + k, 0] = arm.base_coupling[k]
+                m[first + k, 1], m[first + k, 2] = perpendicular(arm.first_moment[k])
                 for j in range(k + 1):
-                    m[first + k, first + j] = arm.entry[j][k]
+                    m[first + k, first + j] = arm.mass_matrix[j][k]
         return ca.tril2symm(m)
 
     def bias(self) -> ca.SX:
-        """[c_b; c_m]: what holds all accelerations at zero."""
-        joints, force, moment = self._centripetal()
+        """[c_b; c_m] of eq. (1): the generalized forces at zero accelerations."""
+        joints, force, moment = self.bias_terms
         return ca.vertcat(moment, *force, *joints)
 
-    def _centripetal(self) -> tuple[list[ca.SX], Vector, ca.SX]:
-        inputs = self.geometry.inputs
+    @cached_property
+    def bias_terms(self) -> tuple[list[ca.SX], Vector, ca.SX]:
+        """(c_m, force of c_b, moment of c_b about the base COM)."""
+        inputs = self.kinematics.inputs
         base_rate = inputs.base_twist[0]
         joints: list[ca.SX] = []
-        force, moment = (ca.SX(0), ca.SX(0)), ca.SX(0)
+        force, moment = ZERO_VECTOR, ZERO
         for arm in self.arms:
-            rates, rate = [], base_rate
-            for k in range(arm.arm.links):
-                rate = rate + inputs.joint_rates[arm.arm.first_joint + k]
-                rates.append(rate)
-            bias, pull, turn = arm.centripetal(rates, base_rate * base_rate)
-            joints += bias
-            force = add(force, pull)
-            moment = moment + turn
+            velocities = angular_velocities(arm.positions.symbols, inputs)
+            arm_bias, arm_force, arm_moment = arm.bias(velocities, base_rate * base_rate)
+            joints += arm_bias
+            force = add(force, arm_force)
+            moment = moment + arm_moment
         return joints, force, moment
+
+
+def equations_of_motion_family(equations: EquationsOfMotion) -> Family:
+    source = "Raina & Shah (2017), eq. (1)"
+    mass_matrix = Function(
+        "mass_matrix",
+        "Mass matrix of the full coordinates (base twist, then joint rates); symmetric.",
+        "M = [[I_b, I_bm], [I_bm^T, I_m]]",
+        source,
+        [*CONFIGURATION],
+        [matrix("mass_matrix", "kg m^2, kg m, kg", "row-major", equations.mass_matrix())],
+    )
+    bias = Function(
+        "bias",
+        "Velocity-dependent forces: the generalized forces that hold all accelerations at zero.",
+        "[c_b; c_m]",
+        source,
+        [*STATE],
+        [vector("bias", "N m, N, N, then N m", "base, then joints", equations.bias())],
+    )
+    return Family(
+        "equations_of_motion",
+        "Mass matrix and bias in the full coordinates, by composite suffixes in absolute angles.",
+        [mass_matrix, bias],
+    )

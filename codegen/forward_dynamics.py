@@ -1,176 +1,205 @@
-"""Forward dynamics: articulated plane masses from the tips to the base, one division per link, 2 x 2 at the base.
+"""Computes accelerations from forces, eq. (1), by the articulated-body algorithm: one division per link.
 
-`articulated_body.py` has the step from body to body. The arms meet at the base, which is treated as one more
-body, held at the first arm's mount: what is left is the 2 x 2 balance of forces there.
+`articulated_body.py` has the step from body to body. The base is one more body, whose joint is the mount of the first
+arm: a 2 x 2 balance of forces remains there.
 """
 
 import casadi as ca
 
-from .articulated_body import ZERO, Body, Child, Inertia, InLine, body
-from .inputs import Inputs
+from .articulated_body import ArticulatedBody, Child, CollinearBody, articulated_body
+from .inputs import STATE, Inputs
+from .kinematics import angular_velocities
 from .layout import Layout
-from .plane_vectors import Vector, add, cross, rotate, rotate_back, rotation, scale, subtract, turn_left
-from .symbols import ArmSymbols, LinkSymbols, Symbols
+from .plane_vectors import (
+    ZERO,
+    ZERO_VECTOR,
+    Rotation,
+    Vector,
+    add,
+    cross,
+    perpendicular,
+    rotate,
+    rotate_inverse,
+    rotation,
+    scale,
+    subtract,
+)
+from .rigid_body_inertia import RigidBodyInertia
+from .signatures import Family, Function, smallest_pivot, vector
+from .symbols import ArmSymbols, Symbols
 
 
-class Arm:
-    """One arm: link bodies from the tip to the mount, at one configuration."""
+class ArticulatedArm:
+    """The articulated bodies of one arm, from the last link to the mount, at one configuration.
 
-    def __init__(self, symbols: Symbols, inputs: Inputs, index: int) -> None:
-        self.symbols: ArmSymbols = symbols.arms[index]
-        self.index = index
-        self.label = f"arm{index + 1}"
-        self.first_joint = sum(len(a.links) for a in symbols.arms[:index])
-        self.links = len(self.symbols.links)
-        last = self.symbols.links[-1]
-        # the frame of the last link is turned until its COM lies on x: its articulated mass is diagonal
-        self.turned, com, self.tip = self._turn_to_com(symbols, last)
-        self.bodies: list[Body] = [None] * self.links
-        self.rotations: list[Vector] = [None] * self.links
+    The frame of the last link has its x axis through the COM, which makes its articulated inertia diagonal.
+    """
+
+    def __init__(self, symbols: Symbols, arm: ArmSymbols, inputs: Inputs, index: int) -> None:
+        self.symbols, self.inputs, self.index = arm, inputs, index
+        com_angle, last_com, self.end_effector = com_frame(symbols, arm)
+        self.bodies: list[ArticulatedBody] = []
+        self.rotations: list[Rotation] = []
         children: list[Child] = []
         for k in reversed(range(self.links)):
-            link = self.symbols.links[k]
-            is_last = k == self.links - 1
-            link_com = com if is_last else (link.com_x, link.com_y)
-            own = Inertia(f"{self.label}_link{k + 1}", link.mass, link.inertia, link_com)
-            self.bodies[k] = body(symbols, own, children)
-            angle = inputs.joint_angles[self.first_joint + k]
+            link, is_last = arm.links[k], k == self.links - 1
+            own = RigidBodyInertia(link.label, link.mass, link.inertia, last_com if is_last else link.com)
+            self.bodies.insert(0, articulated_body(symbols, own, children))
+            angle = inputs.joint_angles[arm.first_joint + k]
             if is_last:
-                angle = angle + self.turned
+                angle = angle + com_angle
             if k == 0:
-                angle = angle + self.symbols.mount_angle
-            self.rotations[k] = rotation(angle)
-            mass = self.bodies[k].mass.rotate(self.rotations[k])
-            offset = (self.symbols.links[k - 1].length, ZERO) if k > 0 else (self.symbols.mount_x, self.symbols.mount_y)
-            children = [Child(offset, mass)]
-        self.child = children[0]
+                angle = angle + arm.mount_angle
+            self.rotations.insert(0, rotation(angle))
+            position = (arm.links[k - 1].length, ZERO) if k > 0 else arm.mount
+            children = [Child(position, self.bodies[0].inertia.rotate(self.rotations[0]))]
+        self.child = children[0]  # of the base
 
-    def _turn_to_com(self, symbols: Symbols, last: LinkSymbols) -> tuple[ca.SX, Vector, Vector]:
-        name = f"{self.label}_com"
-        angle = symbols.constant(
-            f"{name}_angle",
-            ca.atan2(last.com_y, last.com_x),
-            "rad",
-            "direction of the last link's COM in its frame",
-        )
-        distance = symbols.constant(
-            f"{name}_distance",
-            ca.sqrt(last.com_x * last.com_x + last.com_y * last.com_y),
-            "m",
-            "|c| of the last link",
-        )
-        tip_x = symbols.constant(
-            f"{self.label}_tip_x", last.length * ca.cos(angle), "m", "tip along the last link's COM"
-        )
-        tip_y = symbols.constant(
-            f"{self.label}_tip_y", -last.length * ca.sin(angle), "m", "tip across the last link's COM"
-        )
-        return angle, (distance, ZERO), (tip_x, tip_y)
+    @property
+    def links(self) -> int:
+        return len(self.symbols.links)
 
-    def force(self, inputs: Inputs, base_rate: ca.SX, base_rotation: Vector, with_wrench: bool) -> Vector:
-        """b of this arm at its mount, in the base frame; leaves what the sweep outwards needs."""
-        rates, rate = [], base_rate
-        for k in range(self.links):
-            rate = rate + inputs.joint_rates[self.first_joint + k]
-            rates.append(rate)
-        torques = [inputs.joint_torques[self.first_joint + k] for k in range(self.links)]
+    def bias_force(self, base_rotation: Rotation, with_wrench: bool) -> Vector:
+        """b at the mount, base frame, by an inward recursion; `accelerations` can be called after it."""
+        inputs, first = self.inputs, self.symbols.first_joint
+        velocities = angular_velocities(self.symbols, inputs)
+        torques = [inputs.joint_torques[first + k] for k in range(self.links)]
         moment = torques[-1]
-        external = (ZERO, ZERO)
+        external = ZERO_VECTOR
         if with_wrench:
             wrench = inputs.end_effector_wrenches[:, self.index]
-            external = rotate_back(base_rotation, (wrench[1], wrench[2]))
-            for turn in self.rotations:
-                external = rotate_back(turn, external)
-            moment = moment + (wrench[0] + cross(self.tip, external))
-        b: list[Vector] = []
+            external = rotate_inverse(base_rotation, (wrench[1], wrench[2]))
+            for link_rotation in self.rotations:
+                external = rotate_inverse(link_rotation, external)
+            moment = moment + (wrench[0] + cross(self.end_effector, external))
+        forces: list[Vector] = []
         for k in reversed(range(self.links)):
             if k < self.links - 1:
                 moment = torques[k] - torques[k + 1]
-            b = [self.bodies[k].force(rates[k] * rates[k], moment, b)]
+            force = self.bodies[k].bias_force(velocities[k] * velocities[k], moment, forces)
             if k == self.links - 1 and with_wrench:
-                b = [subtract(b[0], external)]
-            b = [rotate(self.rotations[k], b[0])]
-        return b[0]
+                force = subtract(force, external)
+            forces = [rotate(self.rotations[k], force)]
+        return forces[0]
 
-    def accelerate(self, a: Vector, base_acceleration: ca.SX) -> list[ca.SX]:
-        """Joint accelerations from the acceleration of the mount, in the base frame."""
-        accelerations, before = [], base_acceleration
-        for k in range(self.links):
-            a = rotate_back(self.rotations[k], a)
-            alpha, points = self.bodies[k].accelerate(a)
-            accelerations.append(alpha - before)
-            before = alpha
+    def accelerations(self, a: Vector, base_acceleration: ca.SX) -> list[ca.SX]:
+        """Joint accelerations from the acceleration of the mount, base frame, by an outward recursion."""
+        accelerations, parent = [], base_acceleration
+        for link_rotation, body in zip(self.rotations, self.bodies, strict=True):
+            alpha, points = body.accelerations(rotate_inverse(link_rotation, a))
+            accelerations.append(alpha - parent)
+            parent = alpha
             if points:
                 a = points[0]
         return accelerations
 
 
+def com_frame(symbols: Symbols, arm: ArmSymbols) -> tuple[ca.SX, Vector, Vector]:
+    """(angle, COM, end effector) of the frame of the last link with its x axis through the COM."""
+    link = arm.links[-1]
+    com_x, com_y = link.com
+    angle = symbols.constant(
+        f"{arm.label}_com_angle", ca.atan2(com_y, com_x), "rad", "direction of the last link's COM in its frame"
+    )
+    distance = symbols.constant(
+        f"{arm.label}_com_distance", ca.sqrt(com_x * com_x + com_y * com_y), "m", "|c| of the last link"
+    )
+    x = symbols.constant(f"{arm.label}_tip_x", link.length * ca.cos(angle), "m", "tip along the last link's COM")
+    y = symbols.constant(f"{arm.label}_tip_y", -link.length * ca.sin(angle), "m", "tip across the last link's COM")
+    return angle, (distance, ZERO), (x, y)
+
+
 class ForwardDynamics:
-    """The robot at one configuration, ready for any velocities and forces."""
+    """The robot at one configuration, for any velocities and forces."""
 
     def __init__(self, symbols: Symbols, inputs: Inputs) -> None:
-        self.symbols, self.inputs = symbols, inputs
-        self.arms = [Arm(symbols, inputs, i) for i in range(len(symbols.arms))]
-        first = self.arms[0].child.offset
-        com = (-first[0], -first[1])  # the base COM from the first arm's mount
+        self.inputs = inputs
+        self.arms = [ArticulatedArm(symbols, arm, inputs, i) for i, arm in enumerate(symbols.arms)]
+        first = self.arms[0].child
+        self.com = (-first.position[0], -first.position[1])  # of the base, from the first mount
         children = []
-        for i, arm in enumerate(self.arms[1:], start=2):
-            offset = subtract(arm.child.offset, first)
-            named = tuple(
-                symbols.constant(
-                    f"arm{i}_mount_offset_{axis}",
-                    value,
-                    "m",
-                    f"mount of arm {i} from that of arm 1, base frame, {axis}",
-                )
-                for axis, value in zip("xy", offset, strict=True)
-            )
-            children.append(Child(named, arm.child.mass))
-        self.com = com
-        own = Inertia("base", symbols.base_mass, symbols.base_inertia, com)
-        self.base = body(symbols, own, children, general=mounts_coincide(symbols.layout))
-        self.needs_distinct_mounts = isinstance(self.base, InLine)
-        total = self.base.mass.plus(self.arms[0].child.mass)
-        # L D L^T of the 2 x 2 that is left
-        self.total = total
-        self.inverse_xx = symbols.reciprocal(total.xx)
-        self.lower = total.xy * self.inverse_xx
-        self.pivot = total.yy - self.lower * total.xy
+        for arm in self.arms[1:]:
+            text = f"mount of arm {arm.index + 1} from that of arm 1, base frame"
+            offset = subtract(arm.child.position, first.position)
+            offset = symbols.constant_vector(f"{arm.symbols.label}_mount_offset", offset, "m", text)
+            children.append(Child(offset, arm.child.inertia))
+        own = RigidBodyInertia("base", symbols.base_mass, symbols.base_inertia, self.com)
+        self.base = articulated_body(symbols, own, children, general=mounts_coincide(symbols.layout))
+        self.needs_distinct_mounts = isinstance(self.base, CollinearBody)
+        # L D L^T of the articulated inertia of the whole robot at the first mount
+        self.inertia = self.base.inertia.plus(first.inertia)
+        self.inverse_xx = symbols.reciprocal(self.inertia.xx)
+        self.factor = self.inertia.xy * self.inverse_xx
+        self.pivot = self.inertia.yy - self.factor * self.inertia.xy
         self.inverse_pivot = symbols.reciprocal(self.pivot)
 
     def smallest_pivot(self) -> ca.SX:
         """The last pivot relative to its diagonal entry; those before it are bounded by the parameters."""
-        return self.pivot / self.total.yy
+        return self.pivot / self.inertia.yy
 
-    def solve(self, base_wrench: bool, end_effector_wrenches: bool) -> tuple[ca.SX, ca.SX]:
-        """(base acceleration, joint accelerations); what is absent costs nothing."""
+    def accelerations(self, base_wrench: bool, end_effector_wrenches: bool) -> tuple[ca.SX, ca.SX]:
+        """(base acceleration, joint accelerations) of eq. (1), without the operations of absent wrenches."""
         inputs = self.inputs
         base_rotation = rotation(inputs.base_pose[0])
-        base_rate = inputs.base_twist[0]
-        forces = [arm.force(inputs, base_rate, base_rotation, end_effector_wrenches) for arm in self.arms]
-        moment = -inputs.joint_torques[self.arms[0].first_joint]
+        forces = [arm.bias_force(base_rotation, end_effector_wrenches) for arm in self.arms]
+        moment = -inputs.joint_torques[self.arms[0].symbols.first_joint]
         for arm in self.arms[1:]:
-            moment = moment - inputs.joint_torques[arm.first_joint]
-        external = (ZERO, ZERO)
+            moment = moment - inputs.joint_torques[arm.symbols.first_joint]
+        external = ZERO_VECTOR
         if base_wrench:
             wrench = inputs.base_wrench
-            external = rotate_back(base_rotation, (wrench[1], wrench[2]))
+            external = rotate_inverse(base_rotation, (wrench[1], wrench[2]))
             moment = moment + (wrench[0] + cross(self.com, external))
-        rate_squared = base_rate * base_rate
-        b = add(self.base.force(rate_squared, moment, forces[1:]), forces[0])
+        base_rate_squared = inputs.base_twist[0] * inputs.base_twist[0]
+        b = add(self.base.bias_force(base_rate_squared, moment, forces[1:]), forces[0])
         if base_wrench:
             b = subtract(b, external)
-        y = (self.lower * b[0] - b[1]) * self.inverse_pivot
-        x = -(b[0] * self.inverse_xx) - self.lower * y
-        alpha, points = self.base.accelerate((x, y))
+        # A a + b = 0 at the first mount
+        y = (self.factor * b[0] - b[1]) * self.inverse_pivot
+        x = -(b[0] * self.inverse_xx) - self.factor * y
+        alpha, points = self.base.accelerations((x, y))
         accelerations = []
         for arm, point in zip(self.arms, [(x, y), *points], strict=True):
-            accelerations += arm.accelerate(point, alpha)
-        at_com = add((x, y), subtract(scale(alpha, turn_left(self.com)), scale(rate_squared, self.com)))
-        linear = rotate(base_rotation, at_com)
+            accelerations += arm.accelerations(point, alpha)
+        tangential, centripetal = scale(alpha, perpendicular(self.com)), scale(base_rate_squared, self.com)
+        linear = rotate(base_rotation, add((x, y), subtract(tangential, centripetal)))
         return ca.vertcat(alpha, *linear), ca.vertcat(*accelerations)
 
 
 def mounts_coincide(layout: Layout) -> bool:
-    """Whether the second arm is mounted where the first one is: then their distance cannot be divided by."""
+    """Whether the second mount coincides with the first, so that their distance cannot be divided by."""
     return len(layout.arms) > 1 and tuple(layout.arms[0].mount) == tuple(layout.arms[1].mount)
+
+
+def forward_dynamics_family(dynamics: ForwardDynamics) -> Family:
+    wrenches = ["base_wrench", "end_effector_wrenches"]
+    cases = [  # suffix, forces, wrenches, right-hand side
+        ("", "joint torques alone", [], "[0; tau_m]"),
+        ("_with_base_wrench", "joint torques and a base wrench", wrenches[:1], "[F_b; tau_m]"),
+        (
+            "_with_wrenches",
+            "joint torques, a base wrench and end-effector wrenches",
+            wrenches,
+            "[F_b; tau_m] + [J_be J_me]^T F_e",
+        ),
+    ]
+    functions = []
+    for suffix, forces, present, right in cases:
+        base, joints = dynamics.accelerations(*(wrench in present for wrench in wrenches))
+        base_text = "[alpha, ax, ay] of the base COM, inertial axes"
+        outputs = [
+            vector("base_acceleration", "rad/s^2, m/s^2, m/s^2", base_text, base),
+            vector("joint_accelerations", "rad/s^2", "arm by arm", joints),
+            smallest_pivot(dynamics.smallest_pivot()),
+        ]
+        functions.append(
+            Function(
+                f"forward_dynamics{suffix}",
+                f"Accelerations of the free-floating robot under {forces}.",
+                f"M [base_acceleration; joint_accelerations] + [c_b; c_m] = {right}",
+                "Raina & Shah (2017), eq. (1)",
+                [*STATE, "joint_torques", *present],
+                outputs,
+            )
+        )
+    return Family("forward_dynamics", "Forward dynamics by articulated plane masses in link frames.", functions)

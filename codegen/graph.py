@@ -3,8 +3,8 @@
 import casadi as ca
 
 from .casadi_import import Reader
-from .functions import Model
-from .inputs import INPUT_TEXT
+from .functions import Functions
+from .inputs import INPUTS, input_shapes
 from .layout import content_hash
 from .signatures import Family, Function
 from .statements import Statements, count
@@ -16,7 +16,9 @@ FORMAT = 1
 def family_graph(reader: Reader, family: Family) -> dict:
     """Statements of one family: the shared configuration stage, then one call stage per function."""
     nodes = reader.nodes
-    results = [reader.read([e for output in function.outputs for e in output.flat]) for function in family.functions]
+    results = [
+        reader.read([e for output in function.outputs for e in output.elements]) for function in family.functions
+    ]
     setup = Statements(nodes, "c", {})
     for roots in results:
         for root in roots:
@@ -61,13 +63,13 @@ def function_graph(nodes: Nodes, setup: Statements, function: Function, roots: l
         call.require(root, (CALL,))
     results, start = [], 0
     for output in function.outputs:
-        operands = [call.operand(root) for root in roots[start : start + len(output.flat)]]
-        start += len(output.flat)
+        operands = [call.operand(root) for root in roots[start : start + len(output.elements)]]
+        start += len(output.elements)
         results.append(
             {
                 "name": output.name,
                 "shape": output.shape,
-                "unit": output.units,
+                "unit": output.unit,
                 "description": output.description,
                 "elements": operands,
             }
@@ -92,19 +94,19 @@ def used_names(function: dict) -> list:
     return [a for a in [*arguments, *(e for o in function["outputs"] for e in o["elements"])] if isinstance(a, str)]
 
 
-def build(model: Model, command: str | None = None) -> dict:
+def build(functions: Functions, command: str | None = None) -> dict:
     """The whole graph of a layout as plain data; `command` makes it again, without it that of a shipped layout."""
-    layout, symbols = model.layout, model.symbols
-    reader = Reader(model)
-    families = [family_graph(reader, family) for family in model.families]
+    layout, symbols = functions.layout, functions.symbols
+    reader = Reader(functions)
+    families = [family_graph(reader, family) for family in functions.families]
     constants = Statements(reader.nodes, "p", {})
-    named = {cut.name: cut for cut in symbols.cuts if cut.name is not None}
+    named = {variable.name: variable for variable in symbols.auxiliary_variables if variable.name is not None}
     needed = required_constants(reader, families)
     values = []
     for name in (name for name in named if name in needed):
         constants.define(name, reader.constants[name])
-        cut = named[name]
-        values.append({"name": name, "unit": cut.unit, "description": cut.description})
+        variable = named[name]
+        values.append({"name": name, "unit": variable.unit, "description": variable.description})
     return {
         "format": FORMAT,
         "command": command or f"python -m codegen {layout.name}",
@@ -113,16 +115,11 @@ def build(model: Model, command: str | None = None) -> dict:
             "name": layout.name,
             "sha256": content_hash(layout),
             "arms": [{"name": arm.name, "links": len(arm.links)} for arm in layout.arms],
-            "needs_distinct_mounts": model.needs_distinct_mounts,
+            "needs_distinct_mounts": functions.needs_distinct_mounts,
         },
         "inputs": [
-            {
-                "name": name,
-                "shape": shape,
-                "unit": ", ".join(INPUT_TEXT[name][0]),
-                "description": INPUT_TEXT[name][1],
-            }
-            for name, shape in model.input_shapes.items()
+            {"name": name, "shape": shape, "unit": INPUTS[name][1], "description": INPUTS[name][2]}
+            for name, shape in input_shapes(len(symbols.arms), symbols.joints).items()
         ],
         "parameters": [
             {

@@ -1,37 +1,95 @@
-"""Impact matrices: the paper's (16) in reduced coordinates, and the same in full coordinates, which is exact.
+"""Computes matrix and momentum of a rigid capture, eq. (16), from the Jacobian, inertia and momentum of the robot.
 
-v_contact = v + omega x r, so J_t = [[1, 0, 0], [-r_y, 1, 0], [r_x, 0, 1]] per target (the print has r's
-cross-product matrix with the other sign). K = J_t^-1 J maps the robot's velocities to the twist that the
-target's COM has when it moves with the tip, so J^T J_t^-T I_t J_t^-1 J = K^T I_t K: a sum of squares.
-A target of zero mass and inertia is no target: its arm captures nothing.
+The contact point of a target has the velocity v + omega x r, so that J_t = [[1, 0, 0], [-r_y, 1, 0], [r_x, 0, 1]] per
+target in eq. (5); the print has the cross-product matrix of r with the other sign. After the capture, t_tf = K v with
+K = J_t^-1 J, eqs. (13) and (14). The momentum balance of eqs. (10) and (11) then reads G v_f = H, eq. (15). It is
+exact in the full coordinates, where J, I and θ̇ are [J_be J_me], M and v of eq. (1).
 """
 
 import casadi as ca
 
-from .inputs import Inputs
+from .equations_of_motion import EquationsOfMotion
+from .inputs import CONFIGURATION, STATE, TARGETS, Inputs
+from .linear_algebra import ldlt_solve, matrix_times
+from .reduced_dynamics import ReducedDynamics
+from .signatures import Family, Function, matrix, smallest_pivot, vector
 
 
-def captured_jacobian(jacobian: ca.SX, arm: int, contact: tuple[ca.SX, ca.SX]) -> list[ca.SX]:
-    """Rows [omega, vx, vy] of K = J_t^-1 J for one arm."""
-    spin, x, y = (jacobian[3 * arm + row, :] for row in range(3))
-    return [spin, x + contact[1] * spin, y - contact[0] * spin]
+def target_jacobian(jacobian: ca.SX, arm: int, contact: tuple[ca.SX, ca.SX]) -> list[ca.SX]:
+    """Rows [omega, vx, vy] of K = J_t^-1 J of one arm's target, eq. (14)."""
+    angular, x, y = (jacobian[3 * arm + row, :] for row in range(3))
+    return [angular, x + contact[1] * angular, y - contact[0] * angular]
 
 
-def impact_matrix(jacobian: ca.SX, inertia: ca.SX, momentum: ca.SX, inputs: Inputs) -> tuple[ca.SX, ca.SX]:
-    """(G, H) = (inertia + sum K^T I_t K, momentum + sum K^T I_t t_ti)."""
+def impact_equations(jacobian: ca.SX, inertia: ca.SX, momentum: ca.SX, inputs: Inputs) -> tuple[ca.SX, ca.SX]:
+    """(G, H) of eq. (16), as G = inertia + sum K^T I_t K and H = momentum + sum K^T I_t t_ti.
+
+    An arm whose target has no mass and no inertia captures nothing.
+    """
     size = inertia.shape[0]
-    lower = ca.SX(ca.tril(inertia))
-    right = ca.SX(momentum)
+    g = ca.SX(ca.tril(inertia))
+    h = ca.SX(momentum)
     for arm in range(inputs.contacts.shape[1]):
-        rows = captured_jacobian(jacobian, arm, (inputs.contacts[0, arm], inputs.contacts[1, arm]))
-        weights = [inputs.target_inertias[arm], inputs.target_masses[arm], inputs.target_masses[arm]]
+        rows = target_jacobian(jacobian, arm, (inputs.contacts[0, arm], inputs.contacts[1, arm]))
+        weights = [inputs.target_inertias[arm], inputs.target_masses[arm], inputs.target_masses[arm]]  # I_t
         for row, weight, twist in zip(rows, weights, ca.vertsplit(inputs.target_twists[:, arm]), strict=True):
             for k in range(size):
                 if not row.sparsity().has_nz(0, k):
                     continue
                 weighted = weight * row[0, k]
-                right[k] = right[k] + weighted * twist
+                h[k] = h[k] + weighted * twist
                 for j in range(k + 1):
                     if row.sparsity().has_nz(0, j):
-                        lower[k, j] = lower[k, j] + weighted * row[0, j]
-    return ca.tril2symm(lower), right
+                        g[k, j] = g[k, j] + weighted * row[0, j]
+    return ca.tril2symm(g), h
+
+
+def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
+    """Eqs. (15) and (16) in the reduced coordinates, as the paper has them."""
+    inertia = reduced.generalized_inertia()
+    g, h = impact_equations(reduced.generalized_jacobian(), inertia, matrix_times(inertia, inputs.joint_rates), inputs)
+    rates, pivot = ldlt_solve(reduced.symbols, g, h, [*reversed(range(reduced.symbols.joints))])
+    return Function(
+        "reduced_impact",
+        "The paper's impact, literally; exact only for a robot without momentum after it.",
+        "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  G x = H,  N = J_t^-T I_t J_t^-1",
+        "Raina & Shah (2017), eqs. (15), (16), with the sign of `J_t` corrected",
+        [*CONFIGURATION, "joint_rates", *TARGETS],
+        [
+            matrix("impact_matrix", "kg m^2", "G, symmetric, row-major", g),
+            vector("impact_momentum", "N m s", "H, arm by arm", h),
+            vector("joint_rates_after", "rad/s", "arm by arm", rates),
+            smallest_pivot(pivot),
+        ],
+    )
+
+
+def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
+    """Eqs. (15) and (16) in the full coordinates, where they are exact."""
+    jacobian, mass = equations.kinematics.end_effector_jacobian(), equations.mass_matrix()
+    velocity = ca.vertcat(inputs.base_twist, inputs.joint_rates)
+    g, h = impact_equations(jacobian, mass, matrix_times(mass, velocity), inputs)
+    # from the last links to the base, small pivots first
+    order = [*reversed(range(3, 3 + equations.symbols.joints)), 1, 2, 0]
+    after, pivot = ldlt_solve(equations.symbols, g, h, order)
+    matrix_text = "G, symmetric, row-major: mass matrix of the merged robot"
+    base_text = "[omega, vx, vy] of the base COM, inertial axes"
+    return Function(
+        "full_impact",
+        "The exact impact: the same G and H in the full coordinates.",
+        "G = M + J_e^T N J_e,  H = M v + J_e^T J_t^-T I_t t_ti,  N = J_t^-T I_t J_t^-1,  v_after = G^-1 H",
+        "Raina & Shah (2017), eqs. (1), (3), (13), without the reduction",
+        [*STATE, *TARGETS],
+        [
+            matrix("impact_matrix", "kg m^2, kg m, kg", matrix_text, g),
+            vector("impact_momentum", "N m s, N s, N s, then N m s", "H, base then joints", h),
+            vector("base_twist_after", "rad/s, m/s, m/s", base_text, after[:3]),
+            vector("joint_rates_after", "rad/s", "arm by arm", after[3:]),
+            smallest_pivot(pivot),
+        ],
+    )
+
+
+def impact_family(reduced: ReducedDynamics, inputs: Inputs) -> Family:
+    functions = [reduced_impact(reduced, inputs), full_impact(reduced.equations, inputs)]
+    return Family("impact", "Rigid capture of one target per arm.", functions)

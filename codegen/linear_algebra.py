@@ -1,14 +1,15 @@
-"""Computes the solution of a symmetric linear system, and matrix products, over structural nonzeros alone."""
+"""Computes the solution of a symmetric linear system, and a matrix-vector product, from structural nonzeros alone."""
 
 import casadi as ca
 
+from .plane_vectors import ZERO
 from .symbols import Symbols
 
 
 def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) -> tuple[ca.SX, ca.SX]:
-    """(x, smallest pivot relative to its diagonal entry) of matrix x = right, eliminated in the order given.
+    """(x, smallest pivot relative to its diagonal entry) of matrix x = right, by L D L^T in the given order.
 
-    Structural zeros cost nothing: joints first, base last keeps the arms apart until the base.
+    With the joints before the base, blocks of different arms do not fill in.
     """
     size = len(order)
     work = {
@@ -29,7 +30,7 @@ def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) 
         factor = {i: work[i, k] * inverse[k] for i in column}
         for i in column:
             for j in [j for j in column if j <= i]:
-                work[i, j] = work.get((i, j), ca.SX(0)) - factor[i] * work[j, k]
+                work[i, j] = work.get((i, j), ZERO) - factor[i] * work[j, k]
             x[i] = x[i] - factor[i] * x[k]
         for i in column:
             work[i, k] = factor[i]
@@ -39,17 +40,17 @@ def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) 
             if (i, k) in work:
                 x[k] = x[k] - work[i, k] * x[i]
     solution = ca.SX(size, 1)
-    for place, value in zip(order, x, strict=True):
-        solution[place] = value
+    for i, value in zip(order, x, strict=True):
+        solution[i] = value
     return solution, ca.SX(1) if smallest is None else smallest
 
 
 def matrix_times(matrix: ca.SX, vector: ca.SX) -> ca.SX:
-    """matrix vector, over the structural nonzeros."""
+    """matrix vector."""
     rows, columns = matrix.shape
     result = []
     for i in range(rows):
-        total = ca.SX(0)
+        total = ZERO
         for j in range(columns):
             if matrix.sparsity().has_nz(i, j):
                 total = total + matrix[i, j] * vector[j]

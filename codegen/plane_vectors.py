@@ -1,8 +1,12 @@
-"""Plane vectors as pairs of scalar expressions; rotations as (cosine, sine)."""
+"""Computes sums, products and rotations of plane vectors from their components, which are scalar expressions."""
 
 import casadi as ca
 
 Vector = tuple[ca.SX, ca.SX]
+Rotation = tuple[ca.SX, ca.SX]  # (cosine, sine)
+
+ZERO = ca.SX(0)
+ZERO_VECTOR: Vector = (ZERO, ZERO)
 
 
 def add(a: Vector, b: Vector) -> Vector:
@@ -22,27 +26,27 @@ def dot(a: Vector, b: Vector) -> ca.SX:
 
 
 def cross(a: Vector, b: Vector) -> ca.SX:
-    """The moment of b at a: the z component of a x b."""
+    """The z component of a x b: the moment of a force b that acts at a."""
     return a[0] * b[1] - a[1] * b[0]
 
 
-def turn_left(a: Vector) -> Vector:
-    """z x a, a quarter turn anticlockwise."""
+def perpendicular(a: Vector) -> Vector:
+    """z x a: a, rotated by +90 degrees."""
     return -a[1], a[0]
 
 
-def rotation(angle: ca.SX) -> Vector:
+def rotation(angle: ca.SX) -> Rotation:
     """(cosine, sine) of an angle: one sin/cos pair."""
     return ca.cos(angle), ca.sin(angle)
 
 
-def rotate(rotation: Vector, a: Vector) -> Vector:
-    """Components of a in the parent frame, from those in a frame turned by the rotation."""
+def rotate(rotation: Rotation, a: Vector) -> Vector:
+    """R a: components in the parent frame from those in the rotated frame."""
     c, s = rotation
     return c * a[0] - s * a[1], s * a[0] + c * a[1]
 
 
-def rotate_back(rotation: Vector, a: Vector) -> Vector:
-    """Components of a in the turned frame, from those in the parent frame."""
+def rotate_inverse(rotation: Rotation, a: Vector) -> Vector:
+    """R^T a: components in the rotated frame from those in the parent frame."""
     c, s = rotation
     return c * a[0] + s * a[1], c * a[1] - s * a[0]

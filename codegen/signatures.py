@@ -1,23 +1,25 @@
-"""Signatures of the model's functions: names, texts, inputs, and outputs with their shapes, units and expressions."""
+"""Records the signature of each function: its texts, its inputs, and its outputs with shapes, units and expressions."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import casadi as ca
 
 
 @dataclass(frozen=True)
 class Output:
-    """One result; ``flat`` holds its elements in row-major order."""
+    """One result; its elements are in row-major order."""
 
     name: str
     shape: list[int]
-    units: str
+    unit: str
     description: str
-    flat: list[ca.SX]
+    elements: list[ca.SX]
 
 
 @dataclass(frozen=True)
 class Function:
+    """What a function computes, by which equation, from which inputs."""
+
     name: str
     description: str
     equation: str
@@ -28,36 +30,32 @@ class Function:
 
 @dataclass(frozen=True)
 class Family:
+    """Functions that share what depends on the configuration (base pose and joint angles) alone."""
+
     name: str
     description: str
-    functions: list[Function] = field(default_factory=list)
+    functions: list[Function]
 
 
-def matrix(name: str, units: str, description: str, expression: ca.SX) -> Output:
+def matrix(name: str, unit: str, description: str, expression: ca.SX) -> Output:
     rows, columns = expression.shape
     dense = ca.densify(expression)
-    return Output(name, [rows, columns], units, description, [dense[i, j] for i in range(rows) for j in range(columns)])
+    return Output(name, [rows, columns], unit, description, [dense[i, j] for i in range(rows) for j in range(columns)])
 
 
-def vector(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    return Output(name, [expression.shape[0]], units, description, ca.vertsplit(ca.densify(expression)))
+def list_of_vectors(name: str, unit: str, description: str, expression: ca.SX) -> Output:
+    """A list of twists or poses, which are the columns of the expression."""
+    return matrix(name, unit, description, expression.T)
 
 
-def per_item(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    """A list of twists or poses, held as columns."""
-    rows, columns = expression.shape
-    dense = ca.densify(expression)
-    return Output(name, [columns, rows], units, description, [dense[i, j] for j in range(columns) for i in range(rows)])
+def vector(name: str, unit: str, description: str, expression: ca.SX) -> Output:
+    return Output(name, [expression.shape[0]], unit, description, ca.vertsplit(ca.densify(expression)))
 
 
-def scalar(name: str, units: str, description: str, expression: ca.SX) -> Output:
-    return Output(name, [], units, description, [ca.SX(expression)])
+def scalar(name: str, unit: str, description: str, expression: ca.SX) -> Output:
+    return Output(name, [], unit, description, [ca.SX(expression)])
 
 
-def pivot(expression: ca.SX) -> Output:
-    return scalar(
-        "smallest_pivot",
-        "1",
-        "smallest pivot relative to its scale; small, zero or NaN: singular",
-        expression,
-    )
+def smallest_pivot(expression: ca.SX) -> Output:
+    description = "smallest pivot relative to its scale; small, zero or NaN: singular"
+    return scalar("smallest_pivot", "1", description, expression)

@@ -1,8 +1,8 @@
-"""Symbols of one layout: run-time parameters, and the values that are cut out of an expression.
+"""Creates the symbols of a layout: its run-time parameters, and auxiliary variables that stand for expressions.
 
-CasADi simplifies while it builds: it turns ``a * (1 / b)`` into ``a / b`` and so multiplies divisions,
-and it would fold a value that depends on parameters alone into every use. A *cut* stops both: the value
-gets a symbol of its own, and `graph.py` joins symbol and expression again.
+CasADi simplifies while it builds: it turns ``a * (1 / b)`` into ``a / b``, which multiplies the divisions, and it
+substitutes a value that depends on parameters alone wherever it is used. An auxiliary variable prevents both: other
+expressions contain its symbol alone, and `casadi_import.py` replaces the symbol by the expression again.
 """
 
 from dataclasses import dataclass
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import casadi as ca
 
 from .layout import Layout
+from .plane_vectors import ZERO, Vector
 
 
 @dataclass(frozen=True)
@@ -27,8 +28,8 @@ class Parameter:
 
 
 @dataclass(frozen=True)
-class Cut:
-    """A symbol that stands for an expression."""
+class AuxiliaryVariable:
+    """A symbol and the expression that it stands for; with a name it is a constant of the model."""
 
     symbol: ca.SX
     expression: ca.SX
@@ -39,131 +40,124 @@ class Cut:
 
 @dataclass(frozen=True)
 class LinkSymbols:
-    """Parameters of one link; a structural zero is the number 0."""
+    """Parameters of one link; a structural zero is the number 0. ``label`` starts the names of its constants."""
 
+    label: str
     length: ca.SX
     mass: ca.SX
     inertia: ca.SX
-    com_x: ca.SX
-    com_y: ca.SX
+    com: Vector
 
 
 @dataclass(frozen=True)
 class ArmSymbols:
-    """Parameters of one arm."""
+    """Parameters of one arm; ``first_joint`` is the index of its first joint among all joints."""
 
-    mount_x: ca.SX
-    mount_y: ca.SX
+    label: str
+    first_joint: int
+    mount: Vector
     mount_angle: ca.SX
     links: list[LinkSymbols]
 
 
 class Symbols:
-    """Parameters, named constants and reciprocals of one layout.
+    """Parameters and auxiliary variables of one layout.
 
-    Structural zeros (no parameter, no operations): ``mount[1]``, ``mount_angle``, ``com[1]`` of every
-    link but the last of an arm (capturing a target moves that one off its axis), and the length of a
-    link that is not the last of its arm (a reaction wheel inside a chain).
+    Structural zeros (no parameter, no operations): ``mount[1]``, ``mount_angle``, ``com[1]`` of every link but the
+    last of an arm (a captured target moves the COM of the last link off its axis), and the length of a link that is
+    not the last of its arm (a reaction wheel inside a chain).
     """
 
     def __init__(self, layout: Layout) -> None:
         self.layout = layout
         self.parameters: list[Parameter] = []
-        self.cuts: list[Cut] = []
-        self.base_mass = self._parameter(
-            "base_mass", "base_mass", None, None, "kg", layout.base.mass, "mass of the base"
-        )
+        self.auxiliary_variables: list[AuxiliaryVariable] = []
+        base = layout.base
+        self.base_mass = self._parameter("base_mass", "base_mass", (None, None), "kg", base.mass, "mass of the base")
         self.base_inertia = self._parameter(
-            "base_inertia",
-            "base_inertia",
-            None,
-            None,
-            "kg m^2",
-            layout.base.inertia,
-            "inertia of the base about its COM",
+            "base_inertia", "base_inertia", (None, None), "kg m^2", base.inertia, "inertia of the base about its COM"
         )
+        self.joints = 0
         self.arms = [self._arm(i) for i in range(len(layout.arms))]
-        self.joints = sum(len(arm.links) for arm in self.arms)
 
-    def _parameter(self, name, quantity, arm, link, unit, default, description) -> ca.SX:
+    def _parameter(
+        self,
+        name: str,
+        quantity: str,
+        place: tuple[int | None, int | None],
+        unit: str,
+        value: float,
+        description: str,
+        structural: bool = False,
+    ) -> ca.SX:
+        """The symbol of a new parameter of (arm, link); 0 where a zero is structural."""
+        if structural and value == 0.0:
+            return ZERO
         symbol = ca.SX.sym(name)
-        self.parameters.append(Parameter(name, quantity, arm, link, unit, default, description, symbol))
+        self.parameters.append(Parameter(name, quantity, *place, unit, value, description, symbol))
         return symbol
 
     def _arm(self, i: int) -> ArmSymbols:
         arm = self.layout.arms[i]
-        label = f"arm{i + 1}"
+        label, first_joint = f"arm{i + 1}", self.joints
 
-        def number(quantity, value, unit, description, structural):
-            if structural and value == 0.0:
-                return ca.SX(0)
-            return self._parameter(
-                f"{label}_{quantity}",
-                quantity,
-                i,
-                None,
-                unit,
-                value,
-                f"{description} of arm {i + 1} ({arm.name})",
-            )
+        def parameter(quantity: str, value: float, unit: str, description: str, structural: bool = True) -> ca.SX:
+            description = f"{description} of arm {i + 1} ({arm.name})"
+            return self._parameter(f"{label}_{quantity}", quantity, (i, None), unit, value, description, structural)
 
-        mount_x = number("mount_x", arm.mount[0], "m", "first joint, base frame, x,", structural=False)
-        mount_y = number("mount_y", arm.mount[1], "m", "first joint, base frame, y,", structural=True)
-        mount_angle = number(
-            "mount_angle",
-            arm.mount_angle,
-            "rad",
-            "direction of joint 1 = 0 in the base frame",
-            structural=True,
-        )
-        return ArmSymbols(mount_x, mount_y, mount_angle, [self._link(i, k) for k in range(len(arm.links))])
+        mount_x = parameter("mount_x", arm.mount[0], "m", "first joint, base frame, x,", structural=False)
+        mount_y = parameter("mount_y", arm.mount[1], "m", "first joint, base frame, y,")
+        mount_angle = parameter("mount_angle", arm.mount_angle, "rad", "direction of joint 1 = 0 in the base frame")
+        links = [self._link(i, k) for k in range(len(arm.links))]
+        self.joints += len(links)
+        return ArmSymbols(label, first_joint, (mount_x, mount_y), mount_angle, links)
 
     def _link(self, i: int, k: int) -> LinkSymbols:
         link = self.layout.arms[i].links[k]
-        last = k == len(self.layout.arms[i].links) - 1
+        label, last = f"arm{i + 1}_link{k + 1}", k == len(self.layout.arms[i].links) - 1
 
-        def number(quantity, value, unit, description, structural=False):
-            if structural and value == 0.0:
-                return ca.SX(0)
-            name = f"arm{i + 1}_link{k + 1}_{quantity}"
-            return self._parameter(
-                name, f"link_{quantity}", i, k, unit, value, f"{description} of link {k + 1} of arm {i + 1}"
-            )
+        def parameter(quantity: str, value: float, unit: str, description: str, structural: bool = False) -> ca.SX:
+            name, description = f"{label}_{quantity}", f"{description} of link {k + 1} of arm {i + 1}"
+            return self._parameter(name, f"link_{quantity}", (i, k), unit, value, description, structural)
 
-        return LinkSymbols(
-            length=number(
-                "length",
-                link.length,
-                "m",
-                "joint to next joint (or to the end effector)",
-                structural=not last,
-            ),
-            mass=number("mass", link.mass, "kg", "mass"),
-            inertia=number("inertia", link.inertia, "kg m^2", "inertia about the COM"),
-            com_x=number("com_x", link.com[0], "m", "COM, link frame, x,"),
-            com_y=number("com_y", link.com[1], "m", "COM, link frame, y,", structural=not last),
-        )
+        length = parameter("length", link.length, "m", "joint to next joint (or to the end effector)", not last)
+        mass = parameter("mass", link.mass, "kg", "mass")
+        inertia = parameter("inertia", link.inertia, "kg m^2", "inertia about the COM")
+        com_x = parameter("com_x", link.com[0], "m", "COM, link frame, x,")
+        com_y = parameter("com_y", link.com[1], "m", "COM, link frame, y,", not last)
+        return LinkSymbols(label, length, mass, inertia, (com_x, com_y))
 
     def constant(self, name: str, expression: ca.SX, unit: str, description: str) -> ca.SX:
         """A named value that depends on parameters alone: computed once, when the model is built."""
         expression = ca.SX(expression)
         if expression.is_constant() or expression.is_symbolic():
             return expression
-        return self._cut(expression, name, unit, description)
+        return self._auxiliary_variable(expression, name, unit, description)
+
+    def constant_vector(self, name: str, expression: Vector, unit: str, description: str) -> Vector:
+        """Constants ``name_x`` and ``name_y``."""
+        x, y = expression
+        return (
+            self.constant(f"{name}_x", x, unit, f"{description}, x"),
+            self.constant(f"{name}_y", y, unit, f"{description}, y"),
+        )
 
     def reciprocal(self, expression: ca.SX) -> ca.SX:
-        """``1 / expression``, divided once and multiplied wherever it is used."""
-        return self._cut(1 / expression, None, "", "")
+        """``1 / expression``: one division, and a product wherever it is used."""
+        return self._auxiliary_variable(1 / expression)
 
-    def inverse_constant(self, name: str, expression: ca.SX, unit: str, description: str) -> ca.SX:
-        """``1 / expression`` of parameters alone, kept as a named constant."""
-        return self._cut(1 / ca.SX(expression), name, unit, description)
+    def reciprocal_constant(self, name: str, expression: ca.SX, unit: str, description: str) -> ca.SX:
+        """``1 / expression`` of parameters alone, as a named constant."""
+        return self._auxiliary_variable(1 / ca.SX(expression), name, unit, description)
 
-    def _cut(self, expression: ca.SX, name: str | None, unit: str, description: str) -> ca.SX:
+    def _auxiliary_variable(
+        self, expression: ca.SX, name: str | None = None, unit: str = "", description: str = ""
+    ) -> ca.SX:
+        """The symbol of a new auxiliary variable, or of the one that has this name already."""
         if name is not None:
-            for cut in self.cuts:
-                if cut.name == name:
-                    return cut.symbol
-        symbol = ca.SX.sym(name or f"cut_{len(self.cuts)}")
-        self.cuts.append(Cut(symbol, expression, name, unit, description))
+            for variable in self.auxiliary_variables:
+                if variable.name == name:
+                    return variable.symbol
+        symbol = ca.SX.sym(name or f"auxiliary_{len(self.auxiliary_variables)}")
+        self.auxiliary_variables.append(AuxiliaryVariable(symbol, expression, name, unit, description))
         return symbol

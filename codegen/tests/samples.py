@@ -8,7 +8,7 @@ import numpy as np
 
 from codegen import graph
 from codegen.derive import layout_names, layout_path
-from codegen.functions import Model
+from codegen.functions import Functions
 from codegen.layout import Arm, Base, Layout, Link, read
 
 BASE = Base(60.0, 9.0)
@@ -72,7 +72,7 @@ LAYOUTS = {name: read(layout_path(name)) for name in layout_names()} | {
 
 @cache
 def derived(layout: Layout) -> dict:
-    return graph.build(Model(layout))
+    return graph.build(Functions(layout))
 
 
 def randomized(layout: Layout, rng: np.random.Generator) -> Layout:

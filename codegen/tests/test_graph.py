@@ -11,7 +11,7 @@ import pytest
 
 from codegen import graph
 from codegen.derive import HERE, derive_text, graph_path, layout_names, layout_path
-from codegen.functions import Model
+from codegen.functions import Functions
 from codegen.json_text import dump
 from codegen.layout import content_hash, read
 
@@ -83,7 +83,7 @@ def test_every_graph_has_a_layout():
 
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_deriving_twice_gives_the_same_text(name):
-    assert dump(derived(LAYOUTS[name])) == dump(graph.build(Model(LAYOUTS[name])))
+    assert dump(derived(LAYOUTS[name])) == dump(graph.build(Functions(LAYOUTS[name])))
 
 
 @pytest.mark.parametrize("seed", ["1", "20170613"])

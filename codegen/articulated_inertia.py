@@ -1,0 +1,55 @@
+"""Computes rotations and sums of articulated inertias, and which of their parts are constants."""
+
+from dataclasses import dataclass
+
+import casadi as ca
+
+from .plane_vectors import Rotation, Vector
+from .symbols import Symbols
+
+
+@dataclass(frozen=True)
+class ArticulatedInertia:
+    """A symmetric 2 x 2 articulated inertia, kg.
+
+    ``difference`` is xx - yy where it is a constant. Rotation by an angle changes a constant diagonal ``constant`` to
+    xx = constant[0] - change and yy = constant[1] + change: a constant term of a sum can be added to ``constant``
+    when the model is built.
+    """
+
+    xx: ca.SX
+    xy: ca.SX
+    yy: ca.SX
+    difference: ca.SX | None = None
+    constant: Vector | None = None
+    change: ca.SX | None = None
+
+    def rotate(self, rotation: Rotation) -> "ArticulatedInertia":
+        """R A R^T in 10 operations, 5 where xy is zero; the trace is invariant."""
+        c, s = rotation
+        difference = self.xx - self.yy if self.difference is None else self.difference
+        v = c * (self.xy + self.xy) + s * difference
+        change = s * v
+        constant = None if self.difference is None else (self.xx, self.yy)
+        return ArticulatedInertia(self.xx - change, c * v - self.xy, self.yy + change, None, constant, change)
+
+    def times(self, a: Vector) -> Vector:
+        return self.xx * a[0] + self.xy * a[1], self.xy * a[0] + self.yy * a[1]
+
+    def plus(self, other: "ArticulatedInertia") -> "ArticulatedInertia":
+        return ArticulatedInertia(self.xx + other.xx, self.xy + other.xy, self.yy + other.yy)
+
+    def xx_plus(self, symbols: Symbols, name: str, term: ca.SX, text: str) -> ca.SX:
+        """xx + term for a constant term, which ``name`` and ``text`` describe."""
+        if self.constant is None:
+            return self.xx + term
+        text = f"{text} + (child's A_xx without swing)"
+        return symbols.constant(f"{name}_with_child", self.constant[0] + term, "kg", text) - self.change
+
+    def yy_times_plus(self, symbols: Symbols, name: str, factor: ca.SX, term: ca.SX, text: str) -> ca.SX:
+        """factor yy + term for constants factor and term; ``name`` and ``text`` describe the result."""
+        if self.constant is None:
+            return factor * self.yy + term
+        text = f"{text}, A'_yy without swing"
+        constant = symbols.constant(f"{name}_with_child", factor * self.constant[1] + term, "kg", text)
+        return factor * self.change + constant
