@@ -1,112 +1,30 @@
-"""The graph of a layout: plain data, single assignments in stages, that can be opened and read."""
+"""Builds the graph of a layout, as plain data for JSON, from the outputs of its functions.
+
+The graph has single assignments in three stages: constants from parameters, then for each family the values that
+depend on the configuration, then for each function the rest.
+"""
+
+from collections.abc import Iterable
 
 import casadi as ca
 
-from .casadi_import import Reader
+from .casadi_import import CasadiImport
 from .functions import Functions
 from .inputs import INPUTS, input_shapes
 from .layout import content_hash
 from .signatures import Family, Function
 from .statements import Statements, count
-from .value_numbering import CALL, SETUP, Nodes, is_leaf
+from .symbols import Symbols
+from .value_numbering import Stage, ValueNumbering
 
 FORMAT = 1
 
 
-def family_graph(reader: Reader, family: Family) -> dict:
-    """Statements of one family: the shared configuration stage, then one call stage per function."""
-    nodes = reader.nodes
-    results = [
-        reader.read([e for output in function.outputs for e in output.elements]) for function in family.functions
-    ]
-    setup = Statements(nodes, "c", {})
-    for roots in results:
-        for root in roots:
-            for i in reachable(nodes, root, SETUP):
-                setup.keep(i)
-    functions = [
-        function_graph(nodes, setup, function, roots) for function, roots in zip(family.functions, results, strict=True)
-    ]
-    used = {name for function in functions for name in used_names(function)}
-    names = [name for line in setup.lines for name in (line[0] if line[1] == "sin_cos" else [line[0]])]
-    return {
-        "name": family.name,
-        "description": family.description,
-        "configuration": {
-            "statements": setup.lines,
-            "values": [name for name in names if name in used],
-            "operations": count(setup.lines),
-        },
-        "functions": functions,
-    }
-
-
-def reachable(nodes: Nodes, root: int, stage: int) -> list[int]:
-    """Nodes of a stage that a root needs directly or through later stages, in a fixed order."""
-    found, seen, stack = [], set(), [root]
-    while stack:
-        i = stack.pop()
-        node = nodes.nodes[i]
-        if i in seen:
-            continue
-        seen.add(i)
-        if node.stage <= stage:
-            found.append(i)
-        elif not is_leaf(node):
-            stack.extend(reversed(node.args))
-    return found
-
-
-def function_graph(nodes: Nodes, setup: Statements, function: Function, roots: list[int]) -> dict:
-    call = Statements(nodes, "t", setup.names)
-    for root in roots:
-        call.require(root, (CALL,))
-    results, start = [], 0
-    for output in function.outputs:
-        operands = [call.operand(root) for root in roots[start : start + len(output.elements)]]
-        start += len(output.elements)
-        results.append(
-            {
-                "name": output.name,
-                "shape": output.shape,
-                "unit": output.unit,
-                "description": output.description,
-                "elements": operands,
-            }
-        )
-    alone = Statements(nodes, "x", {})  # what this function costs when nothing is shared
-    for root in roots:
-        alone.require(root, (SETUP, CALL))
-    return {
-        "name": function.name,
-        "description": function.description,
-        "equation": function.equation,
-        "source": function.source,
-        "inputs": function.inputs,
-        "statements": call.lines,
-        "outputs": results,
-        "operations": count(alone.lines),
-    }
-
-
-def used_names(function: dict) -> list:
-    arguments = [a for line in function["statements"] for a in line[2:]]
-    return [a for a in [*arguments, *(e for o in function["outputs"] for e in o["elements"])] if isinstance(a, str)]
-
-
 def build(functions: Functions, command: str | None = None) -> dict:
-    """The whole graph of a layout as plain data; `command` makes it again, without it that of a shipped layout."""
+    """The whole graph; `command` derives it again and is by default that of a shipped layout."""
     layout, symbols = functions.layout, functions.symbols
-    reader = Reader(functions)
-    families = [family_graph(reader, family) for family in functions.families]
-    constants = Statements(reader.nodes, "p", {})
-    named = {variable.name: variable for variable in symbols.auxiliary_variables if variable.name is not None}
-    needed = required_constants(reader, families)
-    values = []
-    for name in (name for name in named if name in needed):
-        constants.define(name, reader.constants[name])
-        variable = named[name]
-        values.append({"name": name, "unit": variable.unit, "description": variable.description})
+    imported = CasadiImport(functions)
+    families = [family_graph(imported, family) for family in functions.families]
     return {
         "format": FORMAT,
         "command": command or f"python -m codegen {layout.name}",
@@ -133,38 +51,127 @@ def build(functions: Functions, command: str | None = None) -> dict:
             }
             for p in symbols.parameters
         ],
-        "constants": {"statements": constants.lines, "values": values, "operations": count(constants.lines)},
+        "constants": constants_graph(imported, symbols, families),
         "families": families,
     }
 
 
-def required_constants(reader: Reader, families: list[dict]) -> set[str]:
-    """Constants that a later stage or another needed constant uses."""
-    used: set[str] = set()
+def constants_graph(imported: CasadiImport, symbols: Symbols, families: list[dict]) -> dict:
+    """Statements of the constants that the families use."""
+    statements = Statements(imported.numbering, "p", {})
+    used = used_constants(imported, families)
+    values = []
+    for variable in symbols.auxiliary_variables:
+        if variable.name in used:
+            statements.assign_constant(variable.name, imported.constants[variable.name])
+            values.append({"name": variable.name, "unit": variable.unit, "description": variable.description})
+    return {"statements": statements.lines, "values": values, "operations": count(statements.lines)}
+
+
+def family_graph(imported: CasadiImport, family: Family) -> dict:
+    """Statements of one family: those of the configuration, which its functions share, and those of each call."""
+    numbering = imported.numbering
+    results = [
+        imported.nodes_of([element for output in function.outputs for element in output.elements])
+        for function in family.functions
+    ]
+    configuration = Statements(numbering, "c", {})
+    for roots in results:
+        for root in roots:
+            for node in configuration_values(numbering, root):
+                configuration.assign_for_call(node)
+    functions = [
+        function_graph(numbering, configuration.names, function, roots)
+        for function, roots in zip(family.functions, results, strict=True)
+    ]
+    used = {name for function in functions for name in operands(function["statements"], function["outputs"])}
+    targets = [name for line in configuration.lines for name in (line[0] if line[1] == "sin_cos" else [line[0]])]
+    return {
+        "name": family.name,
+        "description": family.description,
+        "configuration": {
+            "statements": configuration.lines,
+            "values": [name for name in targets if name in used],
+            "operations": count(configuration.lines),
+        },
+        "functions": functions,
+    }
+
+
+def function_graph(numbering: ValueNumbering, known: dict[int, str], function: Function, roots: list[int]) -> dict:
+    """Statements of one call, where values of the configuration are known."""
+    call = Statements(numbering, "t", known)
+    alone = Statements(numbering, "x", {})  # for the operations that the results depend on
+    for root in roots:
+        call.assign(root, (Stage.CALL,))
+        alone.assign(root, (Stage.CONFIGURATION, Stage.CALL))
+    elements = iter(roots)
+    return {
+        "name": function.name,
+        "description": function.description,
+        "equation": function.equation,
+        "source": function.source,
+        "inputs": function.inputs,
+        "statements": call.lines,
+        "outputs": [
+            {
+                "name": output.name,
+                "shape": output.shape,
+                "unit": output.unit,
+                "description": output.description,
+                "elements": [call.operand(next(elements)) for _ in output.elements],
+            }
+            for output in function.outputs
+        ],
+        "operations": count(alone.lines),
+    }
+
+
+def configuration_values(numbering: ValueNumbering, root: int) -> list[int]:
+    """Nodes of the configuration or earlier that a root is, or that its call uses, in a fixed order."""
+    found, seen, stack = [], set(), [root]
+    while stack:
+        i = stack.pop()
+        if i in seen:
+            continue
+        seen.add(i)
+        if numbering[i].stage <= Stage.CONFIGURATION:
+            found.append(i)
+        elif not numbering[i].is_leaf:
+            stack.extend(reversed(numbering[i].args))
+    return found
+
+
+def operands(statements: Iterable[list], outputs: Iterable[dict] = ()) -> list[str]:
+    """Names that statements and outputs use."""
+    used = [operand for line in statements for operand in line[2:]]
+    used += [element for output in outputs for element in output["elements"]]
+    return [name for name in used if isinstance(name, str)]
+
+
+def used_constants(imported: CasadiImport, families: list[dict]) -> set[str]:
+    """Constants that a family or another used constant uses."""
+    pending = []
     for family in families:
-        lines = [
-            *family["configuration"]["statements"],
-            *(line for f in family["functions"] for line in f["statements"]),
-        ]
-        used.update(a for line in lines for a in line[2:] if a in reader.constants)
-        used.update(
-            a for f in family["functions"] for o in f["outputs"] for a in o["elements"] if a in reader.constants
-        )
-    pending = list(used)
+        pending += operands(family["configuration"]["statements"])
+        for function in family["functions"]:
+            pending += operands(function["statements"], function["outputs"])
+    used = set()
     while pending:
-        for name in constants_below(reader, reader.constants[pending.pop()]):
-            if name not in used:
-                used.add(name)
-                pending.append(name)
+        name = pending.pop()
+        if name in imported.constants and name not in used:
+            used.add(name)
+            pending += constants_below(imported, imported.constants[name])
     return used
 
 
-def constants_below(reader: Reader, root: int) -> list[str]:
+def constants_below(imported: CasadiImport, root: int) -> list[str]:
+    """Names of the constants in an expression."""
     names, stack = [], [root]
     while stack:
-        node = reader.nodes.nodes[stack.pop()]
+        node = imported.numbering[stack.pop()]
         if node.op == "constant":
             names.append(node.args[0])
-        elif not is_leaf(node):
+        elif not node.is_leaf:
             stack.extend(node.args)
     return names
