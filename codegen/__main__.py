@@ -1,4 +1,4 @@
-"""``python -m codegen [NAME ...] [--check]``: layouts to graphs, in the locked environment."""
+"""Derives graphs from layouts: ``python -m codegen [NAME ...] [--check]``, in the locked environment."""
 
 import argparse
 import os
@@ -7,25 +7,24 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from . import environment  # nothing else yet: an old Python must get as far as its refusal
+from . import environment  # all else is imported later: an old Python has to reach its error message
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent
+ROOT = environment.HERE.parent
 INSIDE = "PLANAR_CAPTURE_CODEGEN_INSIDE"
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m codegen",
-        description="Derives codegen/layouts/NAME.toml, writes codegen/graphs/NAME.json and keeps the layouts' cargo "
-        "features in Cargo.toml in step.",
+        description="Derives codegen/graphs/NAME.json from codegen/layouts/NAME.toml, and writes the layouts' cargo "
+        "features into Cargo.toml.",
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts)")
     parser.add_argument(
-        "--check", action="store_true", help="write nothing; exit 1 if a graph is not what its layout gives"
+        "--check", action="store_true", help="write nothing; exit 1 if a graph is not the one of its layout"
     )
-    parser.add_argument("--layout", type=Path, help="derive this file alone; with --graph")
-    parser.add_argument("--graph", type=Path, help="where the graph of --layout goes")
+    parser.add_argument("--layout", type=Path, help="derive from this file alone; with --graph")
+    parser.add_argument("--graph", type=Path, help="the file to write the graph of --layout to")
     parser.add_argument("--test", action="store_true", help="run the derivation's tests instead")
     options = parser.parse_args()
     if (options.layout is None) != (options.graph is None):
@@ -40,15 +39,16 @@ def main() -> int:
             return derive(options)
         python = environment.ensure(dev=options.test)
     except environment.EnvironmentProblem as problem:
-        environment.say(f"error: {problem}")
+        environment.report(f"error: {problem}")
         return 2
-    command = ["pytest", "-q", str(HERE / "tests")] if options.test else ["codegen", *sys.argv[1:]]
+    command = ["pytest", "-q", str(environment.HERE / "tests")] if options.test else ["codegen", *sys.argv[1:]]
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     inside = {**os.environ, INSIDE: "1", "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
     return subprocess.run([str(python), "-m", *command], cwd=ROOT, env=inside, check=False).returncode
 
 
 def derive(options: argparse.Namespace) -> int:
+    """The exit code, with one line on stderr where the input is wrong."""
     from .cargo_features import FeatureError
     from .layout import LayoutError
 
@@ -60,28 +60,29 @@ def derive(options: argparse.Namespace) -> int:
 
 
 def derive_file(layout_file: Path, graph_file: Path) -> int:
-    """The graph of any layout file, for the command ``planar-capture generate``."""
-    from .derive import graph_text, write_whole
+    """Writes the graph of any layout file, for ``planar-capture generate``."""
+    from .derive import graph_text, write_atomically
     from .layout import read
 
     layout = read(layout_file)
     command = f"planar-capture generate {layout.name}.toml --out {layout.name}.json"
-    write_whole(graph_file, graph_text(layout, command, lambda family: environment.say(f"{layout.name}: {family}")))
+    text = graph_text(layout, command, lambda family: environment.report(f"{layout.name}: {family}"))
+    write_atomically(graph_file, text)
     return 0
 
 
 def derive_shipped(options: argparse.Namespace) -> int:
+    """Writes or checks the files derived from the layouts in codegen/layouts."""
     from .derive import graph_names, graph_path, layout_names
 
     shipped = layout_names()
     unknown = [name for name in options.names if name not in shipped]
     if unknown:
-        there_are = f"there are: {', '.join(shipped)}"
-        print(f"error: no layout {', '.join(unknown)} in codegen/layouts; {there_are}", file=sys.stderr)
+        names, known = ", ".join(unknown), ", ".join(shipped)
+        print(f"error: no layout {names} in codegen/layouts; there are: {known}", file=sys.stderr)
         return 2
-    stale = [
-        path for path, text in artefacts(options.names or shipped, shipped) if not settle(path, text, options.check)
-    ]
+    files = derived_files(options.names or shipped, shipped)
+    stale = [path for path, text in files if not up_to_date(path, text, options.check)]
     orphans = [graph_path(name) for name in graph_names() if name not in shipped]
     for path in orphans:
         print(f"{path.relative_to(ROOT)}: has no layout; delete it, or put codegen/layouts/{path.stem}.toml back")
@@ -90,8 +91,8 @@ def derive_shipped(options: argparse.Namespace) -> int:
     return 1 if stale or orphans else 0
 
 
-def artefacts(names: list[str], shipped: list[str]) -> Iterator[tuple[Path, str]]:
-    """What the layouts give: (file, text)."""
+def derived_files(names: list[str], shipped: list[str]) -> Iterator[tuple[Path, str]]:
+    """(file, text) of the named layouts' graphs and of Cargo.toml."""
     from .cargo_features import CARGO_TOML, with_block
     from .derive import derive_text, graph_path, layout_path
 
@@ -101,13 +102,13 @@ def artefacts(names: list[str], shipped: list[str]) -> Iterator[tuple[Path, str]
         yield CARGO_TOML, with_block(CARGO_TOML.read_text(encoding="utf-8"), shipped)
 
 
-def settle(path: Path, text: str, check: bool) -> bool:
-    """Whether a file is as it should be, after writing it unless this is only a check."""
-    from .derive import write_whole
+def up_to_date(path: Path, text: str, check: bool) -> bool:
+    """Whether a file has the text; unless this is only a check, it is written first."""
+    from .derive import write_atomically
 
     fresh = path.exists() and path.read_text(encoding="utf-8") == text
     if not fresh and not check:
-        write_whole(path, text)
+        write_atomically(path, text)
     words = ("fresh", "STALE") if check else ("unchanged", "written")
     print(f"{path.relative_to(ROOT)}: {words[0] if fresh else words[1]}")
     return fresh or not check

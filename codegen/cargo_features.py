@@ -1,8 +1,8 @@
-"""The marked block of Cargo.toml that gives each layout a cargo feature, kept in step with codegen/layouts."""
+"""Computes Cargo.toml's text, with a cargo feature for each layout between two marks, from the layouts' names."""
 
-from pathlib import Path
+from .environment import HERE
 
-CARGO_TOML = Path(__file__).resolve().parent.parent / "Cargo.toml"
+CARGO_TOML = HERE.parent / "Cargo.toml"
 BEGIN = "# layouts: one feature each, written by `python -m codegen`"
 END = "# end of layouts"
 
@@ -12,14 +12,14 @@ class FeatureError(Exception):
 
 
 def block(names: list[str]) -> str:
-    """The text between the marks, marks included."""
+    """The marks and the text between them."""
     listed = ", ".join(f'"{name}"' for name in names)
     lines = [BEGIN, f"all_layouts = [{listed}]", *(f"{name} = []" for name in names), END]
     return "\n".join(lines)
 
 
 def with_block(text: str, names: list[str]) -> str:
-    """Cargo.toml's text with the block as it should be."""
+    """Cargo.toml's text with the block of these layouts."""
     start, end = text.find(BEGIN), text.find(END)
     if start < 0 or end < start:
         raise FeatureError(

@@ -1,4 +1,4 @@
-"""One layout file to the text of its graph."""
+"""Computes the text of a graph from a layout file, and writes it."""
 
 import json
 import os
@@ -7,11 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import graph
+from .environment import HERE
 from .functions import Functions
 from .json_text import dump
 from .layout import Layout, LayoutError, read
-
-HERE = Path(__file__).resolve().parent
 
 
 def layout_names() -> list[str]:
@@ -31,7 +30,7 @@ def graph_path(name: str) -> Path:
 
 
 def derive_text(path: Path) -> str:
-    """The graph of a layout file, as it is committed."""
+    """The graph of a shipped layout file, as it is committed."""
     layout = read(path)
     if layout.name != path.stem:
         found = json.dumps(layout.name, ensure_ascii=False)
@@ -42,12 +41,12 @@ def derive_text(path: Path) -> str:
 def graph_text(
     layout: Layout, command: str | None = None, progress: Callable[[str], None] = lambda family: None
 ) -> str:
-    """The graph of a layout, with the command that makes it; `progress` hears of each family before it is worked on."""
+    """The graph of a layout; `command` derives it again, `progress` gets the name of each family before its turn."""
     return dump(graph.build(Functions(layout, progress), command)) + "\n"
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Writes a file whole or not at all: a temporary name beside it, then renamed."""
+def write_atomically(path: Path, text: str) -> None:
+    """Writes a whole file or none: a temporary file in the same folder, which is then renamed."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(prefix=f".{path.name}-", dir=path.parent)
     try:

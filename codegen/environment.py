@@ -1,6 +1,6 @@
-"""The locked Python environment: found, or made on first use, under a name that holds its contents' hash.
+"""Finds or makes the locked Python environment, whose folder has the hash of the pinned requirements as its name.
 
-``python -m codegen.environment [--dev | --reference]`` prints the environment's interpreter.
+``python -m codegen.environment [--dev | --reference]`` prints its interpreter.
 """
 
 import argparse
@@ -15,21 +15,21 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 OLDEST = (3, 11)
-# Other simulators, for the comparisons in tests/.
+# other simulators, which tests/ compares with
 REFERENCE = HERE.parent / "tests" / "reference" / "requirements-reference.txt"
 
 
 class EnvironmentProblem(Exception):
-    """The environment cannot be made; the message says what to install."""
+    """There is no environment; the message says what to install."""
 
 
 def home() -> Path:
-    """Where environments are kept: $PLANAR_CAPTURE_ENVIRONMENTS, else target/python beside the package."""
+    """The folder of all environments: $PLANAR_CAPTURE_ENVIRONMENTS, else target/python beside the package."""
     chosen = os.environ.get("PLANAR_CAPTURE_ENVIRONMENTS")
     return Path(chosen) if chosen else HERE.parent / "target" / "python"
 
 
-def say(text: str) -> None:
+def report(text: str) -> None:
     print(f"codegen: {text}", file=sys.stderr, flush=True)
 
 
@@ -39,7 +39,7 @@ def requirements(dev: bool) -> list[Path]:
 
 
 def fingerprint(files: list[Path]) -> str:
-    """Changes with the pins and with the Python that runs them."""
+    """Hash of the pinned requirements and of the Python that runs this."""
     digest = hashlib.sha256(f"{sys.version}\n{sys.base_prefix}\n".encode())
     for file in files:
         digest.update(file.read_bytes())
@@ -57,10 +57,11 @@ def ensure(dev: bool = False, reference: bool = False) -> Path:
             f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
         )
     files = [REFERENCE] if reference else requirements(dev)
-    for good_enough in [files] if reference else (files, requirements(dev=True)):  # the larger one serves both
-        if not all(file.exists() for file in good_enough):  # the package that a binary carries has the smaller one
+    candidates = [files] if reference else [files, requirements(dev=True)]  # the one for tests has all of the other
+    for candidate in candidates:
+        if not all(file.exists() for file in candidate):  # the package in the binary has no requirements of tests
             continue
-        place = home() / fingerprint(good_enough)
+        place = home() / fingerprint(candidate)
         if interpreter(place).exists():
             return interpreter(place)
     place = home() / fingerprint(files)
@@ -70,32 +71,21 @@ def ensure(dev: bool = False, reference: bool = False) -> Path:
                 f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
             )
     size = 1100 if reference else 400
-    say(f"making a Python environment with {files[-1].name} in {place} (once; some {size} MB on disk)")
+    report(f"making a Python environment with {files[-1].name} in {place} (once; some {size} MB on disk)")
     place.parent.mkdir(parents=True, exist_ok=True)
     building = Path(tempfile.mkdtemp(prefix="making-", dir=place.parent))
     try:
         run([sys.executable, "-m", "venv", str(building)])
-        run(
-            [
-                str(interpreter(building)),
-                "-m",
-                "pip",
-                "install",
-                "--quiet",
-                "--disable-pip-version-check",
-                "--only-binary=:all:",
-                "-r",
-                str(files[-1]),
-            ]
-        )
+        pip = [str(interpreter(building)), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        run([*pip, "--only-binary=:all:", "-r", str(files[-1])])
         try:
-            building.rename(place)  # moved last: what has the final name is whole
+            building.rename(place)  # last, so that only a complete environment has the final name
         except OSError:
-            if not interpreter(place).exists():  # else somebody else was faster, and theirs is as good
+            if not interpreter(place).exists():  # else another process has made the same environment meanwhile
                 raise
     finally:
         shutil.rmtree(building, ignore_errors=True)
-    say("environment ready")
+    report("environment ready")
     return interpreter(place)
 
 
@@ -117,7 +107,7 @@ def main() -> int:
     try:
         print(ensure(options.dev, options.reference))
     except EnvironmentProblem as problem:
-        say(f"error: {problem}")
+        report(f"error: {problem}")
         return 2
     return 0
 

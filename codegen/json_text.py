@@ -1,10 +1,9 @@
-"""Lays out a graph as JSON text: one statement, parameter or output per line."""
+"""Formats a graph as JSON text, with one statement, parameter or output per line."""
 
 import json
 
 
 def dump(value, indent: int = 0) -> str:
-    """JSON with one statement, parameter or output per line: made to be read and compared."""
     if not isinstance(value, dict | list) or is_line(value):
         return json.dumps(value, allow_nan=False, ensure_ascii=False)
     pad = " " * (indent + 1)
@@ -18,7 +17,7 @@ def dump(value, indent: int = 0) -> str:
 
 
 def is_line(value: dict | list) -> bool:
-    """Whether a value stands on one line: no object inside, and no list of statements."""
+    """Whether a value is one line: it holds no object and no list of statements, and is none."""
     items = value.values() if isinstance(value, dict) else value
     return (
         not any(isinstance(item, dict) for item in items)
