@@ -1,4 +1,4 @@
-"""Evaluates a graph as its JSON says, in double precision: what the tests check is what is rendered."""
+"""Computes the outputs of a graph, as its JSON has it, from inputs in double precision."""
 
 import math
 
@@ -18,7 +18,7 @@ OPERATIONS = {
 
 
 class Interpreter:
-    """A generated model with its parameters set."""
+    """The functions of a graph, with parameters set."""
 
     def __init__(self, graph: dict, parameters: dict[str, float] | None = None) -> None:
         self.graph = graph

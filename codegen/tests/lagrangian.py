@@ -1,4 +1,4 @@
-"""The same quantities a second time: T from the bodies' positions, M and the bias from T by CasADi's AD.
+"""Computes all outputs a second time: T from the bodies' positions, M and the bias from T by CasADi's AD.
 
 With q = [base pose; joint angles] the generalised velocity is v = dq/dt, so that
 
@@ -15,7 +15,7 @@ import numpy as np
 from codegen.layout import Layout
 
 
-def turn(angle: ca.SX, x: float, y: float) -> ca.SX:
+def rotate(angle: ca.SX, x: float, y: float) -> ca.SX:
     return ca.vertcat(ca.cos(angle) * x - ca.sin(angle) * y, ca.sin(angle) * x + ca.cos(angle) * y)
 
 
@@ -42,37 +42,37 @@ class Lagrangian:
         q, v = ca.SX.sym("q", self.size), ca.SX.sym("v", self.size)
         origin, yaw = q[1:3], q[0]
         bodies = [(layout.base.mass, layout.base.inertia, ca.vertcat(yaw, origin))]
-        tips, joint = [], 3
+        end_effectors, joint = [], 3
         for arm in layout.arms:
-            point, angle = origin + turn(yaw, *arm.mount), yaw + arm.mount_angle
+            point, angle = origin + rotate(yaw, *arm.mount), yaw + arm.mount_angle
             for link in arm.links:
                 angle = angle + q[joint]
                 joint += 1
-                bodies.append((link.mass, link.inertia, ca.vertcat(angle, point + turn(angle, *link.com))))
-                point = point + turn(angle, link.length, 0.0)
-            tips.append(ca.vertcat(angle, point))
+                bodies.append((link.mass, link.inertia, ca.vertcat(angle, point + rotate(angle, *link.com))))
+                point = point + rotate(angle, link.length, 0.0)
+            end_effectors.append(ca.vertcat(angle, point))
         twists = [ca.jtimes(pose, q, v) for _, _, pose in bodies]
         energy = sum(0.5 * (i * t[0] ** 2 + m * ca.sumsqr(t[1:])) for (m, i, _), t in zip(bodies, twists, strict=True))
-        spin = sum(i * t[0] + m * (p[1] * t[2] - p[2] * t[1]) for (m, i, p), t in zip(bodies, twists, strict=True))
+        angular = sum(i * t[0] + m * (p[1] * t[2] - p[2] * t[1]) for (m, i, p), t in zip(bodies, twists, strict=True))
         momentum = ca.gradient(energy, v)
-        tip = ca.vertcat(*tips)
-        mount = origin + turn(yaw, *layout.arms[0].mount)
+        end_effector = ca.vertcat(*end_effectors)
+        mount = origin + rotate(yaw, *layout.arms[0].mount)
         self.results = {
             "mass": ca.hessian(energy, v)[0],
             "bias": ca.jtimes(momentum, q, v) - ca.gradient(energy, q),
             "energy": energy,
             "linear": sum(m * t[1:] for (m, _, _), t in zip(bodies, twists, strict=True)),
-            "angular": spin,
+            "angular": angular,
             "body_poses": ca.horzcat(*[pose for _, _, pose in bodies]).T,
             "body_twists": ca.horzcat(*twists).T,
-            "tips": ca.horzcat(*tips).T,
-            "tip_jacobian": ca.jacobian(tip, q),
+            "end_effectors": ca.horzcat(*end_effectors).T,
+            "end_effector_jacobian": ca.jacobian(end_effector, q),
             "mount_jacobian": ca.jacobian(mount, q),
         }
         self.function = ca.Function("lagrangian", [q, v], list(self.results.values()))
 
     def at(self, state: dict[str, np.ndarray]) -> "State":
-        """The robot in one state; what the configuration alone needs holds for any velocity."""
+        """The robot in one state."""
         q = np.concatenate([state["base_pose"], state["joint_angles"]])
         v = np.concatenate([state["base_twist"], state["joint_rates"]])
         values = zip(self.results, self.function(q, v), strict=True)
@@ -85,7 +85,7 @@ class State:
     def __init__(self, robot: Lagrangian, inputs: dict, v: np.ndarray, values: dict[str, np.ndarray]) -> None:
         self.robot, self.inputs, self.v = robot, inputs, v
         self.values = values
-        self.mass, self.bias, self.jacobian = values["mass"], values["bias"].ravel(), values["tip_jacobian"]
+        self.mass, self.bias, self.jacobian = values["mass"], values["bias"].ravel(), values["end_effector_jacobian"]
 
     @cached_property
     def outputs(self) -> dict[str, dict[str, np.ndarray | float]]:
@@ -93,11 +93,11 @@ class State:
         jacobian = {"generalized_jacobian": self.generalized_jacobian, "smallest_pivot": self.reduced_pivot}
         torques = np.concatenate([np.zeros(3), inputs["joint_torques"]])
         base = np.concatenate([inputs["base_wrench"], np.zeros(robot.joints)])
-        tips = self.jacobian.T @ inputs["end_effector_wrenches"].ravel()
+        end_effectors = self.jacobian.T @ inputs["end_effector_wrenches"].ravel()
         return {
             "forward_dynamics": self.accelerations(torques),
             "forward_dynamics_with_base_wrench": self.accelerations(torques + base),
-            "forward_dynamics_with_wrenches": self.accelerations(torques + base + tips),
+            "forward_dynamics_with_wrenches": self.accelerations(torques + base + end_effectors),
             "mass_matrix": {"mass_matrix": self.mass},
             "bias": {"bias": self.bias},
             "reduced_dynamics": {
@@ -106,7 +106,7 @@ class State:
                 **jacobian,
             },
             "generalized_jacobian": jacobian,
-            "end_effector_poses": {"end_effector_poses": values["tips"]},
+            "end_effector_poses": {"end_effector_poses": values["end_effectors"]},
             "end_effector_jacobian": {"end_effector_jacobian": self.jacobian},
             "end_effector_twists": {"end_effector_twists": (self.jacobian @ self.v).reshape(-1, 3)},
             "body_poses": {"body_poses": values["body_poses"]},
@@ -145,7 +145,7 @@ class State:
 
     @property
     def mount_pivot(self) -> float:
-        """Pivot of the mass A that is felt at the first mount, base axes, A^-1 = J_p M^-1 J_p^T: 1 / (A_yy A^-1_yy)."""
+        """1 / (A_yy A^-1_yy) of the articulated inertia A at the first mount, base axes, A^-1 = J_p M^-1 J_p^T."""
         yaw = self.inputs["base_pose"][0]
         to_base = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]])
         jacobian = to_base @ self.values["mount_jacobian"]
@@ -161,10 +161,10 @@ class State:
             contact = np.array([[1, 0, 0], [-ry, 1, 0], [rx, 0, 1]])
             mass = inputs["target_masses"][arm]
             target = np.diag([inputs["target_inertias"][arm], mass, mass])
-            tip = jacobian[3 * arm : 3 * arm + 3]
-            seen = np.linalg.solve(contact.T, target)  # J_t^-T I_t
-            g += tip.T @ np.linalg.solve(contact.T, seen.T).T @ tip
-            h += tip.T @ seen @ inputs["target_twists"][arm]
+            rows = jacobian[3 * arm : 3 * arm + 3]
+            coupling = np.linalg.solve(contact.T, target)  # J_t^-T I_t
+            g += rows.T @ np.linalg.solve(contact.T, coupling.T).T @ rows
+            h += rows.T @ coupling @ inputs["target_twists"][arm]
         return g, h
 
     def reduced_impact(self) -> dict:

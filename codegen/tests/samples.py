@@ -1,4 +1,4 @@
-"""Layouts and states to test the derivation on: every structural special case, and random numbers."""
+"""Layouts and states that the derivation is tested on: every structural special case, and random numbers."""
 
 import math
 from dataclasses import replace
@@ -28,7 +28,7 @@ def chain(links: int) -> Layout:
 
 
 def regular(*links: int) -> Layout:
-    """Arms of so many equal links, spread evenly round the base, no mount on an axis: all of one structure."""
+    """Arms of these numbers of equal links, at equal angles around the base, with no mount on an axis."""
     angles = [0.5 + 2 * math.pi * i / len(links) for i in range(len(links))]
     mounts = [(0.5 * math.cos(angle), 0.5 * math.sin(angle)) for angle in angles]
     arms = tuple(
@@ -76,7 +76,7 @@ def derived(layout: Layout) -> dict:
 
 
 def randomized(layout: Layout, rng: np.random.Generator) -> Layout:
-    """Other numbers for the same structure: zeros that are structural stay, all else moves."""
+    """Other numbers for the same structure: structural zeros stay, all else changes."""
 
     def vary(value: float, low: float, high: float) -> float:
         return value if value == 0.0 else rng.uniform(low, high) * np.sign(value)

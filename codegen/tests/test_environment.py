@@ -1,4 +1,4 @@
-"""The locked environment: refused where it cannot be, and remade when its contents change."""
+"""The locked environment: errors where it cannot be made, and a new one when its contents change."""
 
 import os
 import subprocess
@@ -29,7 +29,7 @@ def test_an_old_python_is_refused(elsewhere, monkeypatch):
 
 
 def test_the_command_says_so_too(elsewhere):
-    """An old Python has no tomllib: the refusal must come before anything needs it."""
+    """An old Python has no tomllib: the error message must come before it is imported."""
     code = f"import runpy, sys; sys.version_info = {OLD}; sys.modules['tomllib'] = None; sys.argv = ['codegen']\n"
     code += "runpy.run_module('codegen', run_name='__main__')"
     outside = {k: v for k, v in os.environ.items() if k != "PLANAR_CAPTURE_CODEGEN_INSIDE"}

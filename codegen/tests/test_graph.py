@@ -1,4 +1,4 @@
-"""The graph as an artefact: reproducible, single assignment, staged, described, and as cheap as promised."""
+"""Graphs are reproducible, in single assignments, staged and described; their operations stay below ceilings."""
 
 import math
 import os
@@ -105,7 +105,7 @@ def test_the_header_names_the_layout_and_the_command(name):
 
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_each_name_is_assigned_once_and_known_before_its_use(name):
-    """Each stage reads parameters, named constants and its own inputs; what the earlier stage hands on, and no more."""
+    """Each stage reads parameters, named constants, its own inputs, and the values of the stage before it."""
     found = derived(LAYOUTS[name])
     parameters = {p["name"] for p in found["parameters"]}
     assert len(parameters) == len(found["parameters"])
@@ -114,22 +114,22 @@ def test_each_name_is_assigned_once_and_known_before_its_use(name):
     fixed = parameters | named
     configuration = elements(found, CONFIGURATION)
     for family in found["families"]:
-        setup = family["configuration"]
-        assigned = check_statements(setup["statements"], fixed | configuration)
-        assert len(set(setup["values"])) == len(setup["values"])
-        assert set(setup["values"]) <= assigned
+        stage = family["configuration"]
+        assigned = check_statements(stage["statements"], fixed | configuration)
+        assert len(set(stage["values"])) == len(stage["values"])
+        assert set(stage["values"]) <= assigned
         for function in family["functions"]:
-            known = fixed | set(setup["values"]) | elements(found, set(function["inputs"]) - CONFIGURATION)
+            known = fixed | set(stage["values"]) | elements(found, set(function["inputs"]) - CONFIGURATION)
             known |= check_statements(function["statements"], known)
             assert names_used([], function["outputs"]) <= known
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
-def test_nothing_is_computed_in_vain(name):
+def test_every_value_is_used(name):
     found = derived(LAYOUTS[name])
     everywhere = set()
     for family in found["families"]:
-        setup = family["configuration"]["statements"]
+        statements = family["configuration"]["statements"]
         called = set()
         for function in family["functions"]:
             used = names_used(function["statements"], function["outputs"])
@@ -137,8 +137,8 @@ def test_nothing_is_computed_in_vain(name):
             assert all(used.intersection(targets(line)) for line in function["statements"]), function["name"]
             read_by_call = {re.sub(r"\[.*", "", operand) for operand in used}
             assert set(function["inputs"]) - CONFIGURATION <= read_by_call, function["name"]
-        within = names_used(setup)
-        assert all((within | called).intersection(targets(line)) for line in setup), family["name"]
+        within = names_used(statements)
+        assert all((within | called).intersection(targets(line)) for line in statements), family["name"]
         assert set(family["configuration"]["values"]) <= called
         everywhere |= within | called
     constants = found["constants"]["statements"]
@@ -168,7 +168,7 @@ def test_everything_public_is_described(name):
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
-def test_a_zero_is_structural_only_where_it_is_promised(name):
+def test_only_documented_zeros_are_structural(name):
     """No parameter for a zero mount[1], mount_angle, com[1] or length of an inner link; for all else a default."""
     layout = LAYOUTS[name]
     found = derived(layout)
@@ -186,7 +186,7 @@ def test_a_zero_is_structural_only_where_it_is_promised(name):
 
 
 def recount(family: dict, function: dict) -> Counter:
-    """Operations that the outputs need, walked back through both stages; parameters and constants are free."""
+    """Operations that the outputs depend on, in both stages; parameters and constants cost none."""
     lines = [*family["configuration"]["statements"], *function["statements"]]
     made_by = {name: i for i, line in enumerate(lines) for name in targets(line)}
     pending = [e for o in function["outputs"] for e in o["elements"]]

@@ -82,7 +82,7 @@ def layout_from(tmp_path):
 
 
 def problem(path) -> str:
-    """What is said of a file that cannot be read, without its name and the command that says more."""
+    """The problem in the error message of a file that cannot be read."""
     with pytest.raises(LayoutError) as caught:
         read(path)
     start, end = f"{path}: ", f"; planar-capture check {path} says what is wrong"

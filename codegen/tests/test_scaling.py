@@ -1,4 +1,4 @@
-"""How the operations grow with arms and links, counted in the graphs: exactly what docs/scaling.md shows by example."""
+"""Operations are polynomials in the numbers of links and arms, counted in the graphs; docs/scaling.md has examples."""
 
 from itertools import pairwise
 
@@ -8,10 +8,10 @@ from .samples import derived, regular
 
 # Degree of the polynomial in the links of each arm that the operations of a function are, and why.
 DEGREES = {
-    "forward_dynamics": 1,  # articulated plane masses: one step out, one step in per link
+    "forward_dynamics": 1,  # articulated bodies: one inward and one outward step per link
     "forward_dynamics_with_base_wrench": 1,
     "forward_dynamics_with_wrenches": 1,
-    "bias": 1,  # a sweep
+    "bias": 1,  # one outward and one inward recursion
     "momentum": 1,  # sums over bodies
     "end_effector_poses": 1,
     "end_effector_jacobian": 1,  # a column per joint of the arm
@@ -20,7 +20,7 @@ DEGREES = {
     "body_twists": 1,
     "mass_matrix": 2,  # as many entries
     "reduced_dynamics": 2,  # as many entries of the generalized inertia
-    "generalized_jacobian": 2,  # every arm's sub-chains weigh on every column
+    "generalized_jacobian": 2,  # every arm's composite bodies contribute to every column
     "full_impact": 3,  # LDL^T of each arm's block, which is dense; the arms meet at the base alone
     "reduced_impact": 3,  # LDL^T of G, which is dense across the arms too
 }
@@ -67,7 +67,7 @@ def test_an_arm_costs_the_same_whichever_it_is(name):
 
 
 def test_four_arms_of_seven_links_stay_within_bounds():
-    """31 degrees of freedom, 29 bodies: cheap where recursions make it so, else small enough to be compiled at once."""
+    """31 degrees of freedom, 29 bodies: linear and quadratic counts, but for the cubic one of the impact."""
     counts = operations(7, 7, 7, 7)
     assert counts["forward_dynamics"]["flops"] <= 29 * 57
     assert counts["forward_dynamics"]["sin_cos"] == 29
