@@ -112,13 +112,18 @@ class LeafBody:
         )
         share = constant(f"{label}_mass_share", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
         (x, y), (mx, my) = own.com, self.first_moment
-        what = "articulated mass at the first joint"
+        what = "articulated inertia at the joint"
         xx = own.mass if y.is_zero() else share * (own.inertia + mx * x)
         self.inertia = ArticulatedInertia(
             constant(f"{label}_articulated_mass_xx", xx, "kg", what),
             constant(f"{label}_articulated_mass_xy", share * (mx * y), "kg", what),
             constant(f"{label}_articulated_mass_yy", share * (own.inertia + my * y), "kg", what),
-            constant(f"{label}_articulated_mass_difference", share * (mx * x - my * y), "kg", "xx - yy of it"),
+            constant(
+                f"{label}_articulated_mass_difference",
+                share * (mx * x - my * y),
+                "kg",
+                "xx - yy of the articulated inertia at the joint",
+            ),
         )
         self.children = len(children)
         for child in children:

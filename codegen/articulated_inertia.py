@@ -43,13 +43,13 @@ class ArticulatedInertia:
         """xx + term for a constant term, which ``name`` and ``text`` describe."""
         if self.constant is None:
             return self.xx + term
-        text = f"{text} + (child's A_xx without swing)"
+        text = f"constant part of {text} + A'_xx"
         return symbols.constant(f"{name}_with_child", self.constant[0] + term, "kg", text) - self.change
 
     def yy_times_plus(self, symbols: Symbols, name: str, factor: ca.SX, term: ca.SX, text: str) -> ca.SX:
         """factor yy + term for constants factor and term; ``name`` and ``text`` describe the result."""
         if self.constant is None:
             return factor * self.yy + term
-        text = f"{text}, A'_yy without swing"
+        text = f"constant part of {text}"
         constant = symbols.constant(f"{name}_with_child", factor * self.constant[1] + term, "kg", text)
         return factor * self.change + constant

@@ -46,11 +46,11 @@ class CompositeInertia:
                         f"{link.label}_composite_inertia",
                         self.inertia[k],
                         "kg m^2",
-                        "inertia of this link and of all beyond, about the joint",
+                        "inertia about the joint of this link and all outboard links",
                     )
             self.mass_matrix[k][k] = self.inertia[k]
             outboard_mass = self.mass[k] = symbols.constant(
-                f"{link.label}_mass_from", link.mass + outboard_mass, "kg", "mass of this link and of all beyond"
+                f"{link.label}_mass_from", link.mass + outboard_mass, "kg", "mass of this link and all outboard links"
             )
         for j in reversed(range(len(links) - 1)):
             for k in range(j + 2, len(links)):
@@ -92,13 +92,13 @@ def augmented_body(symbols: Symbols, link: LinkSymbols, outboard_mass: ca.SX) ->
         f"{link.label}_augmented_moment_x",
         link.mass * com_x + outboard_mass * length,
         "kg m",
-        "m c_x + (mass beyond) l",
+        "m c_x + (outboard mass) l",
     )
     sigma_y = symbols.constant(f"{link.label}_augmented_moment_y", link.mass * com_y, "kg m", "m c_y")
     inertia = symbols.constant(
         f"{link.label}_augmented_inertia",
         link.inertia + link.mass * (com_x * com_x + com_y * com_y) + outboard_mass * (length * length),
         "kg m^2",
-        "I + m |c|^2 + (mass beyond) l^2, about the joint",
+        "I + m |c|^2 + (outboard mass) l^2, about the joint",
     )
     return (sigma_x, sigma_y), inertia

@@ -44,7 +44,7 @@ class EquationsOfMotion:
             "base_augmented_inertia",
             base_inertia,
             "kg m^2",
-            "inertia of the base with the arms' masses at their mounts",
+            "inertia about the base COM of the base and the arms' masses at their mounts",
         )
         self.inertia = augmented_inertia + inertia
 
@@ -105,6 +105,6 @@ def equations_of_motion_family(equations: EquationsOfMotion) -> Family:
     )
     return Family(
         "equations_of_motion",
-        "Mass matrix and bias in the full coordinates, by composite suffixes in absolute angles.",
+        "Mass matrix by composite rigid bodies and bias by a Newton-Euler recursion, in the full coordinates.",
         [mass_matrix, bias],
     )

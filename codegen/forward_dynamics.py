@@ -104,8 +104,18 @@ def com_frame(symbols: Symbols, arm: ArmSymbols) -> tuple[ca.SX, Vector, Vector]
     distance = symbols.constant(
         f"{arm.label}_com_distance", ca.sqrt(com_x * com_x + com_y * com_y), "m", "|c| of the last link"
     )
-    x = symbols.constant(f"{arm.label}_tip_x", link.length * ca.cos(angle), "m", "tip along the last link's COM")
-    y = symbols.constant(f"{arm.label}_tip_y", -link.length * ca.sin(angle), "m", "tip across the last link's COM")
+    x = symbols.constant(
+        f"{arm.label}_tip_x",
+        link.length * ca.cos(angle),
+        "m",
+        "end effector along the direction of the last link's COM",
+    )
+    y = symbols.constant(
+        f"{arm.label}_tip_y",
+        -link.length * ca.sin(angle),
+        "m",
+        "end effector across the direction of the last link's COM",
+    )
     return angle, (distance, ZERO), (x, y)
 
 
@@ -202,4 +212,4 @@ def forward_dynamics_family(dynamics: ForwardDynamics) -> Family:
                 outputs,
             )
         )
-    return Family("forward_dynamics", "Forward dynamics by articulated plane masses in link frames.", functions)
+    return Family("forward_dynamics", "Forward dynamics by the articulated-body algorithm, in link frames.", functions)

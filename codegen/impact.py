@@ -51,7 +51,7 @@ def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
     rates, pivot = ldlt_solve(reduced.symbols, g, h, [*reversed(range(reduced.symbols.joints))])
     return Function(
         "reduced_impact",
-        "The paper's impact, literally; exact only for a robot without momentum after it.",
+        "Impact by the paper's equations; exact only if the robot has no momentum after it.",
         "G = J^T N J + I,  H = J^T J_t^-T I_t t_ti + I joint_rates,  G x = H,  N = J_t^-T I_t J_t^-1",
         "Raina & Shah (2017), eqs. (15), (16), with the sign of `J_t` corrected",
         [*CONFIGURATION, "joint_rates", *TARGETS],
@@ -76,7 +76,7 @@ def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
     base_text = "[omega, vx, vy] of the base COM, inertial axes"
     return Function(
         "full_impact",
-        "The exact impact: the same G and H in the full coordinates.",
+        "Exact impact: the same equations in the full coordinates.",
         "G = M + J_e^T N J_e,  H = M v + J_e^T J_t^-T I_t t_ti,  N = J_t^-T I_t J_t^-1,  v_after = G^-1 H",
         "Raina & Shah (2017), eqs. (1), (3), (13), without the reduction",
         [*STATE, *TARGETS],

@@ -16,7 +16,7 @@ INPUTS = {
     "joint_rates": (("joints",), "rad/s", "joint rates, arm by arm"),
     "joint_torques": (("joints",), "N m", "joint torques, arm by arm"),
     "base_wrench": ((3,), "N m, N, N", "[n, fx, fy] on the base at its COM, inertial axes"),
-    "end_effector_wrenches": (("arms", 3), "N m, N, N", "[n, fx, fy] on the robot at each tip, inertial axes"),
+    "end_effector_wrenches": (("arms", 3), "N m, N, N", "[n, fx, fy] on the robot at each end effector, inertial axes"),
     "target_masses": (
         ("arms",),
         "kg",

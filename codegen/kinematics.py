@@ -148,7 +148,7 @@ def end_effectors_family(kinematics: Kinematics) -> Family:
     functions = [
         Function(
             "end_effector_poses",
-            "Pose of each tip; the yaw is not wrapped.",
+            "Pose of each end effector; the yaw is not wrapped.",
             "p_e = p_b + R(yaw) mount + sum of R(phi_k) [l_k, 0]",
             source,
             [*CONFIGURATION],
@@ -156,7 +156,7 @@ def end_effectors_family(kinematics: Kinematics) -> Family:
         ),
         Function(
             "end_effector_jacobian",
-            "Jacobian of the tips in the full coordinates.",
+            "Jacobian of the end effectors in the full coordinates.",
             "t_e = [J_be J_me] [t_b; joint rates]",
             source,
             [*CONFIGURATION],
@@ -164,14 +164,14 @@ def end_effectors_family(kinematics: Kinematics) -> Family:
         ),
         Function(
             "end_effector_twists",
-            "Twist of each tip.",
+            "Twist of each end effector.",
             "t_e = J_be t_b + J_me joint rates",
             source,
             [*STATE],
             [list_of_vectors("end_effector_twists", "rad/s, m/s, m/s", twists_text, twists)],
         ),
     ]
-    return Family("end_effectors", "Poses, Jacobian and twists of the tips.", functions)
+    return Family("end_effectors", "Poses, Jacobian and twists of the end effectors.", functions)
 
 
 def bodies_family(kinematics: Kinematics) -> Family:

@@ -91,7 +91,7 @@ def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
     jacobian = matrix(
         "generalized_jacobian",
         "1, m, m per arm",
-        "3 rows [omega, vx, vy] per arm, inertial axes: tip twists of a robot of zero momentum",
+        "3 rows [omega, vx, vy] per arm, inertial axes: end-effector twists of a robot of zero momentum",
         reduced.generalized_jacobian(),
     )
     pivot = smallest_pivot(reduced.smallest_pivot())
@@ -114,6 +114,6 @@ def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
     )
     return Family(
         "reduced_dynamics",
-        "The free-floating robot in joint coordinates alone: the base is eliminated.",
+        "Dynamics of the free-floating robot in joint coordinates alone, with the base eliminated.",
         [all_together, jacobian_alone],
     )

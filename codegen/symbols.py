@@ -107,7 +107,9 @@ class Symbols:
 
         mount_x = parameter("mount_x", arm.mount[0], "m", "first joint, base frame, x,", structural=False)
         mount_y = parameter("mount_y", arm.mount[1], "m", "first joint, base frame, y,")
-        mount_angle = parameter("mount_angle", arm.mount_angle, "rad", "direction of joint 1 = 0 in the base frame")
+        mount_angle = parameter(
+            "mount_angle", arm.mount_angle, "rad", "direction of link 1 at joint angle 0, base frame,"
+        )
         links = [self._link(i, k) for k in range(len(arm.links))]
         self.joints += len(links)
         return ArmSymbols(label, first_joint, (mount_x, mount_y), mount_angle, links)
@@ -120,7 +122,7 @@ class Symbols:
             name, description = f"{label}_{quantity}", f"{description} of link {k + 1} of arm {i + 1}"
             return self._parameter(name, f"link_{quantity}", (i, k), unit, value, description, structural)
 
-        length = parameter("length", link.length, "m", "joint to next joint (or to the end effector)", not last)
+        length = parameter("length", link.length, "m", "length (joint to next joint or end effector)", not last)
         mass = parameter("mass", link.mass, "kg", "mass")
         inertia = parameter("inertia", link.inertia, "kg m^2", "inertia about the COM")
         com_x = parameter("com_x", link.com[0], "m", "COM, link frame, x,")

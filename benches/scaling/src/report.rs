@@ -10,7 +10,7 @@ use std::thread::available_parallelism;
 
 /// Function, what it is called here, how it grows and why: as `codegen/tests/test_scaling.py` proves it.
 const GROWTH: [(&str, &str, &str); 6] = [
-    ("`forward_dynamics`, with wrenches or without", "linear", "articulated plane masses, one division per link"),
+    ("`forward_dynamics`, with wrenches or without", "linear", "articulated bodies, one division per link"),
     ("kinematics, `bias`, `momentum`", "linear", "sweeps and sums; a Jacobian's columns are the arm's own"),
     ("`mass_matrix`", "quadratic in the links of an arm, linear in the arms", "an arm's block has as many entries"),
     ("`generalized_jacobian`", "quadratic in the links of an arm and in the arms", "every tip against every joint"),
