@@ -1,0 +1,58 @@
+//! What the tests of several crates share: random states, dual numbers, an independent reference for contacts, and how
+//! numbers are compared. Every bound of a comparison stands in [`tolerance`], with its reason.
+//!
+//! It never contains: the product, which its own tests and those of the root package bring along.
+#![allow(
+    clippy::must_use_candidate,
+    clippy::missing_panics_doc,
+    reason = "tests call it: a panic is a test that fails"
+)]
+
+pub mod dual;
+pub mod maximal;
+pub mod sample;
+pub mod tolerance;
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// A file of the repository.
+pub fn file(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);
+    root.expect("a crate of the workspace is two folders down").join(name)
+}
+
+/// A committed JSON file.
+pub fn json(name: &str) -> Value {
+    let text = std::fs::read_to_string(file(name)).expect("a committed file");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// Largest difference of two lists, after checking that they are as long.
+pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).fold(0.0, |most, (a, b)| if (a - b).abs() <= most { most } else { (a - b).abs() })
+}
+
+/// All numbers of a JSON value, depth first; a `null` in a list is skipped.
+pub fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Number(n) => vec![n.as_f64().expect("a float")],
+        Value::Array(items) => items.iter().flat_map(numbers).collect(),
+        _ => vec![],
+    }
+}
+
+/// Fails with the name, the difference and the bound.
+#[track_caller]
+pub fn assert_close(what: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
+    let difference = difference(found, wanted);
+    assert!(difference <= tolerance, "{what}: differs by {difference:e}, bound {tolerance:e}\n{found:?}\n{wanted:?}");
+}
+
+/// The same with a bound relative to the largest entry.
+#[track_caller]
+pub fn close(what: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
+    let size = wanted.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    assert_close(what, found, wanted, tolerance * size);
+}

@@ -1,0 +1,70 @@
+//! The reference in maximal coordinates, held to what the product has by another way, and to mechanics.
+
+mod against_product;
+mod holds;
+mod impacts;
+mod laws;
+mod loops;
+mod merged;
+mod product;
+mod responses;
+mod textbook;
+
+use nalgebra::Vector2;
+use planar_capture::control::Control;
+use planar_capture::dynamics::Model;
+use planar_capture::layout::Layout;
+use planar_capture::models::SHIPPED;
+use planar_capture::owned::RobotState;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::integration::Integration;
+use planar_capture::simulate::{Timing, simulate};
+use planar_capture::state::State;
+use planar_capture::target::Target;
+use planar_proof::maximal::body::Body;
+use planar_proof::maximal::impact::{Contact, Kind};
+use planar_proof::maximal::system::System;
+use planar_proof::sample::Sample;
+
+fn layout(name: &str) -> Layout {
+    let (_, text) = SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("shipped");
+    Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"))
+}
+
+fn robot(layout: &Layout, s: &Sample) -> System {
+    System::new(layout, s.base_pose, &s.joint_angles, s.base_twist, &s.joint_rates)
+}
+
+fn state(s: &Sample) -> State<'_, f64> {
+    State {
+        base_pose: s.base_pose,
+        joint_angles: &s.joint_angles,
+        base_twist: s.base_twist,
+        joint_rates: &s.joint_rates,
+    }
+}
+
+/// The sample's targets, one per arm, held so by the tips: contacts in arm order.
+fn rigid_targets(all: &mut System, s: &Sample) -> Vec<Contact> {
+    let hold = |(arm, ([mass, inertia, rx, ry], twist)): (usize, &([f64; 4], [f64; 3]))| {
+        let com = all.position(&all.tips[arm]) - Vector2::new(*rx, *ry);
+        let body = all.add(Body { mass: *mass, inertia: *inertia, pose: [0.3, com.x, com.y], twist: *twist });
+        Contact::new(all, arm, body, Kind::Rigid)
+    };
+    s.targets.iter().enumerate().map(hold).collect()
+}
+
+fn targets(s: &Sample) -> Vec<Option<Target<f64>>> {
+    let target = |([mass, inertia, rx, ry], twist): &([f64; 4], [f64; 3])| {
+        Some(Target { mass: *mass, inertia: *inertia, contact: [*rx, *ry], twist: *twist })
+    };
+    s.targets.iter().map(target).collect()
+}
+
+/// How the product's robot moves for a time, by Runge–Kutta steps of a millisecond.
+fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
+    let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
+    let robot = planar_capture::simulate::system::System::alone(model);
+    let phase = simulate(&robot, control, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    phase.end().expect("an end").state.clone()
+}

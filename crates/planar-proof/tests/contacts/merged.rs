@@ -1,0 +1,137 @@
+//! Contacts of all kinds: against the rigid capture, in free motion with holds, and what the laws promise.
+
+use planar_capture::body::Body;
+use planar_capture::contact::{After, Closure, Contact, ContactLaw, Other, Rows, impact, workspace_length};
+use planar_capture::control::Free;
+use planar_capture::dynamics::{Kinematics, Merge};
+use planar_capture::generated::dual_arm_3r::Model;
+use planar_capture::impact as rigid;
+use planar_capture::owned::RobotState;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::system::System;
+use planar_capture::simulate::{Timing, simulate};
+use planar_capture::state::State;
+use planar_capture::target::Target;
+use planar_proof::{assert_close, tolerance};
+
+const ANGLES: [f64; 6] = [0.3, -1.2, 0.7, 2.1, 1.4, -0.6];
+const RATES: [f64; 6] = [0.4, -0.2, 0.9, -0.5, 0.3, 0.8];
+
+fn state() -> State<'static, f64> {
+    State { base_pose: [0.9, 1.5, -2.5], joint_angles: &ANGLES, base_twist: [0.2, -0.3, 0.1], joint_rates: &RATES }
+}
+
+/// What is after an impact: base, joints, bodies, impulses.
+type Outcome = ([f64; 3], [f64; 6], Vec<[f64; 3]>, Vec<[f64; 3]>);
+
+fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], contacts: &[Contact<f64>]) -> Outcome {
+    let mut numbers = vec![0.0; workspace_length(6, 2, bodies.len(), Rows::count(contacts))];
+    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers).expect("rows");
+    let (mut rates, mut twists) = ([0.0; 6], vec![[0.0; 3]; bodies.len()]);
+    let mut impulses = vec![[0.0; 3]; contacts.len()];
+    let mut after = After { joint_rates: &mut rates, body_twists: &mut twists, impulses: &mut impulses };
+    let base = impact(model, state, bodies, rows, &mut after).expect("an impact");
+    (base, rates, twists, impulses)
+}
+
+fn tips(state: &State<'_, f64>) -> [[f64; 3]; 2] {
+    let mut tips = [[0.0; 3]; 2];
+    Kinematics::end_effector_poses(&Model::<f64>::default(), &state.base_pose, state.joint_angles, &mut tips)
+        .expect("poses");
+    tips
+}
+
+/// Each tip takes hold of a body: the same as the capture solved in full coordinates.
+#[test]
+fn rigid_contacts_are_the_rigid_capture() {
+    let (model, state) = (Model::<f64>::default(), state());
+    let target =
+        |scale: f64| Target { mass: 12.0 * scale, inertia: 3.0 * scale, contact: [0.3, -0.4], twist: [-0.7, 0.2, 0.6] };
+    let targets = [Some(target(1.0)), Some(target(40.0))];
+    let (mut rates, mut twists, mut impulses) = ([0.0; 6], [[0.0; 3]; 2], [[0.0; 3]; 2]);
+    let mut after = rigid::After { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
+    let base = rigid::exact(&model, &state, &targets, &mut after).expect("an impact");
+
+    let bodies: Vec<_> = targets
+        .iter()
+        .flatten()
+        .map(|t| Body { mass: t.mass, inertia: t.inertia, pose: [0.0; 3], twist: t.twist })
+        .collect();
+    let contacts =
+        [0, 1].map(|i| Contact { arm: i, other: Other::Body(i), offset: [0.3, -0.4], law: ContactLaw::Rigid });
+    let found = solve(&model, &state, &bodies, &contacts);
+    assert_close("base twist", &found.0, &base, tolerance::SAME_IMPACT);
+    assert_close("joint rates", &found.1, &rates, tolerance::SAME_IMPACT);
+    assert_close("target twists", found.2.as_flattened(), twists.as_flattened(), tolerance::SAME_IMPACT);
+    assert_close("impulses", found.3.as_flattened(), impulses.as_flattened(), tolerance::SAME_IMPACT);
+}
+
+/// A body held by constraint forces moves as the link that it is merged with.
+#[test]
+fn a_rigid_hold_is_a_merged_link() {
+    let state = state();
+    let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
+    let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
+    let tip = tips(&state)[1];
+    let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
+    let model = Model::<f64>::default();
+    let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
+    let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
+    let held = [Body { twist: twists[0], ..body }];
+    let closures = [Closure::new(&contact, &tip, &body.pose).expect("a hold")];
+    let system = System { model: &model, bodies: &held, closures: &closures };
+    let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+
+    let mut merged = model;
+    let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
+    Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
+    let as_one =
+        simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+    let (a, b) = (by_forces.end().expect("an end"), as_one.end().expect("an end"));
+    assert_close("base pose", &a.state.base_pose, &b.state.base_pose, tolerance::MERGED_MOTION);
+    assert_close("joint angles", &a.state.joint_angles, &b.state.joint_angles, tolerance::MERGED_MOTION);
+    assert_close("joint rates", &a.state.joint_rates, &b.state.joint_rates, tolerance::MERGED_MOTION);
+}
+
+/// Both tips on one body, in every mixture of grips.
+#[test]
+fn a_loop_stays_closed() {
+    let state = state();
+    let both @ [left, right] = tips(&state);
+    let com = [f64::midpoint(left[1], right[1]) + 0.2, f64::midpoint(left[2], right[2])];
+    let body = Body { mass: 200.0, inertia: 150.0, pose: [0.0, com[0], com[1]], twist: [0.3, 0.1, -0.2] };
+    for kinds in [
+        [ContactLaw::Rigid, ContactLaw::Rigid],
+        [ContactLaw::Pin, ContactLaw::Rigid],
+        [ContactLaw::Pin, ContactLaw::Pin],
+    ] {
+        let touching = both.iter().zip(kinds).enumerate();
+        let contacts: Vec<_> = touching
+            .map(|(arm, (tip, kind))| Contact {
+                arm,
+                other: Other::Body(0),
+                offset: [tip[1] - com[0], tip[2] - com[1]],
+                law: kind,
+            })
+            .collect();
+        let model = Model::<f64>::default();
+        let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
+        let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
+        let held = [Body { twist: twists[0], ..body }];
+        let closure = |(contact, tip)| Closure::new(contact, tip, &body.pose).expect("a hold");
+        let closures: Vec<_> = contacts.iter().zip(&both).map(closure).collect();
+        let system = System { model: &model, bodies: &held, closures: &closures };
+        let drift = |step: f64| {
+            let timing = Timing { duration: 2.0, step, sample: 2.0, ..Timing::default() };
+            let phase = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+            let [open, opening] = phase.constraint_errors;
+            assert!(open < tolerance::HOLD && opening < tolerance::HOLD, "{kinds:?}: {open} {opening}");
+            phase.drift
+        };
+        // what is left is the integrator's: of order 4 in the step
+        let (coarse, fine) = (drift(0.01), drift(0.005));
+        for (coarse, fine) in [(coarse.momentum_drift, fine.momentum_drift), (coarse.energy_error, fine.energy_error)] {
+            assert!(fine < coarse / 10.0 && fine < tolerance::HELD_DRIFT, "{kinds:?}: {coarse:e} {fine:e}");
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The product's impacts, in the reference's terms.
+
+use planar_capture::body::Body;
+use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_length};
+use planar_capture::dynamics::Model;
+use planar_capture::error::Error;
+use planar_capture::layout::Layout;
+use planar_capture::models;
+use planar_capture::owned::CloneModel;
+use planar_capture::scalar::Real;
+use planar_capture::state::State;
+use planar_proof::maximal::impact::Kind;
+use planar_proof::maximal::random::{Object, Scene, Touch};
+
+/// What an impact leaves, by the product.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome<T> {
+    pub base_twist: [T; 3],
+    pub joint_rates: Vec<T>,
+    pub body_twists: Vec<[T; 3]>,
+    pub impulses: Vec<[T; 3]>,
+}
+
+impl<T: Real> Outcome<T> {
+    /// Base, joints, bodies: as [`System::velocities`](planar_proof::maximal::system::System::velocities).
+    pub fn velocities(&self) -> Vec<f64> {
+        let all = self.base_twist.iter().chain(&self.joint_rates).chain(self.body_twists.as_flattened());
+        all.map(|value| value.to_f64()).collect()
+    }
+}
+
+/// Both models of a layout, generic alone where no code of it is generated.
+pub fn both_models(layout: &Layout) -> Vec<Box<dyn CloneModel>> {
+    models::generated(layout).into_iter().chain([models::generic(layout)]).collect()
+}
+
+pub fn law(kind: Kind) -> contact::ContactLaw<f64> {
+    match kind {
+        Kind::Rigid => contact::ContactLaw::Rigid,
+        Kind::Pin => contact::ContactLaw::Pin,
+        Kind::Bounce { normal, restitution } => contact::ContactLaw::Bounce { normal, restitution },
+    }
+}
+
+/// The scene's targets and contacts.
+pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
+    let body =
+        |target: &Object| Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist };
+    let contact = |touch: &Touch| Contact {
+        arm: touch.arm,
+        other: Other::Body(touch.target),
+        offset: touch.offset,
+        law: law(touch.kind),
+    };
+    (scene.targets.iter().map(body).collect(), scene.touches.iter().map(contact).collect())
+}
+
+/// All contacts at once, by [`contact::impact`].
+pub fn strike<T: Real>(
+    model: &dyn Model<T>,
+    state: &State<'_, T>,
+    bodies: &[Body<T>],
+    contacts: &[Contact<T>],
+) -> Result<Outcome<T>, Error> {
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), Rows::count(contacts));
+    let mut numbers = vec![T::constant(f64::NAN); length];
+    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers)?;
+    let mut found = Outcome {
+        base_twist: [T::ZERO; 3],
+        joint_rates: vec![T::ZERO; model.joints()],
+        body_twists: vec![[T::ZERO; 3]; bodies.len()],
+        impulses: vec![[T::ZERO; 3]; contacts.len()],
+    };
+    let mut after = After {
+        joint_rates: &mut found.joint_rates,
+        body_twists: &mut found.body_twists,
+        impulses: &mut found.impulses,
+    };
+    found.base_twist = contact::impact(model, state, bodies, rows, &mut after)?;
+    Ok(found)
+}

@@ -1,0 +1,14 @@
+//! Generated and generic models: against each other, against outside numbers and derivations by hand, and the laws of
+//! mechanics.
+
+mod capture;
+mod closed_form;
+mod coordinates;
+mod equivalence;
+mod float;
+mod generic;
+mod identities;
+mod light_tip;
+mod references;
+mod scalars;
+mod trajectory;

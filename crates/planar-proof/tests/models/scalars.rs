@@ -1,0 +1,169 @@
+//! One generated text, every scalar: f64, f32, lanes, dual numbers; and what is an error.
+
+use planar_capture::dynamics::{Conserved, ForwardDynamics, Kinematics, ReducedDynamics};
+use planar_capture::error::Error;
+use planar_capture::generated::dual_arm_3r::{MANIFEST, Model, Parameters};
+use planar_capture::scalar::{self, Scalar};
+use planar_capture::state::{Forces, State};
+use planar_proof::dual::Dual;
+use planar_proof::{assert_close, tolerance};
+
+const POSE: [f64; 3] = [0.4, 1.0, -2.0];
+const ANGLES: [f64; 6] = [0.3, -1.2, 0.7, 2.1, 1.4, -0.6];
+const TWIST: [f64; 3] = [0.2, -0.3, 0.1];
+const RATES: [f64; 6] = [0.4, -0.2, 0.9, -0.5, 0.3, 0.8];
+const TORQUES: [f64; 6] = [1.0, -2.0, 0.5, 3.0, -1.5, 0.7];
+
+fn accelerations<T: Scalar>(constant: impl Fn(f64) -> T + Copy) -> Vec<T> {
+    let parameters = std::array::from_fn(|i| constant(MANIFEST.parameters[i].default));
+    let result = Model::new(Parameters::from_array(parameters)).forward_dynamics(
+        &POSE.map(constant),
+        &ANGLES.map(constant),
+        &TWIST.map(constant),
+        &RATES.map(constant),
+        &TORQUES.map(constant),
+    );
+    result.base_acceleration.into_iter().chain(result.joint_accelerations).collect()
+}
+
+#[test]
+fn single_precision_agrees_with_double() {
+    let double = accelerations(|x| x);
+    let size = double.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    #[allow(clippy::cast_possible_truncation, reason = "that is the test")]
+    let single: Vec<f64> = accelerations(|x| x as f32).into_iter().map(f64::from).collect();
+    assert_close("f32", &single, &double, tolerance::SINGLE * size);
+}
+
+#[test]
+fn every_lane_agrees_with_the_scalar() {
+    use wide::{f64x4, f64x8};
+    let double = accelerations(|x| x);
+    let size = double.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    for lane in 0..4 {
+        let lanes: Vec<f64> = accelerations(f64x4::splat).into_iter().map(|x| x.to_array()[lane]).collect();
+        assert_close("f64x4", &lanes, &double, tolerance::LANE * size);
+    }
+    for lane in 0..8 {
+        let lanes: Vec<f64> = accelerations(f64x8::splat).into_iter().map(|x| x.to_array()[lane]).collect();
+        assert_close("f64x8", &lanes, &double, tolerance::LANE * size);
+    }
+}
+
+/// Along a motion, dT/dt = τ·θ̇, d(momentum)/dt = 0 and d(tip pose)/dt = tip twist: the derivative part of dual
+/// numbers through forward dynamics, momentum and kinematics.
+#[test]
+fn dual_numbers_give_the_power_balance() {
+    let acceleration = accelerations(|x| x);
+    let moving =
+        |value: &[f64], rate: &[f64]| -> Vec<Dual> { value.iter().zip(rate).map(|(v, r)| Dual(*v, *r)).collect() };
+    let model = Model::<Dual>::default();
+    let pose: [Dual; 3] = moving(&POSE, &TWIST).try_into().expect("three");
+    let angles: [Dual; 6] = moving(&ANGLES, &RATES).try_into().expect("six");
+    let twist: [Dual; 3] = moving(&TWIST, &acceleration[..3]).try_into().expect("three");
+    let rates: [Dual; 6] = moving(&RATES, &acceleration[3..]).try_into().expect("six");
+
+    let conserved = model.momentum(&pose, &angles, &twist, &rates);
+    let power: f64 = TORQUES.iter().zip(RATES).map(|(t, r)| t * r).sum();
+    let scale = 1e3; // N, N m of inertial forces in this state
+    assert_close("power", &[conserved.kinetic_energy.1], &[power], tolerance::DUAL * scale);
+    let drift = [conserved.linear_momentum[0].1, conserved.linear_momentum[1].1, conserved.angular_momentum.1];
+    assert_close("momentum rate", &drift, &[0.0; 3], tolerance::DUAL * scale);
+
+    let tips = model.end_effector_poses(&pose, &angles);
+    let twists = Model::<f64>::default().end_effector_twists(&POSE, &ANGLES, &TWIST, &RATES);
+    for (tip, twist) in tips.iter().zip(twists) {
+        assert_close("tip", &tip.map(|d| d.1), &twist, tolerance::DUAL);
+    }
+}
+
+fn state<'a>(angles: &'a [f64], rates: &'a [f64]) -> State<'a, f64> {
+    State { base_pose: POSE, joint_angles: angles, base_twist: TWIST, joint_rates: rates }
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_errors_that_name_them() {
+    let model = Model::<f64>::default();
+    let mut angles = ANGLES;
+    angles[4] = f64::NAN;
+    let mut out = [0.0; 6];
+    let found =
+        ForwardDynamics::forward_dynamics(&model, &state(&angles, &RATES), &Forces::torques(&TORQUES), &mut out);
+    assert!(matches!(found, Err(Error::NotFinite { quantity: "joint_angles", index: 4, value }) if value.is_nan()));
+    let torques = [0.0, f64::INFINITY, 0.0, 0.0, 0.0, 0.0];
+    let found =
+        ForwardDynamics::forward_dynamics(&model, &state(&ANGLES, &RATES), &Forces::torques(&torques), &mut out);
+    assert_eq!(found, Err(Error::NotFinite { quantity: "joint_torques", index: 1, value: f64::INFINITY }));
+    // finite input whose result is not
+    let rates = [1e200; 6];
+    let found = Conserved::momentum(&model, &state(&ANGLES, &rates));
+    assert!(matches!(found, Err(Error::NotFinite { quantity: "kinetic_energy", index: 0, .. })), "{found:?}");
+}
+
+#[test]
+fn lengths_are_checked() {
+    let model = Model::<f64>::default();
+    let mut out = [0.0; 6];
+    let found =
+        ForwardDynamics::forward_dynamics(&model, &state(&ANGLES[..5], &RATES), &Forces::torques(&TORQUES), &mut out);
+    assert_eq!(found, Err(Error::Length { quantity: "joint_angles", expected: 6, found: 5 }));
+    let mut poses = [[0.0; 3]; 3];
+    let found = Kinematics::end_effector_poses(&model, &POSE, &ANGLES, &mut poses);
+    assert_eq!(found, Err(Error::Length { quantity: "end_effector_poses", expected: 2, found: 3 }));
+}
+
+#[test]
+fn singular_robots_are_errors() {
+    // neither base nor links have mass or inertia
+    let model = Model::new(Parameters::<f64>::from_array([0.0; 30]));
+    let mut out = [0.0; 6];
+    let found =
+        ForwardDynamics::forward_dynamics(&model, &state(&ANGLES, &RATES), &Forces::torques(&TORQUES), &mut out);
+    assert!(matches!(found, Err(Error::Singular { .. })), "{found:?}");
+    let (mut inertia, mut bias, mut jacobian) = ([0.0; 36], [0.0; 6], [0.0; 36]);
+    let found =
+        ReducedDynamics::reduced_dynamics(&model, &state(&ANGLES, &RATES), &mut inertia, &mut bias, &mut jacobian);
+    assert!(matches!(found, Err(Error::Singular { .. })), "{found:?}");
+    assert!(out.iter().all(|x| x.to_bits() == 0), "nothing is written where there is no result");
+}
+
+/// Angles of every size: a turn, the border of the exact reduction, and far beyond it.
+fn angles() -> impl Iterator<Item = f64> {
+    let near = (-40_000..40_000).map(|i| f64::from(i) * 0.001_234_567);
+    let quarters = (-1000..1000).flat_map(|i| {
+        let quarter = f64::from(i) * std::f64::consts::FRAC_PI_2;
+        [quarter.next_down(), quarter, quarter.next_up(), quarter / 2.0]
+    });
+    let wide = (0..400).flat_map(|i| [1.7, -2.3].map(|x: f64| x * 1.1_f64.powi(i)));
+    near.chain(quarters).chain(wide).chain([0.0, -0.0, f64::MIN_POSITIVE, f64::MAX])
+}
+
+#[test]
+fn sine_and_cosine_are_the_librarys() {
+    for angle in angles() {
+        let ((sine, cosine), (right_sine, right_cosine)) = (scalar::sin_cos_f64(angle), angle.sin_cos());
+        // beyond the exact reduction, by no more than the rounding of the angle
+        let bound = if angle.abs() < 1.6e6 { tolerance::SINE } else { angle.abs() * f64::EPSILON };
+        assert!((sine - right_sine).abs() <= bound, "sin {angle:e}: {sine:e}, not {right_sine:e}");
+        assert!((cosine - right_cosine).abs() <= bound, "cos {angle:e}: {cosine:e}, not {right_cosine:e}");
+        assert!((sine * sine + cosine * cosine - 1.0).abs() <= 2.0 * tolerance::SINE, "{angle:e}");
+    }
+    for odd in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(scalar::sin_cos_f64(odd).0.is_nan() && scalar::sin_cos_f64(odd).1.is_nan());
+    }
+}
+
+#[test]
+fn sine_and_cosine_in_single_precision() {
+    #[allow(clippy::cast_possible_truncation, reason = "that is the test")]
+    for angle in angles().map(|angle| angle as f32).filter(|angle| angle.is_finite()) {
+        let ((sine, cosine), (right_sine, right_cosine)) = (scalar::sin_cos_f32(angle), f64::from(angle).sin_cos());
+        let bound =
+            if angle.abs() < 6e3 { tolerance::SINE_SINGLE } else { f64::from(angle.abs()) * f64::from(f32::EPSILON) };
+        assert!((f64::from(sine) - right_sine).abs() <= bound, "sin {angle:e}: {sine:e}, not {right_sine:e}");
+        assert!((f64::from(cosine) - right_cosine).abs() <= bound, "cos {angle:e}: {cosine:e}, not {right_cosine:e}");
+    }
+    for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(scalar::sin_cos_f32(odd).0.is_nan() && scalar::sin_cos_f32(odd).1.is_nan());
+    }
+}

@@ -1,0 +1,82 @@
+//! What a layout or a scenario is said to be.
+
+use super::{LAYOUT, SCENARIO, check, look};
+use planar_capture::inspection::{Inspection, inspect};
+use planar_capture::models::SHIPPED;
+use planar_proof::file;
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn what_a_layout_is() {
+    let (_, out, _) = check(&["dual_arm_3r"], Path::new("."));
+    for wanted in [
+        "dual_arm_3r: a layout, sha256 a6de99dfde72\n",
+        "degrees of freedom  9: base 3, joints 6\n",
+        "mass                560 kg, 89.29 % of it in the base\n",
+        "radius of gyration 0.4089 m\n",
+        "inertia             265.4 kg m² about",
+        "structure           2 arms of 3 + 3 links\n",
+        "generated code      generated::dual_arm_3r\n",
+        "  arm1                 3         30          3               3.5  (0.5, 0)\n",
+    ] {
+        assert!(out.contains(wanted), "no `{wanted}` in\n{out}");
+    }
+    // all bodies in line: Σ I + m x² − M x̄², by hand: links at 1, 2, 3 and 0, 1, 2 m
+    let (squares, first): (f64, f64) = (10.0 * (1.0 + 4.0 + 9.0 + 0.0 + 1.0 + 4.0), 10.0 * (6.0 + 3.0));
+    let inertia = 83.61 + 6.0 * 1.05 + squares - first * first / 560.0;
+    assert_eq!(format!("{inertia:.1}"), "265.4");
+    let Inspection { description, .. } = look(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
+    assert!(description.contains("(-0.5, 0.3) at 3\n") && description.contains("a mount angle"), "{description}");
+    assert!(description.contains("none of this structure in this build"), "{description}");
+    assert!(description.contains("codegen/layouts/robot.toml"), "the way to the code\n{description}");
+}
+
+#[test]
+fn what_a_scenario_is() {
+    let (_, out, _) = check(&["raina_shah_2017.toml"], &file("scenarios"));
+    for wanted in [
+        "raina_shah_2017: a scenario\n",
+        "robot               dual_arm_3r, 560 kg, sha256 a6de99dfde72\n",
+        "generated code      generated::dual_arm_3r\n",
+        "start               at rest, base at (0, 0) m, yaw 0 rad\n",
+        "approach            20 s in 4000 steps of 0.005 s\n",
+        "trajectory          quartic, to tip twists [0, -0.1, 0], [0, 0.1, 0] rad/s, m/s\n",
+        "largest turn        joint 2 of arm2, 2.964 rad at up to 0.2779 rad/s\n",
+        "tracking            PD, 49 N m/rad, 14 N m s/rad; fastest mode 18.68 1/s, 0.09338 in a step\n",
+        "final pose          generalized Jacobian of arm1, arm2: smallest/largest singular value 0.05817\n",
+        "afterwards          50 s in 10000 steps of 0.005 s, of 580 kg together\n",
+        "2.512 of at most 3.714\n",
+        "case3        target1 [0.2, 0, 0] rigid, target2 [-0.2, 0, 0] rigid\n",
+    ] {
+        assert!(out.contains(wanted), "no `{wanted}` in\n{out}");
+    }
+    // a base of 500 kg and 80 kg m², 39 kg on it, all moving as one with 2 m/s
+    let moving = look(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
+    assert!(moving.contains("1078, 0] N m s, N s; 1078 J\n"), "{moving}");
+}
+
+/// The number of the paper's robot, from its equations of motion: the damping of the stiffest joint motion.
+#[test]
+fn the_fastest_mode_decays_as_fast_as_a_simulation() {
+    use planar_capture::generated::dual_arm_3r::Model;
+    let robot = Model::<f64>::default();
+    let angles = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047];
+    // power iteration on I⁻¹ Kd, as accelerations under torques that are 14 times the rates
+    let mut rates = [1.0, -2.0, 3.0, 0.0, 0.0, 0.0];
+    let mut growth = 0.0;
+    for _ in 0..2000 {
+        let torques = rates.map(|rate| 14.0 * rate);
+        let configuration = robot.forward_dynamics_configuration(&[0.0; 3], &angles);
+        let next = configuration.forward_dynamics(&[0.0; 3], &[0.0; 6], &torques).joint_accelerations;
+        growth = next.iter().map(|rate| rate * rate).sum::<f64>().sqrt();
+        rates = next.map(|rate| rate / growth);
+    }
+    let there = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+    let start = there.find("final_joint_angles").expect("angles");
+    let end = start + there[start..].find('#').expect("a comment");
+    let stay = there.replace(&there[start..end], &format!("final_joint_angles = {angles:?} "));
+    let shown = inspect(&stay, "it.toml", Path::new(""), SHIPPED).expect("a scenario").description;
+    let wanted = format!("fastest mode {growth:.2} 1/s");
+    assert!(shown.contains(&wanted), "{wanted} in\n{shown}");
+}

@@ -1,0 +1,129 @@
+//! `planar-capture check`: what files are, what is odd about them and what is wrong.
+
+mod description;
+mod odd;
+mod wrong;
+
+use assert_cmd::Command;
+use planar_capture::inspection::{Inspection, inspect};
+use planar_capture::models::SHIPPED;
+use planar_proof::file;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// A robot without anything odd: two arms, and a wheel.
+const LAYOUT: &str = r#"name = "robot"
+[base]
+mass = 500.0
+inertia = 80.0
+[[arm]]
+name = "left"
+mount = [0.5, 0.0]
+[[arm.link]]
+length = 1.0
+mass = 10.0
+inertia = 1.0
+[[arm.link]]
+length = 1.0
+mass = 10.0
+inertia = 1.0
+com = [0.5, 0.1]
+[[arm.link]]
+length = 0.5
+mass = 5.0
+inertia = 0.1
+[[arm]]
+name = "right"
+mount = [-0.5, 0.0]
+[[arm.link]]
+length = 2.0
+mass = 10.0
+inertia = 3.0
+[[arm]]
+name = "wheel"
+mount = [0.5, 0.0]
+[[arm.link]]
+length = 0.0
+mass = 4.0
+inertia = 0.5
+"#;
+
+/// A scenario of that robot without anything odd.
+const SCENARIO: &str = r#"name = "study"
+layout = "robot"
+[initial]
+joint_angles = [0.7, -1.6, 1.0, 0.0, 0.0]
+[approach]
+duration = 20.0
+trajectory = "quartic"
+final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]
+final_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]
+[[target]]
+name = "ball"
+arm = "left"
+mass = 10.0
+inertia = 1.0
+contact = [0.0, 0.5]
+radius = 0.5
+twist = [0.2, 0.0, 0.0]
+position = [1.5, -2.0]
+[[case]]
+name = "spin"
+[[case]]
+name = "still"
+target_twists = { ball = [0.0, 0.0, 0.0] }
+[post_impact]
+duration = 50.0
+"#;
+
+fn look(text: &str) -> Inspection {
+    let shipped = [("robot", LAYOUT)];
+    inspect(text, "it.toml", Path::new(""), &shipped).unwrap_or_else(|report| panic!("{report}\nin\n{text}"))
+}
+
+fn check(arguments: &[&str], folder: &Path) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
+    let output = command.arg("check").args(arguments).current_dir(folder).output().expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn nothing_shipped_is_odd() {
+    let layouts = SHIPPED.iter().map(|(name, _)| (*name).to_owned());
+    let paths = ["codegen/layouts", "scenarios"].map(|folder| fs::read_dir(file(folder)).expect("a folder"));
+    let paths = paths.into_iter().flatten().map(|entry| entry.expect("an entry").path().display().to_string());
+    let all: Vec<_> = layouts.chain(paths).collect();
+    assert!(all.len() >= 2 * SHIPPED.len() + 5);
+    for each in all {
+        let (code, out, err) = check(&[&each], Path::new("."));
+        assert_eq!((code, err.as_str()), (0, ""), "{each}");
+        assert!(out.ends_with("\nnothing odd\n"), "{each}:\n{out}");
+    }
+}
+
+#[test]
+fn warnings_go_beside_the_description() {
+    let folder = TempDir::new().expect("a folder");
+    fs::write(folder.path().join("odd.toml"), LAYOUT.replace("inertia = 3.0", "inertia = 30")).expect("written");
+    let (code, out, err) = check(&["odd.toml"], folder.path());
+    assert_eq!(code, 0);
+    assert!(out.starts_with("robot: a layout") && !out.contains("nothing odd"), "{out}");
+    assert!(err.starts_with("warning: `arm[1].link[0].inertia` is 30") && err.ends_with("\n\n1 warning\n"), "{err}");
+    // a scenario beside its layout, from elsewhere
+    fs::write(folder.path().join("study.toml"), SCENARIO.replace("\"robot\"", "\"odd.toml\"")).expect("written");
+    let path = folder.path().join("study.toml");
+    let (code, out, err) = check(&[&path.display().to_string()], Path::new("."));
+    assert_eq!(code, 0, "{err}");
+    assert!(out.starts_with("study: a scenario") && err.contains("odd.toml:27:"), "{out}{err}");
+}
+
+#[test]
+fn a_name_that_is_none_and_a_file_that_is_not_there() {
+    for (argument, wanted) in [("dual_arm_4r", "`dual_arm_3r`"), ("nowhere.toml", "no file `nowhere.toml`")] {
+        let (code, out, err) = check(&[argument], Path::new("."));
+        assert_eq!((code, out.as_str()), (2, ""), "{err}");
+        assert!(err.contains(wanted), "{err}");
+    }
+}

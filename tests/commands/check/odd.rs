@@ -1,0 +1,307 @@
+//! Every oddity seen once, and none where there is none.
+
+use super::{LAYOUT, SCENARIO, look};
+use planar_capture::inspection::{Inspection, inspect};
+use planar_capture::models::SHIPPED;
+use planar_proof::file;
+use std::fs;
+use std::path::Path;
+
+/// What is replaced by what, the line of the warning, and what it says.
+type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
+
+/// Each gives one warning and no more.
+const ODD_LAYOUTS: &[Edit] = &[
+    // inertia and COM of links
+    (
+        "inertia = 3.0",
+        "inertia = 13.4",
+        27,
+        &["`arm[1].link[0].inertia` is 13.4", "10 kg m²", "it is 3.4 about the COM"],
+    ),
+    (
+        "inertia = 3.0",
+        "inertia = 30",
+        27,
+        &["more than 10 kg m²", "x · (length − x)", "rod has mass · length² / 12 = 3.333"],
+    ),
+    ("com = [0.5, 0.1]", "com = [0.05, 0.1]", 15, &["`arm[0].link[1].inertia` is 1.0", "0.575 kg m²", "+ y²"]),
+    (
+        "com = [0.5, 0.1]",
+        "com = [1.5, 0.1]",
+        16,
+        &["`arm[0].link[1].com` is [1.5, 0.1]", "outside the link", "1 m", "[0.5, 0]"],
+    ),
+    ("com = [0.5, 0.1]", "com = [-0.1, 0]", 16, &["`arm[0].link[1].com` is [-0.1, 0]", "outside the link"]),
+    ("com = [0.5, 0.1]", "com = [0.5, 1.1]", 16, &["`arm[0].link[1].com` is [0.5, 1.1]", "outside the link"]),
+    (
+        "inertia = 3.0",
+        "inertia = 3e-4",
+        27,
+        &["`arm[1].link[0].inertia` is 3e-4", "0.005477 m", "2 m", "point mass", "3.333"],
+    ),
+    ("inertia = 0.5", "inertia = 0.5\ncom = [0.1, 0.0]", 35, &["`arm[2].link[0].com` is [0.1, 0.0]", "axle", "[0, 0]"]),
+    // the base
+    ("mass = 500.0\ninertia = 80.0", "mass = 30\ninertia = 8", 3, &["`base.mass` is 30", "arms together", "39 kg"]),
+    ("inertia = 80.0", "inertia = 8e7", 4, &["`base.inertia` is 8e7", "400 m", "kg m²", "83.33"]),
+    ("inertia = 80.0", "inertia = 8e-5", 4, &["`base.inertia` is 8e-5", "0.0004 m"]),
+    // units of one body
+    (
+        "mass = 4.0",
+        "mass = 4e-6",
+        33,
+        &["`arm[2].link[0].mass` is 4e-6", "1.25e8 times smaller", "`base.mass`, 500 kg"],
+    ),
+    ("inertia = 0.5", "inertia = 5e-9", 34, &["`arm[2].link[0].inertia` is 5e-9", "`base.inertia`, 80 kg m²"]),
+    // mounts and lengths
+    (
+        "[-0.5, 0.0]",
+        "[-50, 0.0]",
+        23,
+        &["`arm[1].mount` is [-50, 0.0]", "50 m from the base COM", "125 times", "0.4 m"],
+    ),
+    ("[-0.5, 0.0]", "[0.5, 0.0]", 23, &["`arm[1].mount` is [0.5, 0.0]", "`arm[0]` is mounted there too"]),
+    ("length = 1.0", "length = 0.0\ncom = [0, 0]", 9, &["`arm[0].link[0].length` is 0.0", "two joints", "one place"]),
+];
+
+const WHEELS: &str = "name = \"wheels\"\n[base]\nmass = 50.0\ninertia = 8.0\n[[arm]]\nname = \"wheel\"\nmount = [0, 0]\n\
+                      [[arm.link]]\nlength = 0\nmass = 4.0\ninertia = 0.5\n";
+
+/// As above.
+const ODD_SCENARIOS: &[Edit] = &[
+    // angles
+    (
+        "joint_angles = [0.7",
+        "joint_angles = [6.5",
+        4,
+        &["`initial.joint_angles[0]` is 6.5", "joint 1 of left", "0.2168"],
+    ),
+    (
+        "angles = [-0.5, -1.4",
+        "angles = [-0.5, -9",
+        8,
+        &["`approach.final_joint_angles[1]` is -9", "joint 2 of left", "-2.717"],
+    ),
+    (
+        "1.0, 0.0, 0.0]\n[approach]\nduration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0",
+        "1.0, 3.5, 0.0]\n[approach]\nduration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, -3.5",
+        8,
+        &["`approach.final_joint_angles[3]` is -3.5", "joint 1 of right", "by -7 rad", "2.783 is the same pose"],
+    ),
+    (
+        "\"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]",
+        "\"cycloidal\"\nfinal_joint_angles = [0.7, -1.6, 1.0, 0.0, 0.0]",
+        8,
+        &["`approach.final_joint_angles` is [0.7", "there already"],
+    ),
+    (
+        "-0.5, -1.4, -0.1, 0.0",
+        "-0.5, 0.001, 0, 0.0",
+        8,
+        &["close to a singular pose of left", "singular value", "elbows"],
+    ),
+    // rates, times and gains
+    ("duration = 20.0", "duration = 0.2", 6, &["`approach.duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"]),
+    (
+        "duration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01",
+        "trajectory_duration = 0.2\nduration = 20.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.0",
+        6,
+        &["`approach.trajectory_duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"],
+    ),
+    (
+        "rates = [0.01",
+        "rates = [10",
+        9,
+        &["`approach.final_joint_rates[0]` is 10", "joint 1 of left", "10°/s are 0.1745 rad/s"],
+    ),
+    (
+        "joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]",
+        "end_effector_twists = [[0, 1, 0], [0, 0, 0], [0, 0, 0]]",
+        9,
+        &["final_end_effector_twists` is [[0, 1, 0]", "9 numbers", "5 joints", "final_joint_rates"],
+    ),
+    (
+        "duration = 20.0",
+        "duration = 20.0\nstep = 0.5",
+        7,
+        &["`approach.step` is 0.5", "fastest joint motion", "or less"],
+    ),
+    (
+        "duration = 20.0",
+        "duration = 20.0\nderivative_gain = 5e4",
+        5,
+        &["`approach.step` is left at its default: a step of 0.005 s", "gains"],
+    ),
+    (
+        "duration = 20.0",
+        "duration = 20.0\nproportional_gain = 0",
+        7,
+        &["proportional_gain` is 0", "nothing pulls", "49"],
+    ),
+    // control afterwards
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 1e6",
+        24,
+        &["`post_impact.step` is left at its default: a step of 0.005 s", "fastest joint motion", "or less"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nstep = 0.4\ncontrol = \"damping\"",
+        26,
+        &["`post_impact.step` is 0.4", "fastest joint motion"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nsample_time = 2\ncontrol = \"stabilise\"",
+        26,
+        &["`post_impact.sample_time` is 2", "torques are held for 2 s", "within 2 s", "0.4 s or less"],
+    ),
+    // targets
+    ("mass = 10.0\ninertia = 1.0", "mass = 600\ninertia = 60", 13, &["`target[0].mass` is 600", "the robot", "539 kg"]),
+    (
+        "inertia = 1.0",
+        "inertia = 2.6",
+        14,
+        &["`target[0].inertia` is 2.6", "2.5 kg m²", "mass · radius²", "sphere", "1"],
+    ),
+    (
+        "[0.0, 0.5]",
+        "[0.0, 0.4]",
+        15,
+        &["`target[0].contact` is [0.0, 0.4]", "0.4 m from the COM", "radius is 0.5 m", "rim"],
+    ),
+    ("[0.2, 0.0", "[11.5, 0.0", 17, &["`target[0].twist[0]` is 11.5", "1.83 times a second", "0.2007 rad/s"]),
+    ("{ ball = [0.0", "{ ball = [11.5", 23, &["`case[1].target_twists` is { ball = [11.5", "1.83 times a second"]),
+    ("[1.5, -2.0]", "[3.0, -2.5]", 18, &["`target[0].position` is [3.0, -2.5]", "no pose", "further out than"]),
+    ("\"left\"", "\"wheel\"", 12, &["`target[0].arm` is \"wheel\"", "reaction wheel", "left, right"]),
+];
+
+#[track_caller]
+fn one_warning(text: &str, line: usize, wanted: &[&str]) {
+    let Inspection { warnings, .. } = look(text);
+    let shown = warnings.to_string();
+    assert_eq!(warnings.count(), 1, "one warning is wanted in\n{text}\nnot\n{shown}");
+    let place = format!("it.toml:{line}:");
+    for wanted in wanted.iter().chain(&[place.as_str(), "warning: `", "help: "]) {
+        assert!(shown.contains(wanted), "no `{wanted}` in\n{shown}");
+    }
+}
+
+#[track_caller]
+fn odd(valid: &str, edits: &[Edit]) {
+    assert_eq!(look(valid).warnings.to_string(), "");
+    for (from, to, line, wanted) in edits {
+        assert!(valid.contains(from), "`{from}` is not in the valid file");
+        one_warning(&valid.replacen(from, to, 1), *line, wanted);
+    }
+}
+
+#[test]
+fn odd_layouts() {
+    odd(LAYOUT, ODD_LAYOUTS);
+    one_warning(WHEELS, 9, &["`arm[0].link[0].length` is 0", "wheels alone"]);
+}
+
+#[test]
+fn odd_scenarios() {
+    odd(SCENARIO, ODD_SCENARIOS);
+    let twists = "end_effector_twists = [[0, -100, 0], [7, 0, 0]]";
+    let paper = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+    let paper = paper.replace("end_effector_twists = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]", twists);
+    let shown = inspect(&paper, "it.toml", Path::new(""), SHIPPED).expect("a scenario").warnings;
+    assert_eq!(shown.count(), 2, "{shown}");
+    for wanted in ["twists[0]` is [0, -100, 0]: faster than arm1", "twists[1]` is [7, 0, 0]: faster than arm2"] {
+        assert!(shown.to_string().contains(wanted), "{shown}");
+    }
+}
+
+/// Tips that are to be where no pose brings them, whichever law takes them there.
+#[test]
+fn tip_poses_out_of_reach() {
+    let end = "final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]";
+    let steer = |x: &str| {
+        let goals = format!("tracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[{x}, -1.0], [], []]");
+        SCENARIO.replace("\"quartic\"", "\"quintic\"").replace(end, &goals)
+    };
+    assert_eq!(look(&steer("1.8")).warnings.to_string(), "");
+    let wanted = ["`approach.final_end_effector_poses[0]` is [4.8, -1.0]", "out of reach, 4.827 m", "no pose of left"];
+    one_warning(&steer("4.8"), 9, &wanted);
+    let designed = SCENARIO.replace("trajectory", "final_end_effector_poses = [[4.8, -1.0], [], []]\ntrajectory");
+    one_warning(&designed, 7, &wanted);
+    let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
+    one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
+}
+
+/// The bound on the modes after the impact: with a target in its hand a robot resists any joint rates more, not less.
+#[test]
+fn a_merged_robot_is_no_stiffer() {
+    use planar_capture::state::State;
+    use planar_capture::target::Target;
+    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "dual_arm_3r").expect("a layout");
+    let layout = planar_capture::layout::Layout::parse(text, "it").expect("a layout");
+    let mut model = planar_capture::models::generated(&layout).expect("generated code");
+    let angles = [-0.5, -1.4, 0.1, 2.6, -1.4, 0.2];
+    let target = Target { mass: 10.0, inertia: 1.0, contact: [0.3, 0.4], twist: [0.0; 3] };
+    let inertia = |model: &dyn planar_capture::dynamics::Model<f64>| {
+        let state = State { base_pose: [0.0; 3], joint_angles: &angles, base_twist: [0.0; 3], joint_rates: &[0.0; 6] };
+        let (mut inertia, mut bias, mut jacobian) = ([0.0; 36], [0.0; 6], [0.0; 36]);
+        model.reduced_dynamics(&state, &mut inertia, &mut bias, &mut jacobian).expect("an inertia");
+        nalgebra::SMatrix::<f64, 6, 6>::from_row_slice(&inertia)
+    };
+    let before = inertia(&*model);
+    model.merge(&[0.0; 3], &angles, &[Some(target), None]).expect("merged");
+    let more = (inertia(&*model) - before).symmetric_eigenvalues();
+    assert!(more.min() > -1e-12 && more.max() > 1.0, "{more}");
+}
+
+/// Ends beyond the joints' limits; a start there is refused.
+#[test]
+fn ends_beyond_limits() {
+    let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
+    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
+    let wanted =
+        ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
+    one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
+    let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
+    one_warning(&with("joint_rates = 0.009"), 11, &wanted);
+}
+
+/// A solid rod, a dumbbell with all its mass at its ends, and every wheel are bodies that there are.
+#[test]
+fn the_bound_on_inertias_is_that_of_bodies() {
+    for inertia in ["3.3333333333333335", "10.0"] {
+        assert_eq!(look(&LAYOUT.replace("inertia = 3.0", &format!("inertia = {inertia}"))).warnings.count(), 0);
+    }
+    assert_eq!(look(&LAYOUT.replace("inertia = 3.0", "inertia = 10.001")).warnings.count(), 1);
+    assert_eq!(look(&LAYOUT.replace("inertia = 0.5", "inertia = 50.0")).warnings.count(), 0);
+}
+
+/// A wheel turns about any axis, also that of an arm's first joint.
+#[test]
+fn a_wheel_shares_its_mount_with_an_arm() {
+    let wheel = LAYOUT.rfind("[[arm]]").expect("a wheel");
+    let arms = LAYOUT.find("[[arm]]").expect("arms");
+    let wheel_first = [&LAYOUT[..arms], &LAYOUT[wheel..], &LAYOUT[arms..wheel]].concat();
+    assert_eq!(look(&wheel_first).warnings.to_string(), "");
+}
+
+/// What moves takes its target along: the place that is out of reach of a robot at rest is not out of reach then.
+#[test]
+fn the_reach_is_from_where_the_robot_is_by_then() {
+    let far = SCENARIO.replace("[1.5, -2.0]", "[21.5, -2.0]");
+    one_warning(&far, 18, &["no pose"]);
+    let moving = far.replace("[approach]", "base_twist = [0.0, 1.0, 0.0]\n[approach]");
+    assert_eq!(look(&moving).warnings.to_string(), "");
+}
+
+#[test]
+fn warnings_stand_in_the_order_of_the_files() {
+    let text = SCENARIO.replace("radius = 0.5", "radius = 5.0").replace("rates = [0.01", "rates = [10");
+    let layout = LAYOUT.replace("inertia = 3.0", "inertia = 30.0").replace("mass = 500.0", "mass = 5.0");
+    let warnings = inspect(&text, "it.toml", Path::new(""), &[("robot", &layout)]).expect("a scenario").warnings;
+    let shown = warnings.to_string();
+    let at =
+        ["it.toml:9:", "it.toml:15:", "robot.toml (shipped):3:", "robot.toml (shipped):27:"].map(|p| shown.find(p));
+    assert!(at.iter().all(Option::is_some) && at.is_sorted() && warnings.count() == 4, "{shown}");
+}

@@ -1,0 +1,872 @@
+//! Broken layouts and scenarios, and what is said about each: file, line, key, value and what
+//! would be right.
+
+use std::collections::HashSet;
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use planar_capture::diagnostic::{Report, nearest};
+use planar_capture::layout::Layout;
+use planar_capture::scenario::{EndRates, Scenario, Tracking};
+use planar_capture::trajectory::TrajectoryKind;
+
+type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
+
+const LAYOUT: &str = r#"name = "one_arm"
+[base]
+mass = 500.0
+inertia = 83.61
+[[arm]]
+name = "left"
+mount = [0.5, 0.0]
+[[arm.link]]
+length = 1.0
+mass = 10.0
+inertia = 1.05
+[[arm.link]]
+length = 1
+mass = 10
+inertia = 1.05
+"#;
+
+const SCENARIO: &str = r#"name = "demo"
+layout = "one_arm"
+[initial]
+joint_angles = [0.1, 0.2]
+[approach]
+duration = 20.0
+trajectory = "quartic"
+final_joint_angles = [0.5, 0.6]
+final_end_effector_twists = [[0, -0.1, 0]]
+[[target]]
+name = "ball"
+arm = "left"
+mass = 10.0
+inertia = 1.0
+contact = [0.0, 0.5]
+radius = 0.5
+twist = [0.2, 0.0, 0.0]
+[[case]]
+name = "spin"
+[[case]]
+name = "still"
+target_twists = { ball = [0, 0, 0] }
+[post_impact]
+duration = 50.0
+"#;
+
+fn shipped() -> [(&'static str, &'static str); 2] {
+    [("one_arm", LAYOUT), ("broken", "name = \"broken\"\n[base]\nmass = 1\ninertia = 0\n[[arm]]\n")]
+}
+
+fn scenario(text: &str) -> Result<Scenario, Report> {
+    Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
+}
+
+/// One edit of a valid file: what is replaced by what, the line reported, and texts that the
+/// message must have.
+type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
+
+fn check<T>(base: &str, file: &str, edits: &[Edit], parse: impl Fn(&str) -> Result<T, Report>) {
+    for (from, to, line, wanted) in edits {
+        assert!(base.contains(from), "`{from}` is not in the valid file");
+        let text = base.replacen(from, to, 1);
+        let Err(report) = parse(&text) else {
+            unreachable!("`{to}` instead of `{from}` was accepted");
+        };
+        let shown = report.to_string();
+        assert_eq!(report.count(), 1, "`{from}` -> `{to}`:\n{shown}");
+        let place = format!("{file}:{line}:");
+        for wanted in wanted.iter().copied().chain([place.as_str()]) {
+            assert!(shown.contains(wanted), "`{from}` -> `{to}`: no `{wanted}` in\n{shown}");
+        }
+    }
+}
+
+const LAYOUT_EDITS: &[Edit] = &[
+    ("mass = 500.0", "mass = -5", 3, &["`base.mass` is -5", "a mass in kg greater than 0"]),
+    ("mass = 500.0", "mass = \"5\"", 3, &["`base.mass` is \"5\"", "without quotes"]),
+    ("mass = 500.0", "mass = nan", 3, &["`base.mass` is nan", "finite"]),
+    ("mass = 500.0", "mass = 1e999", 3, &["`base.mass` is 1e999", "finite"]),
+    ("mass = 500.0", "mass = true", 3, &["`base.mass` is true", "a mass in kg"]),
+    ("mass = 500.0", "mas = 500.0", 3, &["`base.mas` (500.0)", "did you mean `mass`?"]),
+    ("mass = 500.0\n", "", 2, &["missing key `base.mass`", "a mass in kg greater than 0"]),
+    ("mass = 500.0", "mass = 5\nmoi = 2", 4, &["`base.moi` (2)", "`mass` and `inertia`"]),
+    ("inertia = 83.61", "inertia = 0", 4, &["`base.inertia` is 0", "kg m²", "greater than 0"]),
+    ("\"one_arm\"", "\"One-Arm\"", 1, &["`name` is \"One-Arm\"", "lower-case letters"]),
+    ("\"one_arm\"", "\"loop\"", 1, &["`name` is \"loop\"", "Rust keyword", "`loop_robot`"]),
+    ("\"one_arm\"", "\"2_arms\"", 1, &["`name` is \"2_arms\"", "a letter first"]),
+    ("\"one_arm\"", "\"\"", 1, &["`name` is \"\"", "not blank"]),
+    ("\"one_arm\"", "3", 1, &["`name` is 3", "text in quotes"]),
+    ("name = \"one_arm\"\n", "", 1, &["missing key `name`", "Rust module"]),
+    ("[base]", "[bsae]", 2, &["`bsae` (a table)", "did you mean `base`?"]),
+    ("[base]\nmass = 500.0\ninertia = 83.61\n", "base = 5\n", 2, &["`base` is 5", "`[base]`"]),
+    ("\"left\"", "\"a\\nb\"", 6, &["`arm[0].name` is \"a\\nb\"", "on one line"]),
+    ("[0.5, 0.0]", "[0.5]", 7, &["`arm[0].mount` is [0.5]", "[x, y] in m"]),
+    ("[0.5, 0.0]", "0.5", 7, &["`arm[0].mount` is 0.5", "[x, y] in m"]),
+    ("[0.5, 0.0]", "[0.5, 'a']", 7, &["`arm[0].mount[1]` is 'a'", "y in m"]),
+    ("[0.5, 0.0]", "[0.5, 99999]", 7, &["`arm[0].mount[1]` is 99999", "millimetres = 99.999 m"]),
+    ("mount = [0.5, 0.0]\n", "", 5, &["missing key `arm[0].mount`", "[x, y] in m"]),
+    ("mount =", "mount_angle = 90\nmount =", 7, &["`arm[0].mount_angle` is 90", "degrees"]),
+    ("length = 1.0", "length = -1", 9, &["`arm[0].link[0].length` is -1", "in m of 0 or more"]),
+    ("length = 1.0", "length = 25000", 9, &["is 25000", "25000.0 millimetres = 25.0 m"]),
+    ("length = 1.0", "length = 1\nmount_angle = 1", 10, &["`arm[0].link[0].mount_angle` (1)", "a key of `arm[0]`"]),
+    ("inertia = 1.05\n[", "inertia = 1\ncom = [1,\n 2, 3]\n[", 12, &["com` is [1, 2, 3]", "[x, y]"]),
+    ("length = 1\nmass = 10\n", "length = 1\n", 12, &["missing key `arm[0].link[1].mass`"]),
+    ("[[arm.link]]\nlength = 1\n", "[[arm.lnik]]\nlength = 1\n", 12, &["`arm[0].lnik`", "`link`"]),
+    ("mass = 500.0", "mass = 5 kg", 3, &["`mass = 5 kg` is not valid TOML", "without units"]),
+    ("mass = 500.0", "mass = 1,5", 3, &["`mass = 1,5` is not valid TOML", "decimal point"]),
+    ("mass = 500.0", "mass 5", 3, &["`mass 5` is not valid TOML", "write `key = value`"]),
+    ("mass = 500.0", "inertia = 1", 4, &["`inertia = 83.61` is not valid TOML", "once"]),
+    ("[0.5, 0.0]", "[0.5 0.0]", 7, &["not valid TOML", "separated by commas"]),
+];
+
+#[test]
+fn broken_layouts() {
+    check(LAYOUT, "one.toml", LAYOUT_EDITS, |text| Layout::parse(text, "one.toml"));
+}
+
+#[test]
+fn arms_are_lists_with_distinct_names() {
+    let one_link = "[[arm.link]]\nlength = 1.0\nmass = 10.0\ninertia = 1.05\n";
+    let arms = |arms: &str| format!("name = \"a\"\nbase = {{ mass = 1, inertia = 1 }}\n{arms}");
+    let arm = format!("[[arm]]\nname = \"left\"\nmount = [0, 0]\n{one_link}");
+    let cases = [
+        (format!("{arm}{arm}"), "one.toml:11:8", "`arm[1].name` is \"left\": the same as `arm[0].name`"),
+        ("arm = []".to_owned(), "one.toml:3:7", "`arm` is [], expected at least one `[[arm]]`"),
+        (String::new(), "one.toml:1:1", "missing key `arm`, expected at least one `[[arm]]`"),
+        ("[arm]\nname = \"x\"".to_owned(), "one.toml:3:1", "`arm` is a single table"),
+        ("[[arm]]\nname='x'\nmount=[0,0]\n[arm.link]".to_owned(), "one.toml:6:1", "write `[[arm.link]]`"),
+        ("[[arm]]\nname='x'\nmount=[0,0]".to_owned(), "one.toml:3:1", "at least one `[[arm.link]]`"),
+        ("[[arm]]\nname='x'\nmount=[0,0]\nlink=[]".to_owned(), "one.toml:6:6", "`arm[0].link` is []"),
+    ];
+    for (text, place, message) in cases {
+        let shown = Layout::parse(&arms(&text), "one.toml").err().map(|r| (r.count(), r.to_string()));
+        let Some((1, shown)) = shown else {
+            unreachable!("expected one problem with {text}, found {shown:?}");
+        };
+        assert!(shown.contains(place) && shown.contains(message), "{place} {message}:\n{shown}");
+    }
+}
+
+/// The scenario's trajectory, end and end rates.
+const STEERED: &str = "\"quartic\"\nfinal_joint_angles = [0.5, 0.6]\nfinal_end_effector_twists = [[0, -0.1, 0]]";
+
+/// Tips on paths of their own in place of that, with one more line.
+macro_rules! steered {
+    ($line:literal) => {
+        concat!("\"quintic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]\n", $line)
+    };
+}
+
+const SCENARIO_EDITS: &[Edit] = &[
+    ("\"demo\"", "\"a demo/1\"", 1, &["`name` is \"a demo/1\"", "ASCII letters"]),
+    ("\"one_arm\"", "\"one_arms\"", 2, &["`layout` is \"one_arms\"", "did you mean `one_arm`?", ".toml"]),
+    ("\"one_arm\"", "\"nowhere/x.toml\"", 2, &["`layout` is \"nowhere/x.toml\"", "there is no file"]),
+    ("layout = \"one_arm\"\n", "", 1, &["missing key `layout`", "shipped layout's name"]),
+    ("[0.1, 0.2]", "[0.1]", 4, &["`initial.joint_angles` is [0.1]", "2 numbers", "left: 2", "found 1"]),
+    ("[0.1, 0.2]", "[40, -90]", 4, &["`initial.joint_angles[0]` is 40", "0.698", "degrees"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_pose = [1, 2]", 5, &["`initial.base_pose` is [1, 2]", "[yaw, x, y] in rad, m, m"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\njoint_rate = [0, 0]", 5, &["unknown key `initial.joint_rate`", "`joint_rates`"]),
+    ("duration = 20.0", "duration = 0", 6, &["`approach.duration` is 0", "a duration in s greater than 0"]),
+    ("duration = 20.0", "duration = 20.0\nstep = 30", 7, &["`approach.step` is 30", "longer than the duration, 20 s"]),
+    (
+        "duration = 20.0",
+        "duration = 20.0\nstep = 1e-9",
+        7,
+        &["`approach.step` is 1e-9", "2.000e10 steps", "at most 1e8"],
+    ),
+    ("duration = 20.0", "duration = 1e-3", 6, &["`approach.duration` is 1e-3", "0.005 s"]),
+    ("\"quartic\"", "\"quartik\"", 7, &["`approach.trajectory` is \"quartik\"", "did you mean `quartic`?"]),
+    (
+        "\"quartic\"",
+        "\"spline\"",
+        7,
+        &["\"spline\", expected `quartic`, `quartic_as_printed`, `cycloidal` or `quintic`"],
+    ),
+    ("\"quartic\"", "4", 7, &["`approach.trajectory` is 4, expected `quartic`"]),
+    ("\"quartic\"", "\"cycloidal\"", 9, &["`approach.final_end_effector_twists` is [[0, -0.1, 0]]", "ends at rest"]),
+    ("[[0, -0.1, 0]]", "[[0]]", 9, &["`approach.final_end_effector_twists[0]` is [0]", "[ω, vx, vy]"]),
+    ("[[0, -0.1, 0]]", "[0, -0.1, 0]", 9, &["is [0, -0.1, 0], expected 1 twists [ω, vx, vy], one per arm (left)"]),
+    (
+        "final_end_effector_twists = [[0, -0.1, 0]]\n",
+        "",
+        5,
+        &["missing key `approach.final_end_effector_twists`", "final_joint_rates"],
+    ),
+    (
+        "final_end_effector_twists",
+        "final_effector_twists",
+        9,
+        &["unknown key `approach.final_effector_twists`", "did you mean `final_end_effector_twists`?"],
+    ),
+    ("[[0, -0.1, 0]]", "[[0, 0, 0]]\nfinal_joint_rates = [0, 0]", 9, &["`final_joint_rates` is there too"]),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntracking = \"p\"",
+        8,
+        &["`approach.tracking` is \"p\", expected `pd`, `exact`, `computed_torque` or `resolved_motion_rate`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntracking = \"exact\"\nderivative_gain = 3",
+        9,
+        &["`approach.derivative_gain` is 3", "no gains"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nproportional_gain = -1",
+        8,
+        &["`approach.proportional_gain` is -1", "N m/rad of 0 or more"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntracking = \"computed_torque\"\nderivative_gain = -2",
+        9,
+        &["`approach.derivative_gain` is -2", "computed torque", "1/s of 0 or more"],
+    ),
+    ("\"quartic\"", "\"quartic\"\ntorque_limits = -2", 8, &["`approach.torque_limits` is -2", "N m of 0 or more"]),
+    ("\"quartic\"", "\"quartic\"\ntorque_limits = [1]", 8, &["`approach.torque_limits` is [1]", "2 numbers"]),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntracking = \"exact\"\ntorque_limits = 9",
+        9,
+        &["`approach.torque_limits` is 9", "whatever torque it takes", "`computed_torque`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntracking = \"exact\"\nsample_time = 1",
+        9,
+        &["`approach.sample_time` is 1", "whatever torque it takes"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nfinal_end_effector_poses = [[0, 1, 1]]",
+        8,
+        &["`approach.final_end_effector_poses[0]` is [0, 1, 1]", "fewer than three links", "[x, y]"],
+    ),
+    (
+        "20.0",
+        "20.0\ntrajectory_duration = 30",
+        7,
+        &["`approach.trajectory_duration` is 30", "at most its duration, 20 s"],
+    ),
+    ("20.0", "20.0\ntrajectory_duration = 0", 7, &["`approach.trajectory_duration` is 0", "in s greater than 0"]),
+    ("20.0", "20.0\ntrajectory_duration = 10", 7, &["is 10: the arms are to move on", "`final_joint_rates` of zeros"]),
+    (
+        STEERED,
+        steered!("trajectory_duration = 10\nfinal_end_effector_twists = [[0, 1, 0]]"),
+        10,
+        &["`approach.trajectory_duration` is 10", "`final_end_effector_twists` of zeros"],
+    ),
+    (
+        "[approach]",
+        "[limits]\njoint_angles = [1, -1]\n[approach]",
+        6,
+        &["`limits.joint_angles` is [1, -1]", "low < high"],
+    ),
+    ("[approach]", "[limits]\njoint_angles = 3\n[approach]", 6, &["is 3, expected [low, high] in rad, or a list of 2"]),
+    ("[approach]", "[limits]\njoint_angles = [[-1, 1]]\n[approach]", 6, &["2 numbers, one per joint", "found 1"]),
+    ("[approach]", "[limits]\njoint_angles = [[-1, 1], [2]]\n[approach]", 6, &["angles[1]` is [2]", "[low, high]"]),
+    ("[approach]", "[limits]\njoint_angles = [-90, 90]\n[approach]", 6, &["looks like degrees"]),
+    ("[approach]", "[limits]\njoint_rates = 0\n[approach]", 6, &["`limits.joint_rates` is 0", "rad/s greater than 0"]),
+    ("[approach]", "[limits]\njoint_rates = [1]\n[approach]", 6, &["`limits.joint_rates` is [1]", "2 numbers"]),
+    ("[approach]", "[limits]\nangles = 1\n[approach]", 6, &["`limits.angles` (1)", "`joint_angles` and `joint_rates`"]),
+    (
+        "[approach]",
+        "joint_rates = [0, 1]\n[limits]\njoint_rates = 0.5\n[approach]",
+        5,
+        &["`initial.joint_rates[1]` is 1: faster than joint 2 of left may turn, 0.5 rad/s"],
+    ),
+    (
+        "[approach]",
+        "[limits]\njoint_angles = [[0.2, 1], []]\n[approach]",
+        4,
+        &["`initial.joint_angles[0]` is 0.1: outside the limits of joint 1 of left, 0.2 to 1 rad"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\npose_gain = 2",
+        8,
+        &["`approach.pose_gain` is 2", "only `tracking = \"resolved_motion"],
+    ),
+    (
+        STEERED,
+        "\"quartic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]",
+        7,
+        &["`approach.trajectory` is \"quartic\"", "quintic paths"],
+    ),
+    (
+        STEERED,
+        "\"quintic\"\ntracking = \"resolved_motion_rate\"",
+        5,
+        &["missing key `approach.final_end_effector_poses`", "[yaw, x, y] or [x, y] per arm"],
+    ),
+    (
+        STEERED,
+        steered!("final_joint_angles = [0.5, 0.6]"),
+        10,
+        &["final_joint_angles` is [0.5, 0.6]", "tips take them"],
+    ),
+    (STEERED, steered!("final_joint_rates = [0.5, 0.6]"), 10, &["final_joint_rates` is [0.5, 0.6]", "_twists`"]),
+    (STEERED, steered!("derivative_gain = 3"), 10, &["derivative_gain` is 3", "`pose_gain` and `rate_gain`"]),
+    (STEERED, steered!("rate_gain = 0"), 10, &["rate_gain` is 0", "1/s greater than 0"]),
+    (STEERED, steered!("singularity_threshold = 1.5"), 10, &["singularity_threshold` is 1.5", "less than 1"]),
+    (
+        STEERED,
+        steered!("final_end_effector_twists = [[1, 0, 0]]"),
+        10,
+        &["twists[0]` is [1, 0, 0]", "expected [vx, vy]"],
+    ),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),
+    ("\"quartic\"", "\"quartic\"\nsample_time = 0", 8, &["`approach.sample_time` is 0", "in s greater than 0"]),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nsample_time = 0.012",
+        8,
+        &["`approach.sample_time` is 0.012", "whole number of steps of 0.005 s", "0.01 s"],
+    ),
+    ("\"quartic\"", "\"quartic\"\nsample_time = 0.001", 8, &["`approach.sample_time` is 0.001", "0.005 s for example"]),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nsample_time = 30",
+        8,
+        &["`approach.sample_time` is 30", "at most its duration, 20 s"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"rk5\"",
+        8,
+        &[
+            "`approach.integrator` is \"rk5\", expected `rk4`, `semi_implicit_euler`, `gauss_legendre` or `adaptive`",
+            "`rk4`?",
+        ],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"joints\"",
+        8,
+        &["`approach.coordinates` is \"joints\"", "`full` or `reduced`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ncoordinates = \"reduced\"\nintegrator = \"gauss_legendre\"",
+        8,
+        &["`approach.coordinates` is \"reduced\"", "keeps the momentum in full coordinates", "another integrator"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\ntolerance = 1e-9",
+        8,
+        &["`approach.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 0",
+        9,
+        &["`approach.tolerance` is 0", "a tolerance", "greater than 0"],
+    ),
+    (
+        "\"quartic\"",
+        "\"quartic\"\nintegrator = \"adaptive\"\ntolerance = 1e-16",
+        9,
+        &["`approach.tolerance` is 1e-16", "expected 1e-14 to 1e-3", "rounding"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\nintegrator = \"gauss_legendre\"\ntolerance = 1e-9",
+        26,
+        &["`post_impact.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
+    ),
+    ("\"quartic\"", "\"quartic\"\nproportional_gain = [1]", 8, &["`approach.proportional_gain` is [1]", "2 numbers"]),
+    (
+        "[0.1, 0.2]\n[approach]",
+        "[0.1, 0.2]\njoint_rates = [0, 1]\n[approach]\ntracking = \"exact\"",
+        5,
+        &["`initial.joint_rates` is [0, 1]", "starts from rest", "`tracking = \"pd\"`"],
+    ),
+    (
+        "arm = \"left\"",
+        "arm = \"lefty\"",
+        12,
+        &["`target[0].arm` is \"lefty\"", "did you mean `left`?", "layout `one_arm`"],
+    ),
+    ("radius = 0.5", "radius = 0", 16, &["`target[0].radius` is 0", "a radius in m greater than 0"]),
+    ("contact = [0.0, 0.5]\n", "", 10, &["missing key `target[0].contact`", "[rx, ry] in m"]),
+    ("radius = 0.5", "radius = 0.5\nposition = [1]", 17, &["`target[0].position` is [1]", "[x, y] in m"]),
+    ("\"still\"", "\"spin\"", 21, &["`case[1].name` is \"spin\": the same as `case[0].name`"]),
+    ("\"still\"", "\"Spin\"", 21, &["`case[1].name` is \"Spin\": the same as `case[0].name`", "upper and lower case"]),
+    ("\"still\"", "\".still\"", 21, &["`case[1].name` is \".still\"", "not `.` first"]),
+    ("{ ball =", "{ bal =", 22, &["`case[1].target_twists.bal` ([0, 0, 0])", "did you mean `ball`?"]),
+    ("{ ball = [0, 0, 0] }", "{ ball = [0, 0] }", 22, &["`case[1].target_twists.ball` is [0, 0]", "[ω, vx, vy]"]),
+    ("{ ball = [0, 0, 0] }", "[0, 0, 0]", 22, &["`case[1].target_twists` is [0, 0, 0], expected a table with `ball`"]),
+    ("[post_impact]\nduration = 50.0\n", "", 1, &["missing key `post_impact`", "`duration`, `step`"]),
+    ("duration = 50.0", "duration = 50.0\nstep = 0", 25, &["`post_impact.step` is 0", "greater than 0"]),
+    ("duration = 50.0", "duration = 50.0\ncontrol = 1", 25, &["`post_impact.control` is 1, expected `none`, `hold`"]),
+    ("duration = 50.0", "duration = 50.0\ncontrol = \"stabilize\"", 25, &["did you mean `stabilise`?"]),
+    ("duration = 50.0", "duration = 50.0\ntorque_limits = 1", 25, &["`post_impact.torque_limits` is 1", "no torques"]),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"hold\"\nbase_torque_limit = 1",
+        26,
+        &["`post_impact.base_torque_limit` is 1", "only `control = \"stabilise\"`"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"damping\"\nproportional_gain = 1",
+        26,
+        &["`post_impact.proportional_gain` is 1", "derivative_gain alone"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nproportional_gain = 1",
+        26,
+        &["`post_impact.proportional_gain` is 1", "wants no angles"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nbase_torque_limit = -1",
+        26,
+        &["`post_impact.base_torque_limit` is -1", "in N m of 0 or more"],
+    ),
+    (
+        "duration = 50.0",
+        "duration = 50.0\ncontrol = \"stabilise\"\nsample_time = 0.012",
+        26,
+        &["`post_impact.sample_time` is 0.012", "whole number of steps"],
+    ),
+    ("[post_impact]", "[post_imapct]", 23, &["unknown key `post_imapct` (a table)", "did you mean `post_impact`?"]),
+];
+
+#[test]
+fn broken_scenarios() {
+    check(SCENARIO, "demo.toml", SCENARIO_EDITS, scenario);
+}
+
+#[test]
+fn an_arm_captures_one_target() {
+    let start = SCENARIO.find("[[target]]").unwrap_or(0);
+    let end = SCENARIO.find("[[case]]").unwrap_or(0);
+    let (target, cases) = (&SCENARIO[start..end], &SCENARIO[end..]);
+    let second = target.replace("ball", "box");
+    let text = format!("{}{second}{cases}", &SCENARIO[..end]);
+    let shown = scenario(&text).err().map(|report| report.to_string()).unwrap_or_default();
+    assert!(shown.contains("`target[1].arm` is \"left\": the same as `target[0].arm`"), "{shown}");
+    assert!(shown.contains("demo.toml:20:7") && shown.contains("at most one target"), "{shown}");
+}
+
+/// Where targets share a name, or one has none, nothing can be said of what the cases say of them.
+#[test]
+fn target_names_are_complained_of_once() {
+    let start = SCENARIO.find("[[target]]").unwrap_or(0);
+    let end = SCENARIO.find("[[case]]").unwrap_or(0);
+    let (target, cases) = (&SCENARIO[start..end], SCENARIO[end..].replace("{ ball =", "{ box ="));
+    let second = target.replace("\"left\"", "\"right\"");
+    let right = LAYOUT[LAYOUT.find("[[arm]]").unwrap_or(0)..].replace("\"left\"", "\"right\"");
+    let layout = format!("{LAYOUT}{right}");
+    let head = SCENARIO[..end].replace("0.2]", "0.2, 0, 0]").replace("0.6]", "0.6, 0, 0]");
+    let head = head.replace("[[0, -0.1, 0]]", "[[0, -0.1, 0], [0, 0, 0]]");
+    let report = |text: &str| {
+        let report = Scenario::parse(text, "demo.toml", Path::new(""), &[("one_arm", &layout)]).err();
+        report.map(|report| (report.count(), report.to_string())).unwrap_or_default()
+    };
+    let (count, shown) = report(&format!("{head}{second}{cases}"));
+    assert_eq!(count, 1, "{shown}");
+    assert!(shown.contains("`target[1].name` is \"ball\": the same as `target[0].name`"), "{shown}");
+    let (count, shown) = report(&format!("{}{cases}", head.replace("name = \"ball\"", "nmae = \"ball\"")));
+    assert_eq!(count, 1, "{shown}");
+    assert!(shown.contains("did you mean `name`?"), "{shown}");
+}
+
+#[test]
+fn without_targets_there_is_nothing_to_capture() {
+    let end = SCENARIO.find("[[target]]").unwrap_or(0);
+    let alone = &SCENARIO[..end];
+    let text = format!("{alone}[[case]]\nname = \"a\"\n[post_impact]\nduration = 1\n");
+    let shown = scenario(&text).err().map(|report| report.to_string()).unwrap_or_default();
+    assert!(shown.contains("demo.toml:10:1") && shown.contains("without a `[[target]]`"), "{shown}");
+    assert!(shown.contains("demo.toml:12:1") && shown.contains("`post_impact` is a table"), "{shown}");
+    let alone = scenario(alone);
+    assert!(matches!(&alone, Ok(s) if s.cases.len() == 1 && s.cases[0].name == "demo"), "{alone:?}");
+    assert!(matches!(&alone, Ok(s) if s.post_impact.is_none() && s.targets.is_empty()));
+}
+
+#[test]
+fn problems_are_reported_together_in_order() {
+    let text = LAYOUT.replacen("500.0", "-1", 1).replacen("83.61", "inf", 1).replacen("\"left\"", "7", 1).replacen(
+        "length = 1.0",
+        "lenght = 1.0",
+        1,
+    );
+    let report = Layout::parse(&text, "one.toml").err();
+    assert_eq!(report.as_ref().map(Report::count), Some(4));
+    let shown = report.map(|report| report.to_string()).unwrap_or_default();
+    let lines = [3, 4, 6, 9].map(|line| shown.find(&format!("one.toml:{line}:")));
+    assert!(lines.iter().all(Option::is_some) && lines.is_sorted(), "{shown}");
+}
+
+#[test]
+fn long_reports_are_cut_to_a_screen() {
+    let lines: Vec<_> = (0..30).map(|i| format!("key{i} = {i}\n")).collect();
+    let report = Layout::parse(&lines.concat(), "many.toml").err();
+    assert_eq!(report.as_ref().map(Report::count), Some(33));
+    let shown = report.map(|report| report.to_string()).unwrap_or_default();
+    assert!(shown.ends_with("... and 25 more problems"), "{shown}");
+    assert!(shown.lines().count() < 80, "{shown}");
+}
+
+#[test]
+fn syntax_errors_are_shown_once_per_line() {
+    let text = "name = \"a\nmass = [1, 2\ninertia == 3\nb = 1 kg\n";
+    let shown = Layout::parse(text, "s.toml").err().map(|r| r.to_string()).unwrap_or_default();
+    let places: Vec<_> = shown.lines().filter_map(|line| line.trim().strip_prefix("--> s.toml:")).collect();
+    let lines: HashSet<_> = places.iter().filter_map(|place| place.split(':').next()).collect();
+    assert!(places.len() > 1 && places.len() == lines.len(), "{shown}");
+}
+
+#[test]
+fn unreadable_files() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = |name: &str| folder.path().join(name);
+    let report = |path: &Path| Layout::read(path).err().map(|r| r.to_string()).unwrap_or_default();
+    fs::write(file("dual_arm.toml"), LAYOUT)?;
+    fs::write(file("latin.toml"), b"# ok\nname = \"caf\xe9\"\n")?;
+    fs::write(file("huge.toml"), vec![b'#'; (16 << 20) + 1])?;
+    fs::write(file("empty.toml"), "")?;
+
+    let shown = report(&file("dual_arms.toml"));
+    assert!(shown.contains("there is no file `") && shown.contains("dual_arms.toml"), "{shown}");
+    assert!(shown.contains("did you mean `") && shown.contains("dual_arm.toml`?"), "{shown}");
+    let shown = report(&file("dual_arm"));
+    assert!(shown.contains("dual_arm.toml`?"), "{shown}");
+    let shown = report(&file("no/such.toml"));
+    assert!(shown.contains("there is no directory"), "{shown}");
+    let shown = report(folder.path());
+    assert!(shown.contains("is a directory") && shown.contains("dual_arm.toml"), "{shown}");
+    let shown = report(&file("latin.toml"));
+    assert!(shown.contains("latin.toml:2:12: byte 0xe9 is not UTF-8"), "{shown}");
+    let shown = report(&file("huge.toml"));
+    assert!(shown.contains("larger than 16 MiB"), "{shown}");
+    let shown = report(&file("empty.toml"));
+    assert!(shown.contains("missing key `name`") && shown.contains("`base`"), "{shown}");
+    Ok(())
+}
+
+#[test]
+fn a_broken_layout_shows_its_own_place_and_the_scenario_is_still_checked() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    fs::create_dir(folder.path().join("scenarios"))?;
+    fs::write(folder.path().join("arm.toml"), LAYOUT.replacen("500.0", "0", 1))?;
+    let path = folder.path().join("scenarios/demo.toml");
+    let text = SCENARIO.replacen("\"one_arm\"", "\"../arm.toml\"", 1);
+    fs::write(&path, text.replacen("radius = 0.5", "radius = -1", 1))?;
+    let shown = Scenario::read(&path, &[]).err().map(|r| r.to_string()).unwrap_or_default();
+    assert!(shown.contains("arm.toml:3:8") && shown.contains("`base.mass` is 0"), "{shown}");
+    assert!(shown.contains("demo.toml:16:10") && shown.contains("`target[0].radius`"), "{shown}");
+
+    fs::write(folder.path().join("arm.toml"), LAYOUT)?;
+    fs::write(&path, text)?;
+    assert_eq!(Scenario::read(&path, &[])?.layout, Layout::parse(LAYOUT, "")?);
+
+    let shown = scenario(&SCENARIO.replacen("one_arm", "broken", 1)).err().map(|r| r.to_string());
+    let shown = shown.unwrap_or_default();
+    assert!(shown.contains("broken.toml (shipped):4:11"), "{shown}");
+    Ok(())
+}
+
+#[test]
+fn colour_only_where_asked_for() {
+    let report = Layout::parse("name = 5", "one.toml").err();
+    let (plain, styled) = report.map(|r| (r.render(false), r.render(true))).unwrap_or_default();
+    assert!(!plain.is_empty() && !plain.contains('\u{1b}') && styled.contains('\u{1b}'));
+    let report = Layout::parse("\"a\u{9b}\\u001b[31mb\" = 5", "\u{1b}one.toml").err();
+    let shown = report.map(|r| r.to_string()).unwrap_or_default();
+    assert!(!shown.is_empty() && !shown.contains('\u{1b}') && !shown.contains('\u{9b}'), "{shown}");
+}
+
+#[test]
+fn valid_files() -> Outcome {
+    let layout = Layout::parse(LAYOUT, "one.toml")?;
+    assert_eq!((layout.joints(), layout.arms[0].links[1].com), (2, [0.5, 0.0]));
+    let windows = format!("\u{feff}{}", LAYOUT.replace('\n', "\r\n"));
+    assert_eq!(Layout::parse(&windows, "one.toml")?, layout);
+    let wheel = LAYOUT.replacen("length = 1.0", "length = 0x0\ncom = [0, -0.0]", 1);
+    assert_eq!(Layout::parse(&wheel, "one.toml")?.arms[0].links[0].length.to_bits(), 0);
+
+    let demo = scenario(SCENARIO)?;
+    assert_eq!(demo.approach.trajectory, TrajectoryKind::Quartic);
+    assert_eq!(demo.approach.end, EndRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0].map(Some)]));
+    assert_eq!((demo.approach.duration, demo.approach.step), (20.0, 0.005));
+    let gains = (vec![49.0, 49.0], vec![14.0, 14.0]);
+    let tracking =
+        |(proportional_gain, derivative_gain)| Tracking::ProportionalDerivative { proportional_gain, derivative_gain };
+    assert_eq!(demo.approach.tracking, tracking(gains));
+    assert_eq!(demo.initial.joint_rates, [0.0, 0.0]);
+    let cases: Vec<_> = demo.cases.iter().map(|c| (c.name.as_str(), c.target_twists[0])).collect();
+    assert_eq!(cases, [("spin", [0.2, 0.0, 0.0]), ("still", [0.0; 3])]);
+
+    let text = SCENARIO
+        .replacen("\"quartic\"", "\"cycloidal\"\nproportional_gain = [1, 2]\nderivative_gain = 0", 1)
+        .replacen("final_end_effector_twists = [[0, -0.1, 0]]\n", "", 1)
+        .replacen(
+            "[[case]]\nname = \"spin\"\n[[case]]\nname = \"still\"\ntarget_twists = { ball = [0, 0, 0] }\n",
+            "",
+            1,
+        );
+    let demo = scenario(&text)?;
+    assert_eq!(demo.approach.end, EndRates::Rest);
+    assert_eq!(demo.approach.tracking, tracking((vec![1.0, 2.0], vec![0.0, 0.0])));
+    assert_eq!((demo.cases.len(), demo.cases[0].name.as_str()), (1, "demo"));
+    assert_eq!(demo.cases[0].target_twists, [[0.2, 0.0, 0.0]]);
+    Ok(())
+}
+
+#[test]
+fn the_hash_is_of_the_content() -> Outcome {
+    let text = include_str!("../../codegen/layouts/dual_arm_3r.toml");
+    let hash = Layout::parse(text, "dual_arm_3r.toml")?.sha256();
+    // Computed in Python, from the format's description, with struct and hashlib.
+    assert_eq!(hash, "a6de99dfde7250247e3fa7445a3d9dac7f06c957d7e3dcdf03a478002ed876bf");
+    let same = [
+        text.replace("10.0", "1e1").replace("[0.5, 0.0]", "[0.5, -0.0]"),
+        text.replace("length = 1.0", "length = 1 # m\ncom = [0.5, 0]"),
+        text.replace("name = \"arm1\"", "name = 'arm1'\nmount_angle = -0.0"),
+    ];
+    for same in same {
+        assert_eq!(Layout::parse(&same, "same.toml")?.sha256(), hash);
+    }
+    let other = text.replace("83.61", "83.61000000000001");
+    assert_ne!(Layout::parse(&other, "other.toml")?.sha256(), hash);
+    Ok(())
+}
+
+/// Every cut and every one-character edit of the valid files is read or reported, never a panic.
+#[test]
+fn any_edit_is_read_or_reported() {
+    let check = |text: &str| {
+        let reports = [Layout::parse(text, "x.toml").err(), scenario(text).err()];
+        for report in reports.into_iter().flatten() {
+            assert!(report.count() > 0 && !report.render(true).is_empty());
+        }
+    };
+    for text in [LAYOUT, SCENARIO] {
+        for at in 0..text.len() {
+            check(&text[..at]);
+            for edit in ["", "[", "]", "\"", "{", "=", "-", "\n", "é", "\t", "\0", "\r", "\u{202e}"] {
+                check(&format!("{}{edit}{}", &text[..at], &text[at + 1..]));
+            }
+        }
+    }
+}
+
+#[test]
+fn suggestions() {
+    assert_eq!(nearest("inertai", ["mass", "inertia"]), Some("inertia"));
+    assert_eq!(nearest("Mass", ["mass", "inertia"]), Some("mass"));
+    assert_eq!(nearest("colour", ["mass", "inertia"]), None);
+}
+
+/// Two arms on one target, in two cases.
+const CONTACTS: &str = r#"name = "demo"
+layout = "two_arms"
+[initial]
+joint_angles = [0.1, 0.2, 0.1, 0.2]
+[approach]
+duration = 20.0
+trajectory = "cycloidal"
+final_joint_angles = [0.5, 0.6, 0.5, 0.6]
+[contact]
+detection = "time"
+duration = 0.05
+[[target]]
+name = "panel"
+arm = ["left", "right"]
+kind = ["rigid", "pin"]
+mass = 10.0
+inertia = 1.0
+contact = [[0.5, 0.2], [-0.5, 0.2]]
+polygon = [[-1.0, -0.2], [1.0, -0.2], [1.0, 0.2], [-1.0, 0.2]]
+restitution = 0.5
+[[case]]
+name = "as_it_is"
+[[case]]
+name = "other"
+kinds = { panel = ["pin", "bounce"] }
+restitutions = { panel = 0.9 }
+[post_impact]
+duration = 50.0
+"#;
+
+fn two_arms() -> String {
+    let right = LAYOUT[LAYOUT.find("[[arm]]").unwrap_or(0)..].replace("\"left\"", "\"right\"");
+    LAYOUT.replace("\"one_arm\"", "\"two_arms\"") + &right
+}
+
+/// The target's outline.
+const OUTLINE: &str = "[[-1.0, -0.2], [1.0, -0.2], [1.0, 0.2], [-1.0, 0.2]]";
+const BOTH_ARMS: &str = "[\"left\", \"right\"]";
+const POINTS: &str = "[[0.5, 0.2], [-0.5, 0.2]]";
+
+/// One more target before the cases, of this arm.
+macro_rules! with_ball {
+    ($arm:literal) => {
+        concat!(
+            "[[target]]\nname = \"ball\"\narm = ",
+            $arm,
+            "\nmass = 1\ninertia = 1\nradius = 1\ncontact = [1, 0]\n[[case]]"
+        )
+    };
+}
+
+const CONTACT_EDITS: &[Edit] = &[
+    ("\"time\"", "\"events\"", 10, &["`contact.detection` is \"events\", expected `time` or `event`", "mean `event`?"]),
+    ("\"time\"", "true", 10, &["`contact.detection` is true, expected `time` or `event`"]),
+    (
+        "duration = 0.05",
+        "duration = 0",
+        11,
+        &["`contact.duration` is 0, expected the duration of a contact in s", "than 0"],
+    ),
+    ("duration = 0.05", "duraton = 1", 11, &["`contact.duraton` (1)", "did you mean `duration`?"]),
+    ("[contact]", "[[contact]]", 9, &["`contact` is a list of tables", "write `[contact]`"]),
+    (BOTH_ARMS, "[\"left\", \"rihgt\"]", 14, &["`target[0].arm[1]` is \"rihgt\", expected `left`", "mean `right`?"]),
+    (BOTH_ARMS, "[\"left\", \"left\"]", 14, &["`target[0].arm` is [\"left\", \"left\"]", "different arms"]),
+    (BOTH_ARMS, "[]", 14, &["`target[0].arm` is []", "expected the names of one arm or more"]),
+    (BOTH_ARMS, "2", 14, &["`target[0].arm` is 2, expected `left` or `right`", "arms of the layout `two_arms`"]),
+    (BOTH_ARMS, "[1, \"left\"]", 14, &["`target[0].arm[0]` is 1, expected `left` or `right`"]),
+    (
+        "[[case]]",
+        with_ball!("\"right\""),
+        23,
+        &["`target[1].arm` is \"right\": `right` is in `target[0].arm`", "one target"],
+    ),
+    ("[[case]]", with_ball!("[\"left\"]"), 23, &["`target[1].arm` is [\"left\"]: `left` is in `target[0].arm`"]),
+    (
+        "[\"rigid\", \"pin\"]",
+        "\"rigd\"",
+        15,
+        &["`target[0].kind` is \"rigd\", expected `rigid`, `pin`", "mean `rigid`?"],
+    ),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\"]", 15, &["`target[0].kind` is [\"rigid\"]", "each of the 2 arms", "found 1"]),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\", 4]", 15, &["`target[0].kind[1]` is 4, expected `rigid`, `pin`, `bounce` or"]),
+    ("[\"rigid\", \"pin\"]", "[\"rigid\", \"weld\"]", 15, &["`target[0].kind[1]` is \"weld\", expected `rigid`"]),
+    (
+        POINTS,
+        "[0.5, 0.2]",
+        18,
+        &["`target[0].contact` is [0.5, 0.2]", "[rx, ry] in m for each of the 2 arms", "found 1"],
+    ),
+    (POINTS, "[[0.5, 0.2]]", 18, &["`target[0].contact` is [[0.5, 0.2]]", "each of the 2 arms", "found 1"]),
+    (POINTS, "[]", 18, &["`target[0].contact` is []", "[rx, ry] in m for each of the 2 arms", "found 0"]),
+    (POINTS, "[[0.5, 0.2], [-0.5]]", 18, &["`target[0].contact[1]` is [-0.5], expected [rx, ry] in m"]),
+    (POINTS, "[[0.5, 0.2], 3]", 18, &["`target[0].contact[1]` is 3, expected [rx, ry] in m"]),
+    (POINTS, "[3, [0.5, 0.2]]", 18, &["`target[0].contact[0]` is 3, expected [rx, ry] in m"]),
+    (POINTS, "0.5", 18, &["`target[0].contact` is 0.5, expected [rx, ry] in m, or a list of those, one per arm"]),
+    ("contact = [[0.5, 0.2], [-0.5, 0.2]]\n", "", 12, &["missing key `target[0].contact`", "one per arm"]),
+    (
+        "polygon =",
+        "radius = 1.0\npolygon =",
+        20,
+        &["`target[0].polygon` is", "`radius` is there too, expected one of the two"],
+    ),
+    ("polygon =", "poligon =", 19, &["unknown key `target[0].poligon`", "did you mean `polygon`?"]),
+    (OUTLINE, "1.0", 19, &["`target[0].polygon` is 1.0, expected a list of corners [x, y] in m", "COM at the origin"]),
+    (OUTLINE, "[[-1, 0], [1, 0]]", 19, &["`target[0].polygon` is [[-1, 0], [1, 0]]", "three corners or more, found 2"]),
+    (OUTLINE, "[[-1, 0], [1, 0], [0, 0]]", 19, &["encloses nothing", "not all on a line"]),
+    (OUTLINE, "[[-1, -1], [1, 1], [1, -1], [-1, 1]]", 19, &["edges 1 and 3", "expected corners in their order"]),
+    (OUTLINE, "[[-1, 0], [1, 1], [1]]", 19, &["`target[0].polygon[2]` is [1], expected [x, y] in m"]),
+    (OUTLINE, "[[0, 0], [2, 0], [2, 1], [0, 1]]", 19, &["the COM", "is outside, expected corners around [0, 0]"]),
+    ("restitution = 0.5", "restitution = 1.5", 20, &["`target[0].restitution` is 1.5", "0 (nothing comes back) to 1"]),
+    (
+        "restitution = 0.5",
+        "restitution = -0.5",
+        20,
+        &["`target[0].restitution` is -0.5", "0 (nothing comes back) to 1"],
+    ),
+    ("restitution = 0.5", "restitution = nan", 20, &["`target[0].restitution` is nan", "finite"]),
+    ("restitution = 0.5", "restitution = \"half\"", 20, &["is \"half\", expected a restitution", "without quotes"]),
+    ("restitution = 0.5", "yaw = 90", 20, &["`target[0].yaw` is 90", "looks like degrees"]),
+    ("restitution = 0.5", "position = [1]", 20, &["`target[0].position` is [1], expected [x, y] in m"]),
+    (
+        "[\"pin\", \"bounce\"]",
+        "[\"pin\"]",
+        25,
+        &["`case[1].kinds.panel` is [\"pin\"]", "each of the 2 arms", "found 1"],
+    ),
+    ("[\"pin\", \"bounce\"]", "\"bouncy\"", 25, &["`case[1].kinds.panel` is \"bouncy\"", "did you mean `bounce`?"]),
+    ("[\"pin\", \"bounce\"]", "[\"pin\", 1]", 25, &["`case[1].kinds.panel[1]` is 1, expected `rigid`"]),
+    (
+        "{ panel = [\"pin\", \"bounce\"] }",
+        "\"pin\"",
+        25,
+        &["`case[1].kinds` is \"pin\", expected a table with `panel`"],
+    ),
+    // the restitution beside it needs the bounce
+    ("{ panel = [", "{ pannel = \"pin\", panel = [", 25, &["`case[1].kinds.pannel`", "mean `panel`?"]),
+    ("{ panel = 0.9 }", "{ panel = 9 }", 26, &["`case[1].restitutions.panel` is 9, expected a restitution"]),
+    ("{ panel = 0.9 }", "0.9", 26, &["`case[1].restitutions` is 0.9, expected a table with `panel`"]),
+    ("{ panel = 0.9 }", "{ pane = 0.9 }", 26, &["`case[1].restitutions.pane` (0.9)", "did you mean `panel`?"]),
+    ("restitutions", "restitution", 26, &["`case[1].restitution`", "did you mean `restitutions`?"]),
+];
+
+/// Where contacts are found by detection.
+const DETECTION_EDITS: &[Edit] = &[
+    ("position = [3, 0]\n", "", 12, &["missing key `target[0].position`", "[x, y] of its COM at the start in m"]),
+    ("[3, 0]", "3", 18, &["`target[0].position` is 3, expected [x, y] in m"]),
+    (
+        "[3, 0]",
+        "[3, 0]\ncontact = [1, 0]",
+        19,
+        &["`target[0].contact` is [1, 0]", "`contact.detection`", "no such key"],
+    ),
+];
+
+#[test]
+fn broken_contacts() {
+    let layout = two_arms();
+    let parse = |text: &str| Scenario::parse(text, "demo.toml", Path::new(""), &[("two_arms", &layout)]);
+    let valid = parse(CONTACTS).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(valid.cases[1].restitutions, [0.9]);
+    check(CONTACTS, "demo.toml", CONTACT_EDITS, parse);
+    let detected =
+        CONTACTS.replace("\"time\"", "\"event\"").replace(&format!("contact = {POINTS}"), "position = [3, 0]");
+    let valid = parse(&detected).unwrap_or_else(|report| panic!("{report}"));
+    assert_eq!(valid.targets[0].position, Some([3.0, 0.0]));
+    check(&detected, "demo.toml", DETECTION_EDITS, parse);
+
+    // two problems, as both lists are too long; and a key that neither outline has
+    let report = |text: &str| parse(text).err().map(|r| (r.count(), r.to_string())).unwrap_or_default();
+    let (count, shown) = report(&CONTACTS.replace(BOTH_ARMS, "\"left\""));
+    assert!(count == 2 && shown.matches("for the one arm that touches it, found 2").count() == 2, "{shown}");
+    let (count, shown) = report(&CONTACTS.replace(&format!("polygon = {OUTLINE}\n"), ""));
+    assert!(count == 1 && shown.contains("missing key `target[0].radius`"), "{shown}");
+    assert!(shown.contains("demo.toml:12:1") && shown.contains("the corners of a `polygon`"), "{shown}");
+
+    // restitution where nothing bounces: of the target in no case, or in a case of its own
+    let held = CONTACTS.replace("\"pin\", \"bounce\"", "\"pin\", \"rigid\"");
+    let (count, shown) = report(&held);
+    assert!(count == 1 && shown.contains("`case[1].restitutions.panel` is 0.9: no contact"), "{shown}");
+    let (count, shown) = report(&held.replace("restitutions = { panel = 0.9 }\n", ""));
+    assert!(count == 1 && shown.contains("demo.toml:20:15") && shown.contains("is 0.5: no contact"), "{shown}");
+    // reduced coordinates where a target stays beside the robot
+    let reduced = format!("{CONTACTS}coordinates = \"reduced\"\n");
+    let (count, shown) = report(&reduced);
+    assert!(count == 1 && shown.contains("`post_impact.coordinates` is \"reduced\""), "{shown}");
+
+    // a disc has no outward normal at its COM, for the target's own kind or a case's
+    let disc = CONTACTS.replace(&format!("polygon = {OUTLINE}"), "radius = 0.6");
+    let at_com = disc.replace(POINTS, "[[0.5, 0.2], [0.0, 0.0]]");
+    for (text, line, key) in [
+        (at_com.replace("\"rigid\", \"pin\"", "\"rigid\", \"bounce\""), 18, "target[0].contact"),
+        (at_com, 25, "case[1].kinds.panel"),
+    ] {
+        let (count, shown) = report(&text);
+        let place = format!("demo.toml:{line}:");
+        assert!(count == 1 && shown.contains(&place) && shown.contains(key), "{shown}");
+        assert!(shown.contains("no outward normal"), "{shown}");
+    }
+}

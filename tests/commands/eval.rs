@@ -1,0 +1,210 @@
+//! `planar-capture eval`: its numbers against Pinocchio's, and what it says of states that are wrong.
+
+use assert_cmd::Command;
+use planar_proof::tolerance;
+use serde_json::{Map, Value, json};
+use std::f64::consts::TAU;
+
+fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String) {
+    let mut command = Command::cargo_bin("planar-capture").expect("the binary is built");
+    let output =
+        command.args(["eval", layout, "-", "--dynamics", dynamics]).write_stdin(states).output().expect("runs");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let results = if text.is_empty() { Vec::new() } else { serde_json::from_str(&text).expect("a JSON array") };
+    (output.status.code().expect("an exit code"), results, String::from_utf8(output.stderr).expect("UTF-8"))
+}
+
+/// The reference's states, without what is expected of them, and that.
+fn reference() -> (Vec<Value>, Vec<Value>) {
+    let mut reference = planar_proof::json("tests/reference/pinocchio_dual_arm_3r.json");
+    let states = reference["states"].as_array_mut().expect("an array").iter_mut();
+    states
+        .map(|state| {
+            let state = state.as_object_mut().expect("an object");
+            let expected = state.shift_remove("expect").expect("what is expected");
+            (Value::Object(state.clone()), expected)
+        })
+        .unzip()
+}
+
+/// Largest error over the largest entry; the shape must be the same, and so must `null`s.
+fn error(found: &Value, expected: &Value, yaws: bool) -> f64 {
+    fn walk(found: &Value, expected: &Value, yaw: bool, worst: &mut [f64; 2]) {
+        if let (Value::Array(found), Value::Array(expected)) = (found, expected) {
+            assert_eq!(found.len(), expected.len());
+            for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+                walk(found, expected, yaw && i == 0, worst);
+            }
+        } else if let (Some(found), Some(expected)) = (found.as_f64(), expected.as_f64()) {
+            let turns = if yaw { ((found - expected) / TAU).round() } else { 0.0 };
+            worst[0] = worst[0].max((found - expected - turns * TAU).abs());
+            worst[1] = worst[1].max(expected.abs());
+        } else {
+            assert!(found.is_null() && expected.is_null(), "{found} is not {expected}");
+        }
+    }
+    let mut worst = [0.0; 2];
+    if yaws {
+        for (found, expected) in found.as_array().expect("poses").iter().zip(expected.as_array().expect("poses")) {
+            walk(found, expected, true, &mut worst);
+        }
+    } else {
+        walk(found, expected, false, &mut worst);
+    }
+    if worst[0] == 0.0 { 0.0 } else { worst[0] / worst[1] }
+}
+
+/// Every quantity by name, those of the impact as `impact.G`.
+fn quantities(result: &Value) -> Map<String, Value> {
+    let mut all = Map::new();
+    for (key, value) in result.as_object().expect("an object") {
+        match value {
+            Value::Object(block) => all.extend(block.iter().map(|(k, v)| (format!("{key}.{k}"), v.clone()))),
+            value => drop(all.insert(key.clone(), value.clone())),
+        }
+    }
+    all
+}
+
+#[test]
+fn both_implementations_agree_with_pinocchio() {
+    let (states, expected) = reference();
+    assert_eq!(states.len(), 16);
+    let with_targets = expected.iter().filter(|e| e.get("capture").is_some()).count();
+    assert_eq!(with_targets, 14);
+    for dynamics in ["generated", "generic"] {
+        let (code, results, problems) = eval("dual_arm_3r", &Value::from(states.clone()).to_string(), dynamics);
+        assert_eq!((code, problems.as_str(), results.len()), (0, "", states.len()));
+        for (index, (result, expected)) in results.iter().zip(&expected).enumerate() {
+            let (found, expected) = (quantities(result), quantities(expected));
+            assert!(found.keys().eq(expected.keys()), "the keys, in the order of the contract: {:?}", found.keys());
+            for ((name, found), expected) in found.iter().zip(expected.values()) {
+                let error = error(found, expected, name == "end_effector_poses");
+                assert!(error <= tolerance::PINOCCHIO, "{dynamics}, state {index}: {name} is off by {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn missing_forces_are_zero_and_targets_are_optional() {
+    let state =
+        json!({"base_pose": [0, 0, 0], "joint_angles": [1, 2, 3], "base_twist": [0, 0, 0], "joint_rates": [0, 0, 0]});
+    let mut written = state.clone();
+    written["joint_torques"] = json!([0, 0, 0]);
+    written["base_wrench"] = json!([0, 0, 0]);
+    written["end_effector_wrenches"] = json!([[0, 0, 0]]);
+    written["targets"] = json!([null]);
+    let (code, results, problems) = eval("single_arm_3r", &json!([state, written]).to_string(), "generated");
+    assert_eq!((code, problems.as_str()), (0, ""));
+    assert_eq!(results[0], results[1]);
+    assert_eq!(results[0]["joint_accelerations"], json!([0.0, 0.0, 0.0]));
+    assert!(results[0].get("impact").is_none() && results[0].get("capture").is_none());
+}
+
+#[test]
+fn numbers_round_trip() {
+    let (states, _) = reference();
+    let (_, results, _) = eval("dual_arm_3r", &json!([states[0]]).to_string(), "generated");
+    let again: Value = serde_json::from_str(&results[0].to_string()).expect("JSON");
+    assert_eq!(again, results[0]);
+}
+
+#[test]
+fn no_states_give_no_results() {
+    assert_eq!(eval("dual_arm_3r", " [ ]\n", "generated"), (0, Vec::new(), String::new()));
+}
+
+/// Two good states, then one that `change` spoils: exit code 2, two results, and what is said.
+fn complaint(change: impl FnOnce(&mut Value)) -> String {
+    let (states, _) = reference();
+    let mut bad = states[2].clone();
+    change(&mut bad);
+    let (code, results, problem) = eval("dual_arm_3r", &json!([states[2], states[3], bad]).to_string(), "generated");
+    assert_eq!((code, results.len()), (2, 2), "{problem}");
+    assert!(problem.starts_with("error: standard input: "), "{problem}");
+    assert!(problem.contains("state 2: "), "{problem}");
+    problem
+}
+
+#[test]
+fn a_bad_state_is_named_with_key_value_and_what_would_be_right() {
+    let said = |change: &dyn Fn(&mut Value)| complaint(|state| change(state));
+    let holds = |text: String, parts: &[&str]| {
+        for part in parts {
+            assert!(text.contains(part), "`{part}` is not in: {text}");
+        }
+    };
+    holds(said(&|s| s["joint_angles"] = json!([1, 2])), &["`joint_angles` is [1,2]", "expected 6 numbers", "it has 2"]);
+    holds(
+        said(&|s| s["joint_angels"] = json!([1])),
+        &["unknown key `joint_angels` ([1])", "did you mean `joint_angles`"],
+    );
+    holds(said(&|s| s["expect"] = json!(1)), &["unknown key `expect`", "`end_effector_wrenches` and `targets`"]);
+    holds(said(&|s| s["base_pose"] = json!([0, "x", 0])), &["`base_pose[1]` is \"x\"", "expected a number"]);
+    holds(said(&|s| s["base_twist"] = Value::Null), &["`base_twist` is null", "[ω, vx, vy] in rad/s, m/s, m/s"]);
+    holds(said(&|s| drop(s.as_object_mut().map(|s| s.remove("joint_rates")))), &["missing key `joint_rates`"]);
+    holds(said(&|s| s["targets"] = json!([null])), &["expected 2 targets, one per arm", "it has 1"]);
+    holds(said(&|s| s["targets"][1]["mass"] = json!(0)), &["`targets[1].mass` is 0", "greater than 0"]);
+    holds(said(&|s| s["targets"][1]["inertia"] = json!(-1)), &["`targets[1].inertia` is -1", "greater than 0"]);
+    holds(said(&|s| s["targets"][0]["contact"] = json!([1])), &["`targets[0].contact` is [1]", "[rx, ry] in m"]);
+    holds(
+        said(&|s| s["targets"][0]["spin"] = json!(1)),
+        &["unknown key `targets[0].spin` (1)", "`contact` and `twist`"],
+    );
+    holds(said(&|s| s["joint_rates"] = json!([1e200, 0, 0, 0, 0, 0])), &["= inf is not a finite number"]);
+}
+
+#[test]
+fn text_that_is_no_array_of_states_is_an_error_with_its_line() {
+    let (states, _) = reference();
+    let good = states[0].to_string();
+    let cases = [
+        (String::new(), 0, "line 1: expected an array of states"),
+        ("{}".to_owned(), 0, "line 1: expected an array of states, `[{…}, …]`, but found `{`"),
+        ("[1]".to_owned(), 0, "state 0: the state is 1, expected an object"),
+        (format!("[{good},\n]"), 1, "line 2: state 1: expected a state, `{…}`, but found `]`"),
+        (format!("[{good}\n{good}]"), 0, "state 0: not JSON: trailing characters"),
+        (format!("[{good}"), 0, "state 0: expected the end of this state"),
+        (format!("[{good}]\n\nx"), 1, "line 3: expected nothing after the array, but found `x`"),
+        (
+            format!("[\n{}]", good.replace("\"joint_torques\":[", "\"joint_torques\":[1e999,")),
+            0,
+            "line 2: state 0: `joint_torques[0]` is 1e999, expected a finite number",
+        ),
+        (
+            good.replace("{\"base_pose\"", "[{\"base_pose\":[0,0,0],\"base_pose\"") + "]",
+            0,
+            "`base_pose` is given twice",
+        ),
+        (format!("[{good},{}", "[".repeat(100_000)), 1, "state 1: expected the end of this state"),
+    ];
+    for (text, count, said) in cases {
+        let (code, results, problem) = eval("dual_arm_3r", &text, "generated");
+        assert_eq!((code, results.len()), (2, count), "{problem}");
+        assert!(problem.contains(said), "`{said}` is not in: {problem}");
+    }
+}
+
+#[test]
+fn a_layout_without_generated_code_is_an_error_that_says_what_to_do() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join("one_link.toml");
+    let text = "name = \"one_link\"\n[base]\nmass = 5\ninertia = 2\n[[arm]]\nname = \"a\"\nmount = [0, 1]\n\
+                [[arm.link]]\nlength = 1\nmass = 1\ninertia = 1\n";
+    std::fs::write(&path, text).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let state = json!([{"base_pose": [0, 0, 0], "joint_angles": [0], "base_twist": [0, 0, 0], "joint_rates": [1]}]);
+    let (code, results, problem) = eval(path, &state.to_string(), "generated");
+    assert_eq!((code, results.len()), (2, 0));
+    for part in ["one_link", "python3 -m codegen", "--dynamics generic"] {
+        assert!(problem.contains(part), "{problem}");
+    }
+    let (code, results, problem) = eval(path, &state.to_string(), "generic");
+    assert_eq!((code, results.len(), problem.as_str()), (0, 1, ""));
+    // a 1 kg link turning at 1 rad/s about its end: T = ½ (I + m (l/2)²) ω²
+    assert_eq!(results[0]["kinetic_energy"], json!(0.625));
+    let (code, _, problem) = eval("dual_arm_3", "[]", "generated");
+    assert_eq!(code, 2);
+    assert!(problem.contains("did you mean `dual_arm_3r`"), "{problem}");
+}

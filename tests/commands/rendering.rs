@@ -1,0 +1,149 @@
+//! From graph to Rust: the same text every time, no more operations than the header says, and what stops the build.
+
+use planar_build::shipped;
+use planar_capture::{diagnostic, layout};
+use planar_proof::file;
+use std::fs;
+use std::path::Path;
+
+fn layouts() -> Vec<String> {
+    let names = planar_capture::models::SHIPPED.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
+    assert!(names.len() >= 7);
+    names
+}
+
+fn rendered(name: &str) -> String {
+    shipped::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The library was compiled from what the committed graph renders to now.
+#[test]
+fn built_code_is_the_committed_graphs() {
+    for name in layouts() {
+        let built = fs::read_to_string(Path::new(env!("OUT_DIR")).join(format!("{name}.rs"))).expect("built code");
+        assert!(built == rendered(&name), "{name}: cargo build again");
+        assert!(built == rendered(&name), "{name}: the same graph renders to another text");
+        assert!(built.starts_with(&format!("// @generated from codegen/graphs/{name}.json")), "no header");
+        assert!(built.contains(&format!("python -m codegen {name}")), "the header names its command");
+        for forbidden in ["unsafe", "alloc::", "std::", ".unwrap()", ".expect(", "panic!", ".get("] {
+            assert!(!built.contains(forbidden), "{name}: `{forbidden}` in generated code");
+        }
+    }
+}
+
+/// The body of a function of the rendered text, from its name to the end of its block.
+fn body<'a>(text: &'a str, signature: &str) -> &'a str {
+    let start = text.find(signature).unwrap_or_else(|| panic!("no `{signature}`"));
+    let rest = &text[start..];
+    &rest[..rest.find("\n        }\n").expect("an end")]
+}
+
+/// Binary operations of a body, counted in the rendered text: what the compiler is given.
+fn operations(body: &str) -> usize {
+    let is_statement = |line: &&str| line.trim_start().starts_with("let ");
+    let binary = |line: &str| [" + ", " - ", " * ", " / "].iter().map(|op| line.matches(op).count()).sum::<usize>();
+    // a long statement is broken over lines: join what belongs together
+    let joined = body.replace(['\n'], " ").replace(';', ";\n");
+    joined.lines().map(str::trim).filter(is_statement).map(binary).sum()
+}
+
+/// The targets for the paper's robot, counted in the rendered text.
+#[test]
+fn paper_robot_is_within_its_operation_targets() {
+    let text = rendered("dual_arm_3r");
+    let staged = |family: &str| operations(body(&text, &format!("pub fn {family}_configuration(")));
+    let pairs = |family: &str| body(&text, &format!("pub fn {family}_configuration(")).matches(".sin_cos()").count();
+    let call = |family: &str, function: &str| {
+        let methods = text.find(&format!("impl<T: Scalar> {family}Configuration<'_, T>")).expect("methods");
+        operations(body(&text[methods..], &format!("pub fn {function}(")))
+    };
+    let forward = staged("forward_dynamics");
+    assert_eq!(pairs("forward_dynamics"), 7);
+    for (function, most, least) in [
+        ("forward_dynamics", 330, 250),
+        ("forward_dynamics_with_base_wrench", 345, 260),
+        ("forward_dynamics_with_wrenches", 410, 300),
+    ] {
+        let total = forward + call("ForwardDynamics", function);
+        assert!((least..=most).contains(&total), "{function}: {total} operations, at most {most} are wanted");
+        let header = text.lines().find(|line| line.starts_with(&format!("//     {function}  "))).expect("a count");
+        assert!(header.contains(&format!(" {total} flops")), "the header says `{header}`, the text has {total}");
+    }
+    let reduced = staged("reduced_dynamics") + call("ReducedDynamics", "reduced_dynamics");
+    assert!((400..=560).contains(&reduced), "reduced dynamics: {reduced} operations");
+    assert_eq!(pairs("reduced_dynamics"), 7);
+}
+
+/// Scopes inside each other, one per `let` of a block, exhaust the compiler's stack when they are thousands.
+#[test]
+fn no_block_is_too_long_for_a_compiler_that_describes_its_variables() {
+    let mut longest = 0;
+    for name in layouts() {
+        let mut open = vec![0];
+        for line in rendered(&name).lines().map(str::trim) {
+            if line.starts_with("let ") {
+                *open.last_mut().expect("a block") += 1;
+            }
+            if line.starts_with('}') {
+                open.pop();
+            }
+            if line.ends_with('{') {
+                open.push(0);
+            }
+            longest = longest.max(open.iter().sum());
+        }
+    }
+    assert!((450..=510).contains(&longest), "{longest} variables in scope");
+}
+
+/// A copy of `codegen/` in which something is wrong.
+fn broken(change: impl Fn(&Path)) -> String {
+    let folder = tempfile::tempdir().expect("a folder");
+    for part in ["layouts", "graphs"] {
+        fs::create_dir(folder.path().join(part)).expect("a folder");
+        for entry in fs::read_dir(file("codegen").join(part)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            fs::copy(&path, folder.path().join(part).join(path.file_name().expect("a name"))).expect("a copy");
+        }
+    }
+    change(folder.path());
+    let out = tempfile::tempdir().expect("a folder");
+    shipped::render_all(folder.path(), out.path(), &|_| true).expect_err("this does not build")
+}
+
+fn edit(path: &Path, from: &str, to: &str) {
+    let text = fs::read_to_string(path).expect("a file");
+    assert!(text.contains(from));
+    fs::write(path, text.replacen(from, to, 1)).expect("written");
+}
+
+#[test]
+fn what_stops_the_build_says_how_to_mend_it() {
+    let mend = "python -m codegen dual_arm_3r";
+    let stale = broken(|dir| edit(&dir.join("layouts/dual_arm_3r.toml"), "mass = 10.0", "mass = 11.0"));
+    assert!(stale.contains("is stale") && stale.contains(mend), "{stale}");
+    let missing = broken(|dir| fs::remove_file(dir.join("graphs/dual_arm_3r.json")).expect("removed"));
+    assert!(missing.contains("dual_arm_3r.json") && missing.contains(mend), "{missing}");
+    let orphan = broken(|dir| fs::remove_file(dir.join("layouts/dual_arm_3r.toml")).expect("removed"));
+    assert!(orphan.contains("has no layout"), "{orphan}");
+    let cut = broken(|dir| fs::write(dir.join("graphs/dual_arm_3r.json"), "{\"format\": 1").expect("written"));
+    assert!(cut.contains("not JSON") && cut.contains(mend), "{cut}");
+    let newer = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"format\": 1", "\"format\": 2"));
+    assert!(newer.contains("format 2") && newer.contains(mend), "{newer}");
+    let unknown = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"mul\", ", "\"mull\", "));
+    assert!(unknown.contains("`mull`") && unknown.contains(mend), "{unknown}");
+    let layout = broken(|dir| edit(&dir.join("layouts/dual_arm_3r.toml"), "inertia", "inertai"));
+    assert!(layout.contains("did you mean `inertia`"), "{layout}");
+}
+
+/// A comment, or a default written out, makes nothing stale.
+#[test]
+fn a_comment_makes_nothing_stale() {
+    let path = file("codegen/layouts/dual_arm_3r.toml");
+    let text = fs::read_to_string(&path).expect("a layout");
+    let hash = |text: &str| layout::Layout::parse(text, "test").map(|layout| layout.sha256()).expect("a layout");
+    let commented = format!("# a remark\n{}", text.replace("mass = 500.0", "mass = 500 # the base"));
+    assert_eq!(hash(&text), hash(&commented));
+    assert_ne!(hash(&text), hash(&text.replace("500.0", "501.0")));
+    assert!(diagnostic::nearest("inertai", ["mass", "inertia"]) == Some("inertia"));
+}

@@ -1,0 +1,367 @@
+//! The command line as its users meet it: results, messages, exit codes.
+
+use assert_cmd::Command;
+use planar_proof::{assert_close, file, numbers, tolerance};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
+}
+
+/// Runs a scenario text from a folder of its own; (exit code, stdout, stderr, folder).
+fn run_text(text: &str) -> (i32, String, String, TempDir) {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let (code, out, err) = run_file(&path, &folder.path().join("results"));
+    (code, out, err, folder)
+}
+
+fn run_file(path: &Path, results: &Path) -> (i32, String, String) {
+    let output = command().arg("run").arg(path).arg("--out").arg(results).output().expect("it runs");
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
+}
+
+fn paper() -> String {
+    fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("the scenario")
+}
+
+#[test]
+fn the_papers_study_prints_its_table_and_writes_its_files() {
+    let (code, out, err, folder) = run_text(&paper());
+    assert_eq!((code, err.as_str()), (0, ""), "{err}");
+    for expected in ["case1", "case2", "case3", "as printed", "0.0873", "0.0131", "exact", "momentum drift", "misses"] {
+        assert!(out.contains(expected), "no `{expected}` in\n{out}");
+    }
+    let results = folder.path().join("results");
+    let mut names: Vec<_> =
+        fs::read_dir(&results).expect("results").map(|e| e.expect("an entry").file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["case1.csv", "case2.csv", "case3.csv", "summary.json"]);
+
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(results.join("summary.json")).expect("a summary")).expect("JSON");
+    assert_eq!(summary["scenario"], "raina_shah_2017");
+    assert_eq!(summary["dynamics"], "generated");
+    assert_eq!(summary["layout"]["name"], "dual_arm_3r");
+    let keys =
+        |value: &serde_json::Value| -> Vec<String> { value.as_object().expect("an object").keys().cloned().collect() };
+    assert_eq!(keys(&summary), ["scenario", "layout", "dynamics", "cases"]);
+    assert_eq!(keys(&summary["cases"][0]), ["name", "approach", "impact", "post_impact"]);
+    assert_eq!(
+        keys(&summary["cases"][0]["impact"]["exact"]),
+        [
+            "joint_rates_after",
+            "base_twist_after",
+            "target_twists_after",
+            "impulses",
+            "impulse_magnitudes",
+            "momentum_jump",
+            "kinetic_energy_before",
+            "kinetic_energy_after"
+        ]
+    );
+
+    let mut csv = csv::Reader::from_path(results.join("case1.csv")).expect("CSV");
+    let header = csv.headers().expect("a header").clone();
+    assert!(header.iter().filter(|name| *name != "phase").all(|name| name.ends_with(']')), "units in {header:?}");
+    let rows: Vec<csv::StringRecord> = csv.records().map(|row| row.expect("a row")).collect();
+    // 20 s and 50 s, every 0.05 s, both ends of both phases
+    assert_eq!(rows.len(), 401 + 1001);
+    let value = |row: &csv::StringRecord, name: &str| -> f64 {
+        let place = header.iter().position(|h| h == name).unwrap_or_else(|| panic!("no column {name}"));
+        row[place].parse().expect("a number")
+    };
+    assert_eq!((value(&rows[400], "time [s]"), value(&rows[401], "time [s]")), (20.0, 20.0));
+    assert_eq!((&rows[400][1], &rows[401][1]), ("approach", "post_impact"));
+    let case = &summary["cases"][0];
+    for (phase, row) in [("approach", &rows[400]), ("post_impact", &rows[1401])] {
+        assert_eq!(motion(&case[phase]), motion_of(&header, row), "the CSV's {phase} ends where the summary's does");
+    }
+    let (end, start) = (&rows[400], &rows[401]);
+    for (row, column, wanted) in [
+        // from rest, by the joints alone; the targets keep theirs
+        (end, "joint_work [J]", value(end, "kinetic_energy [J]") - value(&rows[0], "kinetic_energy [J]")),
+        (end, "kinetic_energy [J]", case["impact"]["exact"]["kinetic_energy_before"].as_f64().expect("a number")),
+        (start, "kinetic_energy [J]", case["impact"]["exact"]["kinetic_energy_after"].as_f64().expect("a number")),
+        (start, "joint_work [J]", 0.0),
+        (start, "arm1_joint1_torque [N m]", 0.0),
+        (start, "linear_momentum_x [N s]", value(&rows[1401], "linear_momentum_x [N s]")),
+        (start, "linear_momentum_y [N s]", value(&rows[1401], "linear_momentum_y [N s]")),
+        (start, "angular_momentum [N m s]", value(&rows[1401], "angular_momentum [N m s]")),
+    ] {
+        assert_close(column, &[value(row, column)], &[wanted], tolerance::TIME_SERIES);
+    }
+}
+
+/// The lists of a phase of the summary, in the order of the time series.
+fn motion(phase: &serde_json::Value) -> Vec<f64> {
+    let keys = ["base_pose", "joint_angles", "base_twist", "joint_rates", "end_effector_poses", "end_effector_twists"];
+    keys.iter().flat_map(|key| numbers(&phase[*key])).collect()
+}
+
+/// The same of a row of the time series, found by the names of the columns: tips in the approach only.
+fn motion_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Vec<f64> {
+    let pose = ["yaw [rad]", "x [m]", "y [m]"];
+    let twist = ["omega [rad/s]", "vx [m/s]", "vy [m/s]"];
+    let joints = |part: &str| -> Vec<String> {
+        ["arm1", "arm2"].iter().flat_map(|arm| (1..=3).map(move |k| format!("{arm}_joint{k}_{part}"))).collect()
+    };
+    let of = |body: &str, parts: [&str; 3]| parts.map(|part| format!("{body}_{part}"));
+    let mut names =
+        [of("base", pose).to_vec(), joints("angle [rad]"), of("base", twist).to_vec(), joints("rate [rad/s]")].concat();
+    if &row[1] == "approach" {
+        names.extend(["arm1_tip", "arm2_tip"].iter().flat_map(|tip| of(tip, pose)));
+        names.extend(["arm1_tip", "arm2_tip"].iter().flat_map(|tip| of(tip, twist)));
+    }
+    let value = |name: &String| {
+        let place = header.iter().position(|h| h == name).unwrap_or_else(|| panic!("no column {name}"));
+        row[place].parse().expect("a number")
+    };
+    names.iter().map(value).collect()
+}
+
+/// The printed table holds the summary's numbers, each in its column.
+#[test]
+fn the_table_is_the_summary() {
+    let (_, out, _, folder) = run_text(&paper());
+    let text = fs::read_to_string(folder.path().join("results/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let rows = |first: &str, second: &str| -> Vec<Vec<String>> {
+        let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        out.lines().map(words).filter(|row| row.len() > 3 && row[0] == first && row[1] == second).collect()
+    };
+    for (case, value) in ["case1", "case2", "case3"].iter().zip(summary["cases"].as_array().expect("cases")) {
+        for (arm, name) in ["arm1", "arm2"].iter().enumerate() {
+            let of = |model: &str| value["impact"][model]["impulse_magnitudes"][arm].as_f64().expect("an impulse");
+            let printed = if *case == "case2" { "0.0131" } else { "0.0873" };
+            let wanted = [format!("{:.5}", of("exact")), format!("{:.5}", of("paper")), printed.to_owned()];
+            assert_eq!(
+                rows(case, name),
+                [[&[(*case).to_owned(), (*name).to_owned(), "rigid".to_owned()], &wanted[..]].concat()]
+            );
+        }
+        for model in ["exact", "paper"] {
+            let impact = &value["impact"][model];
+            let energy = |when: &str| format!("{:.6}", impact[format!("kinetic_energy_{when}")].as_f64().expect("J"));
+            let jump = impact["momentum_jump"].as_array().expect("a jump").iter();
+            let jump = jump.map(|j| format!("{:.1e}", j.as_f64().expect("a number")));
+            let mut wanted = vec![(*case).to_owned(), model.to_owned(), energy("before"), energy("after")];
+            wanted.extend(jump);
+            assert_eq!(rows(case, model), [wanted]);
+        }
+        let after = &value["post_impact"];
+        let short = |key: &str| format!("{:.1e}", after[key].as_f64().expect("a number"));
+        let wanted = [
+            (*case).to_owned(),
+            "50".to_owned(),
+            short("momentum_drift"),
+            short("energy_error"),
+            short("center_of_mass_drift"),
+        ];
+        assert_eq!(rows(case, "50"), [wanted]);
+    }
+    let approach = &summary["cases"][0]["approach"];
+    let pose: Vec<f64> =
+        approach["base_pose"].as_array().expect("a pose").iter().filter_map(serde_json::Value::as_f64).collect();
+    assert!(out.contains(&format!("yaw {:.6} rad, x {:.6} m, y {:.6} m", pose[0], pose[1], pose[2])), "{out}");
+}
+
+#[test]
+fn an_approach_alone_has_no_impact() {
+    let folder = TempDir::new().expect("a folder");
+    let (code, out, err) = run_file(&file("scenarios/redysim_single_arm_3r.toml"), folder.path());
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(!out.contains("impact"), "{out}");
+    let text = fs::read_to_string(folder.path().join("summary.json")).expect("a summary");
+    assert!(text.contains("\"approach\"") && !text.contains("impact"), "{text}");
+    assert!(folder.path().join("redysim_single_arm_3r.csv").exists());
+}
+
+/// A layout beside the scenario, with numbers of its own, runs on the generated code of its structure.
+#[test]
+fn numbers_of_a_users_layout_are_parameters() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    fs::write(folder.path().join("mine.toml"), layout.replace("500.0", "5.0e9").replace("83.61", "1.0e9"))
+        .expect("written");
+    let scenario = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, scenario.replace("\"single_arm_3r\"", "\"mine.toml\"")).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!((code, err.as_str()), (0, ""));
+    let text = fs::read_to_string(folder.path().join("results/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let yaw = summary["cases"][0]["approach"]["base_pose"][0].as_f64().expect("a yaw");
+    assert!(yaw.abs() < 1e-6, "a base of a million tons hardly turns, not by {yaw}");
+}
+
+/// (what is wrong, the change to the paper's scenario, what the message says besides file and line)
+const WRONG: &[(&str, &str, &str, &[&str])] = &[
+    ("broken TOML", "duration = 20.0", "duration = = 20.0", &["scenario.toml:15:"]),
+    (
+        "unknown key",
+        "derivative_gain",
+        "derivativ_gain",
+        &["`approach.derivativ_gain`", "did you mean `derivative_gain`"],
+    ),
+    ("negative mass", "mass = 10.0", "mass = -10.0", &["`target[0].mass`", "-10", "kg"]),
+    ("NaN", "duration = 20.0", "duration = nan", &["`approach.duration`", "nan", "finite"]),
+    ("unknown layout", "\"dual_arm_3r\"", "\"dual_arm_4r\"", &["dual_arm_4r", "dual_arm_3r", "single_arm_3r"]),
+    ("too few angles", "1.571, -1.047]", "1.571]", &["`initial.joint_angles`", "6"]),
+    ("unknown arm", "arm = \"arm2\"", "arm = \"arm3\"", &["`target[1].arm`", "arm3", "`arm2`"]),
+    ("degrees", "joint_angles = [0.698", "joint_angles = [40.0", &["joint_angles", "degrees"]),
+];
+
+#[test]
+fn bad_input_is_exit_code_2_and_a_message_that_helps() {
+    for (what, from, to, hints) in WRONG {
+        let text = paper();
+        assert!(text.contains(from), "{what}");
+        let (code, out, err, folder) = run_text(&text.replacen(from, to, 1));
+        assert_eq!((code, out.as_str()), (2, ""), "{what}: {err}");
+        assert!(err.contains("scenario.toml:"), "{what}: no file and line in\n{err}");
+        assert!(err.lines().count() <= 40, "{what}: more than a screen\n{err}");
+        for hint in *hints {
+            assert!(err.contains(hint), "{what}: no `{hint}` in\n{err}");
+        }
+        assert!(!folder.path().join("results").exists(), "{what}: something was written");
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let folder = TempDir::new().expect("a folder");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2071.toml"), folder.path());
+    assert_eq!(code, 2);
+    assert!(err.contains("raina_shah_2071.toml") && err.contains("raina_shah_2017.toml"), "{err}");
+
+    let occupied = folder.path().join("occupied");
+    fs::write(&occupied, "a file, not a folder").expect("written");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2017.toml"), &occupied);
+    assert_eq!(code, 2);
+    assert!(err.contains("occupied"), "{err}");
+}
+
+/// A file that cannot take its place leaves the results of an earlier run as they were.
+#[test]
+fn results_are_of_one_run() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    fs::create_dir_all(results.join("summary.json")).expect("a folder in the summary's place");
+    fs::write(results.join("case1.csv"), "of an earlier run").expect("written");
+    let (code, _, err) = run_file(&file("scenarios/raina_shah_2017.toml"), &results);
+    assert_eq!(code, 2);
+    assert!(err.contains("summary.json"), "{err}");
+    assert_eq!(fs::read_to_string(results.join("case1.csv")).expect("a file"), "of an earlier run");
+    assert_eq!(fs::read_dir(&results).expect("a folder").count(), 2, "temporary files are gone");
+}
+
+/// Without generated code of its structure, a layout is refused, with the way to get it.
+#[test]
+fn a_structure_without_code_says_how_to_get_it() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let raised = layout.replace("\"dual_arm_3r\"", "\"raised\"").replacen("[0.5, 0.0]", "[0.5, 0.25]", 1);
+    fs::write(folder.path().join("raised.toml"), raised).expect("written");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"raised.toml\"")).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!(code, 2);
+    assert!(err.contains("scenario.toml: no generated code") && err.contains("python3 -m codegen raised"), "{err}");
+    assert!(err.contains("`arm[0].mount[1]` is 0.25") && err.contains("Nearest is `dual_arm_3r`"), "{err}");
+    // under a shipped layout's name it is not to take that layout's place
+    let shipped =
+        fs::read_to_string(folder.path().join("raised.toml")).expect("a layout").replace("raised", "dual_arm_3r");
+    fs::write(folder.path().join("raised.toml"), shipped).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!(code, 2);
+    assert!(err.contains("a name of its own") && !err.contains("codegen/layouts/dual_arm_3r.toml"), "{err}");
+}
+
+#[test]
+fn a_twist_out_of_reach_is_refused_with_its_numbers() {
+    // both elbows straight: the final pose is singular
+    let text =
+        paper().replace("[-0.524, -1.393, -0.035, 2.618, -1.393, -0.035]", "[-0.524, 0.0, 0.0, 2.618, 0.0, 0.0]");
+    let (code, _, err, _) = run_text(&text);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("close to singular") && err.contains("final_joint_angles"), "{err}");
+    // a straight arm cannot move its tip along itself
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let wanted = "trajectory = \"quartic\"\nfinal_end_effector_twists = [[0.0, 5.0, 0.0]]";
+    let straight = "final_joint_angles = [0.0, 0.0, 0.0]";
+    let text = text.replace("trajectory = \"cycloidal\"", wanted);
+    let start = text.find("final_joint_angles").expect("angles");
+    let end = start + text[start..].find('\n').expect("a line");
+    let (code, _, err, _) = run_text(&text.replace(&text[start..end], straight));
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("out of reach") && err.contains("singular values"), "{err}");
+}
+
+/// What an integrator cannot do is said with what would help: bad input where it never can, a stopped study where a step can.
+#[test]
+fn integrators_say_what_they_cannot_do() {
+    let held = fs::read_to_string(file("scenarios/large_target.toml")).expect("the scenario");
+    let held = held.replacen("[post_impact]", "[post_impact]\ncoordinates = \"reduced\"", 1);
+    let (code, _, err, _) = run_text(&held);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("they are for a robot alone") && !err.contains("shorter step"), "{err}");
+    let stiff = paper().replacen("step = 0.005", "step = 0.5\nintegrator = \"gauss_legendre\"", 1);
+    let (code, _, err, _) = run_text(&stiff);
+    assert_eq!(code, 1, "{err}");
+    assert!(err.contains("do not settle") && err.contains("a shorter step may help"), "{err}");
+}
+
+/// Steps that are far too long: the audit objects, and the exit code says so.
+#[test]
+fn the_audit_decides_the_exit_code() {
+    let (code, out, err, folder) = run_text(&paper().replace("step = 0.005", "step = 0.05"));
+    assert_eq!(code, 1, "{out}{err}");
+    assert!(err.contains("audit: approach: momentum drift") && err.contains("a shorter `step`"), "{err}");
+    assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");
+}
+
+#[test]
+fn usage_errors_are_exit_code_2() {
+    for arguments in
+        [&["run"][..], &["rum", "x.toml"], &["run", "x.toml", "--sample", "-1"], &["run", "x", "--dynamics", "magic"]]
+    {
+        let output = command().args(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+}
+
+/// The page holds everything that it shows; a browser opens it in `report_browser.py`.
+#[test]
+fn a_report_is_one_file_without_a_network() {
+    let folder = TempDir::new().expect("a folder");
+    let text =
+        paper().replace("name = \"target1\"", "name = \"</script><b>\"").replace("target1 =", "\"</script><b>\" =");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let results = folder.path().join("results");
+    let output = command().arg("run").arg(&path).arg("--out").arg(&results).arg("--report").output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = fs::read_to_string(results.join("report.html")).expect("a page");
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    for left in ["<!--title-->", "/*data*/", "/*scene.js*/", "/*uplot.js*/", "/*page.css*/"] {
+        assert!(!page.contains(left), "`{left}` was not filled in");
+    }
+    for outside in [" src=", "@import", "fetch(", "XMLHttpRequest", "WebSocket(", "url(http"] {
+        assert!(!page.contains(outside), "`{outside}` reaches out of the page");
+    }
+    assert!(page.contains("default-src 'none'") && page.contains("The MIT License"));
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = rest.split_once("</script>").expect("an end");
+    let data: serde_json::Value = serde_json::from_str(data).expect("JSON");
+    assert_eq!(data["cases"].as_array().map(Vec::len), Some(3));
+    assert_eq!(data["targets"][0]["name"], "</script><b>");
+    assert_eq!(data["approach"]["time"].as_array().map(Vec::len), Some(401));
+    assert_eq!(data["approach"]["joint_angles"].as_array().map(Vec::len), Some(6));
+    let momentum = &data["cases"][0]["targets_alone"]["momentum"];
+    assert!(momentum[0].as_f64().is_some_and(|l| (l - 0.4).abs() < 1e-12), "{momentum}");
+}

@@ -1,0 +1,242 @@
+//! What the audit sees besides momentum and energy: where the centre of mass goes, and joints beyond their limits.
+
+use crate::{run, scenario};
+use assert_cmd::Command;
+use planar_capture::layout::Layout;
+use planar_capture::models;
+use planar_capture::scenario::{Scenario, Settling, Tracking};
+use planar_capture::simulate::Phase;
+use planar_capture::simulate::conservation::{Audit, Done};
+use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
+use planar_capture::simulate::system::Body;
+use planar_capture::state::State;
+use planar_capture::summary::summary;
+use planar_proof::{assert_close, file, tolerance};
+use std::fs;
+use tempfile::TempDir;
+
+/// A robot that moves on as it started is where it should be; one that is elsewhere by δ has strayed by δ over its extent.
+#[test]
+fn the_centre_of_mass_goes_its_way() {
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = models::generated(&layout).expect("generated code");
+    let joint_angles = [0.3, -1.2, 0.7];
+    let state = |x: f64, y: f64| State {
+        base_pose: [0.4, x, y],
+        joint_angles: &joint_angles,
+        base_twist: [0.0, 0.5, -0.2],
+        joint_rates: &[0.0; 3],
+    };
+    let (mut inertias, mut poses) = ([[0.0; 2]; 4], [[0.0; 3]; 4]);
+    model.body_inertias(&mut inertias).expect("inertias");
+    model.body_poses(&[0.4, 0.0, 0.0], &joint_angles, &mut poses).expect("poses");
+    let mass: f64 = inertias.iter().map(|[m, _]| m).sum();
+    let com = [1, 2].map(|i: usize| inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum::<f64>() / mass);
+    let extent = poses.iter().map(|p| (p[1] - com[0]).hypot(p[2] - com[1])).fold(0.0, f64::max);
+    let mut audit = Audit::new(&*model, &state(1.0, 2.0), &[]).expect("a state");
+    let later = Done { time: 10.0, ..Done::default() };
+    audit.record(&state(6.0, 0.0), &[], &later).expect("a state");
+    assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
+    audit.record(&state(6.003, -0.004), &[], &later).expect("a state");
+    assert_close("beside it", &[audit.drift().center_of_mass_drift], &[0.005 / extent], tolerance::IDENTITY);
+}
+
+/// A body beside the robot counts with its mass, and is part of the extent.
+#[test]
+fn bodies_beside_the_robot_count() {
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = models::generated(&layout).expect("generated code");
+    let joint_angles = [0.3, -1.2, 0.7];
+    let state =
+        State { base_pose: [0.0; 3], joint_angles: &joint_angles, base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
+    let (mut inertias, mut poses) = ([[0.0; 2]; 4], [[0.0; 3]; 4]);
+    model.body_inertias(&mut inertias).expect("inertias");
+    model.body_poses(&[0.0; 3], &joint_angles, &mut poses).expect("poses");
+    let body = |y: f64| Body { mass: 40.0, inertia: 2.0, pose: [0.0, 100.0, y], twist: [0.0, 0.0, 0.3] };
+    let mass: f64 = 40.0 + inertias.iter().map(|[m, _]| m).sum::<f64>();
+    let com = [1, 2].map(|i: usize| {
+        let robot: f64 = inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum();
+        (robot + 40.0 * body(0.0).pose[i]) / mass
+    });
+    let mut audit = Audit::new(&*model, &state, &[body(0.0)]).expect("a state");
+    let later = Done { time: 2.0, ..Done::default() };
+    audit.record(&state, &[body(0.6)], &later).expect("a state");
+    assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
+    audit.record(&state, &[body(0.7)], &later).expect("a state");
+    let extent = (100.0 - com[0]).hypot(0.7 - com[1] - 40.0 * 0.7 / mass);
+    assert_close(
+        "beside it",
+        &[audit.drift().center_of_mass_drift],
+        &[40.0 * 0.1 / mass / extent],
+        tolerance::IDENTITY,
+    );
+}
+
+/// Of a phase and one that goes on from its end the larger excess counts, at its time since the start of the first.
+#[test]
+fn excesses_of_phases_that_follow_each_other() {
+    let excess = |value, time| Some(Excess { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
+    let first = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: None };
+    let second = Excesses { joint_angle: excess(1.2, 3.0), joint_rate: excess(1.1, 0.5) };
+    let both = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: excess(1.1, 10.5) };
+    assert_eq!(first.clone().then(second.clone(), 10.0), both);
+    assert_eq!(second.then(first, 10.0), Excesses { joint_angle: excess(1.5, 12.0), joint_rate: excess(1.1, 0.5) });
+}
+
+/// The audit says so where the way of the centre of mass is lost.
+#[test]
+fn a_centre_of_mass_that_strays_is_objected_to() {
+    let mut study = run(&scenario("redysim_single_arm_3r"));
+    assert!(study.approach.drift.center_of_mass_drift < 1e-12, "{:?}", study.approach.drift);
+    study.approach.drift.center_of_mass_drift = 1.1e-9;
+    let objections = study.objections();
+    assert!(
+        matches!(objections.as_slice(), [one] if one.contains("approach: centre-of-mass drift 1.10e-9")),
+        "{objections:?}"
+    );
+    study.approach.drift.center_of_mass_drift = f64::NAN;
+    assert_eq!(study.objections().len(), 1);
+}
+
+fn limited(layout: &Layout, angles: [f64; 2], rate: f64) -> Vec<JointLimits> {
+    let limits = |i| JointLimits { name: layout.joint_name(i), angles: Some(angles), rate: Some(rate) };
+    (0..layout.joints()).map(limits).collect()
+}
+
+/// The largest excess of the samples, which are as dense as the steps: (joint, time, value).
+fn worst(phase: &Phase, values: impl Fn(usize) -> Vec<f64>, beyond: impl Fn(f64) -> f64) -> (usize, f64, f64) {
+    let mut worst = (0, 0.0, 0.0);
+    let mut most = 0.0;
+    for (i, sample) in phase.samples.iter().enumerate() {
+        for (joint, value) in values(i).into_iter().enumerate() {
+            if beyond(value) > most {
+                (most, worst) = (beyond(value), (joint, sample.time, value));
+            }
+        }
+    }
+    worst
+}
+
+/// In every kind of phase, what is reported is the worst that the time series has.
+#[test]
+fn the_largest_excess_is_found() {
+    let mut studies = Vec::new();
+    for (name, tracking) in [
+        ("raina_shah_2017", None),
+        ("raina_shah_2017", Some(Tracking::Exact)),
+        ("resolved_motion_rate", None),
+        ("stabilised_capture", None),
+    ] {
+        let mut scenario = scenario(name);
+        scenario.approach.step = 0.05;
+        scenario.cases.truncate(1);
+        scenario.approach.actuation.steps_per_sample = scenario.approach.actuation.steps_per_sample.map(|_| 1);
+        scenario.approach.tracking = tracking.unwrap_or(scenario.approach.tracking);
+        let limits = limited(&scenario.layout, [-1.45, 2.5], 0.12);
+        scenario.approach.actuation.joint_limits.clone_from(&limits);
+        let after = scenario.post_impact.as_mut().expect("a capture");
+        (after.step, after.actuation.joint_limits) = (0.05, limits);
+        let study = run(&scenario);
+        studies.push((scenario, study));
+    }
+    let mut seen = 0;
+    for (scenario, study) in &studies {
+        let captured = study.cases[0].capture.as_ref().expect("a capture");
+        for phase in [&study.approach, &captured.post_impact] {
+            let excesses = phase.excesses.as_ref().expect("limits");
+            let angles = |i: usize| phase.samples[i].state.joint_angles.clone();
+            let rates = |i: usize| phase.samples[i].state.joint_rates.clone();
+            let checks = [
+                (&excesses.joint_angle, worst(phase, angles, |x| (x - 2.5).max(-1.45 - x))),
+                (&excesses.joint_rate, worst(phase, rates, |x| x.abs() - 0.12)),
+            ];
+            for (found, (joint, time, value)) in checks {
+                let Some(Excess { joint: name, time: at, value: found, limit }) = found else {
+                    assert!(value.abs() <= 0.0, "{}: an excess that was not found", scenario.name);
+                    continue;
+                };
+                seen += 1;
+                assert_eq!((name, *at, *found), (&scenario.layout.joint_name(joint), time, value), "{}", scenario.name);
+                assert!([-1.45, 2.5, -0.12, 0.12].contains(limit) && limit.signum() == found.signum(), "{limit}");
+            }
+        }
+        assert!(study.objections().iter().any(|objection| objection.contains("beyond its limit of")));
+    }
+    assert!(seen > 10, "{seen} excesses");
+    let (scenario, study) = &studies[0];
+    let value = summary(scenario, "generated", study);
+    let excess = &value["cases"][0]["approach"]["limits"]["joint_angle"];
+    let wanted = study.approach.excesses.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
+    assert_eq!((excess["joint"].as_str(), excess["time"].as_f64()), (Some(wanted.joint.as_str()), Some(wanted.time)));
+    assert_eq!((excess["value"].as_f64(), excess["limit"].as_f64()), (Some(wanted.value), Some(wanted.limit)));
+}
+
+/// Read from a file: one pair or one per joint, and none where none is given.
+#[test]
+fn limits_are_read_joint_by_joint() {
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let read = |limits: &str| -> Vec<JointLimits> {
+        let text = text.replace("[approach]", &format!("{limits}\n[approach]"));
+        let scenario = Scenario::parse(&text, "it.toml", std::path::Path::new(""), models::SHIPPED);
+        scenario.unwrap_or_else(|report| panic!("{report}")).approach.actuation.joint_limits
+    };
+    assert_eq!(read(""), []);
+    let found = read("[limits]\njoint_angles = [[-2, 2.0], [], [-1.6, 1.3]]\njoint_rates = 0.2");
+    assert_eq!(found.iter().map(|l| l.angles).collect::<Vec<_>>(), [Some([-2.0, 2.0]), None, Some([-1.6, 1.3])]);
+    assert!(found.iter().all(|limit| limit.rate == Some(0.2)));
+    let found = read("[limits]\njoint_angles = [-3, 3]");
+    assert!(found.iter().all(|limit| limit.angles == Some([-3.0, 3.0]) && limit.rate.is_none()));
+    assert_eq!(found[2].name, "joint 3 of arm1");
+    let found = read("[limits]\njoint_rates = [0.1, 0.2, 0.3]");
+    assert_eq!(found[1], JointLimits { name: "joint 2 of arm1".to_owned(), angles: None, rate: Some(0.2) });
+}
+
+/// Both phases keep them, the table says so, and what goes beyond them makes the exit code 1.
+#[test]
+fn the_exit_code_says_that_a_limit_was_exceeded() {
+    let folder = TempDir::new().expect("a folder");
+    let run = |limits: &str| {
+        let text = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+        let path = folder.path().join("it.toml");
+        fs::write(&path, text.replace("[approach] #", &format!("{limits}\n[approach] #"))).expect("written");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
+        let output =
+            command.arg("run").arg(&path).arg("--out").arg(folder.path().join("out")).output().expect("it runs");
+        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, out, err) = run("[limits]\njoint_angles = [-6, 6]\njoint_rates = 2");
+    assert_eq!((code, err.as_str()), (Some(0), ""), "{err}");
+    assert_eq!(out.matches("all joints within their limits").count(), 4, "{out}");
+    let (code, out, err) = run("[limits]\njoint_rates = [2, 0.1, 2, 2, 2, 2]");
+    assert_eq!(code, Some(1));
+    assert!(
+        err.contains("audit: approach: joint 2 of arm1 turns with") && err.contains("beyond its limit of"),
+        "{err}"
+    );
+    assert!(out.contains("joint 2 of arm1 turns with"), "{out}");
+    let (code, _, err) = run("[limits]\njoint_angles = [[], [-1.5, 1.5], [], [], [], []]");
+    assert_eq!(code, Some(2));
+    assert!(err.contains("`initial.joint_angles[1]` is -1.571: outside the limits of joint 2 of arm1, -1.5"), "{err}");
+    assert!(err.contains("(`limits.joint_angles`)") && err.contains("it.toml:12:"), "{err}");
+}
+
+/// Limits change nothing in what is computed.
+#[test]
+fn limits_are_watched_and_not_enforced() {
+    let mut scenario = scenario("stabilised_capture");
+    scenario.cases.truncate(1);
+    let free = run(&scenario);
+    let limits = limited(&scenario.layout, [-0.1, 0.1], 0.01);
+    scenario.approach.actuation.joint_limits.clone_from(&limits);
+    let after = scenario.post_impact.as_mut().expect("a capture");
+    assert!(matches!(after.control, Settling::Stabilise { .. }));
+    after.actuation.joint_limits = limits;
+    let watched = run(&scenario);
+    assert_eq!(free.approach.samples, watched.approach.samples);
+    let of = |study: &planar_capture::study::Study| {
+        study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone()
+    };
+    assert_eq!(of(&free), of(&watched));
+    assert!(free.approach.excesses.is_none() && watched.approach.excesses.is_some());
+}

@@ -1,0 +1,219 @@
+//! Events end a phase when a value falls to zero: at the right time, whatever integrates, however short they are.
+
+use crate::scenario;
+use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
+use planar_capture::error::Error;
+use planar_capture::models;
+use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::simulate::event::{Events, Instant, NoEvents};
+use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::system::System;
+use planar_capture::simulate::{Phase, Sample, Timing, simulate};
+use planar_capture::trajectory::Standing;
+use planar_proof::{assert_close, difference, tolerance};
+
+const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-12 };
+
+/// With how far the end of a phase may be from the true motion, in s.
+const ALL: [(Scheme, Coordinates, f64); 7] = [
+    (Scheme::RungeKutta4, Coordinates::Full, 1e-9),
+    (Scheme::RungeKutta4, Coordinates::Reduced, 1e-9),
+    (Scheme::SemiImplicitEuler, Coordinates::Full, 2e-2),
+    (Scheme::SemiImplicitEuler, Coordinates::Reduced, 2e-2),
+    (Scheme::GaussLegendre, Coordinates::Full, 1e-11),
+    (ADAPTIVE, Coordinates::Full, 1e-11),
+    (ADAPTIVE, Coordinates::Reduced, 1e-11),
+];
+
+fn model() -> Box<dyn CloneModel> {
+    models::generated(&scenario("redysim_single_arm_3r").layout).expect("the robot of ReDySim")
+}
+
+/// How far a tip is from a circle.
+struct Circle {
+    centre: [f64; 2],
+    radius: f64,
+}
+
+impl Circle {
+    fn value(&self, [_, x, y]: [f64; 3]) -> f64 {
+        (x - self.centre[0]).hypot(y - self.centre[1]) - self.radius
+    }
+}
+
+impl Events for Circle {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error> {
+        let mut tips = [[0.0; 3]];
+        now.system.model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut tips)?;
+        values[0] = self.value(tips[0]);
+        Ok(())
+    }
+}
+
+/// Values that are functions of time alone.
+struct Times<'a>(&'a [fn(f64) -> f64]);
+
+impl Events for Times<'_> {
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error> {
+        for (value, function) in values.iter_mut().zip(self.0) {
+            *value = function(now.time);
+        }
+        Ok(())
+    }
+}
+
+fn drifting() -> RobotState {
+    RobotState {
+        base_pose: [0.2, 0.0, 0.0],
+        joint_angles: vec![0.4, -0.9, 0.5],
+        base_twist: [0.0, 0.3, 0.1],
+        joint_rates: vec![0.0; 3],
+    }
+}
+
+fn tumbling() -> RobotState {
+    RobotState { base_twist: [0.1, 0.3, 0.1], joint_rates: vec![0.5, 0.7, -0.9], ..drifting() }
+}
+
+fn run(
+    start: &RobotState,
+    duration: f64,
+    step: f64,
+    (scheme, coordinates): (Scheme, Coordinates),
+    law: &mut dyn Control<f64>,
+    events: &mut dyn Events,
+) -> Phase {
+    let (model, integration) = (model(), Integration { scheme, coordinates });
+    let timing = Timing { duration, step, sample: 0.25, integration };
+    simulate(&System::alone(&*model), law, start, &timing, events, &mut || ()).expect("a phase")
+}
+
+fn end(phase: &Phase) -> &Sample {
+    phase.end().expect("an end")
+}
+
+fn tip(motion: &RobotState) -> [f64; 3] {
+    let mut tips = [[0.0; 3]];
+    model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips).expect("a tip");
+    tips[0]
+}
+
+/// A robot that keeps its shape: its tip is on a straight line, and on the circle when the quadratic equation says.
+#[test]
+fn a_straight_way_to_a_circle() {
+    let start = drifting();
+    let [_, x, y] = tip(&start);
+    let circle = || Circle { centre: [x + 1.0, y + 0.2], radius: 0.5 };
+    // |d − v t|² = r²
+    let (dd, dv, vv): (f64, f64, f64) = (1.04 - 0.25, 0.3 + 0.02, 0.1);
+    let wanted = (dv - (dv * dv - dd * vv).sqrt()) / vv;
+    for (scheme, coordinates, _) in ALL {
+        // the same from steps of any length
+        for step in [0.005, 0.3] {
+            let phase = run(&start, 10.0, step, (scheme, coordinates), &mut Free, &mut circle());
+            let (event, when) = phase.event.expect("the circle is met");
+            assert_eq!((event, phase.duration, end(&phase).time), (0, when, when));
+            assert!((when - wanted).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {wanted}");
+            assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+            let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
+            assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
+        }
+    }
+}
+
+/// A tumbling one: the time is that of a root found by whole phases of other lengths, without events.
+#[test]
+fn a_tumbling_robot_meets_a_circle() {
+    let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Coordinates::Full));
+    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut Free, &mut NoEvents)).state);
+    let circle = || Circle { centre: [x, y], radius: 0.2 };
+    let value = |duration: f64| {
+        circle().value(tip(&end(&run(&start, duration, duration, best, &mut Free, &mut NoEvents)).state))
+    };
+    let (mut early, mut late) = (0.1, 0.2);
+    while value(late) > 0.0 {
+        (early, late) = (late, late + 0.1);
+        assert!(late < 10.0, "the circle is never met");
+    }
+    for _ in 0..45 {
+        let middle = f64::midpoint(early, late);
+        if value(middle) > 0.0 { early = middle } else { late = middle }
+    }
+    for (scheme, coordinates, bound) in ALL {
+        let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut Free, &mut circle());
+        let (_, when) = phase.event.expect("the circle is met");
+        assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
+        assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+    }
+}
+
+/// The tip goes by at 0.5 m: a circle a nanometre smaller is not met, one a nanometre larger is, for a fraction of a step.
+#[test]
+fn grazing() {
+    let start = drifting();
+    let [_, x, y] = tip(&start);
+    let (along, across) = ([0.3 / 0.1_f64.sqrt(), 0.1 / 0.1_f64.sqrt()], [-0.1 / 0.1_f64.sqrt(), 0.3 / 0.1_f64.sqrt()]);
+    let centre = [x + along[0] + 0.5 * across[0], y + along[1] + 0.5 * across[1]];
+    let closest = 1.0 / 0.1_f64.sqrt();
+    for (scheme, coordinates, _) in ALL {
+        let go = |radius| run(&start, 6.0, 0.005, (scheme, coordinates), &mut Free, &mut Circle { centre, radius });
+        assert_eq!(go(0.5 - 1e-9).event, None, "{scheme:?}");
+        let (_, when) = go(0.5 + 1e-9).event.expect("it is touched");
+        let early = (1e-9_f64 * (1.0 + 1e-9)).sqrt() / 0.1_f64.sqrt();
+        assert!((when - (closest - early)).abs() < tolerance::GRAZING, "{scheme:?}: {when}");
+    }
+}
+
+/// What is below zero at first has to rise before it can fall; the first of several events counts.
+#[test]
+fn arming_and_the_first_of_several() {
+    let go = |functions: &[fn(f64) -> f64]| {
+        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Coordinates::Full), &mut Free, &mut Times(functions)).event
+    };
+    assert_eq!(go(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);
+    let (event, when) = go(&[|t| (t - 0.1003) * (0.3507 - t)]).expect("it rises and falls");
+    assert!(event == 0 && (when - 0.3507).abs() < tolerance::EVENT_TIME, "{when}");
+    let (event, when) = go(&[|t| 0.7 - t, |t| 0.2034 + 1e-9 - t, |t| 0.2034 - t]).expect("three fall");
+    assert!(event == 2 && (when - 0.2034).abs() < tolerance::EVENT_TIME, "{event} {when}");
+    // in the first step, and in the last instant
+    let (_, when) = go(&[|t| 1e-5 - t]).expect("it falls at once");
+    assert!((when - 1e-5).abs() < tolerance::EVENT_TIME, "{when}");
+    assert_eq!(go(&[|t| 1.0 - t]), Some((0, 1.0)));
+}
+
+/// Up to the event, the phase is as without it; after it there is nothing. Held torques are held up to there.
+#[test]
+fn a_phase_with_an_event_is_a_part_of_one_without() {
+    let angles = [0.0; 3];
+    for (scheme, coordinates, _) in ALL {
+        let go = |events: &mut dyn Events, duration: f64, step: f64| {
+            let standing = Standing { angles: &angles };
+            let gains = [3.0; 3];
+            let law =
+                ProportionalDerivative { trajectory: standing, proportional_gain: &gains, derivative_gain: &gains };
+            let mut held = [0.0; 3];
+            let mut law = Sampled::new(law, 5, &mut held);
+            run(&tumbling(), duration, step, (scheme, coordinates), &mut law, events)
+        };
+        let whole = go(&mut NoEvents, 2.0, 0.01);
+        let part = go(&mut Times(&[|t| 1.3 - t]), 2.0, 0.01);
+        assert_eq!((whole.event, part.samples.len()), (None, 7), "0, 0.25, … 1.25, 1.3");
+        for (a, b) in whole.samples.iter().zip(&part.samples[..6]) {
+            assert_eq!(a, b, "{scheme:?}");
+        }
+        let alone = go(&mut NoEvents, 1.3, 0.01);
+        let [found, wanted] = [&part, &alone].map(|phase| end(phase).state.clone());
+        let error = difference(&found.joint_rates, &wanted.joint_rates);
+        assert!(error < tolerance::SAME_STEPS, "{scheme:?}: {error:e}");
+        assert_close("pose", &found.base_pose, &wanted.base_pose, tolerance::SAME_STEPS);
+        assert_close("torques", &end(&part).joint_torques, &end(&alone).joint_torques, tolerance::SAME_STEPS);
+    }
+}

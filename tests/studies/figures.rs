@@ -1,0 +1,383 @@
+//! Figures: which there are, what stands in them, and what a build without them says.
+
+use assert_cmd::Command;
+use planar_proof::file;
+use tempfile::TempDir;
+
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
+}
+
+#[cfg(not(feature = "figures"))]
+#[test]
+fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let mut command = command();
+    command.arg("run").arg(file("scenarios/raina_shah_2017.toml")).arg("--figures").arg("--out").arg(&results);
+    let output = command.output().expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8(output.stderr).expect("UTF-8");
+    assert!(message.contains("cargo run --release --features figures"), "{message}");
+    assert!(!results.exists(), "nothing was computed");
+    let mut command = self::command();
+    let output = command.arg("reproduce").arg("--out").arg(&results).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(String::from_utf8(output.stderr).expect("UTF-8"), message);
+    assert!(!results.exists(), "nothing was computed");
+}
+
+#[cfg(feature = "figures")]
+mod drawn {
+    use super::*;
+    use crate::{run, scenario};
+    use planar_capture::contact::ContactLaw;
+    use planar_capture::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
+    use planar_proof::tolerance::FIGURE_VALUES;
+    use std::collections::BTreeSet;
+    use std::fs;
+    use std::path::Path;
+
+    /// Every element is closed where it was opened, every `&` starts an entity, and nothing is not a number.
+    fn assert_well_formed(name: &str, svg: &str) {
+        let mut open: Vec<&str> = Vec::new();
+        for part in svg.split('<').skip(1) {
+            let (tag, text) = part.split_once('>').unwrap_or_else(|| panic!("{name}: a tag without end: {part}"));
+            assert!(tag.starts_with("!--") || tag.matches('"').count() % 2 == 0, "{name}: quotes in <{tag}>");
+            if tag.starts_with("!--") || tag.starts_with('?') {
+                continue;
+            }
+            let word = tag.trim_start_matches('/').split([' ', '/']).next().unwrap_or_default();
+            if tag.starts_with('/') {
+                assert_eq!(open.pop(), Some(word), "{name}");
+            } else if !tag.ends_with('/') {
+                open.push(word);
+            }
+            for entity in text.split('&').skip(1) {
+                assert!(entity.contains(';'), "{name}: a bare & in {text}");
+            }
+        }
+        assert!(open.is_empty() && svg.starts_with("<svg"), "{name}: {open:?} are open");
+        assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{name}: a coordinate is no number");
+    }
+
+    /// All that is to be read in a figure is in its SVG, as text.
+    fn assert_labelled(figure: &Figure, svg: &str) {
+        let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;");
+        for panel in &figure.panels {
+            for axis in [&panel.x, &panel.y] {
+                let named = matches!(axis.span, Span::Names(_));
+                assert!(axis.label.ends_with(']') || named, "{}: `{}` has no unit", figure.name, axis.label);
+                assert!(svg.contains(&escaped(&axis.label)), "{}: no `{}`", figure.name, axis.label);
+            }
+            let labels = panel.series.iter().filter_map(|series| series.label.as_ref());
+            for text in labels.chain(panel.title.as_ref()) {
+                assert!(svg.contains(&escaped(text)), "{}: no `{text}`", figure.name);
+            }
+        }
+    }
+
+    /// A label stands once in each legend: of each panel, or of all.
+    fn assert_one_legend_entry_each(figure: &Figure, svg: &str) {
+        let has = |panel: &Panel, label: &str| panel.series.iter().any(|s| s.label.as_deref() == Some(label));
+        for label in figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|s| s.label.as_ref()) {
+            let panels = figure.panels.iter().filter(|panel| has(panel, label)).count();
+            let legends = if figure.columns > 1 { 1 } else { panels };
+            let found = svg.matches(&format!("\u{2002}{label}<")).count();
+            assert_eq!(found, legends, "{}: `{label}` in the legends", figure.name);
+        }
+    }
+
+    /// Width and height of a PNG.
+    fn png_size(png: &[u8]) -> (u32, u32) {
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+        let number = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().expect("four bytes"));
+        (number(16), number(20))
+    }
+
+    fn names(figures: &[Figure]) -> BTreeSet<String> {
+        figures.iter().map(|figure| figure.name.clone()).collect()
+    }
+
+    #[test]
+    fn the_papers_study_has_a_figure_for_each_of_the_papers() {
+        let scenario = scenario("raina_shah_2017");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let names = names(&all);
+        assert_eq!(names.len(), all.len(), "no two figures have the same name");
+        for wanted in [
+            "initial_configuration",
+            "impact_configuration",
+            "approach_joint_angles",
+            "approach_end_effector_velocities",
+            "impact_velocities",
+            "momentum_case1",
+            "post_impact_motion_case1",
+            "post_impact_motion_case2",
+            "post_impact_motion_case3",
+        ] {
+            assert!(names.contains(wanted), "no {wanted} in {names:?}");
+        }
+        for figure in &all {
+            let svg = draw::svg(figure);
+            assert_well_formed(&figure.name, &svg);
+            assert_labelled(figure, &svg);
+            assert_one_legend_entry_each(figure, &svg);
+            assert_eq!(svg, draw::svg(figure), "{}: the same figure, the same bytes", figure.name);
+        }
+    }
+
+    /// What a figure shows is what was computed.
+    #[test]
+    fn curves_are_the_samples() {
+        let scenario = scenario("raina_shah_2017");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let of = |name: &str| all.iter().find(|figure| figure.name == name).expect("the figure");
+        let angles = &of("approach_joint_angles").panels[0].series;
+        assert_eq!(angles.len(), 6);
+        for (joint, series) in angles.iter().enumerate() {
+            let last = study.approach.end().expect("an end");
+            assert_eq!(series.points.last(), Some(&(20.0, last.state.joint_angles[joint])));
+        }
+        // the colour says which joint, the dash which arm: no two curves look the same
+        let looks: Vec<(Colour, Mark)> = angles.iter().map(|series| (series.colour, series.mark)).collect();
+        assert!((1..6).all(|i| !looks[..i].contains(&looks[i])));
+        // robot and targets together: the same before and after, and what the literal equations make of it
+        let momentum = &of("momentum_case1").panels[1].series;
+        assert!(momentum[0].points.iter().all(|(_, l)| (l - 0.4).abs() < 1e-9), "two targets of 1 kg m² at 0.2 rad/s");
+        let jump =
+            study.cases[0].capture.as_ref().expect("a capture").impact.paper.as_ref().expect("literal").momentum_jump
+                [0];
+        assert!((momentum[1].points[0].1 - (0.4 + jump)).abs() < 1e-9);
+        // the pictures' last joints and tips, by another way
+        let end = study.approach.end().expect("an end");
+        let robot = &of("impact_configuration").panels[0].series;
+        for (arm, tip) in scenario.layout.arms.iter().zip(&end.end_effector_poses) {
+            let line = robot.iter().find(|series| series.label.as_ref() == Some(&arm.name)).expect("the arm");
+            let (x, y) = line.points[3];
+            assert!((x - tip[1]).abs() + (y - tip[2]).abs() < 1e-12, "{}", arm.name);
+        }
+    }
+
+    /// All that is drawn in a picture of the plane is inside of its frame, far targets or not.
+    fn assert_inside(figure: &Figure) {
+        for panel in figure.panels.iter().filter(|panel| panel.equal_scale) {
+            let (Span::Between(left, right), Span::Between(low, high)) = (&panel.x.span, &panel.y.span) else {
+                panic!("{}: a picture without a frame", figure.name)
+            };
+            for (x, y) in panel.series.iter().flat_map(|series| &series.points) {
+                assert!((left..=right).contains(&x) && (low..=high).contains(&y), "{}: ({x}, {y})", figure.name);
+            }
+        }
+    }
+
+    #[test]
+    fn every_kind_of_contact_has_its_figures() {
+        let mut scenarios = vec!["spinning_target", "large_target", "missed_grasp", "elastic_rebound"];
+        if cfg!(feature = "triple_arm_3r") {
+            scenarios.push("three_arms");
+        }
+        for name in scenarios {
+            let scenario = scenario(name);
+            let all = figures(&scenario, &run(&scenario));
+            assert_eq!(names(&all).len(), all.len(), "{name}: no two figures have the same name");
+            for figure in &all {
+                let svg = draw::svg(figure);
+                assert_well_formed(&figure.name, &svg);
+                assert_labelled(figure, &svg);
+                assert_one_legend_entry_each(figure, &svg);
+                assert_inside(figure);
+            }
+        }
+    }
+
+    /// The points of a panel's series of this label, one after the other.
+    fn points(panel: &Panel, label: &str) -> Vec<(f64, f64)> {
+        let of = panel.series.iter().filter(|series| series.label.as_deref() == Some(label));
+        of.flat_map(|series| series.points.clone()).collect()
+    }
+
+    /// Each impact that was found by detection has its picture: robot, targets and impulse as they are then.
+    #[test]
+    fn impacts_are_pictured_where_they_were_found() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let mut shown = 0;
+        for case in &study.cases {
+            let name = format!("impact_configuration_{}", case.name);
+            let figure = all.iter().find(|figure| figure.name == name).expect("its figure");
+            let captured = case.capture.as_ref().expect("a contact");
+            let (first, post) = (case.approach(&study), &captured.post_impact);
+            let at = |time: f64| post.samples.iter().find(|sample| sample.time >= time).expect("a sample");
+            let later = captured.further.iter().map(|one| (first.duration + one.time, at(one.time), &one.impact));
+            let impacts =
+                std::iter::once((first.duration, first.end().expect("an end"), &captured.impact)).chain(later);
+            assert_eq!(figure.panels.len(), 1 + captured.further.len());
+            for (panel, (time, now, impact)) in figure.panels.iter().zip(impacts) {
+                assert_eq!(panel.title, Some(format!("Impact at {time:.3} s")));
+                let contact = &impact.contacts[0];
+                let [_, x, y] = now.end_effector_poses[contact.touching.arm];
+                let arrow = points(panel, "impulse on the robot");
+                assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the tip");
+                let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), contact.impulse);
+                assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
+                // a line from the target's COM to the tip that touches it
+                let target = points(panel, &scenario.targets[contact.touching.target].name);
+                let [rx, ry] = contact.touching.offset;
+                let (from, to) = (target[target.len() - 2], target[target.len() - 1]);
+                assert_eq!(to, (x, y));
+                assert!((x - from.0 - rx).abs() + (y - from.1 - ry).abs() < 1e-12, "{name}");
+                shown += 1;
+            }
+        }
+        assert_eq!(shown, 5, "impacts of three cases");
+    }
+
+    /// A bounce parts along the normal by Poisson's law and turns nobody into one; a pin leaves the turning free.
+    #[test]
+    fn velocities_at_contacts_say_what_kind_they_are() {
+        let (rebound, loops) = (scenario("elastic_rebound"), scenario("large_target"));
+        let (of_rebound, of_loops) = (run(&rebound), run(&loops));
+        let panels = |scenario, study| -> Vec<Panel> {
+            let found = figures(scenario, study).into_iter().find(|figure| figure.name == "impact_velocities");
+            found.expect("the figure").panels
+        };
+        let shown = panels(&rebound, &of_rebound);
+        let value = |panel: &Panel, label: &str, i: usize| points(panel, label)[i].0;
+        let relative = |panels: &[Panel], when: &str, i: usize| {
+            [0, 1, 2].map(|k| {
+                value(&panels[k], &format!("tip, {when}"), i) - value(&panels[k], &format!("target, {when}"), i)
+            })
+        };
+        let mut contacts: Vec<_> = Vec::new();
+        for case in &of_rebound.cases {
+            let captured = case.capture.as_ref().expect("a contact");
+            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            contacts.extend(impacts.flat_map(|impact| &impact.contacts));
+        }
+        contacts.reverse(); // the first is on top
+        for (i, contact) in contacts.iter().enumerate() {
+            let ContactLaw::Bounce { normal: [nx, ny], restitution } = contact.touching.law else { panic!("a bounce") };
+            let [[bx, by, _], [ax, ay, _]] = ["before", "after"].map(|when| relative(&shown, when, i));
+            let (closing, parting) = (-(bx * nx + by * ny), ax * nx + ay * ny);
+            assert!(
+                closing > 0.05 && (parting - restitution * closing).abs() < FIGURE_VALUES,
+                "{i}: {closing}, {parting}"
+            );
+            assert!(((ax - bx) * ny - (ay - by) * nx).abs() > 1e-3, "{i}: without friction it slides");
+        }
+        let shown = panels(&loops, &of_loops);
+        let Span::Names(names) = &shown[0].y.span else { panic!("names") };
+        assert_eq!(names.len(), 6);
+        for (i, name) in names.iter().enumerate() {
+            let [x, y, turn] = relative(&shown, "after", i);
+            assert!(x.abs() < FIGURE_VALUES && y.abs() < FIGURE_VALUES, "{name}: the points stay together");
+            assert_eq!(turn.abs() > 1e-3, name.ends_with("(pin)"), "{name}: {turn} rad/s");
+        }
+    }
+
+    /// A target that flew away is pointed at, and does not make the robot small.
+    #[test]
+    fn a_target_far_away_is_an_arrow_at_the_edge() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let figure = all.iter().find(|figure| figure.name == "post_impact_motion_too_late").expect("the figure");
+        let panel = figure.panels.last().expect("pictures");
+        let Span::Between(left, right) = panel.x.span else { panic!("a frame") };
+        let end = study.cases[2].capture.as_ref().and_then(|captured| captured.targets.last()).expect("targets");
+        let [_, x, y] = end[1].pose;
+        assert!(x < left && right - left < 12.0, "the box at {x} m is outside of {left} to {right} m");
+        let arrow = points(panel, "box");
+        let (from, to) = (arrow[0], arrow[1]);
+        assert_eq!(arrow.len(), 5, "an arrow, no outline");
+        assert!(to.0 < from.0 && to.0 < left + 0.05 * (right - left), "at the left edge, outwards");
+        assert!(((to.1 - from.1) / (to.0 - from.0)).abs() < 0.2 && y.abs() < 2.0);
+    }
+
+    /// Momentum goes on through every impact; energy steps there, by what it costs.
+    #[test]
+    fn momentum_and_energy_over_all_impacts() {
+        let scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let of = |name: &str| all.iter().find(|figure| figure.name == name).expect("the figure");
+        let captured = study.cases[1].capture.as_ref().expect("a contact");
+        for panel in &of("momentum_half").panels {
+            let curves = panel.series.iter().filter(|series| matches!(series.mark, Mark::Line(..)));
+            for curve in curves {
+                let first = curve.points[0].1;
+                assert!(curve.points.iter().all(|(_, p)| (p - first).abs() < FIGURE_VALUES), "{:?}", curve.label);
+            }
+            let marks = points(panel, "impacts");
+            assert_eq!(marks.len(), 2 * (panel.series.len() - 1), "two on each curve");
+        }
+        let less = points(&of("energy_half").panels[0], "less the work done");
+        let steps: Vec<f64> = less
+            .windows(2)
+            .filter(|pair| pair[0].0.to_bits() == pair[1].0.to_bits())
+            .map(|pair| pair[1].1 - pair[0].1)
+            .collect();
+        let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+        let costs: Vec<f64> =
+            impacts.map(|impact| impact.exact.kinetic_energy_after - impact.exact.kinetic_energy_before).collect();
+        assert_eq!(steps.len(), costs.len());
+        assert!(
+            steps.iter().zip(&costs).all(|(step, cost)| *cost < -0.01 && (step - cost).abs() < FIGURE_VALUES),
+            "{steps:?}"
+        );
+        assert!(less.windows(2).all(|pair| {
+            pair[0].0.to_bits() == pair[1].0.to_bits() || (pair[1].1 - pair[0].1).abs() < FIGURE_VALUES
+        }));
+    }
+
+    /// A robot with more joints than a panel has lines gets a higher panel: no legend reaches into the next one.
+    #[test]
+    fn a_long_legend_has_room() {
+        let series = |i: usize| Series {
+            label: Some(format!("joint {i}")),
+            colour: Colour::of(i),
+            mark: Mark::Line(Dash::of(i), 1.0),
+            points: vec![(0.0, 0.0), (1.0, 1.0)],
+        };
+        let height = |joints: usize| -> f64 {
+            let panel =
+                Panel::new(Axis::time("t [s]", 1.0), Axis::new("θ [rad]", 0.1), (0..joints).map(series).collect());
+            let svg = draw::svg(&Figure::column("many", "", vec![panel]));
+            let (_, rest) = svg.split_once(" height=\"").expect("a height");
+            rest[..rest.find('"').expect("its end")].parse().expect("a number")
+        };
+        assert!(height(6) < height(40) && height(40) > 40.0 * 18.0);
+    }
+
+    #[test]
+    fn an_approach_of_one_arm_without_targets_has_figures() {
+        let folder = TempDir::new().expect("a folder");
+        let mut command = command();
+        command.arg("run").arg(file("scenarios/redysim_single_arm_3r.toml")).arg("--figures");
+        let output = command.arg("--out").arg(folder.path()).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        let figures = folder.path().join("figures");
+        let bytes = |name: &str| fs::read(figures.join(name)).unwrap_or_else(|_| panic!("no {name}"));
+        let found: BTreeSet<String> = fs::read_dir(&figures)
+            .expect("figures")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        assert!(!found.iter().any(|name| name.contains("impact")), "{found:?}");
+        for name in ["final_configuration", "approach_joint_angles", "momentum_redysim_single_arm_3r"] {
+            let svg = String::from_utf8(bytes(&format!("{name}.svg"))).expect("UTF-8");
+            assert_well_formed(name, &svg);
+            let (width, height) = png_size(&bytes(&format!("{name}.png")));
+            assert!((1000..5000).contains(&width) && (500..8000).contains(&height), "{name}: {width} × {height}");
+        }
+        for name in &found {
+            let extension = Path::new(name).extension().and_then(|e| e.to_str());
+            let twin =
+                if extension == Some("svg") { name.replace(".svg", ".png") } else { name.replace(".png", ".svg") };
+            assert!(found.contains(&twin), "{name} without {twin}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! From a scenario to its results: approach, capture, the motion after it, and what is written of them.
+
+mod audit;
+mod control;
+mod convergence;
+mod events;
+mod figures;
+mod maximal;
+mod outputs;
+mod posture;
+mod redysim;
+mod reproduction;
+mod resolved_motion_rate;
+mod settling;
+mod study;
+
+use planar_capture::models;
+use planar_capture::scenario::Scenario;
+use planar_capture::study::{Observer, Study};
+use planar_proof::file;
+
+/// A shipped scenario.
+fn scenario(name: &str) -> Scenario {
+    let path = file(&format!("scenarios/{name}.toml"));
+    Scenario::read(&path, models::SHIPPED).unwrap_or_else(|report| panic!("{report}"))
+}
+
+/// Runs a scenario with generated code.
+fn run(scenario: &Scenario) -> Study {
+    let model = models::generated(&scenario.layout).expect("a shipped layout has generated code");
+    let study = planar_capture::study::study(scenario, &|| model.clone_box(), 0.05, &mut Silent);
+    study.unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
+}
+
+/// Nobody watches.
+struct Silent;
+
+impl Observer for Silent {
+    fn begin(&mut self, _: &str, _: u64) {}
+    fn step(&mut self) {}
+}

@@ -1,0 +1,255 @@
+//! Scenarios end to end: what a study says of its contacts, from its own states before them.
+
+use crate::{Silent, scenario};
+use planar_capture::contact;
+use planar_capture::models;
+use planar_capture::owned::RobotState;
+use planar_capture::scenario::{Scenario, Settling};
+use planar_capture::study::capture::{Capture, ImpactResult};
+use planar_capture::study::{Captured, CaseResult, Study, study};
+use planar_capture::surface::Surface;
+use planar_proof::maximal::body::Body;
+use planar_proof::maximal::impact::{Contact, Kind, Left, impact};
+use planar_proof::maximal::motion::run;
+use planar_proof::maximal::system::System;
+use planar_proof::{assert_close, close, tolerance};
+
+/// A study that is sampled at every step.
+fn studied(scenario: &Scenario) -> Study {
+    let model = models::generated(&scenario.layout).expect("generated code");
+    let run = study(scenario, &|| model.clone_box(), 0.005, &mut Silent);
+    run.unwrap_or_else(|error| panic!("{}: {error}", scenario.name))
+}
+
+/// Robot and targets as free bodies, with what is held already.
+fn system(
+    scenario: &Scenario,
+    motion: &RobotState,
+    targets: &[planar_capture::body::Body<f64>],
+    held: &[Hold],
+) -> System {
+    let RobotState { base_pose, joint_angles, base_twist, joint_rates } = motion;
+    let mut all = System::new(&scenario.layout, *base_pose, joint_angles, *base_twist, joint_rates);
+    for target in targets {
+        all.add(Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist });
+    }
+    let ties: Vec<_> = held.iter().filter_map(|hold| hold.contact(&all).tie(&all)).collect();
+    all.held = ties;
+    all
+}
+
+/// A tip that touches a target.
+#[derive(Clone, Copy)]
+struct Hold {
+    arm: usize,
+    target: usize,
+    kind: Kind,
+}
+
+impl Hold {
+    fn contact(&self, all: &System) -> Contact {
+        Contact::new(all, self.arm, 1 + all.joints.len() + self.target, self.kind)
+    }
+}
+
+/// Distance of a tip from the outline of a target, and the outward normal, inertial axes; of convex outlines, from inside
+/// or beside an edge.
+fn gap(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f64; 2]) {
+    let body = all.bodies[1 + all.joints.len() + target];
+    let away = all.position(&all.tips[arm]) - body.com();
+    match &scenario.targets[target].surface {
+        Surface::Disc { radius } => (away.norm() - radius, (away / away.norm()).into()),
+        Surface::Polygon { corners } => {
+            let next = corners.iter().cycle().skip(1);
+            let of_edge = |(a, b): (&[f64; 2], &[f64; 2])| {
+                let (a, b) = (body.turned((*a).into()), body.turned((*b).into()));
+                let along = (b - a) / (b - a).norm();
+                let normal = nalgebra::Vector2::new(along.y, -along.x);
+                (normal.dot(&(away - a)), normal.into())
+            };
+            let far = (f64::NEG_INFINITY, [0.0; 2]);
+            corners.iter().zip(next).map(of_edge).fold(far, |most, edge| if edge.0 > most.0 { edge } else { most })
+        }
+    }
+}
+
+/// What a study's impact left.
+fn left(found: &Capture) -> Left {
+    let ImpactResult { base_twist_after, joint_rates_after, .. } = &found.exact;
+    let velocities = base_twist_after.iter().chain(joint_rates_after).chain(found.target_twists.as_flattened());
+    let impulses = found.contacts.iter().map(|contact| contact.impulse).collect();
+    Left { velocities: velocities.copied().collect(), impulses }
+}
+
+/// An impact of the study against the reference's; returns what is held from then on.
+fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<Hold> {
+    let mut holds = vec![];
+    for contact in &capture.contacts {
+        let touching = contact.touching;
+        let kind = match touching.law {
+            contact::ContactLaw::Rigid => Kind::Rigid,
+            contact::ContactLaw::Pin => Kind::Pin,
+            contact::ContactLaw::Bounce { normal, restitution } => {
+                let (_, wanted) = gap(scenario, before, touching.arm, touching.target);
+                assert_close("normal", &normal, &wanted, tolerance::IN_SERIES);
+                Kind::Bounce { normal, restitution }
+            }
+        };
+        let body = &before.bodies[1 + before.joints.len() + touching.target];
+        let offset = before.position(&before.tips[touching.arm]) - body.com();
+        assert_close("offset", &touching.offset, offset.as_slice(), tolerance::STRAIGHT);
+        holds.push(Hold { arm: touching.arm, target: touching.target, kind });
+    }
+    let contacts: Vec<_> = holds.iter().map(|hold| hold.contact(before)).collect();
+    let wanted = impact(before, &contacts);
+    let mut after = before.clone();
+    after.apply(&contacts, &wanted);
+    left(capture).assert_is(&after, &wanted.impulses, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));
+    holds.retain(|hold| !matches!(hold.kind, Kind::Bounce { .. }));
+    holds
+}
+
+/// The motion from an index of the samples on, for a time at most, against that of free bodies.
+fn check_motion(scenario: &Scenario, captured: &Captured, from: usize, held: &[Hold], duration: f64) {
+    let samples = &captured.post_impact.samples;
+    let to = samples.iter().rposition(|sample| sample.time <= samples[from].time + duration + 1e-9).expect("a sample");
+    let mut all = system(scenario, &samples[from].state, &captured.targets[from], held);
+    let after = scenario.post_impact.as_ref().expect("a motion after it");
+    let law = |_: f64, angles: &[f64], rates: &[f64]| match &after.control {
+        Settling::None => vec![0.0; angles.len()],
+        Settling::Damping { derivative_gain } => rates.iter().zip(derivative_gain).map(|(rate, k)| -k * rate).collect(),
+        other => panic!("{other:?}"),
+    };
+    run(&mut all, samples[to].time - samples[from].time, 0.25, &law);
+    let end = &samples[to].state;
+    close("angles", &end.joint_angles, &all.joint_angles(), tolerance::MAXIMAL_MOTION);
+    close("rates", &end.joint_rates, &all.joint_rates(), tolerance::MAXIMAL_MOTION);
+    close("base pose", &end.base_pose, &all.bodies[0].pose, tolerance::MAXIMAL_MOTION);
+    for (target, body) in captured.targets[to].iter().zip(&all.bodies[1 + all.joints.len()..]) {
+        close("target pose", &target.pose, &body.pose, tolerance::MAXIMAL_MOTION);
+        close("target twist", &target.twist, &body.twist, tolerance::MAXIMAL_MOTION);
+    }
+}
+
+/// The first impact, every other, and the motion after each; how many impacts there were.
+fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
+    let Some(captured) = &case.capture else { return 0 };
+    let before = &case.approach(study).end().expect("an end").state;
+    let mut held = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
+    let first = captured.further.first().map_or(f64::INFINITY, |further| further.time);
+    check_motion(scenario, captured, 0, &held, first.min(4.0));
+    for further in &captured.further {
+        // twice the same instant: before it and after
+        let at = captured.post_impact.samples.iter().position(|sample| sample.time >= further.time).expect("a sample");
+        let before = system(scenario, &captured.post_impact.samples[at].state, &captured.targets[at], &held);
+        held.extend(check_impact(scenario, &before, &further.impact));
+        let next = captured.further.iter().map(|one| one.time).find(|time| *time > further.time);
+        if at + 1 < captured.post_impact.samples.len() {
+            check_motion(scenario, captured, at + 1, &held, (next.unwrap_or(f64::INFINITY) - further.time).min(4.0));
+        }
+    }
+    1 + captured.further.len()
+}
+
+fn check_scenario(name: &str) -> (Scenario, Study, Vec<usize>) {
+    let scenario = scenario(name);
+    let study = studied(&scenario);
+    assert_eq!(study.objections(), Vec::<String>::new(), "{name}");
+    let impacts = study.cases.iter().map(|case| check_case(&scenario, &study, case)).collect();
+    (scenario, study, impacts)
+}
+
+#[test]
+fn both_arms_on_one_large_target() {
+    let (_, study, impacts) = check_scenario("large_target");
+    assert!(impacts.iter().all(|count| *count == 1), "{impacts:?}");
+    for case in &study.cases {
+        let captured = case.capture.as_ref().expect("a capture");
+        assert_eq!(captured.impact.contacts.len(), 2);
+        let [open, opening] = captured.post_impact.constraint_errors;
+        assert!(open.max(opening) <= tolerance::HELD_CLOSED, "{open:e} {opening:e}");
+    }
+}
+
+#[test]
+fn three_arms_and_three_kinds() {
+    let (_, study, impacts) = check_scenario("three_arms");
+    assert_eq!(impacts, [1]);
+    let contacts = &study.cases[0].capture.as_ref().expect("a capture").impact.contacts;
+    let names: Vec<_> = contacts.iter().map(|contact| contact.touching.law.kind().name()).collect();
+    assert_eq!(names, ["rigid", "pin", "bounce"]);
+}
+
+#[test]
+fn one_arm_on_a_spinning_target() {
+    let (_, _, impacts) = check_scenario("spinning_target");
+    assert!(!impacts.is_empty() && impacts.iter().all(|count| *count == 1), "{impacts:?}");
+}
+
+/// A gripper that does not close does nothing to its target.
+#[test]
+fn a_missed_target_flies_on() {
+    let (scenario, study, _) = check_scenario("missed_grasp");
+    let mut missed = 0;
+    for (case, result) in scenario.cases.iter().zip(&study.cases) {
+        let captured = result.capture.as_ref().expect("a case");
+        for (i, kinds) in case.kinds.iter().enumerate() {
+            if kinds.iter().any(Option::is_some) {
+                continue;
+            }
+            missed += 1;
+            assert_close("twist", &captured.impact.target_twists[i], &case.target_twists[i], 0.0);
+            let start = result.targets[i];
+            for (sample, targets) in captured.post_impact.samples.iter().zip(&captured.targets) {
+                assert_close("twist", &targets[i].twist, &start.twist, 0.0);
+                assert_close("pose", &targets[i].pose, &start.after(sample.time).pose, tolerance::IN_SERIES);
+            }
+        }
+    }
+    assert!(missed >= 3, "{missed}");
+}
+
+/// Contacts are where tip and outline meet, to 1e-10 m, and no tip is inside before or after; what is elastic keeps the energy.
+#[test]
+fn rebounds_are_detected() {
+    let (scenario, study, impacts) = check_scenario("elastic_rebound");
+    assert!(impacts.iter().sum::<usize>() >= 3, "{impacts:?}");
+    for (case, result) in scenario.cases.iter().zip(&study.cases) {
+        let approach = result.approach(&study);
+        let touches: Vec<_> =
+            scenario.targets.iter().enumerate().map(|(i, target)| (i, target.touches[0].arm)).collect();
+        for (i, sample) in approach.samples.iter().enumerate() {
+            let targets: Vec<_> = result.targets_before(approach.duration - sample.time);
+            let all = system(&scenario, &sample.state, &targets, &[]);
+            let least = if i + 1 == approach.samples.len() { -tolerance::DETECTED } else { 0.0 };
+            for (target, arm) in &touches {
+                let (distance, _) = gap(&scenario, &all, *arm, *target);
+                assert!(distance > least, "{}: {distance:e} m at {} s", case.name, sample.time);
+            }
+        }
+        let Some(captured) = &result.capture else { continue };
+        for (sample, targets) in captured.post_impact.samples.iter().zip(&captured.targets) {
+            let all = system(&scenario, &sample.state, targets, &[]);
+            for (target, arm) in &touches {
+                let (distance, _) = gap(&scenario, &all, *arm, *target);
+                assert!(distance > -tolerance::DETECTED, "{}: {distance:e} m at {} s", case.name, sample.time);
+            }
+        }
+        let end = approach.end().expect("an end");
+        let all = system(&scenario, &end.state, &result.targets, &[]);
+        let distances =
+            captured.impact.contacts.iter().map(|c| gap(&scenario, &all, c.touching.arm, c.touching.target).0);
+        assert!(
+            distances.clone().all(|distance| distance.abs() <= tolerance::DETECTED),
+            "{:?}",
+            distances.collect::<Vec<_>>()
+        );
+        let exact = &captured.impact.exact;
+        let kept = exact.kinetic_energy_after / exact.kinetic_energy_before;
+        if case.restitutions.iter().all(|e| *e >= 1.0) {
+            assert_close("energy", &[kept], &[1.0], tolerance::IDENTITY);
+        } else {
+            assert!(kept < 1.0 - 1e-6, "{kept}");
+        }
+    }
+}

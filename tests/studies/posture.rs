@@ -1,0 +1,145 @@
+//! Wanted tip poses are reached by the exactly tracked approach, or it is said why not.
+
+use crate::{Silent, run, scenario};
+use planar_capture::approach::posture::{Posture, PostureError, posture};
+use planar_capture::models;
+use planar_capture::scenario::{EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::study::{Study, StudyError, study};
+use planar_proof::{assert_close, tolerance};
+
+fn wanting(name: &str, goals: &[TipGoal]) -> Scenario {
+    let mut scenario = scenario(name);
+    scenario.approach.tracking = Tracking::Exact;
+    scenario.approach.step = 0.02;
+    scenario.approach.final_end_effector_poses = Some(goals.to_vec());
+    scenario.approach.final_joint_angles.clone_from(&scenario.initial.joint_angles);
+    scenario
+}
+
+fn tips(study: &Study) -> Vec<[f64; 3]> {
+    study.approach.end().expect("an end").end_effector_poses.clone()
+}
+
+/// What another approach reached is reached again, with the same angles and rates from a first guess near them (from the
+/// initial angles it may be with other elbows).
+#[test]
+fn the_papers_final_pose_is_found_from_its_tips() {
+    let mut original = scenario("raina_shah_2017_exact_tracking");
+    original.approach.step = 0.02;
+    let study = run(&original);
+    let goals: Vec<_> = tips(&study).into_iter().map(TipGoal::Pose).collect();
+    let mut scenario = wanting("raina_shah_2017_exact_tracking", &goals);
+    let elsewhere = run(&scenario);
+    for (found, wanted) in tips(&elsewhere).iter().zip(tips(&study)) {
+        assert_close("tip", &found[1..], &wanted[1..], tolerance::REACHED);
+    }
+    let guess = [0.3, -0.2, 0.25, -0.3, 0.2, -0.3];
+    let near = original.approach.final_joint_angles.iter().zip(guess).map(|(angle, by)| angle + by);
+    scenario.approach.final_joint_angles = near.collect();
+    let found = run(&scenario);
+    for (found, wanted) in tips(&found).iter().zip(tips(&study)) {
+        assert_close("tip", found, &wanted, tolerance::REACHED);
+    }
+    let Posture { joint_angles, rounds, spare_joints, .. } = found.posture.as_ref().expect("a posture");
+    assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
+    let rates = |study: &Study| study.design.as_ref().expect("rates").joint_rates.clone();
+    assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
+    assert_eq!(*spare_joints, 0);
+    assert!(*rounds < 40, "{rounds} rounds");
+    for (twist, wanted) in found.approach.end().expect("an end").end_effector_twists.iter().zip([-0.1, 0.1]) {
+        assert_close("twist", twist, &[0.0, wanted, 0.0], tolerance::REACHED);
+    }
+}
+
+/// A tip's velocity alone, at any turning rate: two numbers for three joints, or for two; and an arm of which nothing is wanted.
+#[test]
+fn velocities_alone_are_designed() {
+    let mut free = scenario("raina_shah_2017_exact_tracking");
+    free.approach.step = 0.02;
+    free.approach.end = EndRates::EndEffectorTwists(vec![[None, Some(-0.1), Some(0.02)], [None; 3]]);
+    let designed = run(&free);
+    let [first, _] = designed.approach.end().expect("an end").end_effector_twists[..] else { panic!("two tips") };
+    assert_close("velocity", &first[1..], &[-0.1, 0.02], tolerance::REACHED);
+    assert!(first[0].abs() > 1e-3, "the least rates turn the tip");
+
+    let two_links = r#"
+name = "two"
+layout = "dual_arm_2r"
+[initial]
+joint_angles = [0.6, -1.2, 2.5, 1.2]
+[approach]
+duration = 10.0
+trajectory = "quintic"
+final_joint_angles = [0.4, -0.8, 2.7, 0.9]
+final_end_effector_twists = [[0.03, 0.01], [-0.02, 0.0]]
+tracking = "exact"
+"#;
+    let scenario =
+        Scenario::parse(two_links, "two.toml", std::path::Path::new(""), models::SHIPPED).expect("a scenario");
+    let model = models::generic(&scenario.layout);
+    let study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+    for (twist, wanted) in
+        study.approach.end().expect("an end").end_effector_twists.iter().zip([[0.03, 0.01], [-0.02, 0.0]])
+    {
+        assert_close("velocity", &twist[1..], &wanted, tolerance::REACHED);
+    }
+}
+
+/// Table 4's places, which Table 3's angles do not reach: positions, a yaw left open, an arm left alone.
+#[test]
+fn positions_alone_are_reached_with_joints_to_spare() {
+    let places = [[2.0, -1.5], [-2.0, 1.5]];
+    let goals = places.map(TipGoal::Position);
+    let study = run(&wanting("raina_shah_2017_exact_tracking", &goals));
+    for (tip, wanted) in tips(&study).iter().zip(places) {
+        assert_close("tip", &tip[1..], &wanted, tolerance::REACHED);
+    }
+    assert_eq!(study.posture.as_ref().expect("a posture").spare_joints, 2);
+
+    let mut alone = wanting("raina_shah_2017_exact_tracking", &[goals[0], TipGoal::Any]);
+    alone.approach.end = EndRates::JointRates(vec![0.01; 6]);
+    let study = run(&alone);
+    assert_close("tip", &tips(&study)[0][1..], &places[0], tolerance::REACHED);
+    assert_eq!(study.posture.expect("a posture").spare_joints, 4);
+}
+
+/// Yaws are wanted up to whole turns.
+#[test]
+fn a_yaw_more_than_a_turn_away_is_the_same_pose() {
+    let one = run(&wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0, 1.6, -1.2])]));
+    let other = run(&wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
+    assert_close("tip", &tips(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
+    assert_close("tips", &tips(&one)[0], &tips(&other)[0], tolerance::REACHED);
+}
+
+fn fails(scenario: &Scenario) -> PostureError {
+    let model = models::generated(&scenario.layout).expect("generated code");
+    match study(scenario, &|| model.clone_box(), 0.05, &mut Silent) {
+        Err(StudyError::Posture(error)) => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn what_is_out_of_reach_is_said_to_be() {
+    let far = fails(&wanting("redysim_single_arm_3r", &[TipGoal::Position([5.0, 0.0])]));
+    assert!(matches!(&far, PostureError::OutOfReach { distance, most, .. } if distance > most), "{far:?}");
+    assert!(far.to_string().contains("out of reach"), "{far}");
+    // within the bound that needs no search, but not within the arm's own: the base is heavy
+    let edge = fails(&wanting("redysim_single_arm_3r", &[TipGoal::Position([3.6, 0.0])]));
+    let PostureError::Unsettled { residual, history, rounds, .. } = &edge else { panic!("{edge:?}") };
+    assert!(*residual > 1e-3 && history.0.len() == *rounds, "{edge:?}");
+    assert!(edge.to_string().contains("may be out of reach") && edge.to_string().contains('…'), "{edge}");
+}
+
+/// The report is that of the approach: the residual is what the tips miss, and the Jacobian that of the final pose.
+#[test]
+fn the_report_is_of_the_approach() {
+    let scenario = wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0, 1.6, -1.2])]);
+    let model = models::generated(&scenario.layout).expect("generated code");
+    let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
+    let mut ticks = 0_usize;
+    let found = posture(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a posture");
+    assert_eq!(ticks, found.rounds * 1000, "every round tracks one approach of 1000 steps");
+    assert!(found.residual <= 1e-11 && (0.01..1.0).contains(&found.rates.singularity_margin), "{found:?}");
+}

@@ -1,0 +1,216 @@
+//! After the capture: what the laws keep, what they bring to rest, and what they say remains.
+
+use crate::{run, scenario};
+use planar_capture::models;
+use planar_capture::owned::RobotState;
+use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::integration::Integration;
+use planar_capture::simulate::system::System;
+use planar_capture::simulate::{Phase, Timing};
+use planar_capture::study::Captured;
+use planar_capture::study::remainder::Remainder;
+use planar_capture::study::settle::{Settle, settle, wheels};
+use planar_capture::summary::summary;
+use planar_proof::sample::{Sample, config, sample};
+use planar_proof::{assert_close, tolerance};
+use proptest::prelude::*;
+
+/// The paper's study with another end.
+fn study_with(control: Settling) -> (Scenario, Vec<Captured>) {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.post_impact.as_mut().expect("a capture").control = control;
+    let study = run(&scenario);
+    assert_eq!(study.objections(), Vec::<String>::new());
+    (scenario, study.cases.into_iter().map(|case| case.capture.expect("a capture")).collect())
+}
+
+fn stabilise(base_torque_limit: Option<f64>) -> Settling {
+    Settling::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit }
+}
+
+fn ends(captured: &Captured) -> (&RobotState, &RobotState, &Remainder) {
+    let samples = &captured.post_impact.samples;
+    (
+        &samples.first().expect("a start").state,
+        &samples.last().expect("an end").state,
+        captured.remainder.as_ref().expect("a remainder"),
+    )
+}
+
+#[test]
+fn hold_keeps_the_angles_of_the_capture() {
+    let gains = Settling::Hold { proportional_gain: vec![49.0; 6], derivative_gain: vec![14.0; 6] };
+    for captured in study_with(gains).1 {
+        let (start, end, left) = ends(&captured);
+        assert_close("angles", &end.joint_angles, &start.joint_angles, tolerance::HELD);
+        assert!(left.largest_joint_rate < tolerance::HELD, "{left:?}");
+    }
+}
+
+#[test]
+fn damping_stops_the_joints_and_leaves_one_body() {
+    for captured in study_with(Settling::Damping { derivative_gain: vec![7.0; 6] }).1 {
+        let (start, end, left) = ends(&captured);
+        let largest = |rates: &[f64]| rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        assert!(
+            largest(&end.joint_rates) < 0.2 * largest(&start.joint_rates),
+            "{:e} {:e}",
+            largest(&end.joint_rates),
+            largest(&start.joint_rates)
+        );
+        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], 10.0 * left.largest_joint_rate);
+    }
+}
+
+/// Without an actuator that reaches outside, the whole turns as one body with l/I, and its momentum is what it was.
+#[test]
+fn stabilised_by_joints_alone_the_robot_turns_as_one_body() {
+    for captured in study_with(stabilise(None)).1 {
+        let (start, end, left) = ends(&captured);
+        let decay = (-0.5 * captured.post_impact.duration).exp();
+        let wanted: Vec<_> = start.joint_rates.iter().map(|rate| rate * decay).collect();
+        assert_close("joint rates", &end.joint_rates, &wanted, tolerance::SETTLED);
+        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], tolerance::SETTLED);
+        assert!(
+            captured.post_impact.end().is_some_and(|end| end.base_torque.is_none() && end.work.base_impulse == 0.0)
+        );
+    }
+}
+
+/// A base torque takes all of the angular momentum about the COM; the linear momentum stays.
+#[test]
+fn a_base_torque_takes_the_angular_momentum() {
+    let (_, free) = study_with(stabilise(None));
+    let (_, cases) = study_with(stabilise(Some(1e3)));
+    for (captured, free) in cases.iter().zip(&free) {
+        let (start, end, left) = ends(captured);
+        let decay = (-0.5 * captured.post_impact.duration).exp();
+        assert_close("base rate", &[end.base_twist[0]], &[start.base_twist[0] * decay], tolerance::SETTLED);
+        let [before, rest @ ..] = free.remainder.as_ref().expect("a remainder").momentum;
+        assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::SETTLED);
+        let end = captured.post_impact.end().expect("an end");
+        assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::SETTLED);
+        assert!(captured.post_impact.saturation.base == 0.0);
+    }
+}
+
+/// A weak base torque is at its limit until most is done, never over it.
+#[test]
+fn a_weak_base_torque_takes_longer() {
+    let limit = 0.005;
+    let (scenario, cases) = study_with(stabilise(Some(limit)));
+    for captured in &cases {
+        let largest = captured.post_impact.samples.iter().filter_map(|sample| sample.base_torque);
+        let largest = largest.fold(0.0, |most: f64, torque| most.max(torque.abs()));
+        assert!(largest <= limit, "{largest}");
+        let time = captured.post_impact.saturation.base;
+        let impulse = captured.post_impact.end().expect("an end").work.base_impulse.abs();
+        assert!(impulse <= limit * captured.post_impact.duration);
+        assert!(time <= captured.post_impact.duration + 1e-6 && (time > 1.0 || impulse < 0.1), "{time} s");
+    }
+    assert!(cases.iter().any(|captured| captured.post_impact.saturation.base > 1.0));
+    let study = run(&scenario);
+    let value = summary(&scenario, "generated", &study);
+    let after = &value["cases"][0]["post_impact"];
+    assert_eq!(after["remainder"]["control"], "stabilise");
+    assert_eq!(after["remainder"]["base_rate"], after["base_twist"][0]);
+    assert_eq!(after["base_saturated"].as_f64(), Some(cases[0].post_impact.saturation.base));
+}
+
+#[test]
+fn without_control_nothing_is_said_of_it() {
+    let scenario = scenario("raina_shah_2017");
+    let value = summary(&scenario, "generated", &run(&scenario));
+    let after = value["cases"][0]["post_impact"].as_object().expect("a phase");
+    let keys: Vec<_> = after.keys().map(String::as_str).collect();
+    let motion = ["duration", "base_pose", "base_twist", "joint_angles", "joint_rates"];
+    let contract = [&motion[..], &["momentum_drift", "energy_error", "center_of_mass_drift"]].concat();
+    assert_eq!(keys, contract);
+}
+
+/// The shipped study does what its head says.
+#[test]
+fn the_shipped_study_comes_to_rest() {
+    for case in run(&scenario("stabilised_capture")).cases {
+        let left = case.capture.expect("a capture").remainder.expect("a remainder");
+        assert!(left.base_rate.abs() < 1e-6 && left.largest_joint_rate < 1e-9, "{left:?}");
+        assert!(left.rigid_rate.abs() < 1e-6, "{left:?}");
+    }
+}
+
+/// Four seconds of stabilisation of a shipped layout from any state; joints at 1 1/s, the base at 0.7 1/s.
+fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, Remainder, Vec<bool>) {
+    let (_, text) = models::SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("a layout");
+    let layout = planar_capture::layout::Layout::parse(text, name).expect("a layout");
+    // the generic implementation where this build has no code: slower, the same to rounding
+    let model = models::generated(&layout).unwrap_or_else(|_| models::generic(&layout));
+    let wheels = wheels(&layout, &[]);
+    let control =
+        Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };
+    let integration = Integration::default();
+    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
+    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
+    let start = RobotState {
+        base_pose: s.base_pose,
+        joint_angles: s.joint_angles.clone(),
+        base_twist: s.base_twist,
+        joint_rates: s.joint_rates.clone(),
+    };
+    let wanted = Settle { after: &after, wheels: &wheels, angles: &s.joint_angles };
+    let phase = settle(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    let end = phase.end().expect("an end").state.clone();
+    let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
+    (phase, left, wheels)
+}
+
+/// Every second: joint rates but the wheels', and the base rate where it is `controlled`, have decayed as they should.
+fn check_decay(phase: &Phase, wheels: &[bool], wheels_too: bool, base: bool) {
+    let start = &phase.samples[0].state;
+    for sample in &phase.samples {
+        let joints = start.joint_rates.iter().zip(&sample.state.joint_rates).zip(wheels);
+        for ((from, to), wheel) in joints.filter(|(_, wheel)| wheels_too || !**wheel) {
+            assert_close(&format!("joint ({wheel})"), &[*to], &[from * (-sample.time).exp()], tolerance::DECAY);
+        }
+        if base {
+            let wanted = start.base_twist[0] * (-0.7 * sample.time).exp();
+            assert_close("base", &[sample.state.base_twist[0]], &[wanted], tolerance::DECAY);
+        }
+    }
+    assert!(
+        phase.drift.momentum_drift < tolerance::DECAY && phase.drift.energy_error < tolerance::DECAY,
+        "{:?}",
+        phase.drift
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 6, ..config() })]
+
+    #[test]
+    fn joints_of_any_robot_come_to_rest(s in sample(2, 6)) {
+        let (phase, _, wheels) = settle_layout("dual_arm_3r", &s, None);
+        check_decay(&phase, &wheels, true, false);
+        let (phase, ..) = settle_layout("dual_arm_3r", &s, Some(1e6));
+        check_decay(&phase, &wheels, true, true);
+    }
+
+    #[test]
+    fn a_wheel_takes_what_the_base_loses(s in sample(3, 6)) {
+        let (phase, left, wheels) = settle_layout("asymmetric_wheel", &s, None);
+        prop_assert_eq!(&wheels, &[false, false, false, false, false, true]);
+        check_decay(&phase, &wheels, false, true);
+        prop_assert_eq!(left.wheel_rates.len(), 1);
+    }
+
+    #[test]
+    fn a_base_torque_takes_what_the_wheel_holds(s in sample(3, 6)) {
+        let (phase, left, wheels) = settle_layout("asymmetric_wheel", &s, Some(1e6));
+        check_decay(&phase, &wheels, true, true);
+        // with a limit, the wheel does what the torque cannot
+        let (limited, ..) = settle_layout("asymmetric_wheel", &s, Some(1e-3));
+        check_decay(&limited, &wheels, false, true);
+        prop_assert!(limited.saturation.base > 3.9, "{:?}", limited.saturation);
+        prop_assert_eq!(left.wheel_rates.len(), 1);
+    }
+}
