@@ -103,6 +103,8 @@ pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
+pub mod scene;
+#[cfg(feature = "std")]
 pub mod simulate;
 #[cfg(feature = "std")]
 pub mod states;

@@ -1,52 +1,22 @@
-//! Frames of the bodies, and where they are.
-//!
-//! `world` is the inertial frame; `base`, and the chain of each arm from it: `arms/ARM/link1`, …, `arms/ARM/tip`; and
-//! `targets/TARGET` at each target's COM, given in `world`. z is the plane's normal.
+//! Where every frame of the [scene](crate::scene) is; `world` is the inertial frame, z the plane's normal.
 
 use super::channel::timestamp;
-use crate::layout::Arm;
 use crate::record::Row;
-use crate::scenario::{Scenario, Target};
+use crate::scene::Frame;
 use foxglove::messages::{FrameTransform, FrameTransforms, Quaternion, Vector3};
 
 pub(super) const WORLD: &str = "world";
-pub(super) const BASE: &str = "base";
 
-/// The frame of a link, counted from 0.
-pub(super) fn link(arm: &Arm, k: usize) -> String {
-    format!("arms/{}/link{}", arm.name, k + 1)
-}
-
-fn tip(arm: &Arm) -> String {
-    format!("arms/{}/tip", arm.name)
-}
-
-/// The frame of a target.
-pub(super) fn target(target: &Target) -> String {
-    format!("targets/{}", target.name)
-}
-
-/// Where every frame is at one instant.
-pub(super) fn transforms(scenario: &Scenario, row: &Row<'_>) -> FrameTransforms {
-    let motion = &row.sample.state;
-    let mut list = vec![transform(row.time, WORLD, BASE.to_owned(), motion.base_pose)];
-    let mut joint_angles = motion.joint_angles.iter();
-    for arm in &scenario.layout.arms {
-        let mut parent = BASE.to_owned();
-        // the next frame in its parent's: first at the mount, then at the end of the link before
-        let [mut x, mut y] = arm.mount;
-        let mut direction = arm.mount_angle;
-        for (k, (body, angle)) in arm.links.iter().zip(&mut joint_angles).enumerate() {
-            let child = link(arm, k);
-            list.push(transform(row.time, &parent, child.clone(), [direction + angle, x, y]));
-            (parent, direction, x, y) = (child, 0.0, body.length, 0.0);
-        }
-        list.push(transform(row.time, &parent, tip(arm), [direction, x, y]));
-    }
-    for (captured, body) in scenario.targets.iter().zip(&row.targets) {
-        list.push(transform(row.time, WORLD, target(captured), body.pose));
-    }
-    FrameTransforms { transforms: list }
+/// Every frame in its parent, at one instant.
+pub(super) fn transforms(frames: &[Frame], row: &Row<'_>) -> FrameTransforms {
+    let targets: Vec<[f64; 3]> = row.targets.iter().map(|target| target.pose).collect();
+    // before there is a capture no target is anywhere
+    let there = |frame: &&Frame| !matches!(frame.motion, crate::scene::Motion::Target(i) if i >= targets.len());
+    let each = frames.iter().filter(there).map(|frame| {
+        let parent = frame.parent.map_or(WORLD, |parent| &frames[parent].name);
+        transform(row.time, parent, frame.name.clone(), frame.pose_in_parent(&row.sample.state, &targets))
+    });
+    FrameTransforms { transforms: each.collect() }
 }
 
 fn transform(time: f64, parent: &str, child: String, [yaw, x, y]: [f64; 3]) -> FrameTransform {

@@ -14,7 +14,6 @@
 //! says what the file comes from. Time is `log_time`, from 0 at the start of the approach, to the nearest nanosecond;
 //! the two rows at an impact have the same.
 
-mod body;
 mod channel;
 mod frames;
 mod impact;
@@ -24,6 +23,7 @@ mod scene;
 
 use crate::record::{Column, Row, columns, provenance, rows};
 use crate::scenario::Scenario;
+use crate::scene::frames as scene_frames;
 use crate::study::capture::ImpactResult;
 use crate::study::{CaseResult, Study};
 use channel::Recording;
@@ -39,7 +39,7 @@ use std::io::{self, Write};
 pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut to: impl Write) -> io::Result<()> {
     let mut recording = Recording::new()?;
     recording.metadata("planar_capture", provenance(scenario, result))?;
-    let bodies = body::bodies(scenario);
+    let (frames, bodies) = (scene_frames(scenario), crate::scene::bodies(scenario));
     let scene = recording.channel("/scene")?;
     recording.log(scene, 0.0, &scene::solids(&bodies))?;
     for body in &bodies {
@@ -62,7 +62,7 @@ pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut t
                 impacts.log(&mut recording, time, impact, &row.sample.end_effector_poses)?;
             }
         }
-        recording.log(transforms, row.time, &frames::transforms(scenario, &row))?;
+        recording.log(transforms, row.time, &frames::transforms(&frames, &row))?;
         for series in &mut series {
             series.log(&mut recording, &row)?;
         }

@@ -1,8 +1,8 @@
 //! Outlines as points, for viewers that draw no scenes.
 
-use super::body::Body;
 use super::channel::timestamp;
 use super::scene::pose;
+use crate::scene::Body;
 use foxglove::messages::packed_element_field::NumericType;
 use foxglove::messages::{PackedElementField, PointCloud};
 

@@ -1,8 +1,8 @@
 //! Solids for viewers that draw scenes.
 
-use super::body::{Body, Shape};
 use super::channel::timestamp;
 use super::frames::about_z;
+use crate::scene::{Body, Shape};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{
     Color, CubePrimitive, CylinderPrimitive, LinePrimitive, Point3, Pose, Quaternion, SceneEntity, SceneUpdate,

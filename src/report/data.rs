@@ -3,6 +3,7 @@
 use super::impacts::{distances, holds, impacts, open};
 use crate::layout::Layout;
 use crate::scenario::{Case, Scenario};
+use crate::scene::{Motion, base_size, robot_frames};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use crate::study::{CaseResult, Study};
@@ -37,18 +38,24 @@ fn robot(layout: &Layout) -> Value {
     let arms = layout.arms.iter().map(|arm| {
         json!({
             "name": arm.name,
-            "mount": arm.mount,
-            "mount_angle": arm.mount_angle,
             "links": arm.links.iter().map(|link| json!({
                 "length": link.length, "mass": link.mass, "inertia": link.inertia, "com": link.com,
             })).collect::<Vec<_>>(),
         })
     });
+    let frames = robot_frames(layout).into_iter().map(|frame| {
+        let joint = match frame.motion {
+            Motion::Joint(joint) => Some(joint),
+            _ => None,
+        };
+        json!({"parent": frame.parent, "pose": frame.pose, "joint": joint, "arm": frame.arm})
+    });
     json!({
         "name": layout.name,
         "sha256": layout.sha256(),
-        "base": {"mass": layout.base.mass, "inertia": layout.base.inertia},
+        "base": {"mass": layout.base.mass, "inertia": layout.base.inertia, "size": base_size(layout)},
         "arms": arms.collect::<Vec<_>>(),
+        "frames": frames.collect::<Vec<_>>(),
     })
 }
 

@@ -60,21 +60,21 @@ function between(line, column, time, first = 0) {
   return column[i - first] + part * (column[j - first] - column[i - first]);
 }
 
-/** Where every body of the robot is. */
+/** Where every body of the robot is: the tree of its frames, composed from the base outwards. */
 function configuration(line, time) {
   const at = (column) => between(line, column, time);
   const [yaw, x, y] = line.base_pose.map(at);
-  let joint = 0;
-  const arms = study.layout.arms.map((arm) => {
-    let angle = yaw + arm.mount_angle, point = plus([x, y], rotate(arm.mount, yaw));
-    const points = [point], angles = [];
-    for (const link of arm.links) {
-      angle += at(line.joint_angles[joint++]);
-      angles.push(angle);
-      point = plus(point, rotate([link.length, 0], angle));
-      points.push(point);
-    }
-    return { points, angles, tip: point };
+  const poses = [];
+  for (const { parent, pose: [angle, px, py], joint } of study.layout.frames) {
+    const from = poses[parent];
+    poses.push(from === undefined ? { angle: yaw, point: [x, y] } : {
+      angle: from.angle + angle + (joint === null ? 0 : at(line.joint_angles[joint])),
+      point: plus(from.point, rotate([px, py], from.angle)),
+    });
+  }
+  const arms = study.layout.arms.map((_, arm) => {
+    const own = poses.filter((_, i) => study.layout.frames[i].arm === arm);
+    return { points: own.map(({ point }) => point), angles: own.map(({ angle }) => angle), tip: own[own.length - 1].point };
   });
   return { yaw, base: [x, y], arms };
 }

@@ -1,12 +1,7 @@
 // The part of the plane that is seen.
 
-/** Half the sides of the base: it reaches to its mounts, and is a body of its mass and inertia else. */
-const base = (() => {
-  const gyration = Math.sqrt(study.layout.base.inertia / study.layout.base.mass);
-  const half = gyration * Math.sqrt(1.5);
-  const reach = (i) => Math.max(...study.layout.arms.map((arm) => Math.abs(arm.mount[i])));
-  return [Math.max(reach(0), half), Math.max(reach(1), half)];
-})();
+/** Half the sides of the base. */
+const base = study.layout.base.size.map((side) => side / 2);
 
 /** When a target matters: its impacts, its nearest approach, the grasp that does not close. */
 function instants(one, line, target) {

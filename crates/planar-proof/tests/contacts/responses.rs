@@ -40,7 +40,7 @@ fn check_tips(layout: &Layout, s: &Sample) {
             // symmetric: columns are rows
             close("J M⁻¹ Jᵀ", found.0.as_flattened(), wanted.as_slice(), tolerance::SAME_IMPACT);
             let missing = of_tip(&*model, s, layout.arms.len());
-            assert!(matches!(missing, Err(Error::Length { quantity: "arm", .. })), "{missing:?}");
+            assert!(matches!(missing, Err(Error::Index { what: "arm", .. })), "{missing:?}");
         }
     }
 }

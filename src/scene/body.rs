@@ -1,26 +1,44 @@
-//! What is drawn: the bodies, each in a frame of its own.
+//! What bodies look like, each in a frame of its own.
 
-use super::frames;
+use super::{Motion, frames};
 use crate::layout::{Layout, Link};
 use crate::scenario::Scenario;
 use crate::surface::Surface;
 use std::f64::consts::TAU;
 
 /// A body's frame, in which it does not move, and its look.
-pub(super) struct Body {
-    pub(super) frame: String,
-    pub(super) shape: Shape,
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// The frame's name.
+    pub frame: String,
+    /// In the frame.
+    pub shape: Shape,
     /// Red, green, blue, opacity; 0 to 1.
-    pub(super) colour: [f64; 4],
+    pub colour: [f64; 4],
     /// Extent across the plane, m.
-    pub(super) thickness: f64,
+    pub thickness: f64,
 }
 
 /// A body seen along the plane's normal; m.
-pub(super) enum Shape {
-    Rectangle { centre: [f64; 2], size: [f64; 2] },
-    Disc { radius: f64 },
-    Polygon { corners: Vec<[f64; 2]> },
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Parallel to the frame's axes.
+    Rectangle {
+        /// [x, y].
+        centre: [f64; 2],
+        /// Along x and y.
+        size: [f64; 2],
+    },
+    /// About the frame's origin.
+    Disc {
+        /// The radius.
+        radius: f64,
+    },
+    /// Anticlockwise.
+    Polygon {
+        /// [x, y] each.
+        corners: Vec<[f64; 2]>,
+    },
 }
 
 /// Okabe and Ito's, which colour-blind readers tell apart; the same as in the report.
@@ -38,29 +56,30 @@ const TARGET: [u8; 3] = [0x6d, 0x6d, 0x6d];
 const SLENDERNESS: f64 = 0.08;
 
 /// Base, links and targets.
-pub(super) fn bodies(scenario: &Scenario) -> Vec<Body> {
+#[must_use]
+pub fn bodies(scenario: &Scenario) -> Vec<Body> {
     let layout = &scenario.layout;
     let width = link_width(layout);
-    let base =
-        Body { frame: frames::BASE.to_owned(), shape: base(layout), colour: colour(BASE, 1.0), thickness: 2.0 * width };
-    let links = layout.arms.iter().zip(ARMS.iter().cycle()).flat_map(|(arm, rgb)| {
-        arm.links.iter().enumerate().map(move |(k, link)| Body {
-            frame: frames::link(arm, k),
-            shape: shape(link, width),
-            colour: colour(*rgb, 1.0),
-            thickness: width,
-        })
+    let links: Vec<&Link> = layout.arms.iter().flat_map(|arm| &arm.links).collect();
+    let each = frames(scenario).into_iter().filter_map(|frame| {
+        let (shape, colour, thickness) = match frame.motion {
+            Motion::Base => (base(layout), colour(BASE, 1.0), 2.0 * width),
+            Motion::Joint(joint) => (shape(links[joint], width), colour(ARMS[frame.arm? % ARMS.len()], 1.0), width),
+            Motion::Target(target) => (outline(&scenario.targets[target].surface), colour(TARGET, 0.5), width),
+            // an end effector is a point
+            Motion::Fixed => return None,
+        };
+        Some(Body { frame: frame.name, shape, colour, thickness })
     });
-    let targets = scenario.targets.iter().map(|target| Body {
-        frame: frames::target(target),
-        shape: match &target.surface {
-            Surface::Disc { radius } => Shape::Disc { radius: *radius },
-            Surface::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
-        },
-        colour: colour(TARGET, 0.5),
-        thickness: width,
-    });
-    std::iter::once(base).chain(links).chain(targets).collect()
+    each.collect()
+}
+
+/// Of a target.
+pub(crate) fn outline(surface: &Surface) -> Shape {
+    match surface {
+        Surface::Disc { radius } => Shape::Disc { radius: *radius },
+        Surface::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
+    }
 }
 
 fn colour(rgb: [u8; 3], opacity: f64) -> [f64; 4] {
@@ -75,11 +94,16 @@ fn link_width(layout: &Layout) -> f64 {
     SLENDERNESS * if count > 0.0 { sum / count } else { layout.base.radius_of_gyration() }
 }
 
-/// It reaches to its mounts, and is a body of its mass and inertia else; as in the report.
-fn base(layout: &Layout) -> Shape {
+/// It reaches to its mounts, and is a uniform square of its mass and inertia else.
+pub(crate) fn base(layout: &Layout) -> Shape {
+    Shape::Rectangle { centre: [0.0; 2], size: base_size(layout) }
+}
+
+/// Sides of the base, m.
+#[must_use]
+pub fn base_size(layout: &Layout) -> [f64; 2] {
     let half = layout.base.radius_of_gyration() * 1.5_f64.sqrt();
-    let reach = |i: usize| layout.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max);
-    Shape::Rectangle { centre: [0.0; 2], size: [2.0 * reach(0), 2.0 * reach(1)] }
+    [0, 1].map(|i| 2.0 * layout.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max))
 }
 
 /// A wheel is as large as its inertia makes it.
@@ -93,7 +117,8 @@ fn shape(link: &Link, width: f64) -> Shape {
 
 impl Shape {
     /// Lines that show place and direction: the edge, and a spoke from the frame's origin along its x axis.
-    pub(super) fn lines(&self) -> [Vec<[f64; 2]>; 2] {
+    #[must_use]
+    pub fn lines(&self) -> [Vec<[f64; 2]>; 2] {
         match self {
             Self::Rectangle { centre: [x, y], size: [length, width] } => {
                 let corner = |a: f64, b: f64| [x + a * length / 2.0, y + b * width / 2.0];
