@@ -1,6 +1,6 @@
 //! `planar-capture compare`: what it prints, and that the states it leaves can be computed again.
 
-use assert_cmd::Command;
+use crate::said;
 use planar_capture::compare::{Comparison, Worst};
 use planar_capture::layout::Layout;
 use planar_capture::models::SHIPPED;
@@ -9,27 +9,21 @@ use planar_capture::quantity::Quantity;
 use planar_capture::sampling::REGIMES;
 use std::path::Path;
 
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("planar-capture").expect("built").args(arguments).output().expect("runs");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (output.status.code().expect("a code"), text(output.stdout), text(output.stderr))
-}
-
 #[test]
 fn every_quantity_is_printed_and_its_worst_state_can_be_replayed() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("compare");
     let folder = folder.to_str().expect("UTF-8");
     let arguments = ["compare", "dual_arm_3r", "--samples", "5", "--seed", "7", "--out", folder];
-    let (code, table, problems) = run(&arguments);
+    let (code, table, problems) = said(&arguments);
     assert_eq!((code, problems.as_str()), (0, ""));
     assert!(table.contains("65 states, 5 of each regime, seed 7"), "{table}");
-    assert_eq!(run(&arguments).1, table, "the same seed, the same states");
+    assert_eq!(said(&arguments).1, table, "the same seed, the same states");
     for quantity in Quantity::ALL.iter().map(|quantity| quantity.row()) {
         assert!(table.lines().any(|line| line.starts_with(quantity.name)), "{} is missing", quantity.name);
         let name = quantity.name.replace([' ', '.'], "_");
         for dynamics in ["generated", "generic"] {
             let (layout, states) = (format!("{folder}/{name}.toml"), format!("{folder}/{name}.json"));
-            let (code, results, problems) = run(&["eval", &layout, &states, "--dynamics", dynamics]);
+            let (code, results, problems) = said(&["eval", &layout, &states, "--dynamics", dynamics]);
             assert_eq!((code, problems.as_str()), (0, ""));
             assert!(results.contains("mass_matrix"));
         }
@@ -44,7 +38,7 @@ fn the_exit_code_says_that_a_bound_is_exceeded() {
     let path = folder.path().join("short.toml");
     std::fs::write(&path, text.replacen("length = 1.0 ", "com = [0.5, 0.0]\nlength = 1.0e-9 ", 1)).expect("written");
     let (path, results) = (path.display().to_string(), folder.path().join("worst").display().to_string());
-    let (code, out, err) = run(&["compare", &path, "--samples", "20", "--out", &results]);
+    let (code, out, err) = said(&["compare", &path, "--samples", "20", "--out", &results]);
     assert_eq!(code, 1, "{out}{err}");
     assert!(out.contains("over its bound"), "{out}");
 }

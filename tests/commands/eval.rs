@@ -1,17 +1,17 @@
 //! `planar-capture eval`: its numbers against Pinocchio's, and what it says of states that are wrong.
 
+use crate::command;
 use assert_cmd::Command;
-use planar_proof::tolerance;
+use planar_proof::{said, tolerance};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
 
 fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String) {
-    let mut command = Command::cargo_bin("planar-capture").expect("the binary is built");
-    let output =
-        command.args(["eval", layout, "-", "--dynamics", dynamics]).write_stdin(states).output().expect("runs");
-    let text = String::from_utf8(output.stdout).expect("UTF-8");
-    let results = if text.is_empty() { Vec::new() } else { serde_json::from_str(&text).expect("a JSON array") };
-    (output.status.code().expect("an exit code"), results, String::from_utf8(output.stderr).expect("UTF-8"))
+    let mut command = Command::from_std(command());
+    let output = command.args(["eval", layout, "-", "--dynamics", dynamics]).write_stdin(states).output();
+    let (code, out, err) = said(output.expect("it runs"));
+    let results = if out.is_empty() { Vec::new() } else { serde_json::from_str(&out).expect("a JSON array") };
+    (code, results, err)
 }
 
 /// The reference's states, without what is expected of them, and that.

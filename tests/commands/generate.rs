@@ -2,17 +2,18 @@
 //!
 //! What needs Python is left out, and said to be, with `PLANAR_CAPTURE_NO_PYTHON=1`.
 
+use crate::command;
 use planar_capture::build::Module;
 use planar_capture::build::graph::{self, GraphError};
 use planar_capture::build::{Layouts, verify};
 use planar_capture::generate::{GenerateError, complete, prove};
 use planar_capture::layout::Layout;
-use planar_proof::file;
+use planar_proof::{file, said};
 use serde_json::Value;
 use std::fs;
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 use tempfile::TempDir;
 
 /// Not shipped: three arms of one, three and two links, bent COMs, a wheel inside an arm.
@@ -70,7 +71,7 @@ fn without_python() -> bool {
 
 /// The command in a folder, with environments shared with the repository's own.
 fn generate(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
+    let mut command = command();
     command.arg("generate").args(arguments).current_dir(folder);
     command.env("PLANAR_CAPTURE_HOME", file("target/generate"));
     command.env("PLANAR_CAPTURE_ENVIRONMENTS", file("target/python"));
@@ -83,11 +84,8 @@ fn folder() -> TempDir {
     folder
 }
 
-#[track_caller]
 fn outcome(mut command: Command) -> (i32, String, String) {
-    let Output { status, stdout, stderr } = command.output().expect("it runs");
-    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    (status.code().expect("an exit code"), text(stdout), text(stderr))
+    said(command.output().expect("it runs"))
 }
 
 #[test]
@@ -266,13 +264,8 @@ fn paths_are_single_words() {
 #[test]
 fn import_and_export_leave_what_is_there() {
     let folder = folder();
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
-        outcome({
-            command.args(arguments).current_dir(folder.path());
-            command
-        })
-    };
+    let run =
+        |arguments: &[&str]| said(command().args(arguments).current_dir(folder.path()).output().expect("it runs"));
     assert_eq!(run(&["export", "held_out.toml", "--out", "robot.urdf"]).0, 0);
     let (code, _, err) = run(&["export", "held_out.toml", "--out", "robot.urdf"]);
     assert!(code == 2 && err.contains("robot.urdf is there already"), "{err}");

@@ -9,3 +9,15 @@ mod generate;
 mod rendering;
 mod run;
 mod urdf;
+
+use std::process::Command;
+
+/// The product.
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
+}
+
+/// Exit code, standard output and standard error of the product with these arguments.
+fn said(arguments: &[&str]) -> (i32, String, String) {
+    planar_proof::said(command().args(arguments).output().expect("it runs"))
+}

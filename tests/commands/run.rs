@@ -1,14 +1,10 @@
 //! The command line as its users meet it: results, messages, exit codes.
 
-use assert_cmd::Command;
-use planar_proof::{assert_close, file, numbers, tolerance};
+use crate::command;
+use planar_proof::{assert_close, file, numbers, said, tolerance};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-
-fn command() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
-}
 
 /// Runs a scenario text from a folder of its own; (exit code, stdout, stderr, folder).
 fn run_text(text: &str) -> (i32, String, String, TempDir) {
@@ -20,9 +16,7 @@ fn run_text(text: &str) -> (i32, String, String, TempDir) {
 }
 
 fn run_file(path: &Path, results: &Path) -> (i32, String, String) {
-    let output = command().arg("run").arg(path).arg("--out").arg(results).output().expect("it runs");
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
-    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
+    said(command().arg("run").arg(path).arg("--out").arg(results).output().expect("it runs"))
 }
 
 fn paper() -> String {

@@ -2,7 +2,7 @@
 //!
 //! That they move alike in other simulators is shown by `urdf_dynamics.py`.
 
-use assert_cmd::Command;
+use crate::said;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::models;
 use planar_capture::urdf::{Import, Options, export, import};
@@ -534,28 +534,22 @@ proptest! {
     }
 }
 
-fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_planar-capture")).args(arguments).output().expect("it runs");
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
-    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
-}
-
 #[test]
 fn the_commands_write_files_or_the_standard_output() {
     let folder = TempDir::new().expect("a folder");
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (urdf, toml) = (path("robot.urdf"), path("robot.toml"));
-    let (code, out, err) = run(&["export", "dual_arm_2r"]);
+    let (code, out, err) = said(&["export", "dual_arm_2r"]);
     assert_eq!((code, err.as_str()), (0, ""));
-    assert_eq!(run(&["export", "dual_arm_2r", "--out", &urdf]), (0, String::new(), String::new()));
+    assert_eq!(said(&["export", "dual_arm_2r", "--out", &urdf]), (0, String::new(), String::new()));
     assert_eq!(fs::read_to_string(&urdf).expect("a URDF"), out);
-    let (code, out, err) = run(&["import", &urdf]);
+    let (code, out, err) = said(&["import", &urdf]);
     assert_eq!((code, err.as_str()), (0, ""));
     assert!(out.starts_with(&format!("# Imported from {urdf}")), "{out}");
-    assert_eq!(run(&["import", &urdf, "--out", &toml]), (0, String::new(), String::new()));
+    assert_eq!(said(&["import", &urdf, "--out", &toml]), (0, String::new(), String::new()));
     assert_eq!(fs::read_to_string(&toml).expect("a layout"), out);
 
-    let (code, out, err) = run(&["import", &file("tests/urdf/clutter.urdf").display().to_string(), "--name", "mine"]);
+    let (code, out, err) = said(&["import", &file("tests/urdf/clutter.urdf").display().to_string(), "--name", "mine"]);
     assert_eq!(code, 0);
     assert!(out.contains("\nname = \"mine\"\n") && out.contains("# warning: the robot would leave the plane"), "{out}");
     assert!(err.contains("import: note: arm `shoulder`, joint 3 = -`wrist`"), "{err}");
@@ -576,7 +570,7 @@ fn bad_input_is_exit_code_2_and_leaves_nothing() {
         (&["import", &folder.path().display().to_string()], &["directory", "URDF", "robot.urdf"]),
         (&["export", "dual_arm", "--out", &toml], &["no shipped layout `dual_arm`"]),
     ] {
-        let (code, out, err) = run(arguments);
+        let (code, out, err) = said(arguments);
         assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}: {err}");
         for hint in hints {
             assert!(err.contains(hint), "{arguments:?}: no `{hint}` in\n{err}");

@@ -1,7 +1,7 @@
 //! What the audit sees besides momentum and energy: where the centre of mass goes, and joints beyond their limits.
 
+use crate::command;
 use crate::{run, scenario};
-use assert_cmd::Command;
 use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::scenario::{Scenario, Settling, Tracking};
@@ -11,7 +11,7 @@ use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
 use planar_capture::simulate::system::Body;
 use planar_capture::state::State;
 use planar_capture::summary::summary;
-use planar_proof::{assert_close, file, tolerance};
+use planar_proof::{assert_close, file, said, tolerance};
 use std::fs;
 use tempfile::TempDir;
 
@@ -199,24 +199,20 @@ fn the_exit_code_says_that_a_limit_was_exceeded() {
         let text = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
         let path = folder.path().join("it.toml");
         fs::write(&path, text.replace("[approach] #", &format!("{limits}\n[approach] #"))).expect("written");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
-        let output =
-            command.arg("run").arg(&path).arg("--out").arg(folder.path().join("out")).output().expect("it runs");
-        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
-        (output.status.code(), text(&output.stdout), text(&output.stderr))
+        said(command().arg("run").arg(&path).arg("--out").arg(folder.path().join("out")).output().expect("it runs"))
     };
     let (code, out, err) = run("[limits]\njoint_angles = [-6, 6]\njoint_rates = 2");
-    assert_eq!((code, err.as_str()), (Some(0), ""), "{err}");
+    assert_eq!((code, err.as_str()), (0, ""), "{err}");
     assert_eq!(out.matches("all joints within their limits").count(), 4, "{out}");
     let (code, out, err) = run("[limits]\njoint_rates = [2, 0.1, 2, 2, 2, 2]");
-    assert_eq!(code, Some(1));
+    assert_eq!(code, 1);
     assert!(
         err.contains("audit: approach: joint 2 of arm1 turns with") && err.contains("beyond its limit of"),
         "{err}"
     );
     assert!(out.contains("joint 2 of arm1 turns with"), "{out}");
     let (code, _, err) = run("[limits]\njoint_angles = [[], [-1.5, 1.5], [], [], [], []]");
-    assert_eq!(code, Some(2));
+    assert_eq!(code, 2);
     assert!(err.contains("`initial.joint_angles[1]` is -1.571: outside the limits of joint 2 of arm1, -1.5"), "{err}");
     assert!(err.contains("(`limits.joint_angles`)") && err.contains("it.toml:12:"), "{err}");
 }

@@ -1,29 +1,23 @@
 //! Figures: which there are, what stands in them, and what a build without them says.
 
-use assert_cmd::Command;
+use crate::command;
 use planar_proof::file;
 use tempfile::TempDir;
-
-fn command() -> Command {
-    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
-}
 
 #[cfg(not(feature = "figures"))]
 #[test]
 fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results");
-    let mut command = command();
-    command.arg("run").arg(file("scenarios/raina_shah_2017.toml")).arg("--figures").arg("--out").arg(&results);
-    let output = command.output().expect("it runs");
-    assert_eq!(output.status.code(), Some(2));
-    let message = String::from_utf8(output.stderr).expect("UTF-8");
+    let scenario = file("scenarios/raina_shah_2017.toml");
+    let output = command().arg("run").arg(scenario).arg("--figures").arg("--out").arg(&results).output();
+    let (code, _, message) = planar_proof::said(output.expect("it runs"));
+    assert_eq!(code, 2);
     assert!(message.contains("cargo run --release --features figures"), "{message}");
     assert!(!results.exists(), "nothing was computed");
-    let mut command = self::command();
-    let output = command.arg("reproduce").arg("--out").arg(&results).output().expect("it runs");
-    assert_eq!(output.status.code(), Some(2));
-    assert_eq!(String::from_utf8(output.stderr).expect("UTF-8"), message);
+    let (code, _, again) =
+        planar_proof::said(command().arg("reproduce").arg("--out").arg(&results).output().expect("it runs"));
+    assert_eq!((code, again), (2, message));
     assert!(!results.exists(), "nothing was computed");
 }
 

@@ -18,6 +18,7 @@ use planar_capture::models;
 use planar_capture::scenario::Scenario;
 use planar_capture::study::{Observer, Study};
 use planar_proof::file;
+use std::process::Command;
 
 /// A shipped scenario.
 fn scenario(name: &str) -> Scenario {
@@ -38,4 +39,9 @@ struct Silent;
 impl Observer for Silent {
     fn begin(&mut self, _: &str, _: u64) {}
     fn step(&mut self) {}
+}
+
+/// The product.
+fn command() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_planar-capture"))
 }

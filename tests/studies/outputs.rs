@@ -1,22 +1,21 @@
 //! Parquet and MCAP: the same numbers as the CSV, what a failing disk does, and what a build without them says.
 #![allow(clippy::float_cmp, reason = "what is written is what is computed, bit by bit")]
 
-use assert_cmd::Command;
+use crate::command;
 use planar_proof::file;
 use tempfile::TempDir;
 
 /// Asks for something that this build lacks; what it says.
-#[cfg(not(all(feature = "figures", feature = "parquet", feature = "mcap")))]
-#[allow(dead_code, reason = "only a build without one of the features refuses its flag")]
+#[cfg(not(any(feature = "figures", feature = "parquet", feature = "mcap")))]
 fn refused(flags: &[&str]) -> String {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
-    command.arg("run").arg(file("scenarios/raina_shah_2017.toml")).args(flags).arg("--out").arg(&results);
-    let output = command.output().expect("it runs");
-    assert_eq!(output.status.code(), Some(2));
+    let scenario = file("scenarios/raina_shah_2017.toml");
+    let output = command().arg("run").arg(scenario).args(flags).arg("--out").arg(&results).output();
+    let (code, _, message) = planar_proof::said(output.expect("it runs"));
+    assert_eq!(code, 2);
     assert!(!results.exists(), "nothing was computed");
-    String::from_utf8(output.stderr).expect("UTF-8")
+    message
 }
 
 #[cfg(not(any(feature = "figures", feature = "parquet", feature = "mcap")))]
@@ -88,7 +87,7 @@ mod written {
     fn run_writes_them_beside_the_csv() {
         let folder = TempDir::new().expect("a folder");
         let results = folder.path().join("results");
-        let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
+        let mut command = command();
         command.arg("run").arg(file("scenarios/redysim_single_arm_3r.toml")).arg("--out").arg(&results);
         let mut wanted = vec!["redysim_single_arm_3r.csv".to_owned(), "summary.json".to_owned()];
         for (there, kind) in [(cfg!(feature = "parquet"), "parquet"), (cfg!(feature = "mcap"), "mcap")] {

@@ -2,9 +2,9 @@
 #![cfg(feature = "figures")]
 
 use crate::Silent;
-use assert_cmd::Command;
+use crate::command;
 use planar_capture::reproduction::reproduce;
-use planar_proof::file;
+use planar_proof::{file, said};
 use std::fs;
 use tempfile::TempDir;
 
@@ -43,19 +43,19 @@ fn the_committed_report_is_what_is_computed() {
 fn the_command_writes_the_report_and_sees_what_is_stale() {
     let folder = TempDir::new().expect("a folder");
     let reproduce = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
-        let output = command.arg("reproduce").arg("--out").arg(folder.path()).args(more).output().expect("it runs");
-        (output.status.code(), String::from_utf8(output.stderr).expect("UTF-8"))
+        let output = command().arg("reproduce").arg("--out").arg(folder.path()).args(more).output();
+        let (code, _, message) = said(output.expect("it runs"));
+        (code, message)
     };
     let (code, message) = reproduce(&["--check"]);
-    assert_eq!(code, Some(1), "nothing is there yet");
+    assert_eq!(code, 1, "nothing is there yet");
     assert!(message.contains("reproduction.md") && message.contains("reproduce --out"), "{message}");
     assert!(fs::read_dir(folder.path()).expect("a folder").next().is_none(), "a check writes nothing");
-    assert_eq!(reproduce(&[]), (Some(0), String::new()));
-    assert_eq!(reproduce(&["--check"]), (Some(0), String::new()));
+    assert_eq!(reproduce(&[]), (0, String::new()));
+    assert_eq!(reproduce(&["--check"]), (0, String::new()));
     let figure = folder.path().join("reproduction/momentum_case1.svg");
     fs::write(&figure, "<svg/>").expect("written");
     let (code, message) = reproduce(&["--check"]);
-    assert_eq!(code, Some(1));
+    assert_eq!(code, 1);
     assert!(message.contains("momentum_case1.svg"), "{message}");
 }

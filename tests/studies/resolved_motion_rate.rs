@@ -3,7 +3,6 @@
 use crate::{run, scenario};
 use planar_capture::approach::resolved::Tips;
 use planar_capture::control::Control;
-use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
@@ -16,7 +15,7 @@ use planar_capture::study::Study;
 use planar_capture::summary::summary;
 use planar_capture::trajectory::quintic;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{assert_close, difference, tolerance};
+use planar_proof::{assert_close, difference, layout, tolerance};
 use proptest::prelude::*;
 
 const GAINS: [f64; 2] = [2.0, 10.0];
@@ -252,8 +251,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
 /// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k θ̇` in
 /// joints that are held. The tips' accelerations are differences of their twists along the motion.
 fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseError> {
-    let (_, text) = models::SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("a layout");
-    let layout = Layout::parse(text, name).expect("a layout");
+    let layout = layout(name);
     let model = models::generated(&layout).unwrap_or_else(|_| models::generic(&layout));
     let mut planned = by_poses();
     planned.initial.joint_angles = s.joint_angles.iter().map(|angle| angle + 0.01).collect();

@@ -13,7 +13,7 @@ use planar_capture::study::remainder::Remainder;
 use planar_capture::study::settle::{Settle, settle, wheels};
 use planar_capture::summary::summary;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{assert_close, tolerance};
+use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The paper's study with another end.
@@ -141,8 +141,7 @@ fn the_shipped_study_comes_to_rest() {
 
 /// Four seconds of stabilisation of a shipped layout from any state; joints at 1 1/s, the base at 0.7 1/s.
 fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, Remainder, Vec<bool>) {
-    let (_, text) = models::SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("a layout");
-    let layout = planar_capture::layout::Layout::parse(text, name).expect("a layout");
+    let layout = layout(name);
     // the generic implementation where this build has no code: slower, the same to rounding
     let model = models::generated(&layout).unwrap_or_else(|_| models::generic(&layout));
     let wheels = wheels(&layout, &[]);

@@ -13,8 +13,10 @@ pub mod maximal;
 pub mod sample;
 pub mod tolerance;
 
+use planar_layout::layout::Layout;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 
 /// A file of the repository.
 pub fn file(name: &str) -> PathBuf {
@@ -22,10 +24,21 @@ pub fn file(name: &str) -> PathBuf {
     root.expect("a crate of the workspace is two folders down").join(name)
 }
 
+/// A shipped layout.
+pub fn layout(name: &str) -> Layout {
+    Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).unwrap_or_else(|report| panic!("{report}"))
+}
+
 /// A committed JSON file.
 pub fn json(name: &str) -> Value {
     let text = std::fs::read_to_string(file(name)).expect("a committed file");
     serde_json::from_str(&text).expect("JSON")
+}
+
+/// What a command left: exit code, standard output, standard error.
+pub fn said(output: Output) -> (i32, String, String) {
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("an exit code"), text(output.stdout), text(output.stderr))
 }
 
 /// Largest difference of two lists, after checking that they are as long.

@@ -1,5 +1,6 @@
 //! Random states that shrink and print themselves as `planar-capture eval` reads them.
 
+use planar_dynamics::state::State;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -33,6 +34,18 @@ pub struct Sample {
     pub end_effector_wrenches: Vec<[f64; 3]>,
     /// [mass, inertia, rx, ry], and the twist; one per arm.
     pub targets: Vec<([f64; 4], [f64; 3])>,
+}
+
+impl Sample {
+    /// Where the robot is and how it moves.
+    pub fn state(&self) -> State<'_, f64> {
+        State {
+            base_pose: self.base_pose,
+            joint_angles: &self.joint_angles,
+            base_twist: self.base_twist,
+            joint_rates: &self.joint_rates,
+        }
+    }
 }
 
 impl fmt::Debug for Sample {

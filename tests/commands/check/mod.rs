@@ -4,10 +4,10 @@ mod description;
 mod odd;
 mod wrong;
 
-use assert_cmd::Command;
+use crate::command;
 use planar_capture::inspection::{Inspection, inspect};
 use planar_capture::models::SHIPPED;
-use planar_proof::file;
+use planar_proof::{file, said};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -83,10 +83,7 @@ fn look(text: &str) -> Inspection {
 }
 
 fn check(arguments: &[&str], folder: &Path) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_planar-capture"));
-    let output = command.arg("check").args(arguments).current_dir(folder).output().expect("it runs");
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("UTF-8");
-    (output.status.code().expect("an exit code"), text(&output.stdout), text(&output.stderr))
+    said(command().arg("check").args(arguments).current_dir(folder).output().expect("it runs"))
 }
 
 #[test]

@@ -238,8 +238,7 @@ fn tip_poses_out_of_reach() {
 fn a_merged_robot_is_no_stiffer() {
     use planar_capture::state::State;
     use planar_capture::target::Target;
-    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "dual_arm_3r").expect("a layout");
-    let layout = planar_capture::layout::Layout::parse(text, "it").expect("a layout");
+    let layout = planar_proof::layout("dual_arm_3r");
     let mut model = planar_capture::models::generated(&layout).expect("generated code");
     let angles = [-0.5, -1.4, 0.1, 2.6, -1.4, 0.2];
     let target = Target { mass: 10.0, inertia: 1.0, contact: [0.3, 0.4], twist: [0.0; 3] };

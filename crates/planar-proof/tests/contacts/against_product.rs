@@ -1,6 +1,6 @@
 //! What the product computes in joint coordinates, by recursion, elimination and merging.
 
-use crate::{layout, rigid_targets, robot, simulated, state, targets};
+use crate::{rigid_targets, robot, simulated, targets};
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -14,7 +14,7 @@ use planar_proof::maximal::impact::impact;
 use planar_proof::maximal::motion::{accelerations, joint_accelerations, run};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{close, tolerance};
+use planar_proof::{close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The product's model: generated code where this build has it.
@@ -28,13 +28,13 @@ fn check_kinematics(layout: &Layout, s: &Sample) {
     let (mut poses, mut twists) = (vec![[0.0; 3]; all.bodies.len()], vec![[0.0; 3]; all.bodies.len()]);
     let model = model(layout);
     model.body_poses(&s.base_pose, &s.joint_angles, &mut poses).expect("poses");
-    model.body_twists(&state(s), &mut twists).expect("twists");
+    model.body_twists(&s.state(), &mut twists).expect("twists");
     let of = |value: fn(&Body) -> [f64; 3]| all.bodies.iter().flat_map(value).collect::<Vec<_>>();
     close("poses", &of(|b| b.pose), poses.as_flattened(), tolerance::IDENTITY);
     close("twists", &of(|b| b.twist), twists.as_flattened(), tolerance::IDENTITY);
     close("angles", &all.joint_angles(), &s.joint_angles, tolerance::IDENTITY);
     close("rates", &all.joint_rates(), &s.joint_rates, tolerance::IDENTITY);
-    let momentum = model.momentum(&state(s)).expect("momentum");
+    let momentum = model.momentum(&s.state()).expect("momentum");
     let [px, py] = momentum.linear_momentum;
     close("momentum", &all.momentum(), &[momentum.angular_momentum, px, py], tolerance::IDENTITY);
     close("energy", &[all.kinetic_energy()], &[momentum.kinetic_energy], tolerance::IDENTITY);
@@ -44,7 +44,7 @@ fn check_kinematics(layout: &Layout, s: &Sample) {
 fn check_forward_dynamics(layout: &Layout, s: &Sample) {
     let mut joints = vec![0.0; layout.joints()];
     let forces = Forces::torques(&s.joint_torques);
-    let base = model(layout).forward_dynamics(&state(s), &forces, &mut joints).expect("accelerations");
+    let base = model(layout).forward_dynamics(&s.state(), &forces, &mut joints).expect("accelerations");
     let all = robot(layout, s);
     let found = joint_accelerations(&all, &accelerations(&all, &s.joint_torques));
     let flat = |(base, joints): &([f64; 3], Vec<f64>)| base.iter().chain(joints).copied().collect::<Vec<_>>();
@@ -58,7 +58,7 @@ fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, R
     let (mut joint_rates, mut target_twists, mut impulses) =
         (vec![0.0; joints], vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
     let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
-    let base_twist = exact(&*model, &state(s), &targets(s), &mut after).expect("an impact");
+    let base_twist = exact(&*model, &s.state(), &targets(s), &mut after).expect("an impact");
     let mut all = robot(layout, s);
     let contacts = rigid_targets(&mut all, s);
     let found = impact(&all, &contacts);

@@ -2,7 +2,7 @@
 
 use crate::against_product::{Shaken, shaken};
 use crate::product::law;
-use crate::{layout, robot};
+use crate::robot;
 use planar_capture::control::{Control, Free};
 use planar_capture::layout::Layout;
 use planar_capture::models;
@@ -17,7 +17,7 @@ use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::motion::run;
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{assert_close, close, tolerance};
+use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 
 /// A robot that holds a target of the sample's, in both terms.

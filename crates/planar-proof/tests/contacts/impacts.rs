@@ -1,7 +1,7 @@
 //! The product's impacts, in joint coordinates by the inverse inertia at the contacts, against those of free bodies.
 
 use crate::product::{Outcome, both_models, described, law, strike};
-use crate::{layout, robot, state};
+use crate::robot;
 use planar_capture::contact::{self, ContactKind, Other};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
@@ -16,7 +16,7 @@ use planar_proof::maximal::impact::{Contact, Impact, Kind, Left, impact};
 use planar_proof::maximal::random::{Scene, Touch, random_contacts};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{close, tolerance};
+use planar_proof::{close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The reference's impact and the bodies after it.
@@ -33,7 +33,7 @@ fn check(layout: &Layout, scene: &Scene) {
     let (wanted, after) = reference(layout, scene);
     let (bodies, contacts) = described(scene);
     for model in both_models(layout) {
-        match strike(&*model, &state(&scene.state), &bodies, &contacts) {
+        match strike(&*model, &scene.state.state(), &bodies, &contacts) {
             Ok(found) => {
                 let seen = !wanted.redundant || wanted.margin < tolerance::SEEN_MARGIN;
                 assert!(seen, "dependent contacts were solved: {found:?}\n{wanted:?}");
@@ -113,7 +113,7 @@ proptest! {
         contacts.push(contacts[0]);
         let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
         for model in both_models(&layout) {
-            let found = strike(&*model, &state(&scene.state), &bodies, &contacts);
+            let found = strike(&*model, &scene.state.state(), &bodies, &contacts);
             if let Kind::Bounce { .. } = scene.touches[0].kind {
                 let mut found = found.expect("an impact");
                 close("velocities", &found.velocities(), &after.velocities(), bound);

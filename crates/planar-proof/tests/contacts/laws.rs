@@ -1,6 +1,5 @@
 //! Impacts of every mixture of contacts at random states: what mechanics and the contacts' laws promise.
 
-use crate::{layout, state};
 use nalgebra::{DMatrix, DVector, Vector2};
 use planar_capture::layout::Layout;
 use planar_capture::models;
@@ -9,7 +8,7 @@ use planar_proof::maximal::impact::{Contact, Impact, Kind, impact};
 use planar_proof::maximal::random::{Scene, random_contacts};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{Sample, config};
-use planar_proof::{assert_close, tolerance};
+use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The scene's impact: bodies before, contacts, what happened, bodies after.
@@ -112,7 +111,7 @@ fn check_robot(layout: &Layout, sample: &Sample, impulses: &[(usize, [f64; 3])],
     let model = models::generic(layout);
     let (size, arms) = (3 + layout.joints(), layout.arms.len());
     let (mut mass, mut jacobian) = (vec![0.0; size * size], vec![0.0; 3 * arms * size]);
-    let s = state(sample);
+    let s = sample.state();
     model.mass_matrix(&s.base_pose, s.joint_angles, &mut mass).expect("M");
     model.end_effector_jacobian(&s.base_pose, s.joint_angles, &mut jacobian).expect("J");
     let velocity = |all: &System| {

@@ -1,6 +1,6 @@
 //! Motion with loops: two arms that hold one target, rigid or pinned.
 
-use crate::{layout, robot, simulated};
+use crate::{robot, simulated};
 use nalgebra::{DMatrix, DVector};
 use planar_capture::control::Free;
 use planar_capture::layout::{Layout, Link};
@@ -13,7 +13,7 @@ use planar_proof::maximal::motion::{accelerations, project, run};
 use planar_proof::maximal::system::System;
 use planar_proof::maximal::tie::{Tie, centripetal, residual, rows};
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{assert_close, close, tolerance};
+use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The robot, its first two arms with hold of one target by these kinds, after the impact that made it so.

@@ -14,34 +14,18 @@ use nalgebra::Vector2;
 use planar_capture::control::Control;
 use planar_capture::dynamics::Model;
 use planar_capture::layout::Layout;
-use planar_capture::models::SHIPPED;
 use planar_capture::owned::RobotState;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::{Timing, simulate};
-use planar_capture::state::State;
 use planar_capture::target::Target;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::Sample;
 
-fn layout(name: &str) -> Layout {
-    let (_, text) = SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("shipped");
-    Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"))
-}
-
 fn robot(layout: &Layout, s: &Sample) -> System {
     System::new(layout, s.base_pose, &s.joint_angles, s.base_twist, &s.joint_rates)
-}
-
-fn state(s: &Sample) -> State<'_, f64> {
-    State {
-        base_pose: s.base_pose,
-        joint_angles: &s.joint_angles,
-        base_twist: s.base_twist,
-        joint_rates: &s.joint_rates,
-    }
 }
 
 /// The sample's targets, one per arm, held so by the tips: contacts in arm order.

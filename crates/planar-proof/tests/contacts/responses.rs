@@ -1,7 +1,6 @@
 //! How a tip answers impulses: the extended inverse inertia and what follows from it, by dense algebra and by impacts.
 
 use crate::product::{both_models, strike};
-use crate::{layout, state};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SMatrix, Vector2};
 use planar_capture::body::Body;
 use planar_capture::contact::{Contact, ContactLaw, InverseInertia, Other};
@@ -11,7 +10,7 @@ use planar_capture::layout::Layout;
 use planar_capture::models;
 use planar_capture::target::Target;
 use planar_proof::sample::{Sample, config, sample};
-use planar_proof::{assert_close, close, tolerance};
+use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -129,13 +128,13 @@ proptest! {
         let ([mass, inertia, rx, ry], twist @ [omega, vx, vy]) = s.targets[0];
         let body = Body { mass, inertia, pose: [0.0; 3], twist };
         let mut tips = [[0.0; 3]; 2];
-        model.end_effector_twists(&state(&s), &mut tips).expect("twists");
+        model.end_effector_twists(&s.state(), &mut tips).expect("twists");
         let closing = [tips[1][1] - (vx - omega * ry), tips[1][2] - (vy + omega * rx)];
         let speed = Vector2::from(closing);
         let both = of_tip(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
         let hit = |law| {
             let contact = Contact { arm: 1, other: Other::Body(0), offset: [rx, ry], law };
-            strike(&*model, &state(&s), &[body], &[contact]).expect("an impact").impulses[0]
+            strike(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]
         };
         let [fx, fy] = both.stopping_impulse(&closing);
         close("pin", &hit(ContactLaw::Pin), &[0.0, fx, fy], tolerance::SAME_IMPACT);

@@ -1,13 +1,12 @@
 //! Impacts with an answer on paper.
 
-use crate::layout;
 use nalgebra::Vector2;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::system::System;
 use planar_proof::maximal::tie::Place;
-use planar_proof::{assert_close, tolerance};
+use planar_proof::{assert_close, layout, tolerance};
 
 /// Discs in a row along x with these masses and speeds, in contact with their neighbours; n = x throughout.
 fn row(masses: &[f64], speeds: &[f64], restitution: &[f64]) -> (System, Vec<Contact>) {

@@ -19,15 +19,6 @@ fn for_every_layout(check: impl Fn(&dyn Model<f64>, &Sample)) {
     }
 }
 
-fn state(s: &Sample) -> State<'_, f64> {
-    State {
-        base_pose: s.base_pose,
-        joint_angles: &s.joint_angles,
-        base_twist: s.base_twist,
-        joint_rates: &s.joint_rates,
-    }
-}
-
 /// `M v`, and what its largest terms are.
 fn mass_times(model: &dyn Model<f64>, pose: &[f64; 3], angles: &[f64], v: &[f64]) -> (Vec<f64>, f64) {
     let mut mass_matrix = vec![0.0; v.len() * v.len()];
@@ -46,7 +37,7 @@ fn close(what: &str, found: &[f64], wanted: &[f64], scale: f64, tolerance: f64) 
 #[test]
 fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
     for_every_layout(|model, s| {
-        let (joints, state) = (model.joints(), state(s));
+        let (joints, state) = (model.joints(), s.state());
         let v = [&s.base_twist[..], &s.joint_rates].concat();
         let (wanted, scale) = mass_times(model, &s.base_pose, &s.joint_angles, &v);
         let mut momenta = vec![0.0; 3 + joints];
@@ -118,7 +109,7 @@ impl Control<f64> for Given<'_> {
 #[test]
 fn reduced_coordinates_accelerate_as_full_ones() {
     for_every_layout(|model, s| {
-        let (joints, state) = (model.joints(), state(s));
+        let (joints, state) = (model.joints(), s.state());
         let mut x = vec![0.0; vector_length(joints)];
         state.write(&mut x).expect("room");
         let (mut full, mut reduced) = (x.clone(), x.clone());

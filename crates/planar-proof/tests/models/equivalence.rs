@@ -3,7 +3,6 @@
 use planar_capture::compare::states_text;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::layout::Layout;
 use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::owned::CloneModel;
 use planar_capture::quantities::differences;
@@ -11,17 +10,13 @@ use planar_capture::quantity::Quantity;
 use planar_capture::sampling::{REGIMES, Regime, Sample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
+use planar_proof::layout;
 use planar_proof::tolerance::{INHERENT, LAYOUTS, SHORT_DISTANCE, equivalence};
 use std::collections::BTreeSet;
 
 /// States of each regime and layout.
 const SAMPLES: u64 = 40;
 const SEED: u64 = 20_261_121;
-
-fn layout(name: &str) -> Layout {
-    let (_, text) = SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("shipped");
-    Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"))
-}
 
 /// What to run to see it again.
 fn replay(regime: Regime, index: u64, sample: &Sample) -> String {

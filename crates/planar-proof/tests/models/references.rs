@@ -7,7 +7,7 @@ use planar_capture::models;
 use planar_capture::owned::CloneModel;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
-use planar_proof::{assert_close, file, json, numbers, tolerance};
+use planar_proof::{assert_close, file, json, layout, numbers, tolerance};
 use serde_json::{Value, json as object};
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -27,11 +27,6 @@ const MUJOCO: [&str; 9] = [
     "linear_momentum",
     "mass_matrix",
 ];
-
-fn layout(name: &str) -> Layout {
-    let (_, text) = models::SHIPPED.iter().find(|(shipped, _)| *shipped == name).expect("a shipped layout");
-    Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"))
-}
 
 /// Everything that computes a layout's dynamics.
 fn implementations(layout: &Layout) -> Vec<(&'static str, Box<dyn CloneModel>)> {
