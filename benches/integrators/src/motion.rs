@@ -18,7 +18,7 @@ use planar_capture::trajectory::{Ends, Quartic};
 use std::f64::consts::PI;
 use std::path::Path;
 
-const SCENARIO: &str = include_str!("../../../scenarios/raina_shah_2017.toml");
+const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/raina_shah_2017.toml");
 
 /// What is integrated.
 pub struct Problems {
@@ -53,7 +53,7 @@ impl Control<f64> for Counted<'_> {
 impl Problems {
     /// The paper's study.
     pub fn new() -> Result<Self, Problem> {
-        let scenario = Scenario::parse(SCENARIO, "raina_shah_2017.toml", Path::new(""), models::SHIPPED)?;
+        let scenario = Scenario::read(Path::new(SCENARIO), models::SHIPPED)?;
         let model = models::generated(&scenario.layout)?;
         let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end else { return Err("no wanted twists".into()) };
         let design = end_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;

@@ -1,0 +1,173 @@
+"""What the workspace promises of its own order; exits 1 with a line for each thing that is not so.
+
+    python3 tests/house.py [--circles]
+
+- A published crate depends on those before it in ORDER and nothing looks back; planar-proof is for tests alone.
+- No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed but what is in DEAD.
+- A target that is not tested (`test = false`) has no tests; a workspace of its own has its lock committed.
+- Modules of a crate (files and folders in `src`) name each other in one direction. Circles are printed; with
+  `--circles` they count.
+"""
+
+import argparse
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+ORDER = ["planar-dynamics", "planar-layout", "planar-build", "planar-capture"]
+FIXTURES = "planar-proof"
+DEAD = {"src/models.rs": "a build may be without any layout"}
+
+
+def output(*command):
+    """What a command prints."""
+    return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def tracked(pattern):
+    """The repository's files, as paths from its root."""
+    names = output("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", pattern).split("\0")
+    return [Path(name) for name in sorted(names) if name and (ROOT / name).exists()]
+
+
+def directions(packages):
+    """Dependencies among this workspace's packages that look back."""
+    names = {package["name"] for package in packages}
+    for package in packages:
+        name, published = package["name"], package["publish"] is None
+        if published != (name in ORDER):
+            yield f"{name}: ORDER names the crates that are published"
+            continue
+        before = ORDER[: ORDER.index(name)] if published else ORDER[:-1]
+        for dependency in (d for d in package["dependencies"] if d["name"] in names):
+            other, tests_only = dependency["name"], dependency["kind"] == "dev"
+            if not tests_only and other not in before:
+                yield f"{name} depends on {other}: allowed are {', '.join(before) or 'none'}"
+            if tests_only and other == FIXTURES and dependency["req"] != "*":
+                yield f"{name}: {FIXTURES} with a version cannot be left out when the crate is packaged"
+
+
+def crate_of(path):
+    """The folder of the crate that a file belongs to."""
+    return next(folder for folder in path.parents if (ROOT / folder / "Cargo.toml").exists())
+
+
+def code(path):
+    """A file's text without comments."""
+    return re.sub(r"(?m)(^|\s)//.*$", "", (ROOT / path).read_text(encoding="utf-8"))
+
+
+def texts(path):
+    """What a source file should not say."""
+    text = code(path)
+    if re.search(r"#!?\[path\b", text):
+        yield f"{path}: #[path]"
+    if re.search(r"(allow|expect)\(dead_code", text) and DEAD.get(str(path), "\0") not in text:
+        yield f"{path}: dead code is allowed"
+    own = ROOT / crate_of(path)
+    for start, name in re.findall(
+        r'include_(?:str|bytes)!\(\s*(concat!\(env!\("CARGO_MANIFEST_DIR"\),\s*)?"([^"]+)"', text
+    ):
+        file = (own / name.lstrip("/") if start else (ROOT / path).parent / name).resolve()
+        if not file.is_relative_to(own) or ROOT / crate_of(file.relative_to(ROOT)) != own:
+            yield f"{path}: includes {name}, which is not its crate's"
+
+
+def untested(packages):
+    """Tests in targets that are not tested."""
+    for package in packages:
+        for target in package["targets"]:
+            if target["test"] or target["kind"] == ["custom-build"]:
+                continue
+            main = Path(target["src_path"]).relative_to(ROOT)
+            modules = re.findall(r"(?m)^\s*(?:pub )?mod (\w+);", code(main))
+            for path in [main, *(p for p in tracked(f"{main.parent}/*.rs") if place(p, main.parent) in modules)]:
+                if re.search(r"#\[(cfg\()?test\b", code(path)):
+                    yield f"{path}: a test in a target that is not tested ({target['name']} of {package['name']})"
+
+
+def place(path, folder):
+    """The module of the crate that a file is in: its first part below `src`."""
+    return path.relative_to(folder).parts[0].removesuffix(".rs")
+
+
+def depth(path, folder):
+    """How many `super` lead from a file to the root of its crate."""
+    return len(path.relative_to(folder).parts) - (path.name == "mod.rs")
+
+
+def named(text, depth):
+    """Names after `crate::`, or as many `super::` as lead there, in groups too."""
+    root = rf"(?:\bcrate|(?<!super::)\bsuper(?:::super){{{depth - 1}}})"
+    for name, group in re.findall(root + r"::(?:(?!super\b)(\w+)|\{(.*?)\};)", text, flags=re.S):
+        if name:
+            yield name
+        else:
+            flat = re.sub(r"\{[^{}]*\}", "", re.sub(r"\{[^{}]*\}", "", group))
+            yield from re.findall(r"(?:^|,)\s*(\w+)", flat)
+
+
+def circles(source):
+    """Modules that need each other: a shortest circle through each, once."""
+    files = tracked(f"{source}/*.rs")
+    modules = {place(path, source) for path in files} - {"lib", "main"}
+    edges = {module: {} for module in modules}
+    for path in files:
+        module = place(path, source)
+        for other in (
+            modules.intersection(named(code(path), depth(path, source))) - {module} if module in modules else ()
+        ):
+            edges[module].setdefault(other, path)
+    seen = set()
+    for start in sorted(modules):
+        circle = shortest(edges, start)
+        if circle and frozenset(circle) not in seen:
+            seen.add(frozenset(circle))
+            steps = zip(circle, [*circle[1:], circle[0]], strict=True)
+            yield f"{source}: " + ", ".join(f"{a} → {b} ({edges[a][b].relative_to(source)})" for a, b in steps)
+
+
+def shortest(edges, start):
+    """The shortest way from a module back to it."""
+    ways, reached = [[start]], {start}
+    while ways:
+        ways = [[*way, other] for way in ways for other in sorted(edges[way[-1]])]
+        for way in ways:
+            if way[-1] == start:
+                return way[:-1]
+        ways = [way for way in ways if way[-1] not in reached and not reached.add(way[-1])]
+    return None
+
+
+def main():
+    """Exit code 1 where something is out of order."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--circles", action="store_true", help="circles of modules count")
+    options = parser.parse_args()
+    packages = json.loads(output("cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"))["packages"]
+    problems = [*directions(packages), *untested(packages)]
+    problems += [problem for path in tracked("*.rs") for problem in texts(path)]
+    locks = set(map(str, tracked("*Cargo.lock")))
+    own = [
+        path.parent for path in tracked("*Cargo.toml") if re.search(r"(?m)^\[workspace\]", (ROOT / path).read_text())
+    ]
+    problems += [
+        f"{folder}: its Cargo.lock is not committed" for folder in own if str(folder / "Cargo.lock") not in locks
+    ]
+    found = [
+        circle
+        for package in packages
+        for circle in circles(Path(package["manifest_path"]).parent.relative_to(ROOT) / "src")
+    ]
+    for circle in found:
+        print(f"house: circle of modules in {circle}")
+    for problem in problems:
+        print(f"house: {problem}")
+    sys.exit(1 if problems or (options.circles and found) else 0)
+
+
+if __name__ == "__main__":
+    main()
