@@ -19,8 +19,8 @@
 //! | (18) PD control | [`control::ProportionalDerivative`] |
 //! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
-//! | momentum equation (17) in place of the base's equations of motion | [`motion::Reduced`] |
-//! | canonical momenta, for integrators that keep them | [`motion::Canonical`], [`integrate::GaussLegendre`] |
+//! | momentum equation (17) in place of the base's equations of motion | [`formulation::Reduced`] |
+//! | canonical momenta, for integrators that keep them | [`formulation::Canonical`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
 //! | events that end a phase | `simulate::event` |
 //! | contacts of any kind at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
@@ -62,13 +62,13 @@ extern crate self as planar_capture;
 pub mod generated;
 pub mod integrate;
 
-#[doc(hidden)]
-pub use planar_dynamics::check;
 #[cfg(feature = "lanes")]
 pub use planar_dynamics::lanes;
+#[doc(hidden)]
+pub use planar_dynamics::validate;
 pub use planar_dynamics::{
-    body, contact, control, dynamics, error, impact, implement_dynamics, include_layout, manifest, motion, quantity,
-    scalar, state, target, trajectory,
+    body, contact, control, dynamics, error, formulation, impact, implement_dynamics, include_layout, manifest,
+    quantity, scalar, state, target, trajectory,
 };
 
 #[cfg(feature = "build")]
@@ -79,42 +79,26 @@ pub use planar_build::prove::{self as generate, evaluation, generic, owned, quan
 pub use planar_layout::{diagnostic, layout, structure};
 
 #[cfg(feature = "std")]
-pub mod approach;
+pub mod capture;
+#[cfg(feature = "std")]
+pub mod check;
 #[cfg(feature = "std")]
 pub mod compare;
-#[cfg(feature = "figures")]
-pub mod figures;
 #[cfg(feature = "std")]
-pub mod inspection;
+pub mod eval;
 #[cfg(feature = "std")]
-pub mod models;
+pub mod outline;
 #[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "std")]
 pub mod python_package;
 #[cfg(feature = "std")]
-pub mod record;
-#[cfg(feature = "mcap")]
-pub mod recording;
-#[cfg(feature = "std")]
-pub mod report;
+pub mod registry;
 #[cfg(feature = "figures")]
 pub mod reproduction;
 #[cfg(feature = "std")]
 pub mod scenario;
 #[cfg(feature = "std")]
-pub mod scene;
-#[cfg(feature = "std")]
 pub mod simulate;
-#[cfg(feature = "std")]
-pub mod states;
-#[cfg(feature = "std")]
-pub mod study;
-#[cfg(feature = "std")]
-pub mod summary;
-#[cfg(feature = "std")]
-pub mod surface;
-#[cfg(feature = "std")]
-pub mod table;
 #[cfg(feature = "urdf")]
 pub mod urdf;

@@ -1,8 +1,8 @@
 //! `planar-capture check FILE.toml`.
 
 use super::{Problem, color, layout};
-use planar_capture::inspection::inspect;
-use planar_capture::models::SHIPPED;
+use planar_capture::check::inspect;
+use planar_capture::registry::SHIPPED;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;

@@ -2,7 +2,7 @@
 
 use super::{Problem, layout};
 use planar_capture::compare::{Comparison, Worst, compare, states_text};
-use planar_capture::output::{make_folder, write_whole};
+use planar_capture::output::atomic_file::{make_folder, write_whole};
 use planar_capture::quantity::Quantity;
 use std::io::Write;
 use std::path::{Path, PathBuf};

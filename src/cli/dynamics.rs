@@ -1,8 +1,8 @@
 //! The choice between implementations of the dynamics.
 
 use planar_capture::layout::Layout;
-use planar_capture::models::{self, NoModel};
 use planar_capture::owned::CloneModel;
+use planar_capture::registry::{self, NoModel};
 
 /// Implementations of the dynamics.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -25,8 +25,8 @@ impl Dynamics {
     /// The model of a layout.
     pub fn model(self, layout: &Layout) -> Result<Box<dyn CloneModel>, NoModel> {
         match self {
-            Self::Generated => models::generated(layout),
-            Self::Generic => Ok(models::generic(layout)),
+            Self::Generated => registry::generated(layout),
+            Self::Generic => Ok(registry::generic(layout)),
         }
     }
 }

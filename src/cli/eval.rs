@@ -3,8 +3,8 @@
 use super::dynamics::Dynamics;
 use super::{Problem, layout};
 use planar_capture::dynamics::Model;
+use planar_capture::eval::{States, result_to_json};
 use planar_capture::evaluation::evaluate;
-use planar_capture::states::{States, result_to_json};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::process::ExitCode;

@@ -1,14 +1,14 @@
 //! What `run` writes only where the build has a cargo feature for it.
 
 use super::Problem;
-use planar_capture::output::Staged;
+use planar_capture::capture::Study;
+use planar_capture::output::atomic_file::Staged;
 use planar_capture::scenario::Scenario;
-use planar_capture::study::Study;
 use std::fmt;
 use std::path::Path;
 #[cfg(any(feature = "parquet", feature = "mcap"))]
 use {
-    planar_capture::study::CaseResult,
+    planar_capture::capture::CaseResult,
     std::fs::File,
     std::io::{self, BufWriter},
 };
@@ -102,12 +102,12 @@ impl Extra {
             Self::Figures => figures(folder, scenario, study),
             #[cfg(feature = "parquet")]
             Self::Parquet => {
-                use planar_capture::record::write_parquet;
+                use planar_capture::output::time_series::write_parquet;
                 per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, to))
             }
             #[cfg(feature = "mcap")]
             Self::Mcap => {
-                use planar_capture::recording::write_mcap;
+                use planar_capture::output::mcap::write_mcap;
                 per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, to))
             }
             #[allow(unreachable_patterns, reason = "a build may have all of them")]
@@ -137,8 +137,8 @@ fn per_case(
 /// All figures of a study, as SVG and PNG in a folder `figures`.
 #[cfg(feature = "figures")]
 fn figures(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<Staged>, Problem> {
-    use planar_capture::figures::{draw, figures};
-    use planar_capture::output::make_folder;
+    use planar_capture::output::atomic_file::make_folder;
+    use planar_capture::output::figures::{draw, figures};
     use std::io::Write;
 
     let folder = folder.join("figures");

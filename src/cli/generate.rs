@@ -6,7 +6,7 @@ use planar_capture::build::graph::GraphError;
 use planar_capture::build::{Module, command};
 use planar_capture::generate::{self, Proved};
 use planar_capture::layout::Layout;
-use planar_capture::output::write_whole;
+use planar_capture::output::atomic_file::write_whole;
 use planar_capture::python_package::PYTHON_PACKAGE;
 use std::fs;
 use std::io::{Read, Write};

@@ -3,7 +3,7 @@
 use super::Problem;
 use planar_capture::diagnostic::{nearest, read_text};
 use planar_capture::layout::Layout;
-use planar_capture::models::SHIPPED;
+use planar_capture::registry::SHIPPED;
 use std::path::Path;
 
 /// Reads a layout; see [`source`].

@@ -15,12 +15,12 @@ mod run;
 mod text;
 
 use clap::{Parser, Subcommand};
+use planar_capture::capture::StudyError;
 use planar_capture::diagnostic::Report;
+use planar_capture::eval::StateError;
 use planar_capture::generate::{DerivationError, GenerateError};
-use planar_capture::models::NoModel;
-use planar_capture::output::OutputError;
-use planar_capture::states::StateError;
-use planar_capture::study::StudyError;
+use planar_capture::output::atomic_file::OutputError;
+use planar_capture::registry::NoModel;
 use planar_capture::urdf::UrdfError;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -99,7 +99,7 @@ enum Problem {
     /// A figure cannot be drawn.
     #[cfg(feature = "figures")]
     #[error("error: {0}")]
-    Draw(#[from] planar_capture::figures::draw::DrawError),
+    Draw(#[from] planar_capture::output::figures::draw::DrawError),
     /// The paper's study came to nothing.
     #[cfg(feature = "figures")]
     #[error("error: {0}")]

@@ -1,7 +1,7 @@
 //! A bar on a terminal, nothing elsewhere.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::study::Observer;
+use planar_capture::capture::Observer;
 use std::time::Duration;
 
 /// Steps between two looks at the bar.

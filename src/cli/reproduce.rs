@@ -28,7 +28,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
 #[cfg(feature = "figures")]
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     use super::progress::Progress;
-    use planar_capture::output::{Staged, make_folder};
+    use planar_capture::output::atomic_file::{Staged, make_folder};
     use planar_capture::reproduction::reproduce;
     use std::io::Write;
 

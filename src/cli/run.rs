@@ -4,14 +4,14 @@ use super::Problem;
 use super::dynamics::Dynamics;
 use super::extra;
 use super::progress::Progress;
-use planar_capture::models;
-use planar_capture::output::{Staged, make_folder};
-use planar_capture::record::write_csv;
-use planar_capture::report::write_report;
+use planar_capture::capture::{Study, study};
+use planar_capture::output::atomic_file::{Staged, make_folder};
+use planar_capture::output::console::table;
+use planar_capture::output::html_report::write_report;
+use planar_capture::output::summary::summary;
+use planar_capture::output::time_series::write_csv;
+use planar_capture::registry;
 use planar_capture::scenario::Scenario;
-use planar_capture::study::{Study, study};
-use planar_capture::summary::summary;
-use planar_capture::table::table;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -44,7 +44,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Reads, computes, prints, writes; exit code 1 where the audit objects.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     extra::require(&arguments.extras.asked())?;
-    let scenario = Scenario::read(&arguments.scenario, models::SHIPPED)?;
+    let scenario = Scenario::read(&arguments.scenario, registry::SHIPPED)?;
     let file = || arguments.scenario.display().to_string();
     let model = arguments
         .dynamics

@@ -1,7 +1,7 @@
 //! A text as the result of a command.
 
 use super::Problem;
-use planar_capture::output::write_whole;
+use planar_capture::output::atomic_file::write_whole;
 use std::io::Write;
 use std::path::Path;
 

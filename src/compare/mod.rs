@@ -6,9 +6,9 @@ pub use replay::states_text;
 
 use crate::error::Error;
 use crate::layout::Layout;
-use crate::models::{NoModel, generated, generic};
 use crate::quantities::{Difference, differences};
 use crate::quantity::Quantity;
+use crate::registry::{NoModel, generated, generic};
 use crate::sampling::{REGIMES, Regime, Sample};
 
 /// The worst that was found in one quantity.

@@ -1,7 +1,7 @@
 //! A sample as a file, so that `eval` can compute it again.
 
+use crate::eval::to_json;
 use crate::sampling::Sample;
-use crate::states::to_json;
 
 /// The state as the array that `eval` reads.
 #[must_use]

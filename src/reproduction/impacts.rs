@@ -3,8 +3,8 @@
 use super::Run;
 use super::markdown::{jump, number, table};
 use super::printed::IMPULSES;
-use crate::study::Captured;
-use crate::study::capture::ImpactResult;
+use crate::capture::Captured;
+use crate::capture::impact::ImpactResult;
 
 /// Name in the template and table.
 pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {

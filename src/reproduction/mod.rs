@@ -5,10 +5,10 @@ mod markdown;
 mod parameters;
 mod printed;
 
-use crate::figures::{Figure, draw, figures};
-use crate::models::{self, NoModel};
+use crate::capture::{Observer, Study, StudyError, study};
+use crate::output::figures::{Figure, draw, figures};
+use crate::registry::{self, NoModel};
 use crate::scenario::Scenario;
-use crate::study::{Observer, Study, StudyError, study};
 use std::path::Path;
 
 /// Text and placeholders of the report.
@@ -96,8 +96,8 @@ pub fn reproduce(observer: &mut dyn Observer) -> Result<Reproduction, Reproducti
 }
 
 fn run(file: &str, text: &str, observer: &mut dyn Observer) -> Result<Run, ReproductionError> {
-    let scenario = Scenario::parse(text, file, Path::new(""), models::SHIPPED)?;
-    let model = models::generated(&scenario.layout)?;
+    let scenario = Scenario::parse(text, file, Path::new(""), registry::SHIPPED)?;
+    let model = registry::generated(&scenario.layout)?;
     let study = study(&scenario, &|| model.clone_box(), SAMPLE, observer)?;
     Ok(Run { scenario, study })
 }

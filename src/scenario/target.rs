@@ -5,7 +5,7 @@ use super::{Detection, POSITION, TWIST};
 use crate::contact::ContactKind;
 use crate::diagnostic::{Quantity, Table, Value, every, listing};
 use crate::layout::Layout;
-use crate::surface::Surface;
+use crate::outline::Surface;
 use std::collections::HashSet;
 use std::f64::consts::PI;
 

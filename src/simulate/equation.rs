@@ -2,7 +2,7 @@
 
 use crate::control::Control;
 use crate::error::Error;
-use crate::motion::{Canonical, Reduced};
+use crate::formulation::{Canonical, Reduced};
 use crate::simulate::system::System;
 use crate::state::{CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut};
 

@@ -4,7 +4,7 @@ use crate::contact::{Closure, Contact, Hold, Workspace};
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::motion::derivative;
+use crate::formulation::derivative;
 use crate::state::{Coordinates, CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut, vector_length};
 
 /// A rigid body beside the robot.

@@ -3,9 +3,9 @@
 use crate::said;
 use planar_capture::compare::{Comparison, Worst};
 use planar_capture::layout::Layout;
-use planar_capture::models::SHIPPED;
 use planar_capture::quantities::Difference;
 use planar_capture::quantity::Quantity;
+use planar_capture::registry::SHIPPED;
 use planar_capture::sampling::REGIMES;
 use std::path::Path;
 

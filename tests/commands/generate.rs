@@ -199,7 +199,7 @@ fn shipped(name: &str) -> (Layout, Value) {
 
 #[test]
 fn every_shipped_graph_is_proved() {
-    for (name, _) in planar_capture::models::SHIPPED {
+    for (name, _) in planar_capture::registry::SHIPPED {
         let (layout, graph) = shipped(name);
         let proof = prove(&layout, &graph).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert!(proof.states == 27 && proof.results == 27, "{proof:?}");

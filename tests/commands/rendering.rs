@@ -1,19 +1,19 @@
 //! From graph to Rust: the same text every time, no more operations than the header says, and what stops the build.
 
-use planar_build::shipped;
+use planar_build::pipeline;
 use planar_capture::{diagnostic, layout};
 use planar_proof::file;
 use std::fs;
 use std::path::Path;
 
 fn layouts() -> Vec<String> {
-    let names = planar_capture::models::SHIPPED.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
+    let names = planar_capture::registry::SHIPPED.iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>();
     assert!(names.len() >= 7);
     names
 }
 
 fn rendered(name: &str) -> String {
-    shipped::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
+    pipeline::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// The library was compiled from what the committed graph renders to now.
@@ -108,7 +108,7 @@ fn broken(change: impl Fn(&Path)) -> String {
     }
     change(folder.path());
     let out = tempfile::tempdir().expect("a folder");
-    shipped::render_all(folder.path(), out.path(), &|_| true).expect_err("this does not build")
+    pipeline::render_all(folder.path(), out.path(), &|_| true).expect_err("this does not build")
 }
 
 fn edit(path: &Path, from: &str, to: &str) {

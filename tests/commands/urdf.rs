@@ -4,7 +4,7 @@
 
 use crate::said;
 use planar_capture::layout::{Arm, Base, Layout, Link};
-use planar_capture::models;
+use planar_capture::registry;
 use planar_capture::urdf::{Import, Options, export, import};
 use planar_proof::{assert_close, file, sample, tolerance};
 use proptest::collection::vec;
@@ -490,11 +490,11 @@ fn assert_round_trip(layout: &Layout) {
 
 #[test]
 fn shipped_layouts_come_back() {
-    for (name, text) in models::SHIPPED {
+    for (name, text) in registry::SHIPPED {
         let layout = Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"));
         let back = imported(&export(&layout)).layout;
         assert_round_trip(&layout);
-        assert!(models::generated(&back).is_ok(), "{name}: exact zeros stay, so that its generated code fits");
+        assert!(registry::generated(&back).is_ok(), "{name}: exact zeros stay, so that its generated code fits");
     }
     for name in ["awkward", "cubesat"] {
         assert_round_trip(&Layout::read(&file(&format!("tests/urdf/{name}.toml"))).unwrap_or_else(|r| panic!("{r}")));

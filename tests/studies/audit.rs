@@ -3,14 +3,14 @@
 use crate::command;
 use crate::{run, scenario};
 use planar_capture::layout::Layout;
-use planar_capture::models;
+use planar_capture::output::summary::summary;
+use planar_capture::registry;
 use planar_capture::scenario::{Scenario, Settling, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::simulate::conservation::{Audit, Done};
 use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
 use planar_capture::simulate::system::Body;
 use planar_capture::state::State;
-use planar_capture::summary::summary;
 use planar_proof::{assert_close, file, said, tolerance};
 use std::fs;
 use tempfile::TempDir;
@@ -19,7 +19,7 @@ use tempfile::TempDir;
 #[test]
 fn the_centre_of_mass_goes_its_way() {
     let layout = scenario("redysim_single_arm_3r").layout;
-    let model = models::generated(&layout).expect("generated code");
+    let model = registry::generated(&layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
     let state = |x: f64, y: f64| State {
         base_pose: [0.4, x, y],
@@ -45,7 +45,7 @@ fn the_centre_of_mass_goes_its_way() {
 #[test]
 fn bodies_beside_the_robot_count() {
     let layout = scenario("redysim_single_arm_3r").layout;
-    let model = models::generated(&layout).expect("generated code");
+    let model = registry::generated(&layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
     let state =
         State { base_pose: [0.0; 3], joint_angles: &joint_angles, base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
@@ -177,7 +177,7 @@ fn limits_are_read_joint_by_joint() {
     let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
     let read = |limits: &str| -> Vec<JointLimits> {
         let text = text.replace("[approach]", &format!("{limits}\n[approach]"));
-        let scenario = Scenario::parse(&text, "it.toml", std::path::Path::new(""), models::SHIPPED);
+        let scenario = Scenario::parse(&text, "it.toml", std::path::Path::new(""), registry::SHIPPED);
         scenario.unwrap_or_else(|report| panic!("{report}")).approach.actuation.joint_limits
     };
     assert_eq!(read(""), []);
@@ -230,7 +230,7 @@ fn limits_are_watched_and_not_enforced() {
     after.actuation.joint_limits = limits;
     let watched = run(&scenario);
     assert_eq!(free.approach.samples, watched.approach.samples);
-    let of = |study: &planar_capture::study::Study| {
+    let of = |study: &planar_capture::capture::Study| {
         study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone()
     };
     assert_eq!(of(&free), of(&watched));

@@ -1,9 +1,9 @@
 //! Laws do what they promise: computed torque, limits, samples that are held.
 
 use crate::scenario;
-use planar_capture::approach::Approach;
+use planar_capture::capture::approach::Approach;
 use planar_capture::control::{Control, Limited, ProportionalDerivative};
-use planar_capture::models;
+use planar_capture::registry;
 use planar_capture::scenario::{Actuation, EndRates, Scenario, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::state::State;
@@ -28,7 +28,7 @@ fn computed_torque() -> Tracking {
 }
 
 fn track(scenario: &Scenario, rates: &[f64]) -> Phase {
-    let model = models::generated(&scenario.layout).expect("generated code");
+    let model = registry::generated(&scenario.layout).expect("generated code");
     Approach::new(scenario, 0.05).track(&*model, rates, &mut || ()).expect("an approach")
 }
 
@@ -109,7 +109,7 @@ fn torques_stay_within_their_limits() {
 /// The limiter alone, at the limit and beyond it.
 #[test]
 fn a_limit_is_not_saturated_until_more_is_wanted() {
-    let model = models::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
+    let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
     let state =
         State { base_pose: [0.0; 3], joint_angles: &[1.0, -1.0, 0.5], base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
     let law = ProportionalDerivative {

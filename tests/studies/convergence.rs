@@ -4,8 +4,8 @@
 use crate::scenario;
 use planar_capture::contact::{Closure, Contact, ContactLaw, Other};
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
-use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::system::{Body, System};
@@ -19,7 +19,7 @@ const REDUCED: Coordinates = Coordinates::Reduced;
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-13 };
 
 fn model() -> Box<dyn CloneModel> {
-    models::generated(&scenario("raina_shah_2017").layout).expect("the paper's robot")
+    registry::generated(&scenario("raina_shah_2017").layout).expect("the paper's robot")
 }
 
 /// Both arms swing, the base tumbles and drifts away.

@@ -3,8 +3,8 @@
 use crate::scenario;
 use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
 use planar_capture::error::Error;
-use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::registry;
 use planar_capture::simulate::event::{Events, Instant, NoEvents};
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::system::System;
@@ -26,7 +26,7 @@ const ALL: [(Scheme, Coordinates, f64); 7] = [
 ];
 
 fn model() -> Box<dyn CloneModel> {
-    models::generated(&scenario("redysim_single_arm_3r").layout).expect("the robot of ReDySim")
+    registry::generated(&scenario("redysim_single_arm_3r").layout).expect("the robot of ReDySim")
 }
 
 /// How far a tip is from a circle.

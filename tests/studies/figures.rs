@@ -26,7 +26,7 @@ mod drawn {
     use super::*;
     use crate::{run, scenario};
     use planar_capture::contact::ContactLaw;
-    use planar_capture::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
+    use planar_capture::output::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
     use std::fs;

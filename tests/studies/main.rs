@@ -14,22 +14,22 @@ mod resolved_motion_rate;
 mod settling;
 mod study;
 
-use planar_capture::models;
+use planar_capture::capture::{Observer, Study};
+use planar_capture::registry;
 use planar_capture::scenario::Scenario;
-use planar_capture::study::{Observer, Study};
 use planar_proof::file;
 use std::process::Command;
 
 /// A shipped scenario.
 fn scenario(name: &str) -> Scenario {
     let path = file(&format!("scenarios/{name}.toml"));
-    Scenario::read(&path, models::SHIPPED).unwrap_or_else(|report| panic!("{report}"))
+    Scenario::read(&path, registry::SHIPPED).unwrap_or_else(|report| panic!("{report}"))
 }
 
 /// Runs a scenario with generated code.
 fn run(scenario: &Scenario) -> Study {
-    let model = models::generated(&scenario.layout).expect("a shipped layout has generated code");
-    let study = planar_capture::study::study(scenario, &|| model.clone_box(), 0.05, &mut Silent);
+    let model = registry::generated(&scenario.layout).expect("a shipped layout has generated code");
+    let study = planar_capture::capture::study(scenario, &|| model.clone_box(), 0.05, &mut Silent);
     study.unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
 }
 

@@ -1,13 +1,13 @@
 //! Scenarios end to end: what a study says of its contacts, from its own states before them.
 
 use crate::{Silent, scenario};
+use planar_capture::capture::impact::{Capture, ImpactResult};
+use planar_capture::capture::{Captured, CaseResult, Study, study};
 use planar_capture::contact;
-use planar_capture::models;
+use planar_capture::outline::Surface;
 use planar_capture::owned::RobotState;
+use planar_capture::registry;
 use planar_capture::scenario::{Scenario, Settling};
-use planar_capture::study::capture::{Capture, ImpactResult};
-use planar_capture::study::{Captured, CaseResult, Study, study};
-use planar_capture::surface::Surface;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, Left, impact};
 use planar_proof::maximal::motion::run;
@@ -16,7 +16,7 @@ use planar_proof::{assert_close, close, tolerance};
 
 /// A study that is sampled at every step.
 fn studied(scenario: &Scenario) -> Study {
-    let model = models::generated(&scenario.layout).expect("generated code");
+    let model = registry::generated(&scenario.layout).expect("generated code");
     let run = study(scenario, &|| model.clone_box(), 0.005, &mut Silent);
     run.unwrap_or_else(|error| panic!("{}: {error}", scenario.name))
 }

@@ -40,9 +40,9 @@ fn a_build_without_them_says_how_to_get_one_with_all_that_is_asked_for() {
 #[cfg(any(feature = "parquet", feature = "mcap"))]
 mod written {
     use super::*;
-    use planar_capture::record::write_csv;
+    use planar_capture::capture::{CaseResult, Study};
+    use planar_capture::output::time_series::write_csv;
     use planar_capture::scenario::Scenario;
-    use planar_capture::study::{CaseResult, Study};
     use std::io::{self, Write};
 
     /// What a case's CSV says: headings, and the cells of each row.
@@ -112,7 +112,7 @@ mod parquet_files {
     use arrow_array::cast::AsArray;
     use arrow_array::types::{Float64Type, Int8Type};
     use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-    use planar_capture::record::write_parquet;
+    use planar_capture::output::time_series::write_parquet;
 
     #[test]
     fn have_the_csvs_columns_and_values() {
@@ -174,11 +174,11 @@ mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
     use crate::{run, scenario};
     use foxglove::messages::{FrameTransforms, PointCloud, SceneUpdate};
-    use planar_capture::record::columns;
-    use planar_capture::recording::write_mcap;
+    use planar_capture::capture::{CaseResult, Further, Study};
+    use planar_capture::outline::Surface;
+    use planar_capture::output::mcap::write_mcap;
+    use planar_capture::output::time_series::columns;
     use planar_capture::scenario::Scenario;
-    use planar_capture::study::{CaseResult, Further, Study};
-    use planar_capture::surface::Surface;
     use planar_proof::{assert_close, tolerance};
     use prost::Message;
     use std::collections::{BTreeMap, BTreeSet};

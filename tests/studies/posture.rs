@@ -1,10 +1,10 @@
 //! Wanted tip poses are reached by the exactly tracked approach, or it is said why not.
 
 use crate::{Silent, run, scenario};
-use planar_capture::approach::posture::{Posture, PostureError, posture};
-use planar_capture::models;
+use planar_capture::capture::approach::inverse_kinematics::{Posture, PostureError, posture};
+use planar_capture::capture::{Study, StudyError, study};
+use planar_capture::registry;
 use planar_capture::scenario::{EndRates, Scenario, TipGoal, Tracking};
-use planar_capture::study::{Study, StudyError, study};
 use planar_proof::{assert_close, tolerance};
 
 fn wanting(name: &str, goals: &[TipGoal]) -> Scenario {
@@ -75,8 +75,8 @@ final_end_effector_twists = [[0.03, 0.01], [-0.02, 0.0]]
 tracking = "exact"
 "#;
     let scenario =
-        Scenario::parse(two_links, "two.toml", std::path::Path::new(""), models::SHIPPED).expect("a scenario");
-    let model = models::generic(&scenario.layout);
+        Scenario::parse(two_links, "two.toml", std::path::Path::new(""), registry::SHIPPED).expect("a scenario");
+    let model = registry::generic(&scenario.layout);
     let study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
     for (twist, wanted) in
         study.approach.end().expect("an end").end_effector_twists.iter().zip([[0.03, 0.01], [-0.02, 0.0]])
@@ -113,7 +113,7 @@ fn a_yaw_more_than_a_turn_away_is_the_same_pose() {
 }
 
 fn fails(scenario: &Scenario) -> PostureError {
-    let model = models::generated(&scenario.layout).expect("generated code");
+    let model = registry::generated(&scenario.layout).expect("generated code");
     match study(scenario, &|| model.clone_box(), 0.05, &mut Silent) {
         Err(StudyError::Posture(error)) => error,
         other => panic!("{other:?}"),
@@ -136,7 +136,7 @@ fn what_is_out_of_reach_is_said_to_be() {
 #[test]
 fn the_report_is_of_the_approach() {
     let scenario = wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0, 1.6, -1.2])]);
-    let model = models::generated(&scenario.layout).expect("generated code");
+    let model = registry::generated(&scenario.layout).expect("generated code");
     let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
     let mut ticks = 0_usize;
     let found = posture(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a posture");

@@ -1,7 +1,7 @@
 //! ReDySim's printed states of two approaches, as scenarios of the approach alone.
 
 use crate::{run, scenario};
-use planar_capture::models::SHIPPED;
+use planar_capture::registry::SHIPPED;
 use planar_capture::scenario::Scenario;
 use planar_proof::{assert_close, numbers, tolerance};
 use std::path::Path;

@@ -1,18 +1,18 @@
 //! Tips steered by the generalized Jacobian: they stay on their paths, come back to them, and arrive.
 
 use crate::{run, scenario};
-use planar_capture::approach::resolved::Tips;
+use planar_capture::capture::Study;
+use planar_capture::capture::approach::end_effector_paths::Tips;
 use planar_capture::control::Control;
-use planar_capture::models;
+use planar_capture::output::summary::summary;
 use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::registry;
 use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
 use planar_capture::simulate::Timing;
 use planar_capture::simulate::actuators::drive;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
 use planar_capture::state::{Forces, State};
-use planar_capture::study::Study;
-use planar_capture::summary::summary;
 use planar_capture::trajectory::quintic;
 use planar_proof::sample::{Sample, config, sample};
 use planar_proof::{assert_close, difference, layout, tolerance};
@@ -38,7 +38,7 @@ fn by_poses() -> Scenario {
 }
 
 fn generated(scenario: &Scenario) -> Box<dyn CloneModel> {
-    models::generated(&scenario.layout).expect("generated code")
+    registry::generated(&scenario.layout).expect("generated code")
 }
 
 #[track_caller]
@@ -244,7 +244,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
     let [Some(far), Some(_)] = study.misses.as_slice() else { panic!("{:?}", study.misses) };
     assert!(!far.reached && (0.01..0.2).contains(&far.distance), "{far:?}");
     assert!(study.approach.singularity_margin.is_some_and(|margin| margin < 0.04));
-    let shown = planar_capture::table::table(&scenario, &study);
+    let shown = planar_capture::output::console::table(&scenario, &study);
     assert!(shown.contains("DID NOT REACH the wanted pose: misses it by") && shown.contains("was damped"), "{shown}");
 }
 
@@ -252,7 +252,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
 /// joints that are held. The tips' accelerations are differences of their twists along the motion.
 fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseError> {
     let layout = layout(name);
-    let model = models::generated(&layout).unwrap_or_else(|_| models::generic(&layout));
+    let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
     let mut planned = by_poses();
     planned.initial.joint_angles = s.joint_angles.iter().map(|angle| angle + 0.01).collect();
     (planned.initial.base_pose, planned.initial.base_twist) = (s.base_pose, s.base_twist);

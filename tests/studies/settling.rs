@@ -1,17 +1,17 @@
 //! After the capture: what the laws keep, what they bring to rest, and what they say remains.
 
 use crate::{run, scenario};
-use planar_capture::models;
+use planar_capture::capture::Captured;
+use planar_capture::capture::post_capture::{Settle, settle, wheels};
+use planar_capture::capture::residual_motion::Remainder;
+use planar_capture::output::summary::summary;
 use planar_capture::owned::RobotState;
+use planar_capture::registry;
 use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Timing};
-use planar_capture::study::Captured;
-use planar_capture::study::remainder::Remainder;
-use planar_capture::study::settle::{Settle, settle, wheels};
-use planar_capture::summary::summary;
 use planar_proof::sample::{Sample, config, sample};
 use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
@@ -143,7 +143,7 @@ fn the_shipped_study_comes_to_rest() {
 fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, Remainder, Vec<bool>) {
     let layout = layout(name);
     // the generic implementation where this build has no code: slower, the same to rounding
-    let model = models::generated(&layout).unwrap_or_else(|_| models::generic(&layout));
+    let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
     let wheels = wheels(&layout, &[]);
     let control =
         Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };

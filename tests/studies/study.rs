@@ -1,13 +1,13 @@
 //! The paper's study against an independent model (`tests/reference/independent_model.py`) and the notes' numbers.
 
 use crate::{Silent, run, scenario};
+use planar_capture::capture::impact::ContactResult;
+use planar_capture::capture::study;
 use planar_capture::contact::ContactKind;
-use planar_capture::models::{self, generic};
+use planar_capture::output::summary::summary;
+use planar_capture::registry::{self, generic};
 use planar_capture::simulate::conservation::{Audit, Done, Drift};
 use planar_capture::state::State;
-use planar_capture::study::capture::ContactResult;
-use planar_capture::study::study;
-use planar_capture::summary::summary;
 use planar_proof::{assert_close, json, numbers, tolerance};
 use serde_json::Value;
 
@@ -100,7 +100,7 @@ fn impulses_of_the_notes_table() {
 fn patterns_that_must_hold() {
     let magnitudes = |name: &str| -> Vec<Vec<f64>> {
         let study = run(&scenario(name));
-        let of = |case: &planar_capture::study::CaseResult| {
+        let of = |case: &planar_capture::capture::CaseResult| {
             let impact = &case.capture.as_ref().expect("a capture").impact;
             impact.exact.impulse_magnitudes().into_iter().flatten().collect()
         };
@@ -118,7 +118,7 @@ fn patterns_that_must_hold() {
 /// was gained without work is an error of the energy.
 #[test]
 fn the_audit_measures_what_strays() {
-    let model = models::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
+    let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
     let state = |speed: f64| State {
         base_pose: [0.4, 0.0, 100.0], // far to the side of its path: all bodies turn about the origin the same way
@@ -143,7 +143,7 @@ fn the_audit_measures_what_strays() {
 /// the same way, so that the part of its angular momentum is what strays.
 #[test]
 fn the_audit_measures_angular_momentum_too() {
-    let model = models::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
+    let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
     let (mut inertias, mut poses) = ([[0.0; 2]; 4], [[0.0; 3]; 4]);
     model.body_inertias(&mut inertias).expect("inertias");

@@ -2,7 +2,7 @@
 
 use crate::long_time::{DURATION, LongTime, Run};
 use crate::work::{Work, logarithms};
-use planar_capture::figures::{Axis, Dash, Figure, Mark, Panel, Series, Span};
+use planar_capture::output::figures::{Axis, Dash, Figure, Mark, Panel, Series, Span};
 
 const WIDTH: f64 = 1.4;
 /// How many maxima a curve over time is made of.

@@ -10,8 +10,8 @@ mod motion;
 mod report;
 mod work;
 
-use planar_capture::figures::draw::svg;
-use planar_capture::output::{make_folder, write_whole};
+use planar_capture::output::atomic_file::{make_folder, write_whole};
+use planar_capture::output::figures::draw::svg;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;

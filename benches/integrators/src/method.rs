@@ -1,6 +1,6 @@
 //! The schemes that are compared, and how they are named and drawn.
 
-use planar_capture::figures::{Colour, Dash, Shape};
+use planar_capture::output::figures::{Colour, Dash, Shape};
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 
 /// A scheme in one of the coordinates.

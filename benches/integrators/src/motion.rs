@@ -1,13 +1,13 @@
 //! The two motions: the paper's approach under PD control, and free tumbling.
 
 use crate::Problem;
-use planar_capture::approach::Approach;
-use planar_capture::approach::design::end_rates;
+use planar_capture::capture::approach::Approach;
+use planar_capture::capture::approach::terminal_rates::end_rates;
 use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::registry;
 use planar_capture::scenario::{EndRates, Scenario, Tracking};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
@@ -53,8 +53,8 @@ impl Control<f64> for Counted<'_> {
 impl Problems {
     /// The paper's study.
     pub fn new() -> Result<Self, Problem> {
-        let scenario = Scenario::read(Path::new(SCENARIO), models::SHIPPED)?;
-        let model = models::generated(&scenario.layout)?;
+        let scenario = Scenario::read(Path::new(SCENARIO), registry::SHIPPED)?;
+        let model = registry::generated(&scenario.layout)?;
         let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end else { return Err("no wanted twists".into()) };
         let design = end_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
         Ok(Self { rates: design.joint_rates, model, scenario })

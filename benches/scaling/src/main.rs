@@ -13,7 +13,7 @@ use compilation::{Compilation, compile};
 use derivation::Derivation;
 use evaluation::{Evaluation, evaluate};
 use fit::Fit;
-use planar_capture::output::write_whole;
+use planar_capture::output::atomic_file::write_whole;
 use shape::Shape;
 use std::io::Write;
 use std::path::Path;

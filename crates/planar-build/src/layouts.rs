@@ -27,8 +27,8 @@
 //! A layout that was changed after its graph stops the build with the command that mends it.
 
 use crate::command::command;
+use crate::pipeline::{fresh, names};
 use crate::renderer::{self, Module, VECTORS};
-use crate::shipped::{fresh, names};
 use planar_layout::layout::Layout;
 use std::fmt;
 use std::path::{Path, PathBuf};

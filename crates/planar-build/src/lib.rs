@@ -5,8 +5,8 @@
 mod command;
 pub mod graph;
 mod layouts;
+pub mod pipeline;
 mod renderer;
-pub mod shipped;
 
 #[cfg(feature = "prove")]
 pub mod prove;

@@ -9,13 +9,13 @@ macro_rules! implement_dynamics {
     (1) => {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
-            use $crate::check::{array, finite, finite_configuration, finite_state, pivot, store, store_rows};
             use $crate::dynamics::{Conserved, ForwardDynamics, Impact, Merge, Momentum, ReducedDynamics, Robot};
             use $crate::error::Error;
             use $crate::manifest::Quantity;
             use $crate::scalar::Real;
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
+            use $crate::validate::{array, finite, finite_configuration, finite_state, pivot, store, store_rows};
 
             impl<T: Real> Robot<T> for Model<T> {
                 fn arms(&self) -> usize {

@@ -5,12 +5,11 @@
 #![no_std]
 
 pub mod body;
-#[doc(hidden)]
-pub mod check;
 pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod error;
+pub mod formulation;
 pub mod impact;
 mod implement;
 pub mod integrate;
@@ -19,7 +18,6 @@ pub mod lanes;
 mod linear;
 pub mod manifest;
 mod momentum_equation;
-pub mod motion;
 pub mod quantity;
 pub mod scalar;
 #[doc(hidden)]
@@ -27,3 +25,5 @@ pub mod standalone;
 pub mod state;
 pub mod target;
 pub mod trajectory;
+#[doc(hidden)]
+pub mod validate;

@@ -5,9 +5,9 @@
 use planar_capture::control::{Control, Free, ProportionalDerivative};
 use planar_capture::dynamics::{Conserved, Kinematics, Merge};
 use planar_capture::error::Error;
+use planar_capture::formulation::derivative;
 use planar_capture::impact::{self, After};
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::motion::derivative;
 use planar_capture::state::{State, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, Ends};

@@ -1,8 +1,8 @@
 //! What a layout or a scenario is said to be.
 
 use super::{LAYOUT, SCENARIO, check, look};
-use planar_capture::inspection::{Inspection, inspect};
-use planar_capture::models::SHIPPED;
+use planar_capture::check::{Inspection, inspect};
+use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
 use std::path::Path;

@@ -5,8 +5,8 @@ mod odd;
 mod wrong;
 
 use crate::command;
-use planar_capture::inspection::{Inspection, inspect};
-use planar_capture::models::SHIPPED;
+use planar_capture::check::{Inspection, inspect};
+use planar_capture::registry::SHIPPED;
 use planar_proof::{file, said};
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
 //! Every oddity seen once, and none where there is none.
 
 use super::{LAYOUT, SCENARIO, look};
-use planar_capture::inspection::{Inspection, inspect};
-use planar_capture::models::SHIPPED;
+use planar_capture::check::{Inspection, inspect};
+use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
 use std::path::Path;
@@ -239,7 +239,7 @@ fn a_merged_robot_is_no_stiffer() {
     use planar_capture::state::State;
     use planar_capture::target::Target;
     let layout = planar_proof::layout("dual_arm_3r");
-    let mut model = planar_capture::models::generated(&layout).expect("generated code");
+    let mut model = planar_capture::registry::generated(&layout).expect("generated code");
     let angles = [-0.5, -1.4, 0.1, 2.6, -1.4, 0.2];
     let target = Target { mass: 10.0, inertia: 1.0, contact: [0.3, 0.4], twist: [0.0; 3] };
     let inertia = |model: &dyn planar_capture::dynamics::Model<f64>| {

@@ -1,7 +1,7 @@
 //! Broken layouts, each with a message that a stranger can act on.
 
 use super::{LAYOUT, SCENARIO, check};
-use planar_capture::inspection::inspect;
+use planar_capture::check::inspect;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;

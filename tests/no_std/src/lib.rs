@@ -14,10 +14,10 @@ use planar_capture::control::{
 };
 use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
 use planar_capture::error::Error;
+use planar_capture::formulation::{Canonical, Reduced, derivative};
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
 use planar_capture::impact::{self, After, Workspace};
 use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
-use planar_capture::motion::{Canonical, Reduced, derivative};
 use planar_capture::state::{Halves, HalvesMut, State, halves, halves_mut, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};

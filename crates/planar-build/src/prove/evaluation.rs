@@ -1,13 +1,13 @@
 //! Every quantity of the table at one instant, by any model of the robot.
 
 use crate::prove::owned::{CloneModel, RobotState};
-use planar_dynamics::check::finite;
 use planar_dynamics::dynamics::Model;
 use planar_dynamics::error::Error;
 use planar_dynamics::impact::{self, After};
 use planar_dynamics::quantity::{Extent, Quantity};
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
+use planar_dynamics::validate::finite;
 use planar_dynamics::with_quantities;
 
 /// Where the robot is, how it moves, what acts on it and what it is about to capture.

@@ -1,9 +1,9 @@
 //! Graph JSON to Rust text: decides names, types and operands; the templates hold the layout.
 
+mod doc_text;
 pub mod json;
 mod operands;
-mod phrases;
-mod tables;
+mod wrap;
 
 use json::{list, names, size, text};
 pub use operands::camel;
@@ -51,9 +51,9 @@ impl Module<'_> {
         tera.add_raw_templates(TEMPLATES.to_vec()).map_err(|e| format!("{e:?}"))?;
         let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
         let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
-        let formatted = tables::names(&prettyplease::unparse(&file));
+        let formatted = wrap::names(&prettyplease::unparse(&file));
         let text = match graph.get(VECTORS) {
-            Some(vectors) => tables::fill(&formatted, vectors),
+            Some(vectors) => wrap::fill(&formatted, vectors),
             None => formatted,
         };
         context.insert("text_sha256", &sha256(&text));
@@ -91,16 +91,16 @@ fn context(graph: &Value, module: &Module<'_>) -> Result<Value, String> {
         "joints": joints,
         "size": joints + 3,
         "bodies": joints + 1,
-        "coordinates": phrases::coordinates(graph)?,
-        "costs": phrases::costs(graph)?,
+        "coordinates": doc_text::coordinates(graph)?,
+        "costs": doc_text::costs(graph)?,
         "parameters": list(&graph["parameters"])?.iter().map(parameter).collect::<Result<Vec<_>, _>>()?,
         "constants": {
             "statements": constants(graph, &set_up)?,
             "values": graph["constants"]["values"],
-            "operations": phrases::operations(&graph["constants"]["operations"])?,
+            "operations": doc_text::operations(&graph["constants"]["operations"])?,
         },
         "families": families,
-        "table": phrases::table(graph)?,
+        "table": doc_text::table(graph)?,
     }))
 }
 
@@ -121,9 +121,9 @@ fn render_family(graph: &Value, family: &Value, known: &Known) -> Result<Value, 
         "name": name,
         "type": format!("{}Configuration", camel(name)),
         "description": family["description"],
-        "operations": phrases::operations(&configuration["operations"])?,
-        "base_pose": phrases::item(input(graph, "base_pose")?)?,
-        "joint_angles": phrases::item(input(graph, "joint_angles")?)?,
+        "operations": doc_text::operations(&configuration["operations"])?,
+        "base_pose": doc_text::item(input(graph, "base_pose")?)?,
+        "joint_angles": doc_text::item(input(graph, "joint_angles")?)?,
         "prelude": prelude(&lines, "self."),
         "statements": lines,
         "values": configuration["values"],
@@ -157,7 +157,7 @@ fn render_function(graph: &Value, function: &Value, scope: &Scope) -> Result<Val
     let rendered_outputs = outputs
         .iter()
         .zip(&types)
-        .map(|(o, t)| Ok(json!({"name": o["name"], "type": t, "text": phrases::item(o)?})))
+        .map(|(o, t)| Ok(json!({"name": o["name"], "type": t, "text": doc_text::item(o)?})))
         .collect::<Result<Vec<_>, String>>()?;
     let arguments = list(&function["inputs"])?
         .iter()
@@ -166,12 +166,12 @@ fn render_function(graph: &Value, function: &Value, scope: &Scope) -> Result<Val
         .map(|name| {
             let input = input(graph, name?)?;
             let array = array_type(&input["shape"], "T")?;
-            Ok(json!({"name": input["name"], "type": array, "text": phrases::item(input)?}))
+            Ok(json!({"name": input["name"], "type": array, "text": doc_text::item(input)?}))
         })
         .collect::<Result<Vec<_>, String>>()?;
     Ok(json!({
         "name": name,
-        "docs": phrases::function(function)?,
+        "docs": doc_text::function(function)?,
         "struct": if single { Value::Null } else { json!(camel(name)) },
         "result_type": if single { types.concat() } else { format!("{}<T>", camel(name)) },
         "outputs": rendered_outputs,
@@ -225,7 +225,7 @@ fn self_test(graph: &Value, vectors: &Value) -> Result<Value, String> {
 /// Numbers as a nested array literal of a shape.
 fn literal(shape: &[Value], values: &[Value]) -> Result<String, String> {
     let Some((_, inner)) = shape.split_first() else {
-        return values.first().ok_or("no number".to_owned()).and_then(tables::number);
+        return values.first().ok_or("no number".to_owned()).and_then(wrap::number);
     };
     let part: usize = inner.iter().map(size).product::<Result<_, _>>()?;
     let parts = values.chunks(part.max(1)).map(|values| literal(inner, values));
@@ -248,7 +248,7 @@ fn parameter(p: &Value) -> Result<Value, String> {
         "link": p["link"].as_u64().unwrap_or(0),
         "unit": p["unit"],
         "default": format!("{default:?}"),
-        "description": phrases::escaped(text(&p["description"])?),
+        "description": doc_text::escaped(text(&p["description"])?),
     }))
 }
 

@@ -1,6 +1,6 @@
 //! Contacts that push but do not pull.
 
-use super::row::{Set, has};
+use super::constraint_row::{Set, has};
 use crate::error::Error;
 use crate::linear::{dot, solve};
 use crate::scalar::Real;

@@ -1,14 +1,14 @@
 //! The impact of any mixture of contacts.
 
 use super::complementarity::solve_contacts;
-use super::rows::Rows;
+use super::delassus_matrix::Rows;
 use crate::body::Body;
-use crate::check::{finite_state, length};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::{copy, dot};
 use crate::scalar::Real;
 use crate::state::State;
+use crate::validate::{finite_state, length};
 
 /// Where the results of an impact go.
 #[derive(Debug)]

@@ -1,11 +1,11 @@
 //! How a tip answers impulses: the extended inverse inertia tensor and what follows from it.
 
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::dot;
 use crate::scalar::{Real, Scalar};
 use crate::state::{Forces, State};
+use crate::validate::length;
 
 /// The change of a twist [ω, vx, vy] at a point per impulse [n, fx, fy] there: of a tip, the extended inverse inertia
 /// tensor `J_e M⁻¹ J_eᵀ` of Yoshida & Sashida (*Modeling of impact dynamics and impulse minimization for space robots*,

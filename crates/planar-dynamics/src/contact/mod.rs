@@ -13,21 +13,21 @@
 //! With W the rows' velocities per row impulses ([`Rows`]), an impact is solved by Poisson's law with the rigid and pinned
 //! contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed ([`Hold`]).
 
-mod closure;
 mod complementarity;
-mod hold;
+mod constraint_row;
+mod constraint_solver;
+mod delassus_matrix;
 mod impact;
 mod inverse_inertia;
 mod kind;
-mod row;
-mod rows;
+mod loop_constraint;
 
-pub use closure::Closure;
-pub use hold::{Hold, Workspace};
+pub use constraint_solver::{Hold, Workspace};
+pub use delassus_matrix::{Rows, workspace_length};
 pub use impact::{After, impact};
 pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
 pub use kind::{ContactKind, ContactLaw};
-pub use rows::{Rows, workspace_length};
+pub use loop_constraint::Closure;
 
 use crate::error::Error;
 use crate::scalar::Real;

@@ -1,12 +1,12 @@
 //! Inverse dynamics with feedback.
 
 use super::{Control, desired, inverse_dynamics};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::trajectory::Trajectory;
+use crate::validate::length;
 
 /// Computed torque in the reduced equations: `τ = I (θ̈_d + K_v (θ̇_d − θ̇) + K_p (θ_d − θ)) + c`.
 ///

@@ -1,11 +1,11 @@
 //! Actuators that give no more than they can.
 
 use super::{BaseTorque, Control};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
+use crate::validate::length;
 
 /// Another law's joint torques, each cut to its limit: `|τ| ≤ limit`. A base torque is left as it is.
 #[derive(Debug)]

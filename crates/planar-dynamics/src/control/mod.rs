@@ -1,7 +1,7 @@
 //! Joint torques of the approach and after the impact, and the torque of a base actuator.
 
 mod computed_torque;
-mod exact_tracking;
+mod inverse_dynamics;
 mod limited;
 mod proportional_derivative;
 mod resolved_motion_rate;
@@ -9,7 +9,7 @@ mod sampled;
 mod stabilise;
 
 pub use computed_torque::ComputedTorque;
-pub use exact_tracking::ExactTracking;
+pub use inverse_dynamics::ExactTracking;
 pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
 pub use resolved_motion_rate::{ResolvedMotionRate, TipWorkspace};

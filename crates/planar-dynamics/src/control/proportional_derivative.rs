@@ -1,12 +1,12 @@
 //! The paper's control law.
 
 use super::{Control, desired};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::trajectory::Trajectory;
+use crate::validate::length;
 
 /// Eq. (18): `τ = K_p (θ_d − θ) + K_v (θ̇_d − θ̇)`, gains per joint.
 #[derive(Clone, Copy, Debug)]

@@ -1,13 +1,13 @@
 //! Tips on their paths, by feedback of where they are.
 
 use super::{Control, inverse_dynamics};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::least_squares;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::trajectory::TipPath;
+use crate::validate::length;
 
 /// Resolved motion rate control with the generalized Jacobian J, in closed loop over the tips' poses x:
 ///

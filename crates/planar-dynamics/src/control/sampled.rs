@@ -1,11 +1,11 @@
 //! A law in a computer that runs at a fixed rate.
 
 use super::{BaseTorque, Control};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
+use crate::validate::length;
 
 /// Another law, asked at the start of every so many steps; its torques are held in between (zero-order hold).
 ///

@@ -1,13 +1,13 @@
 //! Bringing a robot to rest after a capture.
 
 use super::{BaseTorque, Control};
-use crate::check::length;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::dot;
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
+use crate::validate::length;
 
 /// Joint rates to zero, and the base rate with them where an actuator can take the angular momentum.
 ///

@@ -1,9 +1,9 @@
 //! The Gauss–Legendre method of three stages: implicit, symmetric, symplectic.
 
-use crate::check::length;
 use crate::error::Error;
 use crate::linear::copy;
 use crate::scalar::Real;
+use crate::validate::length;
 
 const STAGES: usize = 3;
 
@@ -15,7 +15,7 @@ const MOST_ROUNDS: usize = 60;
 /// Every invariant of f that is linear or quadratic in x is one of the steps, and where x are canonical variables the
 /// steps are symplectic, so that the energy error stays bounded over very long times: Hairer, Lubich, Wanner, *Geometric
 /// Numerical Integration*, theorems IV.2.1 and VI.4.2. The momenta of a robot are linear and bilinear in canonical
-/// variables, see [`Canonical`](crate::motion::Canonical); in others, such as rates, this is just a method of order 6.
+/// variables, see [`Canonical`](crate::formulation::Canonical); in others, such as rates, this is just a method of order 6.
 ///
 /// The stages are solved by iteration until they no longer change but by rounding: a looser stop would be an error of
 /// one sign, which grows with time. It contracts for steps that are short beside the fastest motion; that of a stiff control

@@ -7,7 +7,7 @@
 //! | [`GaussLegendre`] | 6 | 3 per round of iteration | both momenta and symplecticity, on [canonical] variables |
 //! | `Adaptive` (feature `std`) | 9 | 16, and 10 for dense output | nothing; its error is the tolerance |
 //!
-//! [canonical]: crate::motion::Canonical
+//! [canonical]: crate::formulation::Canonical
 
 pub mod gauss_legendre;
 pub mod rk4;

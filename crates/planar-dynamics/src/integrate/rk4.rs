@@ -1,8 +1,8 @@
 //! The classical Runge–Kutta method of fourth order with a fixed step.
 
-use crate::check::length;
 use crate::error::Error;
 use crate::scalar::Real;
+use crate::validate::length;
 
 /// ẋ = f(t, x) by fourth-order Runge–Kutta steps; the global error is O(step⁴).
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! Euler's method with the new rates in the positions.
 
-use crate::check::length;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::{HalvesMut, halves, halves_mut};
+use crate::validate::length;
 
 /// Rates by their derivatives, then positions by the *new* rates; the global error is O(step).
 ///

@@ -2,19 +2,19 @@
 //!
 //! Outside 0 ≤ t ≤ duration a trajectory stays at the nearer end.
 
+mod constant_setpoint;
 mod cycloidal;
+mod end_effector_path;
 mod kind;
 mod quartic;
 mod quintic;
-mod standing;
-mod tip_path;
 
+pub use constant_setpoint::Standing;
 pub use cycloidal::Cycloidal;
+pub use end_effector_path::{DesiredTip, TipPath};
 pub use kind::{AnyTrajectory, JointTrajectory, Properties, TrajectoryKind};
 pub use quartic::{Quartic, QuarticAsPrinted};
 pub use quintic::{Quintic, quintic};
-pub use standing::Standing;
-pub use tip_path::{DesiredTip, TipPath};
 
 use crate::scalar::Real;
 

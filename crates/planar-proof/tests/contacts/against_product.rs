@@ -6,8 +6,8 @@ use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
-use planar_capture::models;
 use planar_capture::owned::{CloneModel, RobotState};
+use planar_capture::registry;
 use planar_capture::state::{Forces, State};
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::impact;
@@ -19,7 +19,7 @@ use proptest::prelude::*;
 
 /// The product's model: generated code where this build has it.
 fn model(layout: &Layout) -> Box<dyn CloneModel> {
-    models::generated(layout).unwrap_or_else(|_| models::generic(layout))
+    registry::generated(layout).unwrap_or_else(|_| registry::generic(layout))
 }
 
 /// Bodies' poses and twists, and the way back to joints.
@@ -130,7 +130,7 @@ instantly!(asymmetric_wheel 3 6, boom_7r 1 7, dual_arm_2r 2 4, dual_arm_3r 2 6, 
 
 #[test]
 fn every_shipped_layout_is_here() {
-    assert_eq!(models::SHIPPED.len(), 7, "one line of `instantly` each");
+    assert_eq!(registry::SHIPPED.len(), 7, "one line of `instantly` each");
 }
 
 /// As the sample, but slower: ten seconds are some turns of every joint, not hundreds.

@@ -3,15 +3,15 @@
 use crate::against_product::{Shaken, shaken};
 use crate::product::law;
 use crate::robot;
+use planar_capture::capture::assembly::{Assembly, Attachment};
 use planar_capture::control::{Control, Free};
 use planar_capture::layout::Layout;
-use planar_capture::models;
 use planar_capture::owned::RobotState;
+use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::{Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample as Instant, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::study::assembly::{Assembly, Attachment};
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::motion::run;
@@ -45,7 +45,7 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
     let target = planar_capture::body::Body { mass, inertia, pose, twist };
     let grips: Vec<_> =
         holding.iter().map(|(arm, kind)| Attachment { target: 0, arm: *arm, kind: law(*kind).kind() }).collect();
-    let model = models::generated(layout).unwrap_or_else(|_| models::generic(layout));
+    let model = registry::generated(layout).unwrap_or_else(|_| registry::generic(layout));
     let assembly = Assembly::new(model, &state, &[target], &grips).expect("an assembly");
     Held { all, assembly, state, target }
 }

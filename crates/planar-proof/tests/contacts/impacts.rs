@@ -2,15 +2,15 @@
 
 use crate::product::{Outcome, both_models, described, law, strike};
 use crate::robot;
+use planar_capture::capture::assembly::{Assembly, Attachment};
+use planar_capture::capture::contact_at_time::Touching;
+use planar_capture::capture::impact::{Capture, ImpactResult, capture};
 use planar_capture::contact::{self, ContactKind, Other};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::state::State;
-use planar_capture::study::assembly::{Assembly, Attachment};
-use planar_capture::study::capture::{Capture, ImpactResult, capture};
-use planar_capture::study::meeting::Touching;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, Left, impact};
 use planar_proof::maximal::random::{Scene, Touch, random_contacts};

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector2};
 use planar_capture::layout::Layout;
-use planar_capture::models;
+use planar_capture::registry;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, impact};
 use planar_proof::maximal::random::{Scene, random_contacts};
@@ -108,7 +108,7 @@ fn check_targets(contacts: &[Contact], found: &Impact, before: &System, after: &
 
 /// M Δv = `J_eᵀ` F̄ with the product's M and J: joints transmit no moment, and the impulses are those on the tips.
 fn check_robot(layout: &Layout, sample: &Sample, impulses: &[(usize, [f64; 3])], before: &System, after: &System) {
-    let model = models::generic(layout);
+    let model = registry::generic(layout);
     let (size, arms) = (3 + layout.joints(), layout.arms.len());
     let (mut mass, mut jacobian) = (vec![0.0; size * size], vec![0.0; 3 * arms * size]);
     let s = sample.state();

@@ -5,8 +5,8 @@ use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_lengt
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
-use planar_capture::models;
 use planar_capture::owned::CloneModel;
+use planar_capture::registry;
 use planar_capture::scalar::Real;
 use planar_capture::state::State;
 use planar_proof::maximal::impact::Kind;
@@ -31,7 +31,7 @@ impl<T: Real> Outcome<T> {
 
 /// Both models of a layout, generic alone where no code of it is generated.
 pub fn both_models(layout: &Layout) -> Vec<Box<dyn CloneModel>> {
-    models::generated(layout).into_iter().chain([models::generic(layout)]).collect()
+    registry::generated(layout).into_iter().chain([registry::generic(layout)]).collect()
 }
 
 pub fn law(kind: Kind) -> contact::ContactLaw<f64> {

@@ -7,7 +7,7 @@ use planar_capture::contact::{Contact, ContactLaw, InverseInertia, Other};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
-use planar_capture::models;
+use planar_capture::registry;
 use planar_capture::target::Target;
 use planar_proof::sample::{Sample, config, sample};
 use planar_proof::{assert_close, close, layout, tolerance};
@@ -21,7 +21,7 @@ fn of_tip(model: &dyn Model<f64>, s: &Sample, arm: usize) -> Result<InverseInert
 
 /// J M⁻¹ Jᵀ of one arm, from the generic M and J.
 fn dense(layout: &Layout, s: &Sample, arm: usize) -> DMatrix<f64> {
-    let model = models::generic(layout);
+    let model = registry::generic(layout);
     let size = 3 + layout.joints();
     let (mut mass, mut jacobian) = (vec![0.0; size * size], vec![0.0; 3 * layout.arms.len() * size]);
     model.mass_matrix(&s.base_pose, &s.joint_angles, &mut mass).expect("M");
@@ -100,7 +100,7 @@ proptest! {
     #[test]
     fn impulses_at_a_point(s in sample(2, 6), direction in -3.2..3.2_f64) {
         let layout = layout("dual_arm_3r");
-        let model = models::generated(&layout).expect("generated code");
+        let model = registry::generated(&layout).expect("generated code");
         let ([mass, inertia, rx, ry], [_, vx, vy]) = s.targets[0];
         let of_tip = of_tip(&*model, &s, 0).expect("an inverse inertia");
         let of_body = InverseInertia::of_body(mass, inertia, [rx, ry]);
@@ -124,7 +124,7 @@ proptest! {
     #[test]
     fn a_plastic_pin_is_the_stopping_impulse(s in sample(2, 6), direction in -3.2..3.2_f64, restitution in 0.0..1.0_f64) {
         let layout = layout("dual_arm_3r");
-        let model = models::generated(&layout).expect("generated code");
+        let model = registry::generated(&layout).expect("generated code");
         let ([mass, inertia, rx, ry], twist @ [omega, vx, vy]) = s.targets[0];
         let body = Body { mass, inertia, pose: [0.0; 3], twist };
         let mut tips = [[0.0; 3]; 2];

@@ -3,18 +3,18 @@
 use planar_capture::control::{Control, Free};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
+use planar_capture::formulation::{Canonical, Reduced, derivative};
 use planar_capture::layout::Layout;
-use planar_capture::models;
-use planar_capture::motion::{Canonical, Reduced, derivative};
+use planar_capture::registry;
 use planar_capture::state::{State, vector_length};
 use planar_proof::sample::{Sample, config, sample};
 use planar_proof::tolerance;
 use proptest::prelude::*;
 
 fn for_every_layout(check: impl Fn(&dyn Model<f64>, &Sample)) {
-    for (name, text) in models::SHIPPED {
+    for (name, text) in registry::SHIPPED {
         let layout = Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"));
-        let model = models::generated(&layout).expect("generated code");
+        let model = registry::generated(&layout).expect("generated code");
         proptest!(config(), |(s in sample(model.arms(), model.joints()))| check(&*model, &s));
     }
 }

@@ -3,10 +3,10 @@
 use planar_capture::compare::states_text;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::models::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::owned::CloneModel;
 use planar_capture::quantities::differences;
 use planar_capture::quantity::Quantity;
+use planar_capture::registry::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::sampling::{REGIMES, Regime, Sample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};

@@ -2,8 +2,8 @@
 
 use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
-use planar_capture::models::generic;
 use planar_capture::owned::CloneModel;
+use planar_capture::registry::generic;
 use planar_capture::sampling::{Regime, Sample};
 use planar_capture::target::Target;
 use planar_proof::{assert_close, tolerance};

@@ -3,8 +3,8 @@
 use planar_capture::dynamics::Model;
 use planar_capture::impact::{After, exact};
 use planar_capture::layout::Layout;
-use planar_capture::models;
 use planar_capture::owned::CloneModel;
+use planar_capture::registry;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use planar_proof::{assert_close, file, json, layout, numbers, tolerance};
@@ -31,8 +31,8 @@ const MUJOCO: [&str; 9] = [
 /// Everything that computes a layout's dynamics.
 fn implementations(layout: &Layout) -> Vec<(&'static str, Box<dyn CloneModel>)> {
     vec![
-        ("generated", models::generated(layout).unwrap_or_else(|e| panic!("{e}"))),
-        ("generic", models::generic(layout)),
+        ("generated", registry::generated(layout).unwrap_or_else(|e| panic!("{e}"))),
+        ("generic", registry::generic(layout)),
     ]
 }
 

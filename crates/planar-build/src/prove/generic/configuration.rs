@@ -2,9 +2,9 @@
 
 use super::{Generic, length, velocity};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2, Vector3};
-use planar_dynamics::check::finite_configuration;
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
+use planar_dynamics::validate::finite_configuration;
 
 /// The robot at one configuration. Positions count from the base COM, in inertial axes, so that a robot far from the
 /// origin loses no digits.

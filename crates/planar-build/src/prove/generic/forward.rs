@@ -2,10 +2,10 @@
 
 use super::solve::factor;
 use super::{Generic, GenericState, length, store_split, velocity};
-use planar_dynamics::check::finite;
 use planar_dynamics::dynamics::{ForwardDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::{Forces, State};
+use planar_dynamics::validate::finite;
 
 impl ForwardDynamics<f64> for Generic {
     /// Eq. (1): M v̇ = `[F_b; τ_m]` + `J_eᵀ F_e` − bias.

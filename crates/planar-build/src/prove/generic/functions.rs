@@ -1,9 +1,9 @@
 //! The traits of the table of quantities, by the formulas of the same names.
 
 use super::{Configuration, Generic, GenericState, store_matrix};
-use planar_dynamics::check::{store, store_rows};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
+use planar_dynamics::validate::{store, store_rows};
 use planar_dynamics::with_quantities;
 
 macro_rules! functions {

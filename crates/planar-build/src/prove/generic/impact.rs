@@ -3,11 +3,11 @@
 use super::solve::factor;
 use super::{Configuration, Generic, GenericState, length, store_matrix, store_split};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use planar_dynamics::check::{finite, store};
 use planar_dynamics::dynamics::{Impact, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
 use planar_dynamics::target::Target;
+use planar_dynamics::validate::{finite, store};
 
 /// A target seen from the contact point.
 struct Contact {

@@ -4,10 +4,10 @@ use super::body::Body;
 use super::impact::check_target;
 use super::{Configuration, Generic, length};
 use nalgebra::{Rotation2, Vector2};
-use planar_dynamics::check::finite;
 use planar_dynamics::dynamics::{Merge, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::target::Target;
+use planar_dynamics::validate::finite;
 
 /// Two bodies as one, both COMs in the frame of the first: the COM is the mean by mass, and the inertia about it is
 /// the sum of both by the parallel axis theorem.

@@ -25,10 +25,10 @@ mod solve;
 use body::{Body, MountedFrame};
 use configuration::{Configuration, GenericState};
 use nalgebra::{DMatrix, DVector};
-use planar_dynamics::check::{finite, length};
 use planar_dynamics::dynamics::Robot;
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
+use planar_dynamics::validate::{finite, length};
 use planar_layout::layout::Layout;
 
 /// A robot of any layout, with its numbers.
@@ -65,7 +65,7 @@ impl Generic {
 
     /// Lengths of a state's slices.
     fn check_state(&self, state: &State<'_, f64>) -> Result<(), Error> {
-        planar_dynamics::check::finite_state(state)?;
+        planar_dynamics::validate::finite_state(state)?;
         self.check_joints("joint_angles", state.joint_angles)?;
         self.check_joints("joint_rates", state.joint_rates)
     }
@@ -87,7 +87,7 @@ impl Robot<f64> for Generic {
 
     fn body_inertias(&self, inertias: &mut [[f64; 2]]) -> Result<(), Error> {
         let values: Vec<[f64; 2]> = self.bodies.iter().map(|body| [body.mass, body.inertia]).collect();
-        planar_dynamics::check::store_rows("body_inertias", &values, inertias)
+        planar_dynamics::validate::store_rows("body_inertias", &values, inertias)
     }
 }
 
@@ -99,13 +99,13 @@ fn velocity(base_twist: &[f64; 3], joint_rates: &[f64]) -> DVector<f64> {
 /// Copies a matrix out, row by row.
 fn store_matrix(quantity: &'static str, matrix: &DMatrix<f64>, into: &mut [f64]) -> Result<(), Error> {
     // columns of the transpose are rows
-    planar_dynamics::check::store(quantity, matrix.transpose().as_slice(), into)
+    planar_dynamics::validate::store(quantity, matrix.transpose().as_slice(), into)
 }
 
 /// Copies a velocity or an acceleration out: the joints' part to a slice, the base's as the result.
 fn store_split(names: [&'static str; 2], vector: &DVector<f64>, joints: &mut [f64]) -> Result<[f64; 3], Error> {
     let (base, rest) = vector.as_slice().split_at(3);
     finite(names[0], base)?;
-    planar_dynamics::check::store(names[1], rest, joints)?;
-    planar_dynamics::check::array(names[0], base).copied()
+    planar_dynamics::validate::store(names[1], rest, joints)?;
+    planar_dynamics::validate::array(names[0], base).copied()
 }

@@ -1,10 +1,10 @@
 //! Conserved quantities, body by body.
 
 use super::{Generic, GenericState};
-use planar_dynamics::check::finite;
 use planar_dynamics::dynamics::{Conserved, Momentum};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
+use planar_dynamics::validate::finite;
 
 impl Conserved<f64> for Generic {
     /// p = Σ m v, l = Σ I ω + r × m v about the inertial origin, T = ½ Σ I ω² + m v².

@@ -3,10 +3,10 @@
 use super::solve::factor;
 use super::{Configuration, Generic, GenericState, store_matrix};
 use nalgebra::{DMatrix, DVector};
-use planar_dynamics::check::store;
 use planar_dynamics::dynamics::{ReducedDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
+use planar_dynamics::validate::store;
 
 /// I and J at one configuration, with `I_b⁻¹` ready for the bias.
 pub struct Reduced {

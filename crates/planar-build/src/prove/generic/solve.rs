@@ -1,8 +1,8 @@
 //! Dense symmetric positive definite systems.
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
-use planar_dynamics::check::{finite, pivot};
 use planar_dynamics::error::Error;
+use planar_dynamics::validate::{finite, pivot};
 
 /// The Cholesky factorisation A = L Lᵀ.
 ///

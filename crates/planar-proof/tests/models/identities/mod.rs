@@ -30,7 +30,7 @@ fn every_shipped_layout_is_here() {
         };
     }
     for_every_layout!(listed);
-    let shipped: Vec<&str> = planar_capture::models::SHIPPED.iter().map(|(name, _)| *name).collect();
+    let shipped: Vec<&str> = planar_capture::registry::SHIPPED.iter().map(|(name, _)| *name).collect();
     assert_eq!(LISTED.len(), shipped.len());
     assert!(shipped.iter().all(|name| LISTED.contains(name)), "{shipped:?} are shipped, {LISTED:?} are tested");
 }

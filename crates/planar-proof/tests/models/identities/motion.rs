@@ -2,8 +2,8 @@
 
 use planar_capture::control::Free;
 use planar_capture::dynamics::Model;
+use planar_capture::formulation::derivative;
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::motion::derivative;
 use planar_capture::state::{State, vector_length};
 use planar_proof::sample::Sample;
 

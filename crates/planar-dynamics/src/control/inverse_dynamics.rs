@@ -1,0 +1,41 @@
+//! Inverse dynamics without feedback.
+
+use super::{Control, desired, inverse_dynamics};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::state::State;
+use crate::trajectory::Trajectory;
+use crate::validate::length;
+
+/// Exact tracking by inverse dynamics: `τ = I θ̈_d + c` gives `θ̈ = θ̈_d`, whatever the base does.
+///
+/// For a robot that starts on the trajectory. The slices are working space: joints², joints, 3 arms × joints.
+#[derive(Debug)]
+pub struct ExactTracking<'a, T, R> {
+    /// Desired accelerations.
+    pub trajectory: R,
+    /// joints².
+    pub generalized_inertia: &'a mut [T],
+    /// joints.
+    pub generalized_bias: &'a mut [T],
+    /// 3 arms × joints.
+    pub generalized_jacobian: &'a mut [T],
+}
+
+impl<T: Real, R: Trajectory<T>> Control<T> for ExactTracking<'_, T, R> {
+    fn joint_torques(
+        &mut self,
+        time: T,
+        model: &dyn Model<T>,
+        state: &State<'_, T>,
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let joints = model.joints();
+        length("joint_torques", joints, torques.len())?;
+        model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
+        inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques, |joint| {
+            Ok(desired(&self.trajectory, joint, time, joints)?.acceleration)
+        })
+    }
+}

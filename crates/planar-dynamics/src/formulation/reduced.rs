@@ -1,0 +1,104 @@
+//! The equation of motion in reduced coordinates: the base twist follows from the momentum.
+
+use crate::control::Control;
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::linear::{copy, dot, solve};
+use crate::momentum_equation::MomentumEquation;
+use crate::scalar::Real;
+use crate::state::{ActuatorWork, CoordinatesMut, HalvesMut, State, halves_mut, vector_length};
+use crate::validate::length;
+
+/// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
+///
+/// `I_b t_b = [l − c_o × p; p] − I_bm θ̇`,
+///
+/// with the momentum of the start and what a base torque gave since, so that the momentum strays by rounding alone,
+/// whatever the integrator does. Joints accelerate by eq. (2), `I θ̈ + c = τ − I_bmᵀ I_b⁻¹ F_b`: the generalized bias c
+/// at the recovered twist has all that a momentum does.
+///
+/// Vectors are those of [`vector_length`], of a robot alone; the entries of the base twist are not integrated but written by
+/// [`recover`](Self::recover) after every step. Everything but the momentum is working space.
+#[derive(Debug)]
+pub struct Reduced<'a, T> {
+    /// [l, px, py] when the work was zero, about the inertial origin; N m s, N s.
+    pub momentum: [T; 3],
+    /// (3 + joints)².
+    pub mass_matrix: &'a mut [T],
+    /// joints².
+    pub generalized_inertia: &'a mut [T],
+    /// joints.
+    pub generalized_bias: &'a mut [T],
+    /// 3 arms × joints.
+    pub generalized_jacobian: &'a mut [T],
+}
+
+impl<T: Real> Reduced<'_, T> {
+    /// As [`derivative`](super::derivative) does in full coordinates; `torques` (joints) is left with the torques at this
+    /// time.
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and what model and law say.
+    pub fn derivative(
+        &mut self,
+        model: &dyn Model<T>,
+        control: &mut dyn Control<T>,
+        time: T,
+        x: &[T],
+        rate: &mut [T],
+        torques: &mut [T],
+    ) -> Result<(), Error> {
+        let Self { momentum, mass_matrix, generalized_inertia, generalized_bias, generalized_jacobian } = self;
+        let (state, equation) = recovered(model, momentum, mass_matrix, x)?;
+        control.joint_torques(time, model, &state, torques)?;
+        let base_torque = control.base_torque().map_or(T::ZERO, |base| base.torque);
+        model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
+
+        length("state vector", x.len(), rate.len())?;
+        let HalvesMut { positions: velocities, rates: accelerations, work } = halves_mut(rate)?;
+        let velocities = CoordinatesMut::new(velocities, torques.len())?;
+        *velocities.base = state.base_twist;
+        copy(state.joint_rates, velocities.joints);
+        let CoordinatesMut { base, joints: joint_accelerations, .. } =
+            CoordinatesMut::new(accelerations, torques.len())?;
+        *base = [T::ZERO; 3];
+        let by_base = equation.solve([base_torque, T::ZERO, T::ZERO]);
+        let rows = mass_matrix.chunks_exact(3 + torques.len()).skip(3);
+        let known = torques.iter().zip(generalized_bias.iter());
+        for ((place, row), (torque, bias)) in joint_accelerations.iter_mut().zip(rows).zip(known) {
+            *place = *torque - *bias - dot(row, by_base);
+        }
+        solve("the generalized inertia I", generalized_inertia, joint_accelerations)?;
+        let [omega, ..] = state.base_twist;
+        *work = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
+        Ok(())
+    }
+
+    /// Writes the base twist to its place.
+    ///
+    /// # Errors
+    /// As [`Self::derivative`].
+    pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
+        let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
+        let HalvesMut { rates, .. } = halves_mut(x)?;
+        *CoordinatesMut::new(rates, model.joints())?.base = base_twist;
+        Ok(())
+    }
+}
+
+/// The state with the base twist that the momentum asks for, and the equation that gave it.
+fn recovered<'x, 'm, T: Real>(
+    model: &dyn Model<T>,
+    [l, px, py]: &[T; 3],
+    mass_matrix: &'m mut [T],
+    x: &'x [T],
+) -> Result<(State<'x, T>, MomentumEquation<'m, T>), Error> {
+    let joints = model.joints();
+    length("state vector", vector_length(joints), x.len())?;
+    let state = State::from_vector(x, joints)?;
+    let impulse = ActuatorWork::from_vector(x)?.base_impulse;
+    model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
+    let equation = MomentumEquation::new(mass_matrix, joints)?;
+    let base_twist = equation.base_twist([*l + impulse, *px, *py], &state.base_pose, state.joint_rates);
+    Ok((State { base_twist, ..state }, equation))
+}

@@ -1,0 +1,138 @@
+//! The approach phase of a scenario: trajectory and tracking put together.
+
+pub mod end_effector_paths;
+pub mod inverse_kinematics;
+pub mod terminal_rates;
+
+use crate::capture::approach::end_effector_paths::Tips;
+use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
+use crate::dynamics::Model;
+use crate::owned::RobotState;
+use crate::scenario::{Scenario, Tracking};
+use crate::simulate::actuators::drive;
+use crate::simulate::event::{Events, NoEvents};
+use crate::simulate::system::System;
+use crate::simulate::{Phase, Stopped, Timing, simulate_within};
+use crate::trajectory::{AnyTrajectory, Ends};
+
+/// The approach of one scenario.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach<'a> {
+    scenario: &'a Scenario,
+    timing: Timing,
+}
+
+impl<'a> Approach<'a> {
+    /// The approach that a scenario describes, sampled every `sample` seconds.
+    #[must_use]
+    pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
+        let approach = &scenario.approach;
+        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
+        let timing = Timing { duration, step, sample, integration };
+        Self { scenario, timing }
+    }
+
+    /// Number of steps.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.timing.steps()
+    }
+
+    /// Runs it as the scenario says, with these end rates (rad/s; a cycloidal trajectory has none).
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+        self.track_until(model, rates, &mut NoEvents, tick)
+    }
+
+    /// The same, up to the first of the events.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let trajectory = self.trajectory(rates);
+        let joints = model.joints();
+        let initial = RobotState::of(&self.scenario.initial.view());
+        let actuation = &self.scenario.approach.actuation;
+        let mut drive = |law: &mut dyn Control<f64>| {
+            drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
+        };
+        match &self.scenario.approach.tracking {
+            Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
+            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
+                drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
+            }
+            Tracking::ComputedTorque { proportional_gain, derivative_gain } => drive(&mut ComputedTorque {
+                trajectory,
+                proportional_gain,
+                derivative_gain,
+                generalized_inertia: &mut vec![0.0; joints * joints],
+                generalized_bias: &mut vec![0.0; joints],
+                generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+            }),
+            Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
+                let mut tips = Tips::new(model, self.scenario)?;
+                let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
+                let phase = drive(&mut law)?;
+                Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
+            }
+        }
+    }
+
+    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with.
+    ///
+    /// # Errors
+    /// When and why it stopped.
+    pub fn track_exactly(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        self.track_exactly_until(model, rates, &mut NoEvents, tick)
+    }
+
+    fn track_exactly_until(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
+    ) -> Result<Phase, Stopped> {
+        let joints = model.joints();
+        let mut law = ExactTracking {
+            trajectory: self.trajectory(rates),
+            generalized_inertia: &mut vec![0.0; joints * joints],
+            generalized_bias: &mut vec![0.0; joints],
+            generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
+        };
+        let initial = RobotState {
+            base_pose: self.scenario.initial.base_pose,
+            joint_angles: self.scenario.initial.joint_angles.clone(),
+            base_twist: self.scenario.initial.base_twist,
+            joint_rates: if self.scenario.approach.trajectory.properties().starts_at_rest {
+                vec![0.0; joints]
+            } else {
+                self.scenario.initial.joint_rates.clone()
+            },
+        };
+        let limits = &self.scenario.approach.actuation.joint_limits;
+        simulate_within(&System::alone(model), limits, &mut law, &initial, &self.timing, events, tick)
+    }
+
+    fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {
+        let ends = Ends {
+            initial_angles: &self.scenario.initial.joint_angles,
+            final_angles: &self.scenario.approach.final_joint_angles,
+            duration: self.scenario.approach.trajectory_time(),
+        };
+        self.scenario.approach.trajectory.between(ends, &self.scenario.initial.joint_rates, final_rates)
+    }
+}

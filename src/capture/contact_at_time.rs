@@ -1,0 +1,66 @@
+//! Tips and targets at the instant of an impact: where they touch, and how.
+
+use crate::capture::assembly::turned;
+use crate::contact::{ContactKind, ContactLaw};
+use crate::scenario::{Case, Scenario};
+use crate::simulate::system::Body;
+
+/// One contact of a tip with a target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touching {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// What the contact does.
+    pub law: ContactLaw<f64>,
+    /// From the COM of the target to the tip, inertial axes, m.
+    pub offset: [f64; 2],
+    /// Distance of the tip from where the contact was wanted on the target, m: between several tips on one target.
+    pub miss: f64,
+}
+
+/// The targets at the end of an approach that ends by time: each is where the tips put it, and contacts are where the tips
+/// are. With one arm that is the tip less the wanted contact; with several the mean of that.
+///
+/// Yaws are the scenario's. A target that no arm takes hold of is where its arms would have, had they closed.
+#[must_use]
+pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body>, Vec<Touching>) {
+    let (mut bodies, mut touching) = (Vec::new(), Vec::new());
+    for (i, target) in scenario.targets.iter().enumerate() {
+        let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
+        let each = || target.touches.iter().zip(kinds);
+        let closing = each().any(|(_, kind)| kind.is_some());
+        let placed: Vec<[f64; 2]> = each()
+            .filter(|(_, kind)| !closing || kind.is_some())
+            .filter_map(|(touch, _)| {
+                let [_, x, y] = tips.get(touch.arm)?;
+                Some([x - touch.contact[0], y - touch.contact[1]])
+            })
+            .collect();
+        #[allow(clippy::cast_precision_loss, reason = "a few arms")]
+        let mean = |axis: usize| placed.iter().map(|place| place[axis]).sum::<f64>() / placed.len().max(1) as f64;
+        let (x, y) = (mean(0), mean(1));
+        let twist = case.target_twists.get(i).copied().unwrap_or(target.twist);
+        bodies.push(Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist });
+        for (touch, kind) in each() {
+            let Some([_, tip_x, tip_y]) = tips.get(touch.arm) else { continue };
+            let offset = [tip_x - x, tip_y - y];
+            let outline = || turned(target.surface.gap(turned(touch.contact, -target.yaw)).normal, target.yaw);
+            if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
+                let miss = (offset[0] - touch.contact[0]).hypot(offset[1] - touch.contact[1]);
+                touching.push(Touching { target: i, arm: touch.arm, law, offset, miss });
+            }
+        }
+    }
+    (bodies, touching)
+}
+
+/// The law of a contact; `None` where the end effector does nothing.
+pub(crate) fn contact_law(
+    kind: Option<ContactKind>,
+    normal: impl FnOnce() -> [f64; 2],
+    restitution: Option<f64>,
+) -> Option<ContactLaw<f64>> {
+    kind.map(|kind| ContactLaw::new(kind, normal, restitution.unwrap_or_default()))
+}

@@ -1,0 +1,69 @@
+//! What a contact asks of robot and target: extended inverse inertia, effective masses, impulse index and ellipse.
+
+use crate::capture::contact_at_time::Touching;
+use crate::contact::{ImpulseEllipse, InverseInertia};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::owned::RobotState;
+use crate::simulate::system::Body;
+
+/// Before an impact, for the contact by itself: tip and target free to move otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactResponse {
+    /// [ω, vx, vy] of the tip relative to the contact point of the target.
+    pub relative_twist: [f64; 3],
+    /// The direction that the effective masses are of: of a bounce the normal, else that of the relative velocity; `None`
+    /// where there is none.
+    pub direction: Option<[f64; 2]>,
+    /// Of the tip: Yoshida & Sashida's extended inverse inertia tensor.
+    pub inverse_inertia: InverseInertia<f64>,
+    /// Along the direction, kg: of the robot at its tip, of the target at its contact point, of both against each other.
+    pub effective_masses: Option<[f64; 3]>,
+    /// Size of the impulse, N s, that a closing speed of 1 m/s along the direction asks for at a point contact without
+    /// restitution.
+    pub impulse_index: Option<f64>,
+    /// The impulses that a closing speed of 1 m/s asks for, over all directions.
+    pub impulse_ellipse: ImpulseEllipse<f64>,
+}
+
+/// Of one contact.
+///
+/// # Errors
+/// What the model says.
+pub fn response(
+    model: &dyn Model<f64>,
+    before: &RobotState,
+    target: &Body,
+    touch: &Touching,
+) -> Result<ContactResponse, Error> {
+    let mut tips = vec![[0.0; 3]; model.arms()];
+    model.end_effector_twists(&before.view(), &mut tips)?;
+    let [tip_omega, tip_x, tip_y] = tips[touch.arm];
+    let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
+    let relative = [tip_omega - omega, tip_x - (vx - omega * ry), tip_y - (vy + omega * rx)];
+    let speed = relative[1].hypot(relative[2]);
+    let along_velocity = || (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]);
+    let direction = touch.law.bounce().map(|(normal, _)| normal).or_else(along_velocity);
+    let (pose, angles) = (&before.base_pose, &before.joint_angles);
+    let mut scratch = vec![0.0; 2 * model.joints()];
+    let of_tip = InverseInertia::of_tip(model, pose, angles, touch.arm, &mut tips, &mut scratch)?;
+    let of_target = InverseInertia::of_body(target.mass, target.inertia, touch.offset);
+    let of_both = of_tip.plus(&of_target);
+    let masses = |along: &[f64; 2]| [of_tip, of_target, of_both].map(|inertia| inertia.effective_mass(along));
+    let index = |along: &[f64; 2]| {
+        let [fx, fy] = match touch.law.bounce() {
+            // only the part along the normal
+            Some(_) => along.map(|part| part * of_both.effective_mass(along)),
+            None => of_both.stopping_impulse(along),
+        };
+        fx.hypot(fy)
+    };
+    Ok(ContactResponse {
+        relative_twist: relative,
+        direction,
+        inverse_inertia: of_tip,
+        effective_masses: direction.as_ref().map(masses),
+        impulse_index: direction.as_ref().map(index),
+        impulse_ellipse: of_both.impulse_ellipse(),
+    })
+}

@@ -1,0 +1,239 @@
+//! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
+
+use crate::capture::assembly::{Assembly, Place};
+use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_response::{ContactResponse, response};
+use crate::contact::{self, Contact, ContactKind, Other, Rows, workspace_length};
+use crate::dynamics::Model;
+use crate::error::Error;
+use crate::impact::{self, After, Workspace};
+use crate::owned::RobotState;
+use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
+use crate::simulate::system::Body;
+use crate::state::State;
+use crate::target::Target;
+
+/// The impact by both models.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Capture {
+    /// In full coordinates.
+    pub exact: ImpactResult,
+    /// The paper's literal equations, which are about rigid captures of one target per arm; `None` for other contacts.
+    pub paper: Option<ImpactResult>,
+    /// [ω, vx, vy] of every target after it, touched or not, by the exact model.
+    pub target_twists: Vec<[f64; 3]>,
+    /// The contacts one by one.
+    pub contacts: Vec<ContactResult>,
+}
+
+/// One contact, by the exact model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactResult {
+    /// Who touches whom, where and how.
+    pub touching: Touching,
+    /// [n, fx, fy] on the robot at the tip; N m s, N s.
+    pub impulse: [f64; 3],
+    /// What the impulse had to do with.
+    pub response: ContactResponse,
+}
+
+/// What an impact did, by one of the models. Per arm: `None` where the arm touches nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpactResult {
+    /// rad/s.
+    pub joint_rates_after: Vec<f64>,
+    /// [ω, vx, vy] of the base COM; rad/s, m/s.
+    pub base_twist_after: [f64; 3],
+    /// [ω, vx, vy] of each target's COM.
+    pub target_twists_after: Vec<Option<[f64; 3]>>,
+    /// [n, fx, fy] on the robot at each tip; N m s, N s.
+    pub impulses: Vec<Option<[f64; 3]>>,
+    /// [l, px, py] after less before, robot and targets together, about the inertial origin.
+    pub momentum_jump: [f64; 3],
+    /// The largest jump over the sum of the bodies' momenta, linear or angular.
+    pub relative_momentum_jump: f64,
+    /// With the targets, J.
+    pub kinetic_energy_before: f64,
+    /// With the targets, J.
+    pub kinetic_energy_after: f64,
+}
+
+impl ImpactResult {
+    /// Magnitude of [fx, fy] per arm, N s.
+    #[must_use]
+    pub fn impulse_magnitudes(&self) -> Vec<Option<f64>> {
+        self.impulses.iter().map(|impulse| impulse.map(|[_, fx, fy]| fx.hypot(fy))).collect()
+    }
+}
+
+/// An impact on an assembly in motion, where `targets` are as they are before it.
+///
+/// # Errors
+/// What the model says of the state and the targets; [`Error::Singular`] where contacts depend on each other.
+pub fn capture(
+    assembly: &Assembly,
+    before: &RobotState,
+    targets: &[Body],
+    touching: &[Touching],
+) -> Result<Capture, Error> {
+    let model = &*assembly.model;
+    let exact = by_contacts(assembly, before, targets, touching)?;
+    let literal = rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty());
+    let paper =
+        literal.map(|by_arm| by_equations_of_the_paper(model, before, targets, touching, &by_arm)).transpose()?;
+    let each = touching.iter().zip(&exact.impulses).map(|(touch, impulse)| {
+        let response = response(model, before, &targets[touch.target], touch)?;
+        Ok(ContactResult { touching: *touch, impulse: *impulse, response })
+    });
+    let contacts = each.collect::<Result<_, Error>>()?;
+    let result = |velocities: &Velocities| balance(assembly, before, targets, touching, velocities);
+    let paper = paper.as_ref().map(result).transpose()?;
+    let target_twists = exact.targets.clone();
+    Ok(Capture { exact: result(&exact)?, paper, target_twists, contacts })
+}
+
+/// What an impact leaves: all targets, and one impulse per contact.
+struct Velocities {
+    base_twist: [f64; 3],
+    joint_rates: Vec<f64>,
+    targets: Vec<[f64; 3]>,
+    impulses: Vec<[f64; 3]>,
+}
+
+/// The targets by arm, where each contact is rigid and the only one of its target, and nothing is held yet.
+fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[Touching]) -> Option<Vec<Option<Target<f64>>>> {
+    if assembly.places.iter().any(|place| matches!(place, Place::Merged { .. })) || !assembly.closures.is_empty() {
+        return None;
+    }
+    let mut by_arm = vec![None; assembly.model.arms()];
+    for touch in touching {
+        let alone = touching.iter().filter(|other| other.target == touch.target).count() == 1;
+        let Body { mass, inertia, twist, .. } = *targets.get(touch.target)?;
+        let place = by_arm.get_mut(touch.arm).filter(|_| alone && touch.law.kind() == ContactKind::Rigid)?;
+        *place = Some(Target { mass, inertia, contact: touch.offset, twist });
+    }
+    Some(by_arm)
+}
+
+/// The rigid capture by the paper's reduced equations.
+fn by_equations_of_the_paper(
+    model: &dyn Model<f64>,
+    before: &RobotState,
+    targets: &[Body],
+    touching: &[Touching],
+    by_arm: &[Option<Target<f64>>],
+) -> Result<Velocities, Error> {
+    let (joints, arms) = (model.joints(), model.arms());
+    let size = 3 + joints;
+    let mut joint_rates = vec![0.0; joints];
+    let mut target_twists = vec![[0.0; 3]; arms];
+    let mut impulses = vec![[0.0; 3]; arms];
+    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut workspace = Workspace {
+        impact_matrix: &mut vec![0.0; joints * joints],
+        impact_momentum: &mut vec![0.0; joints],
+        jacobian: &mut vec![0.0; 3 * arms * joints],
+        mass_matrix: &mut vec![0.0; size * size],
+    };
+    let base_twist = impact::paper(model, &before.view(), by_arm, &mut workspace, &mut after)?;
+    let arm_of = |i: usize| touching.iter().find(|touch| touch.target == i).map(|touch| touch.arm);
+    let of_targets = targets.iter().enumerate();
+    Ok(Velocities {
+        base_twist,
+        targets: of_targets.map(|(i, target)| arm_of(i).map_or(target.twist, |arm| target_twists[arm])).collect(),
+        impulses: touching.iter().map(|touch| impulses[touch.arm]).collect(),
+        joint_rates,
+    })
+}
+
+/// Contacts of any kind, together with what is held already.
+fn by_contacts(
+    assembly: &Assembly,
+    before: &RobotState,
+    targets: &[Body],
+    touching: &[Touching],
+) -> Result<Velocities, Error> {
+    let model = &*assembly.model;
+    let mut tips = vec![[0.0; 3]; model.arms()];
+    model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut tips)?;
+    // the tips and bodies as they are now
+    let bodies: Vec<Body> = assembly.beside(targets);
+    let new = touching.iter().map(|touch| {
+        let (other, offset) = match assembly.places[touch.target] {
+            Place::Merged { arm, .. } => {
+                let ([_, x, y], [_, from_x, from_y]) = (tips[touch.arm], tips[arm]);
+                (Other::Tip(arm), [x - from_x, y - from_y])
+            }
+            Place::Beside(i) => (Other::Body(i), touch.offset),
+        };
+        Contact { arm: touch.arm, other, offset, law: touch.law }
+    });
+    let held = assembly.holds(&tips, &bodies);
+    let contacts: Vec<_> = new.chain(held).collect();
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), Rows::count(&contacts));
+    let mut numbers = vec![0.0; length];
+    let rows = Rows::new(model, &before.base_pose, &before.joint_angles, &bodies, &contacts, &mut numbers)?;
+    let mut joint_rates = vec![0.0; model.joints()];
+    let mut body_twists = vec![[0.0; 3]; bodies.len()];
+    let mut impulses = vec![[0.0; 3]; contacts.len()];
+    let mut after =
+        contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
+    let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
+    let mut tip_twists = vec![[0.0; 3]; model.arms()];
+    let moving = State { base_twist, joint_rates: &joint_rates, ..before.view() };
+    model.end_effector_twists(&moving, &mut tip_twists)?;
+    let moved: Vec<_> = bodies.iter().zip(&body_twists).map(|(body, twist)| Body { twist: *twist, ..*body }).collect();
+    let after = assembly.targets(targets, &tips, &tip_twists, &moved);
+    impulses.truncate(touching.len());
+    let twists = after.iter().map(|target| target.twist).collect();
+    Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
+}
+
+/// Momentum [l, px, py] and energy of robot and targets, and the sums of their bodies' sizes, [angular, linear].
+struct Total {
+    momentum: [f64; 3],
+    magnitude: [f64; 2],
+    energy: f64,
+}
+
+fn balance(
+    assembly: &Assembly,
+    before: &RobotState,
+    targets: &[Body],
+    touching: &[Touching],
+    velocities: &Velocities,
+) -> Result<ImpactResult, Error> {
+    let Velocities { base_twist, joint_rates, targets: twists, impulses } = velocities;
+    let moving = State { base_twist: *base_twist, joint_rates, ..before.view() };
+    let moved = targets.iter().zip(twists).map(|(target, twist)| Body { twist: *twist, ..*target });
+    let start = total(assembly, &before.view(), targets)?;
+    let end = total(assembly, &moving, &moved.collect::<Vec<_>>())?;
+    let jump: [f64; 3] = std::array::from_fn(|i| end.momentum[i] - start.momentum[i]);
+    let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
+    let angular = relative(jump[0].abs(), start.magnitude[0].max(end.magnitude[0]));
+    let linear = relative(jump[1].hypot(jump[2]), start.magnitude[1].max(end.magnitude[1]));
+    let per_arm = |value: &dyn Fn(usize, &Touching) -> Option<[f64; 3]>| {
+        let arms = 0..assembly.model.arms();
+        let touch = |arm| touching.iter().enumerate().find(|(_, touch)| touch.arm == arm);
+        arms.map(|arm| touch(arm).and_then(|(i, touch)| value(i, touch))).collect()
+    };
+    Ok(ImpactResult {
+        base_twist_after: *base_twist,
+        target_twists_after: per_arm(&|_, touch| twists.get(touch.target).copied()),
+        impulses: per_arm(&|i, _| impulses.get(i).copied()),
+        momentum_jump: jump,
+        relative_momentum_jump: angular.max(linear),
+        kinetic_energy_before: start.energy,
+        kinetic_energy_after: end.energy,
+        joint_rates_after: joint_rates.clone(),
+    })
+}
+
+/// Of the robot, with what its links hold, and the targets beside it.
+fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<Total, Error> {
+    let beside = assembly.beside(targets);
+    let whole = with_bodies(assembly.model.momentum(state)?, &beside);
+    let [px, py] = whole.linear_momentum;
+    let magnitude = momentum_sizes(&bodies(&*assembly.model, state, &beside)?);
+    Ok(Total { momentum: [whole.angular_momentum, px, py], magnitude, energy: whole.kinetic_energy })
+}

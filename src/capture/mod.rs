@@ -1,0 +1,327 @@
+//! A scenario from approach to post-impact: one approach, then an impact and what follows for every case.
+
+pub mod approach;
+pub mod assembly;
+pub mod contact_at_time;
+pub mod contact_detection;
+pub mod contact_response;
+pub mod impact;
+pub mod post_capture;
+pub mod residual_motion;
+mod sequence;
+pub mod terminal_error;
+
+use crate::capture::approach::Approach;
+use crate::capture::approach::inverse_kinematics::{Posture, PostureError, posture};
+use crate::capture::approach::terminal_rates::{Design, DesignError, end_rates};
+use crate::capture::impact::{Capture, ImpactResult};
+use crate::capture::residual_motion::Remainder;
+use crate::capture::sequence::Course;
+use crate::capture::terminal_error::Miss;
+use crate::owned::CloneModel;
+use crate::scenario::{Detection, EndRates, Scenario, Tracking};
+use crate::simulate::limits::Excesses;
+use crate::simulate::system::Body;
+use crate::simulate::{Phase, Stopped};
+
+/// Largest momentum drift of a phase that passes the audit.
+pub const MOMENTUM_BOUND: f64 = 1e-9;
+/// Largest drift of the centre of mass in a phase that passes the audit: it is the integral of what the momentum drifts by.
+pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
+/// Largest energy error of a phase that passes the audit.
+pub const ENERGY_BOUND: f64 = 1e-6;
+
+/// Largest opening of what is held that passes the audit, rad or m, and its rate.
+pub const CONSTRAINT_BOUND: f64 = 1e-10;
+
+/// Deepest that a tip may be inside a target that it does not hold, m.
+pub const PENETRATION_BOUND: f64 = 1e-6;
+
+/// Makes a model of the robot, in its state before any capture.
+pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
+
+/// What was computed for one scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// Where the end rates of the approach come from, where they were designed.
+    pub design: Option<Design>,
+    /// Where its final joint angles come from, where they were designed.
+    pub posture: Option<Posture>,
+    /// The approach: of all cases where contacts come by time, else as far as it would go without any.
+    pub approach: Phase,
+    /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
+    pub misses: Vec<Option<Miss>>,
+    /// One per case, in the scenario's order.
+    pub cases: Vec<CaseResult>,
+}
+
+/// One case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseResult {
+    /// Its name.
+    pub name: String,
+    /// Its own approach, which ends at the first contact; `None` where that comes by time.
+    pub approach: Option<Phase>,
+    /// The targets at the end of the approach, before they are touched.
+    pub targets: Vec<Body>,
+    /// Tips and targets that were to meet and did not, where contacts are found by detection.
+    pub closest: Vec<Closest>,
+    /// Impact and what follows; `None` where there is nothing to capture, or no tip met its target.
+    pub capture: Option<Captured>,
+}
+
+/// An impact in the course of the motion after another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Further {
+    /// Since the first impact, s.
+    pub time: f64,
+    /// The impact.
+    pub impact: Capture,
+}
+
+/// How near a tip came to a target that it never touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closest {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// From its outline, m.
+    pub distance: f64,
+    /// Since the start of the approach, s, to the time between samples.
+    pub time: f64,
+}
+
+/// A capture and the motion after it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Captured {
+    /// Exact and as the paper writes it.
+    pub impact: Capture,
+    /// Robot and targets from the exact velocities on.
+    pub post_impact: Phase,
+    /// The targets at each of its samples.
+    pub targets: Vec<Vec<Body>>,
+    /// Impacts after the first one, where contacts are found by detection.
+    pub further: Vec<Further>,
+    /// By how much a tip was inside a target that it does not hold, at most, m.
+    pub penetration: f64,
+    /// What is left at its end; `None` where the joints are free, as in the paper.
+    pub remainder: Option<Remainder>,
+}
+
+/// Why a study has no result.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum StudyError {
+    /// The end rates could not be designed.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// The final joint angles could not be designed.
+    #[error(transparent)]
+    Posture(#[from] PostureError),
+    /// The approach stopped.
+    #[error("the approach stopped {0}")]
+    Approach(Stopped),
+    /// A tip is inside its target when the approach begins.
+    #[error(
+        "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
+         detection begin apart"
+    )]
+    Inside {
+        /// The case's name.
+        case: String,
+        /// The arm's.
+        arm: String,
+        /// The target's.
+        target: String,
+        /// m.
+        depth: f64,
+    },
+    /// Contacts follow each other without end.
+    #[error(
+        "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \
+         modelled"
+    )]
+    Chatter {
+        /// The case's name.
+        case: String,
+        /// How many there were.
+        impacts: usize,
+        /// Since the first, s.
+        time: f64,
+    },
+    /// An impact could not be solved.
+    #[error("the impact of case `{case}` could not be solved: {source}")]
+    Impact {
+        /// The case's name.
+        case: String,
+        /// Why.
+        source: crate::error::Error,
+    },
+    /// The motion after an impact stopped.
+    #[error("the motion after the impact of case `{case}` stopped {source}")]
+    PostImpact {
+        /// The case's name.
+        case: String,
+        /// When and why.
+        source: Stopped,
+    },
+}
+
+/// Told what the study is about to do, for a progress display.
+pub trait Observer {
+    /// A part begins that takes about so many steps.
+    fn begin(&mut self, part: &str, steps: u64);
+    /// One more step is done.
+    fn step(&mut self);
+}
+
+/// Runs a scenario; samples are `sample` seconds apart.
+///
+/// # Errors
+/// [`StudyError`], with the part and the numbers.
+pub fn study(
+    scenario: &Scenario,
+    make: MakeModel<'_>,
+    sample: f64,
+    observer: &mut dyn Observer,
+) -> Result<Study, StudyError> {
+    let model = make();
+    // tips on paths of their own need no joint trajectory
+    let by_tips = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
+    let posture = match &scenario.approach.final_end_effector_poses {
+        Some(goals) if !by_tips => {
+            observer.begin("designing final joint angles", 0);
+            Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
+        }
+        _ => None,
+    };
+    let mut designed;
+    let scenario = match &posture {
+        Some(posture) => {
+            designed = scenario.clone();
+            designed.approach.final_joint_angles.clone_from(&posture.joint_angles);
+            &designed
+        }
+        None => scenario,
+    };
+    let approach = Approach::new(scenario, sample);
+    let design = match (&scenario.approach.end, &posture) {
+        (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
+        (EndRates::EndEffectorTwists(wanted), None) if !by_tips => {
+            observer.begin("designing end rates", 0);
+            Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
+        }
+        _ => None,
+    };
+    let rates = match (&scenario.approach.end, &design) {
+        (EndRates::JointRates(rates), _) => rates.clone(),
+        (_, Some(design)) => design.joint_rates.clone(),
+        (_, None) => vec![0.0; model.joints()],
+    };
+    observer.begin("approach", approach.steps());
+    let approach = approach.track(&*model, &rates, &mut || observer.step()).map_err(StudyError::Approach)?;
+    let cases = scenario
+        .cases
+        .iter()
+        .map(|case| match (&scenario.post_impact, approach.end()) {
+            (Some(after), Some(end)) => {
+                let course = Course { scenario, case, after, make, sample };
+                match scenario.contact.detection {
+                    Detection::Time => course.in_time(&end.state, &end.end_effector_poses, observer),
+                    Detection::Event => course.by_detection(&rates, observer),
+                }
+            }
+            _ => Ok(CaseResult::alone(&case.name)),
+        })
+        .collect::<Result<Vec<_>, StudyError>>()?;
+    let misses = Miss::of(scenario, &approach);
+    Ok(Study { design, posture, approach, misses, cases })
+}
+
+impl CaseResult {
+    /// An approach to nothing.
+    fn alone(name: &str) -> Self {
+        Self { name: name.to_owned(), approach: None, targets: Vec::new(), closest: Vec::new(), capture: None }
+    }
+
+    /// Its approach.
+    #[must_use]
+    pub fn approach<'a>(&'a self, study: &'a Study) -> &'a Phase {
+        self.approach.as_ref().unwrap_or(&study.approach)
+    }
+
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together, which nothing changes before
+    /// they are touched; N m s, N s, J.
+    #[must_use]
+    pub fn targets_momentum(&self) -> ([f64; 3], f64) {
+        self.targets.iter().map(Body::momentum).fold(([0.0; 3], 0.0), |(sum, energy), (part, more)| {
+            (std::array::from_fn(|i| sum[i] + part[i]), energy + more)
+        })
+    }
+
+    /// The targets at a time of the approach, s before its end: they fly freely.
+    #[must_use]
+    pub fn targets_before(&self, ago: f64) -> Vec<Body> {
+        self.targets.iter().map(|target| target.after(-ago)).collect()
+    }
+}
+
+impl Study {
+    /// What the audit objects to; empty when every phase and every exact impact passes.
+    #[must_use]
+    pub fn objections(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        // where every case has an approach of its own, the one without contacts never happens
+        if self.cases.iter().any(|case| case.approach.is_none()) {
+            found.extend(phase_objections("approach", &self.approach));
+        }
+        for case in &self.cases {
+            if let Some(own) = &case.approach {
+                found.extend(phase_objections(&format!("{}, approach", case.name), own));
+            }
+            let Some(captured) = &case.capture else { continue };
+            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            found.extend(impacts.flat_map(|impact| impact_objections(&case.name, &impact.exact)));
+            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
+            if captured.penetration > PENETRATION_BOUND {
+                found.push(format!(
+                    "{}: a tip is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    case.name, captured.penetration
+                ));
+            }
+        }
+        found
+    }
+}
+
+fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
+    let mut found = Vec::new();
+    let jump = exact.relative_momentum_jump;
+    // a NaN is not within its bound
+    if jump.partial_cmp(&MOMENTUM_BOUND).is_none_or(std::cmp::Ordering::is_gt) {
+        found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
+    }
+    if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+        found.push(format!(
+            "{case}: the exact impact raises the kinetic energy from {} J to {} J",
+            exact.kinetic_energy_before, exact.kinetic_energy_after
+        ));
+    }
+    found
+}
+
+fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
+    let checks = [
+        ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
+        ("energy error", phase.drift.energy_error, ENERGY_BOUND),
+        ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
+        ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
+        ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
+    ];
+    // a NaN is not within its bound
+    let out_of_bound =
+        checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
+    let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));
+    let excesses = phase.excesses.iter().flat_map(Excesses::sentences);
+    drifts.chain(excesses).map(|what| format!("{name}: {what}")).collect()
+}

@@ -1,0 +1,79 @@
+//! The motion after an impact, under the law that a scenario names.
+
+use crate::capture::assembly::Attachment;
+use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
+use crate::layout::{Arm, Layout};
+use crate::owned::RobotState;
+use crate::scenario::{PostImpact, Settling};
+use crate::simulate::actuators::drive;
+use crate::simulate::event::Events;
+use crate::simulate::system::System;
+use crate::simulate::{Phase, Stopped, Timing};
+use crate::trajectory::Standing;
+
+/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.
+#[must_use]
+pub fn wheels(layout: &Layout, attachments: &[Attachment]) -> Vec<bool> {
+    let arms = layout.arms.iter().enumerate();
+    let free = |i: usize| attachments.iter().all(|attachment| attachment.arm != i);
+    arms.flat_map(|(i, arm)| std::iter::repeat_n(free(i) && is_wheel(arm), arm.links.len())).collect()
+}
+
+fn is_wheel(arm: &Arm) -> bool {
+    matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
+}
+
+/// What a scenario wants after an impact, for what its tips hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Settle<'a> {
+    /// The law.
+    pub after: &'a PostImpact,
+    /// Which joints turn wheels, see [`wheels`].
+    pub wheels: &'a [bool],
+    /// The joint angles of the capture, rad, which some laws hold.
+    pub angles: &'a [f64],
+}
+
+/// Runs robot and targets from `start` on, for a time or up to an event.
+///
+/// # Errors
+/// When and why it stopped.
+pub fn settle(
+    system: &System<'_>,
+    Settle { after, wheels, angles }: Settle<'_>,
+    start: &RobotState,
+    timing: &Timing,
+    events: &mut dyn Events,
+    tick: &mut dyn FnMut(),
+) -> Result<Phase, Stopped> {
+    let model = system.model;
+    let size = 3 + model.joints();
+    let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
+    let (mut held, mut damped, mut stabilised);
+    let standing = Standing { angles };
+    let no_stiffness = vec![0.0; model.joints()];
+    let law: &mut dyn Control<f64> = match &after.control {
+        Settling::None => &mut Free,
+        Settling::Hold { proportional_gain, derivative_gain } => {
+            held = ProportionalDerivative { trajectory: standing, proportional_gain, derivative_gain };
+            &mut held
+        }
+        Settling::Damping { derivative_gain } => {
+            damped = ProportionalDerivative { trajectory: standing, proportional_gain: &no_stiffness, derivative_gain };
+            &mut damped
+        }
+        Settling::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
+            stabilised = Stabilise {
+                joint_gain: derivative_gain,
+                base_gain: *base_gain,
+                wheels,
+                base_torque_limit: *base_torque_limit,
+                base_torque: None,
+                mass_matrix: &mut mass_matrix,
+                bias: &mut bias,
+            };
+            &mut stabilised
+        }
+    };
+    drive(system, law, &after.actuation, start, timing, events, tick)
+}

@@ -1,0 +1,296 @@
+//! The course of one case: impacts, and the motion between them.
+
+use crate::capture::approach::Approach;
+use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::contact_at_time::{Touching, contact_law, in_time};
+use crate::capture::contact_detection::{Flight, Gaps, Pair, gap};
+use crate::capture::impact::{Capture, capture};
+use crate::capture::post_capture::{Settle, settle, wheels};
+use crate::capture::residual_motion::Remainder;
+use crate::capture::{Captured, CaseResult, Closest, Further, MakeModel, Observer, StudyError};
+use crate::error::Error;
+use crate::owned::RobotState;
+use crate::scenario::{Case, PostImpact, Scenario, Settling, Target};
+use crate::simulate::system::Body;
+use crate::simulate::{Phase, Sample, Stopped, Timing};
+
+/// The most impacts of one case.
+const MOST_IMPACTS: usize = 1000;
+
+/// Tips no farther than this from their targets touch them when another does, m.
+const TOGETHER: f64 = 1e-9;
+
+/// What a case is run from.
+#[derive(Clone, Copy)]
+pub(crate) struct Course<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) case: &'a Case,
+    pub(crate) after: &'a PostImpact,
+    pub(crate) make: MakeModel<'a>,
+    /// Time between samples, s.
+    pub(crate) sample: f64,
+}
+
+impl Course<'_> {
+    /// Contacts are where the tips are when the approach ends.
+    pub(crate) fn in_time(
+        self,
+        end: &RobotState,
+        tips: &[[f64; 3]],
+        observer: &mut dyn Observer,
+    ) -> Result<CaseResult, StudyError> {
+        let (targets, touching) = in_time(self.scenario, self.case, tips);
+        let capture = self.after_impact(end, &targets, &touching, false, observer)?;
+        let name = self.case.name.clone();
+        Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
+    }
+
+    /// The targets fly freely from the start on, and the approach ends where a tip reaches its target; `rates` are the
+    /// approach's end rates, rad/s.
+    pub(crate) fn by_detection(self, rates: &[f64], observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
+        let start = self.targets_at_start();
+        let pairs = self.pairs(&[]);
+        self.check_apart(&start, &pairs)?;
+        let approach = Approach::new(self.scenario, self.sample);
+        observer.begin(&format!("approach of {}", self.case.name), approach.steps());
+        let mut gaps = Gaps::new(self.scenario, Flight::Free(&start), pairs.clone());
+        let model = (self.make)();
+        let phase =
+            approach.track_until(&*model, rates, &mut gaps, &mut || observer.step()).map_err(StudyError::Approach)?;
+        let flown = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
+        let targets = flown(phase.duration);
+        let mut closest = self.closest(&pairs, &phase, 0.0, |i| flown(phase.samples.get(i).map_or(0.0, |s| s.time)));
+        let capture = match (phase.event, phase.end()) {
+            (Some((event, _)), Some(end)) => {
+                let touching = self.touching(&pairs, event, &targets, &end.end_effector_poses);
+                Some(self.after_impact(&end.state, &targets, &touching, true, observer)?)
+            }
+            _ => None,
+        };
+        if let Some(captured) = &capture {
+            let later = self.closest(&pairs, &captured.post_impact, phase.duration, |i| {
+                captured.targets.get(i).cloned().unwrap_or_default()
+            });
+            for (nearest, later) in closest.iter_mut().zip(later) {
+                *nearest = if later.distance < nearest.distance { later } else { *nearest };
+            }
+            let touched = captured.further.iter().map(|further| &further.impact).chain([&captured.impact]);
+            let touched: Vec<_> = touched.flat_map(|impact| &impact.contacts).map(|contact| contact.touching).collect();
+            closest.retain(|pair| !touched.iter().any(|t| t.arm == pair.arm && t.target == pair.target));
+        }
+        let name = self.case.name.clone();
+        Ok(CaseResult { name, approach: Some(phase), targets, closest, capture })
+    }
+
+    /// An impact, the motion after it, and the impacts that interrupt that: of tips and targets that `detected` asks for.
+    fn after_impact(
+        self,
+        before: &RobotState,
+        targets: &[Body],
+        touching: &[Touching],
+        detected: bool,
+        observer: &mut dyn Observer,
+    ) -> Result<Captured, StudyError> {
+        observer.begin(&self.case.name, self.timing(self.after.duration).steps());
+        let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.unsolved(source))?;
+        let mut moving = Moving {
+            course: self,
+            state: before.clone(),
+            targets: targets.to_vec(),
+            attachments: Vec::new(),
+            assembly: free,
+            angles: before.joint_angles.clone(),
+        };
+        let impact = moving.strike(touching)?;
+        let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
+        let (mut post_impact, mut flown) = moving.coast(&open, 0.0, observer)?;
+        let mut further = Vec::new();
+        let mut penetration = self.penetration(&open, &post_impact, &flown);
+        while let (Some((event, _)), Some(end)) = (post_impact.event, post_impact.end()) {
+            let time = post_impact.duration;
+            if further.len() == MOST_IMPACTS {
+                return Err(StudyError::Chatter { case: self.case.name.clone(), impacts: further.len() + 1, time });
+            }
+            let touching = self.touching(&open, event, &moving.targets, &end.end_effector_poses);
+            further.push(Further { time, impact: moving.strike(&touching)? });
+            if time >= self.after.duration {
+                break;
+            }
+            open = self.pairs(&moving.attachments);
+            let (next, along) = moving.coast(&open, time, observer)?;
+            penetration = penetration.max(self.penetration(&open, &next, &along));
+            post_impact = post_impact.then(next);
+            flown.extend(along);
+        }
+        let remainder = match &self.after.control {
+            Settling::None => None,
+            control => Some(moving.remainder(control, &post_impact)?),
+        };
+        Ok(Captured { impact, post_impact, targets: flown, further, penetration, remainder })
+    }
+
+    fn unsolved(self, source: Error) -> StudyError {
+        StudyError::Impact { case: self.case.name.clone(), source }
+    }
+
+    fn stopped(self, time: f64, source: Error) -> StudyError {
+        StudyError::PostImpact { case: self.case.name.clone(), source: Stopped { time, source } }
+    }
+
+    /// By how much a tip is inside its target at most, in the samples of a phase, m.
+    fn penetration(self, pairs: &[Pair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
+        let closest = self.closest(pairs, phase, 0.0, |i| targets.get(i).cloned().unwrap_or_default());
+        closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
+    }
+
+    fn timing(self, duration: f64) -> Timing {
+        Timing { duration, step: self.after.step, sample: self.sample, integration: self.after.integration }
+    }
+
+    fn targets_at_start(self) -> Vec<Body> {
+        let pairs = self.scenario.targets.iter().zip(&self.case.target_twists);
+        let body = |(target, twist): (&Target, &[f64; 3])| {
+            let [x, y] = target.position.unwrap_or_default();
+            Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist: *twist }
+        };
+        pairs.map(body).collect()
+    }
+
+    /// The tips and targets that may meet: those that are to, and do not hold each other yet.
+    fn pairs(self, attachments: &[Attachment]) -> Vec<Pair> {
+        let mut pairs = Vec::new();
+        for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
+            for (k, (touch, kind)) in target.touches.iter().zip(kinds).enumerate() {
+                let held = attachments.iter().any(|grip| grip.arm == touch.arm);
+                if kind.is_some() && !held {
+                    pairs.push(Pair { target: i, touch: k, arm: touch.arm });
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The contacts of an instant: the one that was detected, and those that come with it.
+    fn touching(self, pairs: &[Pair], event: usize, targets: &[Body], tips: &[[f64; 3]]) -> Vec<Touching> {
+        let mut touching = Vec::new();
+        for (i, pair) in pairs.iter().enumerate() {
+            let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
+            let (distance, normal) = gap(self.scenario, pair.target, body, tip);
+            let kind = self.case.kinds.get(pair.target).and_then(|kinds| kinds.get(pair.touch));
+            let restitution = self.case.restitutions.get(pair.target).copied();
+            let law = kind.and_then(|kind| contact_law(*kind, || normal, restitution));
+            if let (true, Some(law)) = (i == event || distance.abs() <= TOGETHER, law) {
+                let offset = [tip[1] - body.pose[1], tip[2] - body.pose[2]];
+                touching.push(Touching { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
+            }
+        }
+        touching
+    }
+
+    fn check_apart(self, targets: &[Body], pairs: &[Pair]) -> Result<(), StudyError> {
+        let initial = &self.scenario.initial;
+        let mut tips = vec![[0.0; 3]; self.scenario.layout.arms.len()];
+        (self.make)()
+            .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut tips)
+            .map_err(|source| StudyError::Approach(Stopped { time: 0.0, source }))?;
+        for pair in pairs {
+            let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
+            let (distance, _) = gap(self.scenario, pair.target, body, tip);
+            if distance <= 0.0 {
+                let arm = self.scenario.layout.arms.get(pair.arm).map_or_else(String::new, |arm| arm.name.clone());
+                let target = self.scenario.targets.get(pair.target).map_or_else(String::new, |t| t.name.clone());
+                return Err(StudyError::Inside { case: self.case.name.clone(), arm, target, depth: -distance });
+            }
+        }
+        Ok(())
+    }
+
+    /// How near each pair comes in the samples of a phase that starts at `from` s.
+    fn closest(self, pairs: &[Pair], phase: &Phase, from: f64, targets: impl Fn(usize) -> Vec<Body>) -> Vec<Closest> {
+        let far = |pair: &Pair| Closest { target: pair.target, arm: pair.arm, distance: f64::INFINITY, time: from };
+        let mut closest: Vec<Closest> = pairs.iter().map(far).collect();
+        if closest.is_empty() {
+            return closest;
+        }
+        for (i, sample) in phase.samples.iter().enumerate() {
+            let targets = targets(i);
+            for nearest in &mut closest {
+                let (body, tip) = (targets.get(nearest.target), sample.end_effector_poses.get(nearest.arm));
+                let (Some(body), Some(tip)) = (body, tip) else { continue };
+                let (distance, _) = gap(self.scenario, nearest.target, body, tip);
+                if distance < nearest.distance {
+                    *nearest = Closest { distance, time: from + sample.time, ..*nearest };
+                }
+            }
+        }
+        closest
+    }
+}
+
+/// Robot and targets in the course of a case.
+struct Moving<'a> {
+    course: Course<'a>,
+    state: RobotState,
+    targets: Vec<Body>,
+    attachments: Vec<Attachment>,
+    assembly: Assembly,
+    /// Of the first impact, rad.
+    angles: Vec<f64>,
+}
+
+impl Moving<'_> {
+    /// Velocities change, and what takes hold becomes part of the assembly.
+    fn strike(&mut self, touching: &[Touching]) -> Result<Capture, StudyError> {
+        let course = self.course;
+        let impact =
+            capture(&self.assembly, &self.state, &self.targets, touching).map_err(|source| course.unsolved(source))?;
+        self.state.base_twist = impact.exact.base_twist_after;
+        self.state.joint_rates.clone_from(&impact.exact.joint_rates_after);
+        for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
+            target.twist = *twist;
+        }
+        self.attachments.extend(holds(touching));
+        self.assembly = Assembly::new((course.make)(), &self.state, &self.targets, &self.attachments)
+            .map_err(|source| course.unsolved(source))?;
+        Ok(impact)
+    }
+
+    /// The motion from `time` s after the first impact on, up to a contact of the pairs; and the targets at its samples.
+    fn coast(
+        &mut self,
+        pairs: &[Pair],
+        time: f64,
+        observer: &mut dyn Observer,
+    ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
+        let course = self.course;
+        let Self { state, targets, assembly, .. } = self;
+        let mut gaps = Gaps::new(course.scenario, Flight::Assembled(assembly, targets), pairs.to_vec());
+        let wheels = wheels(&course.scenario.layout, &self.attachments);
+        let wanted = Settle { after: course.after, wheels: &wheels, angles: &self.angles };
+        let timing = course.timing(course.after.duration - time);
+        let phase = settle(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
+            .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
+        let at =
+            |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
+        let along: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
+        if let (Some(end), Some(last)) = (phase.end(), along.last()) {
+            state.clone_from(&end.state);
+            targets.clone_from(last);
+        }
+        Ok((phase, along))
+    }
+
+    /// What is left of the motion.
+    fn remainder(&self, control: &Settling, phase: &Phase) -> Result<Remainder, StudyError> {
+        let wheels = wheels(&self.course.scenario.layout, &self.attachments);
+        let beside = phase.end().map_or_else(Vec::new, |end| self.assembly.pinned(&end.bodies));
+        Remainder::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
+            .map_err(|source| self.course.stopped(phase.duration, source))
+    }
+}
+
+/// The contacts that hold.
+fn holds(touching: &[Touching]) -> impl Iterator<Item = Attachment> {
+    let held = touching.iter().filter(|touch| touch.law.kind().holds());
+    held.map(|touch| Attachment { target: touch.target, arm: touch.arm, kind: touch.law.kind() })
+}

@@ -1,0 +1,84 @@
+//! A layout in words and numbers.
+
+use super::number::{point, short};
+use super::places::{inertia, places};
+use crate::layout::Layout;
+use crate::registry;
+use crate::structure::in_words;
+use std::fmt::{self, Write};
+
+/// What the robot is, line by line.
+pub(super) fn description(layout: &Layout) -> String {
+    let mut text = String::new();
+    // writing to a String does not fail
+    let _ = write(&mut text, layout);
+    text
+}
+
+fn write(out: &mut String, layout: &Layout) -> fmt::Result {
+    writeln!(out, "{}: a layout, sha256 {}\n", layout.name, digest(layout))?;
+    writeln!(out, "  degrees of freedom  {}", freedom(layout))?;
+    let (all, base) = (layout.mass(), &layout.base);
+    writeln!(out, "  mass                {} kg, {} % of it in the base", short(all), short(100.0 * base.mass / all))?;
+    writeln!(
+        out,
+        "  base                {} kg, {} kg m², radius of gyration {} m",
+        short(base.mass),
+        short(base.inertia),
+        short(base.radius_of_gyration())
+    )?;
+    if let Some(places) = places(layout, &[0.0; 3], &vec![0.0; layout.joints()]) {
+        writeln!(
+            out,
+            "  inertia             {} kg m² about the robot's COM, all joint angles 0",
+            short(inertia(&places))
+        )?;
+    }
+    writeln!(out, "  structure           {}", in_words(layout))?;
+    writeln!(out, "  generated code      {}\n", code(layout))?;
+    arms(out, layout)
+}
+
+/// As many digits of the hash as tell layouts apart.
+pub(super) fn digest(layout: &Layout) -> String {
+    layout.sha256().chars().take(12).collect()
+}
+
+/// Degrees of freedom.
+pub(super) fn freedom(layout: &Layout) -> String {
+    let joints = layout.joints();
+    format!("{}: base 3, joints {joints}", 3 + joints)
+}
+
+/// What generated code there is for it, or how to get it.
+pub(super) fn code(layout: &Layout) -> String {
+    match registry::manifest(layout) {
+        Ok(manifest) if manifest.sha256 == layout.sha256() => format!("generated::{}", manifest.name),
+        Ok(manifest) => format!("generated::{}, with these numbers as its parameters", manifest.name),
+        Err(none) => {
+            let lines =
+                format!("none of this structure in this build{}\n{}", none.nearest, none.mend.replace("; ", ";\n"));
+            lines.replace('\n', &format!("\n{:22}", ""))
+        }
+    }
+}
+
+fn arms(out: &mut String, layout: &Layout) -> fmt::Result {
+    let row = |cells: [&str; 6]| {
+        let [name, links, mass, length, reach, mount] = cells;
+        format!("  {name:<16} {links:>5} {mass:>10} {length:>10} {reach:>17}  {mount}\n")
+    };
+    out.write_str(&row(["arm", "links", "mass [kg]", "length [m]", "from base COM [m]", "mount [m, rad]"]))?;
+    for arm in &layout.arms {
+        let angle = if arm.mount_angle == 0.0 { String::new() } else { format!(" at {}", short(arm.mount_angle)) };
+        out.write_str(&row([
+            &arm.name,
+            &arm.links.len().to_string(),
+            &short(arm.mass()),
+            &short(arm.reach()),
+            &short(arm.reach_from_base()),
+            &format!("{}{angle}", point(arm.mount)),
+        ]))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,173 @@
+//! `summary.json`: the numbers of a study, by the contract in README.md.
+
+use crate::capture::contact_at_time::Touching;
+use crate::capture::impact::{Capture, ContactResult, ImpactResult};
+use crate::capture::residual_motion::Remainder;
+use crate::capture::terminal_error::Miss;
+use crate::capture::{CaseResult, Study};
+use crate::scenario::Scenario;
+use crate::simulate::Phase;
+use crate::simulate::limits::{Excess, Excesses};
+use serde_json::{Value, json};
+
+/// The whole summary; every number is finite and reads back as the same number.
+#[must_use]
+pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
+    let layout = &scenario.layout;
+    json!({
+        "scenario": scenario.name,
+        "layout": {"name": layout.name, "sha256": layout.sha256()},
+        "dynamics": dynamics,
+        "cases": study.cases.iter().map(|case| case_value(scenario, study, case)).collect::<Vec<_>>(),
+    })
+}
+
+fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
+    let mut value = json!({"name": case.name, "approach": phase(case.approach(study), true)});
+    if let Some(posture) = &study.posture {
+        value["approach"]["designed"] = json!({
+            "final_joint_angles": posture.joint_angles,
+            "residual": posture.residual,
+            "rounds": posture.rounds,
+            "singularity_margin": posture.rates.singularity_margin,
+            "spare_joints": posture.spare_joints,
+        });
+    }
+    if !study.misses.is_empty() {
+        let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
+        value["approach"]["missed"] = study.misses.iter().map(parts).collect();
+    }
+    if !case.closest.is_empty() {
+        let closest = case.closest.iter().map(|pair| {
+            json!({
+                "target": scenario.targets.get(pair.target).map(|target| &target.name),
+                "arm": scenario.layout.arms.get(pair.arm).map(|arm| &arm.name),
+                "distance": pair.distance,
+                "time": pair.time,
+            })
+        });
+        value["closest"] = json!(closest.collect::<Vec<_>>());
+    }
+    if let Some(captured) = &case.capture {
+        value["impact"] = capture(scenario, &captured.impact);
+        value["post_impact"] = phase(&captured.post_impact, false);
+        if !captured.further.is_empty() {
+            let further = captured.further.iter().map(|one| {
+                let mut value = capture(scenario, &one.impact);
+                value["time"] = json!(one.time);
+                value
+            });
+            value["post_impact"]["impacts"] = json!(further.collect::<Vec<_>>());
+        }
+        if captured.penetration > 0.0 {
+            value["post_impact"]["penetration"] = json!(captured.penetration);
+        }
+        if let Some(left) = &captured.remainder {
+            value["post_impact"]["remainder"] = remainder(left);
+        }
+    }
+    value
+}
+
+fn capture(scenario: &Scenario, impact: &Capture) -> Value {
+    json!({
+        "exact": result(&impact.exact),
+        "paper": impact.paper.as_ref().map(result),
+        "contacts": impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
+    })
+}
+
+/// The end of a phase and its audit.
+fn phase(phase: &Phase, tips: bool) -> Value {
+    let Some(end) = phase.end() else { return Value::Null };
+    let mut value = json!({
+        "duration": phase.duration,
+        "base_pose": end.state.base_pose,
+        "base_twist": end.state.base_twist,
+        "joint_angles": end.state.joint_angles,
+        "joint_rates": end.state.joint_rates,
+    });
+    if tips {
+        value["end_effector_poses"] = json!(end.end_effector_poses);
+        value["end_effector_twists"] = json!(end.end_effector_twists);
+    }
+    value["momentum_drift"] = json!(phase.drift.momentum_drift);
+    value["energy_error"] = json!(phase.drift.energy_error);
+    value["center_of_mass_drift"] = json!(phase.drift.center_of_mass_drift);
+    if phase.constraint_errors.iter().any(|error| *error > 0.0) {
+        value["constraint_errors"] = json!(phase.constraint_errors);
+    }
+    if let Some(margin) = phase.singularity_margin {
+        value["singularity_margin"] = json!(margin);
+    }
+    if let Some(Excesses { joint_angle, joint_rate }) = &phase.excesses {
+        value["limits"] =
+            json!({"joint_angle": joint_angle.as_ref().map(excess), "joint_rate": joint_rate.as_ref().map(excess)});
+    }
+    if !phase.saturation.joints.is_empty() {
+        value["joints_saturated"] = json!(phase.saturation.joints);
+    }
+    if end.base_torque.is_some() {
+        value["base_impulse"] = json!(end.work.base_impulse);
+        value["base_work"] = json!(end.work.base_work);
+        value["base_saturated"] = json!(phase.saturation.base);
+    }
+    value
+}
+
+fn excess(excess: &Excess) -> Value {
+    json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
+}
+
+/// One contact, with names for numbers.
+fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
+    let Touching { target, arm, law, offset, miss } = result.touching;
+    let response = &result.response;
+    let mut value = json!({
+        "target": scenario.targets.get(target).map(|target| &target.name),
+        "arm": scenario.layout.arms.get(arm).map(|arm| &arm.name),
+        "kind": law.kind().name(),
+        "offset": offset,
+        "miss": miss,
+        "impulse": result.impulse,
+        "relative_twist": response.relative_twist,
+        "direction": response.direction,
+        "effective_masses": response.effective_masses,
+        "impulse_index": response.impulse_index,
+        "impulse_ellipse": {
+            "semi_axes": response.impulse_ellipse.semi_axes,
+            "direction": response.impulse_ellipse.direction,
+        },
+        "extended_inverse_inertia": response.inverse_inertia.0,
+    });
+    if let Some(duration) = scenario.contact.duration {
+        value["mean_force"] = json!(result.impulse.map(|part| part / duration));
+    }
+    value
+}
+
+fn remainder(left: &Remainder) -> Value {
+    json!({
+        "control": left.control,
+        "momentum": left.momentum,
+        "velocity": left.velocity,
+        "inertia": left.inertia,
+        "rigid_rate": left.rigid_rate,
+        "base_rate": left.base_rate,
+        "largest_joint_rate": left.largest_joint_rate,
+        "wheel_rates": left.wheel_rates,
+    })
+}
+
+fn result(result: &ImpactResult) -> Value {
+    json!({
+        "joint_rates_after": result.joint_rates_after,
+        "base_twist_after": result.base_twist_after,
+        "target_twists_after": result.target_twists_after,
+        "impulses": result.impulses,
+        "impulse_magnitudes": result.impulse_magnitudes(),
+        "momentum_jump": result.momentum_jump,
+        "kinetic_energy_before": result.kinetic_energy_before,
+        "kinetic_energy_after": result.kinetic_energy_after,
+    })
+}

@@ -1,0 +1,28 @@
+//! One CSV time series per case: the approach, then the motion after the impact.
+
+use super::{Column, columns, rows};
+use crate::capture::{CaseResult, Study};
+use crate::scenario::Scenario;
+use std::io::{self, Write};
+
+/// Writes the time series of one case: a header row with units, one row per sample: time, phase, and the
+/// [`columns`].
+///
+/// # Errors
+/// What the writer says.
+pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write) -> io::Result<()> {
+    let columns = columns(scenario, case);
+    let mut csv = csv::Writer::from_writer(to);
+    let names = ["time [s]".to_owned(), "phase".to_owned()];
+    csv.write_record(names.into_iter().chain(columns.iter().map(Column::heading)))?;
+    for row in rows(study, case) {
+        let values = columns.iter().map(|column| number(column.value(&row)));
+        csv.write_record([number(row.time), row.phase.to_owned()].into_iter().chain(values))?;
+    }
+    csv.flush()
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}

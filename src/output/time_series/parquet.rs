@@ -1,0 +1,82 @@
+//! One Parquet file per case: the CSV's columns as binary numbers, with what they come from.
+
+use super::{Column, Row, columns, provenance, rows};
+use crate::capture::{CaseResult, Study};
+use crate::scenario::Scenario;
+use arrow_array::types::Int8Type;
+use arrow_array::{ArrayRef, DictionaryArray, Float64Array, RecordBatch};
+use arrow_schema::{DataType, Field, Schema};
+use parquet::arrow::ArrowWriter;
+use parquet::basic::{Compression, Encoding, ZstdLevel};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use std::collections::HashMap;
+use std::io::{self, Write};
+use std::sync::Arc;
+
+/// Rows that are turned into arrays at a time; bounds the memory that writing takes.
+const BATCH: usize = 1 << 16;
+
+/// Writes the time series of one case as Parquet.
+///
+/// The same columns as the CSV, under the same names, with the same values: f64, the phase a dictionary of text; all
+/// compressed by zstd. Each number's field has its unit as metadata too (`unit`), and the file's metadata says what it
+/// comes from (see [`provenance`]).
+///
+/// # Errors
+/// What the writer says.
+pub fn write_parquet(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write + Send) -> io::Result<()> {
+    let columns = columns(scenario, case);
+    let schema = Arc::new(schema(&columns));
+    let origin = provenance(scenario, case).map(|(key, value)| KeyValue::new(key.into(), value));
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::default()))
+        // few values of a motion repeat, and their exponents compress by themselves
+        .set_dictionary_enabled(false)
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT)
+        .set_column_dictionary_enabled("phase".into(), true)
+        .set_column_encoding("phase".into(), Encoding::PLAIN)
+        .set_key_value_metadata(Some(origin.into()))
+        .build();
+    let mut writer = ArrowWriter::try_new(to, Arc::clone(&schema), Some(properties)).map_err(failed)?;
+    let rows: Vec<Row<'_>> = rows(study, case).collect();
+    for rows in rows.chunks(BATCH) {
+        let batch = RecordBatch::try_new(Arc::clone(&schema), arrays(&columns, rows)).map_err(io::Error::other)?;
+        writer.write(&batch).map_err(failed)?;
+    }
+    writer.close().map_err(failed)?;
+    Ok(())
+}
+
+fn schema(columns: &[Column]) -> Schema {
+    let number = |name: String, unit: &str| {
+        Field::new(name, DataType::Float64, false).with_metadata(HashMap::from([("unit".to_owned(), unit.to_owned())]))
+    };
+    let text = DataType::Dictionary(Box::new(DataType::Int8), Box::new(DataType::Utf8));
+    let mut fields = vec![number("time [s]".to_owned(), "s"), Field::new("phase", text, false)];
+    fields.extend(columns.iter().map(|column| number(column.heading(), column.unit)));
+    Schema::new(fields)
+}
+
+/// In the order of the [`schema`].
+fn arrays(columns: &[Column], rows: &[Row<'_>]) -> Vec<ArrayRef> {
+    let numbers = |value: &dyn Fn(&Row<'_>) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
+    };
+    let phases: DictionaryArray<Int8Type> = rows.iter().map(|row| row.phase).collect();
+    let mut arrays: Vec<ArrayRef> = vec![numbers(&|row| row.time), Arc::new(phases)];
+    arrays.extend(columns.iter().map(|column| numbers(&|row| column.value(row))));
+    arrays
+}
+
+/// The operating system's word, where it is one: "no space left on device".
+fn failed(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(source) => match source.downcast::<io::Error>() {
+            Ok(error) => *error,
+            Err(source) => io::Error::other(source),
+        },
+        other => io::Error::other(other),
+    }
+}
