@@ -2,13 +2,13 @@
 
 /// The outline of a rigid body in its own frame, COM at the origin.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Surface {
+pub enum Outline {
     /// A circle about the COM.
     Disc {
         /// m, greater than 0.
         radius: f64,
     },
-    /// Straight edges; made by [`Surface::polygon`].
+    /// Straight edges; made by [`Outline::polygon`].
     Polygon {
         /// [x, y] in m, anticlockwise, at least three.
         corners: Vec<[f64; 2]>,
@@ -17,7 +17,7 @@ pub enum Surface {
 
 /// Why corners are no outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NoPolygon {
+pub enum NoOutline {
     /// Fewer than three.
     #[error("a polygon has three corners or more, found {0}")]
     TooFew(usize),
@@ -31,37 +31,37 @@ pub enum NoPolygon {
 
 /// How a point lies to an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
+pub struct SignedDistance {
     /// Distance to the outline, m; negative inside.
     pub distance: f64,
     /// Outward normal of the nearest point of the outline, unit length.
     pub normal: [f64; 2],
 }
 
-impl Surface {
+impl Outline {
     /// A polygon of these corners, in one or the other direction.
     ///
     /// # Errors
-    /// [`NoPolygon`].
-    pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, NoPolygon> {
+    /// [`NoOutline`].
+    pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, NoOutline> {
         if corners.len() < 3 {
-            return Err(NoPolygon::TooFew(corners.len()));
+            return Err(NoOutline::TooFew(corners.len()));
         }
         let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
         let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
         if edges(&corners).any(|(a, b)| minus(a, b).iter().all(|x| *x == 0.0)) {
-            return Err(NoPolygon::Flat);
+            return Err(NoOutline::Flat);
         }
         let all: Vec<_> = edges(&corners).collect();
         for (i, first) in all.iter().enumerate() {
             let others = all.iter().enumerate().skip(i + 2).filter(|(j, _)| !(i == 0 && *j == all.len() - 1));
             if let Some((j, _)) = others.into_iter().find(|(_, second)| meet(*first, **second)) {
-                return Err(NoPolygon::Crossing(i + 1, j + 1));
+                return Err(NoOutline::Crossing(i + 1, j + 1));
             }
         }
         // a crossing may cancel the area, and says more
         if area.abs() <= 1e-12 * size * size {
-            return Err(NoPolygon::Flat);
+            return Err(NoOutline::Flat);
         }
         if area < 0.0 {
             corners.reverse();
@@ -71,12 +71,12 @@ impl Surface {
 
     /// How a point of the body's frame lies to the outline.
     #[must_use]
-    pub fn gap(&self, [x, y]: [f64; 2]) -> Gap {
+    pub fn gap(&self, [x, y]: [f64; 2]) -> SignedDistance {
         match self {
             Self::Disc { radius } => {
                 let distance = x.hypot(y);
                 let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
-                Gap { distance: distance - radius, normal }
+                SignedDistance { distance: distance - radius, normal }
             }
             Self::Polygon { corners } => of_polygon(corners, [x, y]),
         }
@@ -92,10 +92,10 @@ impl Surface {
     }
 }
 
-fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> Gap {
+fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     let mut inside = false;
     let mut at_corner = false;
-    let mut nearest = Gap { distance: f64::INFINITY, normal: [1.0, 0.0] };
+    let mut nearest = SignedDistance { distance: f64::INFINITY, normal: [1.0, 0.0] };
     for (a, b) in edges(corners) {
         let (along, to) = (minus(b, a), minus(point, a));
         let length = along[0].hypot(along[1]);
@@ -106,7 +106,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> Gap {
             // off a corner the normal is the way from it; at the outline itself there is only the edge's own
             at_corner = (part <= 0.0 || part >= 1.0) && distance > 1e-9 * length;
             let of_edge = [along[1] / length, -along[0] / length];
-            nearest = Gap { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
+            nearest = SignedDistance { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
         }
         // a ray along +x crosses the edge
         if (a[1] > point[1]) != (b[1] > point[1]) && point[0] < a[0] + (point[1] - a[1]) / along[1] * along[0] {
@@ -118,7 +118,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> Gap {
     }
     // from inside, a re-entrant corner lies outwards
     let normal = if at_corner { nearest.normal.map(|x| -x) } else { nearest.normal };
-    Gap { distance: -nearest.distance, normal }
+    SignedDistance { distance: -nearest.distance, normal }
 }
 
 fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
@@ -155,11 +155,11 @@ fn meet((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
 mod tests {
     use super::*;
 
-    fn plus_shape() -> Surface {
+    fn plus_shape() -> Outline {
         let quarter = [[1.0, -1.0], [3.0, -1.0], [3.0, 1.0]];
         let turn = |[x, y]: [f64; 2], k: usize| (0..k).fold([x, y], |[x, y], _| [-y, x]);
         let corners = (0..4).flat_map(|k| quarter.map(|corner| turn(corner, k))).collect();
-        Surface::polygon(corners).expect("an outline with edges on one line")
+        Outline::polygon(corners).expect("an outline with edges on one line")
     }
 
     #[test]
@@ -182,16 +182,16 @@ mod tests {
     #[test]
     fn corners_the_other_way_round_are_the_same_outline() {
         let corners = vec![[0.0, 0.0], [0.0, 1.0], [2.0, 1.0], [2.0, 0.0]];
-        let gap = Surface::polygon(corners).expect("a rectangle").gap([1.0, 1.25]);
-        assert_eq!(gap, Gap { distance: 0.25, normal: [0.0, 1.0] });
+        let gap = Outline::polygon(corners).expect("a rectangle").gap([1.0, 1.25]);
+        assert_eq!(gap, SignedDistance { distance: 0.25, normal: [0.0, 1.0] });
     }
 
     #[test]
     fn what_is_no_outline() {
-        let of = |corners: &[[f64; 2]]| Surface::polygon(corners.to_vec()).expect_err("no outline");
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoPolygon::TooFew(2));
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoPolygon::Flat);
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoPolygon::Crossing(1, 3));
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), NoPolygon::Crossing(1, 3));
+        let of = |corners: &[[f64; 2]]| Outline::polygon(corners.to_vec()).expect_err("no outline");
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoOutline::TooFew(2));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoOutline::Flat);
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoOutline::Crossing(1, 3));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), NoOutline::Crossing(1, 3));
     }
 }

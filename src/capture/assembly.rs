@@ -1,6 +1,6 @@
 //! Robot and targets as they hang together between two impacts.
 
-use crate::contact::{Closure, Contact, ContactKind, ContactLaw, Other};
+use crate::contact::{Contact, ContactKind, ContactLaw, ContactPartner, LoopConstraint};
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::simulate::system::{Body, System};
@@ -43,7 +43,7 @@ pub struct Assembly {
     /// Targets that are no part of a link.
     pub bodies: Vec<Body>,
     /// Holds between tips and bodies, or tips and tips.
-    pub closures: Vec<Closure<f64>>,
+    pub constraints: Vec<LoopConstraint<f64>>,
     /// Where each target is.
     pub places: Vec<Place>,
 }
@@ -79,12 +79,12 @@ impl Assembly {
             });
         }
         model.merge(&motion.base_pose, &motion.joint_angles, &merged)?;
-        let mut closures = Vec::new();
+        let mut constraints = Vec::new();
         for attachment in attachments {
             let (other, pose) = match places[attachment.target] {
                 Place::Merged { arm, .. } if arm == attachment.arm => continue,
-                Place::Merged { arm, .. } => (Other::Tip(arm), tips[arm]),
-                Place::Beside(i) => (Other::Body(i), bodies[i].pose),
+                Place::Merged { arm, .. } => (ContactPartner::EndEffector(arm), tips[arm]),
+                Place::Beside(i) => (ContactPartner::Body(i), bodies[i].pose),
             };
             let contact = Contact {
                 arm: attachment.arm,
@@ -92,15 +92,15 @@ impl Assembly {
                 offset: [0.0; 2],
                 law: ContactLaw::new(attachment.kind, Default::default, 0.0),
             };
-            closures.extend(Closure::new(&contact, &tips[attachment.arm], &pose));
+            constraints.extend(LoopConstraint::new(&contact, &tips[attachment.arm], &pose));
         }
-        Ok(Self { model, bodies, closures, places })
+        Ok(Self { model, bodies, constraints, places })
     }
 
     /// What a phase moves.
     #[must_use]
     pub fn system(&self) -> System<'_> {
-        System { model: &*self.model, bodies: &self.bodies, closures: &self.closures }
+        System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints }
     }
 
     /// Those of the targets, as they are at some time, that are beside the robot.
@@ -113,17 +113,17 @@ impl Assembly {
     /// Those of the bodies beside the robot that tips hold.
     #[must_use]
     pub fn pinned(&self, bodies: &[Body]) -> Vec<Body> {
-        let held = |i: usize| self.closures.iter().any(|closure| closure.other == Other::Body(i));
+        let held = |i: usize| self.constraints.iter().any(|constraint| constraint.other == ContactPartner::Body(i));
         bodies.iter().enumerate().filter(|(i, _)| held(*i)).map(|(_, body)| *body).collect()
     }
 
     /// The holds as contacts, at poses of the tips and bodies.
     pub(crate) fn holds(&self, tips: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
-        let pose = |other: Other| match other {
-            Other::Body(i) => bodies[i].pose,
-            Other::Tip(arm) => tips[arm],
+        let pose = |other: ContactPartner| match other {
+            ContactPartner::Body(i) => bodies[i].pose,
+            ContactPartner::EndEffector(arm) => tips[arm],
         };
-        self.closures.iter().map(|closure| closure.contact(&pose(closure.other))).collect()
+        self.constraints.iter().map(|constraint| constraint.contact(&pose(constraint.other))).collect()
     }
 
     /// All targets, from poses and twists of the tips and the bodies beside the robot.

@@ -7,7 +7,7 @@ use crate::simulate::system::Body;
 
 /// One contact of a tip with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touching {
+pub struct ImpactContact {
     /// Index of the target.
     pub target: usize,
     /// Index of the arm.
@@ -25,7 +25,7 @@ pub struct Touching {
 ///
 /// Yaws are the scenario's. A target that no arm takes hold of is where its arms would have, had they closed.
 #[must_use]
-pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body>, Vec<Touching>) {
+pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body>, Vec<ImpactContact>) {
     let (mut bodies, mut touching) = (Vec::new(), Vec::new());
     for (i, target) in scenario.targets.iter().enumerate() {
         let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
@@ -49,7 +49,7 @@ pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body
             let outline = || turned(target.surface.gap(turned(touch.contact, -target.yaw)).normal, target.yaw);
             if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
                 let miss = (offset[0] - touch.contact[0]).hypot(offset[1] - touch.contact[1]);
-                touching.push(Touching { target: i, arm: touch.arm, law, offset, miss });
+                touching.push(ImpactContact { target: i, arm: touch.arm, law, offset, miss });
             }
         }
     }

@@ -8,7 +8,7 @@ use crate::simulate::system::Body;
 
 /// How the targets move meanwhile.
 #[derive(Clone, Copy)]
-pub enum Flight<'a> {
+pub enum TargetMotion<'a> {
     /// All of them freely, from these poses at the start of the phase.
     Free(&'a [Body]),
     /// As an assembly has them; these are their properties.
@@ -17,16 +17,16 @@ pub enum Flight<'a> {
 
 /// One value for each pair of a tip and its target that may meet: the distance of the tip from the target's outline, m,
 /// negative inside.
-pub struct Gaps<'a> {
+pub struct ContactDetection<'a> {
     scenario: &'a Scenario,
-    flight: Flight<'a>,
-    pairs: Vec<Pair>,
+    flight: TargetMotion<'a>,
+    pairs: Vec<ContactPair>,
     tips: Vec<[f64; 3]>,
 }
 
 /// A tip and a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pair {
+pub struct ContactPair {
     /// Index of the target.
     pub target: usize,
     /// Which of its touches.
@@ -35,10 +35,10 @@ pub struct Pair {
     pub arm: usize,
 }
 
-impl<'a> Gaps<'a> {
+impl<'a> ContactDetection<'a> {
     /// Watches these pairs.
     #[must_use]
-    pub fn new(scenario: &'a Scenario, flight: Flight<'a>, pairs: Vec<Pair>) -> Self {
+    pub fn new(scenario: &'a Scenario, flight: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
         Self { scenario, flight, pairs, tips: vec![[0.0; 3]; scenario.layout.arms.len()] }
     }
 }
@@ -55,7 +55,7 @@ pub(crate) fn gap(scenario: &Scenario, target: usize, body: &Body, tip: &[f64; 3
     }
 }
 
-impl Events for Gaps<'_> {
+impl Events for ContactDetection<'_> {
     fn count(&self) -> usize {
         self.pairs.len()
     }
@@ -64,9 +64,9 @@ impl Events for Gaps<'_> {
         let model = now.system.model;
         model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut self.tips)?;
         let targets = match self.flight {
-            Flight::Free(targets) => targets.iter().map(|target| target.after(now.time)).collect(),
+            TargetMotion::Free(targets) => targets.iter().map(|target| target.after(now.time)).collect(),
             // of twists nothing is asked
-            Flight::Assembled(assembly, targets) => assembly.targets(targets, &self.tips, &self.tips, now.bodies),
+            TargetMotion::Assembled(assembly, targets) => assembly.targets(targets, &self.tips, &self.tips, now.bodies),
         };
         for (value, pair) in values.iter_mut().zip(&self.pairs) {
             let (Some(body), Some(tip)) = (targets.get(pair.target), self.tips.get(pair.arm)) else { continue };

@@ -1,6 +1,6 @@
 //! What a contact asks of robot and target: extended inverse inertia, effective masses, impulse index and ellipse.
 
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::contact::{ImpulseEllipse, InverseInertia};
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -34,7 +34,7 @@ pub fn response(
     model: &dyn Model<f64>,
     before: &RobotState,
     target: &Body,
-    touch: &Touching,
+    touch: &ImpactContact,
 ) -> Result<ContactResponse, Error> {
     let mut tips = vec![[0.0; 3]; model.arms()];
     model.end_effector_twists(&before.view(), &mut tips)?;

@@ -1,12 +1,12 @@
 //! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
 
 use crate::capture::assembly::{Assembly, Place};
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
-use crate::contact::{self, Contact, ContactKind, Other, Rows, workspace_length};
+use crate::contact::{self, Contact, ContactKind, ContactPartner, DelassusMatrix, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::impact::{self, After, Workspace};
+use crate::impact::{self, RigidImpactOutput, Workspace};
 use crate::owned::RobotState;
 use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
@@ -30,7 +30,7 @@ pub struct Capture {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResult {
     /// Who touches whom, where and how.
-    pub touching: Touching,
+    pub touching: ImpactContact,
     /// [n, fx, fy] on the robot at the tip; N m s, N s.
     pub impulse: [f64; 3],
     /// What the impulse had to do with.
@@ -74,7 +74,7 @@ pub fn capture(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[Touching],
+    touching: &[ImpactContact],
 ) -> Result<Capture, Error> {
     let model = &*assembly.model;
     let exact = by_contacts(assembly, before, targets, touching)?;
@@ -101,8 +101,8 @@ struct Velocities {
 }
 
 /// The targets by arm, where each contact is rigid and the only one of its target, and nothing is held yet.
-fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[Touching]) -> Option<Vec<Option<Target<f64>>>> {
-    if assembly.places.iter().any(|place| matches!(place, Place::Merged { .. })) || !assembly.closures.is_empty() {
+fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact]) -> Option<Vec<Option<Target<f64>>>> {
+    if assembly.places.iter().any(|place| matches!(place, Place::Merged { .. })) || !assembly.constraints.is_empty() {
         return None;
     }
     let mut by_arm = vec![None; assembly.model.arms()];
@@ -120,7 +120,7 @@ fn by_equations_of_the_paper(
     model: &dyn Model<f64>,
     before: &RobotState,
     targets: &[Body],
-    touching: &[Touching],
+    touching: &[ImpactContact],
     by_arm: &[Option<Target<f64>>],
 ) -> Result<Velocities, Error> {
     let (joints, arms) = (model.joints(), model.arms());
@@ -128,7 +128,8 @@ fn by_equations_of_the_paper(
     let mut joint_rates = vec![0.0; joints];
     let mut target_twists = vec![[0.0; 3]; arms];
     let mut impulses = vec![[0.0; 3]; arms];
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let mut workspace = Workspace {
         impact_matrix: &mut vec![0.0; joints * joints],
         impact_momentum: &mut vec![0.0; joints],
@@ -151,7 +152,7 @@ fn by_contacts(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[Touching],
+    touching: &[ImpactContact],
 ) -> Result<Velocities, Error> {
     let model = &*assembly.model;
     let mut tips = vec![[0.0; 3]; model.arms()];
@@ -162,22 +163,22 @@ fn by_contacts(
         let (other, offset) = match assembly.places[touch.target] {
             Place::Merged { arm, .. } => {
                 let ([_, x, y], [_, from_x, from_y]) = (tips[touch.arm], tips[arm]);
-                (Other::Tip(arm), [x - from_x, y - from_y])
+                (ContactPartner::EndEffector(arm), [x - from_x, y - from_y])
             }
-            Place::Beside(i) => (Other::Body(i), touch.offset),
+            Place::Beside(i) => (ContactPartner::Body(i), touch.offset),
         };
         Contact { arm: touch.arm, other, offset, law: touch.law }
     });
     let held = assembly.holds(&tips, &bodies);
     let contacts: Vec<_> = new.chain(held).collect();
-    let length = workspace_length(model.joints(), model.arms(), bodies.len(), Rows::count(&contacts));
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&contacts));
     let mut numbers = vec![0.0; length];
-    let rows = Rows::new(model, &before.base_pose, &before.joint_angles, &bodies, &contacts, &mut numbers)?;
+    let rows = DelassusMatrix::new(model, &before.base_pose, &before.joint_angles, &bodies, &contacts, &mut numbers)?;
     let mut joint_rates = vec![0.0; model.joints()];
     let mut body_twists = vec![[0.0; 3]; bodies.len()];
     let mut impulses = vec![[0.0; 3]; contacts.len()];
     let mut after =
-        contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
+        contact::ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
     let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
     let mut tip_twists = vec![[0.0; 3]; model.arms()];
     let moving = State { base_twist, joint_rates: &joint_rates, ..before.view() };
@@ -200,7 +201,7 @@ fn balance(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[Touching],
+    touching: &[ImpactContact],
     velocities: &Velocities,
 ) -> Result<ImpactResult, Error> {
     let Velocities { base_twist, joint_rates, targets: twists, impulses } = velocities;
@@ -212,7 +213,7 @@ fn balance(
     let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
     let angular = relative(jump[0].abs(), start.magnitude[0].max(end.magnitude[0]));
     let linear = relative(jump[1].hypot(jump[2]), start.magnitude[1].max(end.magnitude[1]));
-    let per_arm = |value: &dyn Fn(usize, &Touching) -> Option<[f64; 3]>| {
+    let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> Option<[f64; 3]>| {
         let arms = 0..assembly.model.arms();
         let touch = |arm| touching.iter().enumerate().find(|(_, touch)| touch.arm == arm);
         arms.map(|arm| touch(arm).and_then(|(i, touch)| value(i, touch))).collect()

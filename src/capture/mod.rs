@@ -12,17 +12,17 @@ mod sequence;
 pub mod terminal_error;
 
 use crate::capture::approach::Approach;
-use crate::capture::approach::inverse_kinematics::{Posture, PostureError, posture};
-use crate::capture::approach::terminal_rates::{Design, DesignError, end_rates};
+use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, posture};
+use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, end_rates};
 use crate::capture::impact::{Capture, ImpactResult};
-use crate::capture::residual_motion::Remainder;
-use crate::capture::sequence::Course;
-use crate::capture::terminal_error::Miss;
+use crate::capture::residual_motion::ResidualMotion;
+use crate::capture::sequence::CaptureSequence;
+use crate::capture::terminal_error::TerminalError;
 use crate::owned::CloneModel;
-use crate::scenario::{Detection, EndRates, Scenario, Tracking};
-use crate::simulate::limits::Excesses;
+use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
+use crate::simulate::limits::LimitViolations;
 use crate::simulate::system::Body;
-use crate::simulate::{Phase, Stopped};
+use crate::simulate::{Phase, PhaseError};
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
@@ -38,19 +38,19 @@ pub const CONSTRAINT_BOUND: f64 = 1e-10;
 pub const PENETRATION_BOUND: f64 = 1e-6;
 
 /// Makes a model of the robot, in its state before any capture.
-pub type MakeModel<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
+pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 
 /// What was computed for one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// Where the end rates of the approach come from, where they were designed.
-    pub design: Option<Design>,
+    pub design: Option<TerminalRates>,
     /// Where its final joint angles come from, where they were designed.
-    pub posture: Option<Posture>,
+    pub posture: Option<InverseKinematics>,
     /// The approach: of all cases where contacts come by time, else as far as it would go without any.
     pub approach: Phase,
     /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
-    pub misses: Vec<Option<Miss>>,
+    pub misses: Vec<Option<TerminalError>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
@@ -65,14 +65,14 @@ pub struct CaseResult {
     /// The targets at the end of the approach, before they are touched.
     pub targets: Vec<Body>,
     /// Tips and targets that were to meet and did not, where contacts are found by detection.
-    pub closest: Vec<Closest>,
+    pub closest: Vec<ClosestApproach>,
     /// Impact and what follows; `None` where there is nothing to capture, or no tip met its target.
-    pub capture: Option<Captured>,
+    pub capture: Option<CaptureResult>,
 }
 
 /// An impact in the course of the motion after another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Further {
+pub struct FurtherImpact {
     /// Since the first impact, s.
     pub time: f64,
     /// The impact.
@@ -81,7 +81,7 @@ pub struct Further {
 
 /// How near a tip came to a target that it never touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closest {
+pub struct ClosestApproach {
     /// Index of the target.
     pub target: usize,
     /// Index of the arm.
@@ -94,7 +94,7 @@ pub struct Closest {
 
 /// A capture and the motion after it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Captured {
+pub struct CaptureResult {
     /// Exact and as the paper writes it.
     pub impact: Capture,
     /// Robot and targets from the exact velocities on.
@@ -102,11 +102,11 @@ pub struct Captured {
     /// The targets at each of its samples.
     pub targets: Vec<Vec<Body>>,
     /// Impacts after the first one, where contacts are found by detection.
-    pub further: Vec<Further>,
+    pub further: Vec<FurtherImpact>,
     /// By how much a tip was inside a target that it does not hold, at most, m.
     pub penetration: f64,
     /// What is left at its end; `None` where the joints are free, as in the paper.
-    pub remainder: Option<Remainder>,
+    pub remainder: Option<ResidualMotion>,
 }
 
 /// Why a study has no result.
@@ -114,13 +114,13 @@ pub struct Captured {
 pub enum StudyError {
     /// The end rates could not be designed.
     #[error(transparent)]
-    Design(#[from] DesignError),
+    TerminalRates(#[from] TerminalRatesError),
     /// The final joint angles could not be designed.
     #[error(transparent)]
-    Posture(#[from] PostureError),
+    InverseKinematics(#[from] InverseKinematicsError),
     /// The approach stopped.
     #[error("the approach stopped {0}")]
-    Approach(Stopped),
+    Approach(PhaseError),
     /// A tip is inside its target when the approach begins.
     #[error(
         "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
@@ -163,7 +163,7 @@ pub enum StudyError {
         /// The case's name.
         case: String,
         /// When and why.
-        source: Stopped,
+        source: PhaseError,
     },
 }
 
@@ -181,7 +181,7 @@ pub trait Observer {
 /// [`StudyError`], with the part and the numbers.
 pub fn study(
     scenario: &Scenario,
-    make: MakeModel<'_>,
+    make: ModelFactory<'_>,
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
@@ -206,15 +206,15 @@ pub fn study(
     };
     let approach = Approach::new(scenario, sample);
     let design = match (&scenario.approach.end, &posture) {
-        (EndRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
-        (EndRates::EndEffectorTwists(wanted), None) if !by_tips => {
+        (FinalRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
+        (FinalRates::EndEffectorTwists(wanted), None) if !by_tips => {
             observer.begin("designing end rates", 0);
             Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
         _ => None,
     };
     let rates = match (&scenario.approach.end, &design) {
-        (EndRates::JointRates(rates), _) => rates.clone(),
+        (FinalRates::JointRates(rates), _) => rates.clone(),
         (_, Some(design)) => design.joint_rates.clone(),
         (_, None) => vec![0.0; model.joints()],
     };
@@ -225,16 +225,16 @@ pub fn study(
         .iter()
         .map(|case| match (&scenario.post_impact, approach.end()) {
             (Some(after), Some(end)) => {
-                let course = Course { scenario, case, after, make, sample };
+                let course = CaptureSequence { scenario, case, after, make, sample };
                 match scenario.contact.detection {
                     Detection::Time => course.in_time(&end.state, &end.end_effector_poses, observer),
-                    Detection::Event => course.by_detection(&rates, observer),
+                    Detection::Event => course.contact_by_detection(&rates, observer),
                 }
             }
             _ => Ok(CaseResult::alone(&case.name)),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    let misses = Miss::of(scenario, &approach);
+    let misses = TerminalError::of(scenario, &approach);
     Ok(Study { design, posture, approach, misses, cases })
 }
 
@@ -322,6 +322,6 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
     let out_of_bound =
         checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
     let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));
-    let excesses = phase.excesses.iter().flat_map(Excesses::sentences);
-    drifts.chain(excesses).map(|what| format!("{name}: {what}")).collect()
+    let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
+    drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()
 }

@@ -1,15 +1,15 @@
 //! The motion after an impact, under the law that a scenario names.
 
 use crate::capture::assembly::Attachment;
-use crate::control::{Control, Free, ProportionalDerivative, Stabilise};
+use crate::control::{Control, ProportionalDerivative, Stabilise, ZeroTorque};
 use crate::layout::{Arm, Layout};
 use crate::owned::RobotState;
-use crate::scenario::{PostImpact, Settling};
+use crate::scenario::{PostCaptureControl, PostImpact};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, Stopped, Timing};
-use crate::trajectory::Standing;
+use crate::simulate::{Phase, PhaseError, Timing};
+use crate::trajectory::ConstantSetpoint;
 
 /// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.
 #[must_use]
@@ -25,7 +25,7 @@ fn is_wheel(arm: &Arm) -> bool {
 
 /// What a scenario wants after an impact, for what its tips hold.
 #[derive(Clone, Copy, Debug)]
-pub struct Settle<'a> {
+pub struct PostCaptureLaw<'a> {
     /// The law.
     pub after: &'a PostImpact,
     /// Which joints turn wheels, see [`wheels`].
@@ -38,31 +38,31 @@ pub struct Settle<'a> {
 ///
 /// # Errors
 /// When and why it stopped.
-pub fn settle(
+pub fn run_post_capture(
     system: &System<'_>,
-    Settle { after, wheels, angles }: Settle<'_>,
+    PostCaptureLaw { after, wheels, angles }: PostCaptureLaw<'_>,
     start: &RobotState,
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
-) -> Result<Phase, Stopped> {
+) -> Result<Phase, PhaseError> {
     let model = system.model;
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     let (mut held, mut damped, mut stabilised);
-    let standing = Standing { angles };
+    let standing = ConstantSetpoint { angles };
     let no_stiffness = vec![0.0; model.joints()];
     let law: &mut dyn Control<f64> = match &after.control {
-        Settling::None => &mut Free,
-        Settling::Hold { proportional_gain, derivative_gain } => {
+        PostCaptureControl::None => &mut ZeroTorque,
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
             held = ProportionalDerivative { trajectory: standing, proportional_gain, derivative_gain };
             &mut held
         }
-        Settling::Damping { derivative_gain } => {
+        PostCaptureControl::Damping { derivative_gain } => {
             damped = ProportionalDerivative { trajectory: standing, proportional_gain: &no_stiffness, derivative_gain };
             &mut damped
         }
-        Settling::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
             stabilised = Stabilise {
                 joint_gain: derivative_gain,
                 base_gain: *base_gain,

@@ -3,13 +3,13 @@
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scenario::Settling;
+use crate::scenario::PostCaptureControl;
 use crate::simulate::bodies::{bodies, center_of_mass, with_bodies};
 use crate::simulate::system::Body;
 
 /// The motion that remains, robot and targets as one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Remainder {
+pub struct ResidualMotion {
     /// The law, as in a scenario.
     pub control: &'static str,
     /// [l, px, py], l about the COM of the whole; N m s, N s.
@@ -28,7 +28,7 @@ pub struct Remainder {
     pub wheel_rates: Vec<f64>,
 }
 
-impl Remainder {
+impl ResidualMotion {
     /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn wheels.
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl Remainder {
     pub fn of(
         model: &dyn Model<f64>,
         held: &[Body],
-        control: &Settling,
+        control: &PostCaptureControl,
         motion: &RobotState,
         wheels: &[bool],
     ) -> Result<Self, Error> {

@@ -2,17 +2,17 @@
 
 use crate::capture::approach::Approach;
 use crate::capture::assembly::{Assembly, Attachment};
-use crate::capture::contact_at_time::{Touching, contact_law, in_time};
-use crate::capture::contact_detection::{Flight, Gaps, Pair, gap};
+use crate::capture::contact_at_time::{ImpactContact, contact_law, in_time};
+use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, gap};
 use crate::capture::impact::{Capture, capture};
-use crate::capture::post_capture::{Settle, settle, wheels};
-use crate::capture::residual_motion::Remainder;
-use crate::capture::{Captured, CaseResult, Closest, Further, MakeModel, Observer, StudyError};
+use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
+use crate::capture::residual_motion::ResidualMotion;
+use crate::capture::{CaptureResult, CaseResult, ClosestApproach, FurtherImpact, ModelFactory, Observer, StudyError};
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scenario::{Case, PostImpact, Scenario, Settling, Target};
+use crate::scenario::{Case, PostCaptureControl, PostImpact, Scenario, Target};
 use crate::simulate::system::Body;
-use crate::simulate::{Phase, Sample, Stopped, Timing};
+use crate::simulate::{Phase, PhaseError, Sample, Timing};
 
 /// The most impacts of one case.
 const MOST_IMPACTS: usize = 1000;
@@ -22,16 +22,16 @@ const TOGETHER: f64 = 1e-9;
 
 /// What a case is run from.
 #[derive(Clone, Copy)]
-pub(crate) struct Course<'a> {
+pub(crate) struct CaptureSequence<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) case: &'a Case,
     pub(crate) after: &'a PostImpact,
-    pub(crate) make: MakeModel<'a>,
+    pub(crate) make: ModelFactory<'a>,
     /// Time between samples, s.
     pub(crate) sample: f64,
 }
 
-impl Course<'_> {
+impl CaptureSequence<'_> {
     /// Contacts are where the tips are when the approach ends.
     pub(crate) fn in_time(
         self,
@@ -47,13 +47,17 @@ impl Course<'_> {
 
     /// The targets fly freely from the start on, and the approach ends where a tip reaches its target; `rates` are the
     /// approach's end rates, rad/s.
-    pub(crate) fn by_detection(self, rates: &[f64], observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
+    pub(crate) fn contact_by_detection(
+        self,
+        rates: &[f64],
+        observer: &mut dyn Observer,
+    ) -> Result<CaseResult, StudyError> {
         let start = self.targets_at_start();
         let pairs = self.pairs(&[]);
         self.check_apart(&start, &pairs)?;
         let approach = Approach::new(self.scenario, self.sample);
         observer.begin(&format!("approach of {}", self.case.name), approach.steps());
-        let mut gaps = Gaps::new(self.scenario, Flight::Free(&start), pairs.clone());
+        let mut gaps = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let model = (self.make)();
         let phase =
             approach.track_until(&*model, rates, &mut gaps, &mut || observer.step()).map_err(StudyError::Approach)?;
@@ -87,13 +91,13 @@ impl Course<'_> {
         self,
         before: &RobotState,
         targets: &[Body],
-        touching: &[Touching],
+        touching: &[ImpactContact],
         detected: bool,
         observer: &mut dyn Observer,
-    ) -> Result<Captured, StudyError> {
+    ) -> Result<CaptureResult, StudyError> {
         observer.begin(&self.case.name, self.timing(self.after.duration).steps());
         let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.unsolved(source))?;
-        let mut moving = Moving {
+        let mut moving = SequenceState {
             course: self,
             state: before.clone(),
             targets: targets.to_vec(),
@@ -103,7 +107,7 @@ impl Course<'_> {
         };
         let impact = moving.strike(touching)?;
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
-        let (mut post_impact, mut flown) = moving.coast(&open, 0.0, observer)?;
+        let (mut post_impact, mut flown) = moving.integrate_to_contact(&open, 0.0, observer)?;
         let mut further = Vec::new();
         let mut penetration = self.penetration(&open, &post_impact, &flown);
         while let (Some((event, _)), Some(end)) = (post_impact.event, post_impact.end()) {
@@ -112,21 +116,21 @@ impl Course<'_> {
                 return Err(StudyError::Chatter { case: self.case.name.clone(), impacts: further.len() + 1, time });
             }
             let touching = self.touching(&open, event, &moving.targets, &end.end_effector_poses);
-            further.push(Further { time, impact: moving.strike(&touching)? });
+            further.push(FurtherImpact { time, impact: moving.strike(&touching)? });
             if time >= self.after.duration {
                 break;
             }
             open = self.pairs(&moving.attachments);
-            let (next, along) = moving.coast(&open, time, observer)?;
+            let (next, along) = moving.integrate_to_contact(&open, time, observer)?;
             penetration = penetration.max(self.penetration(&open, &next, &along));
             post_impact = post_impact.then(next);
             flown.extend(along);
         }
         let remainder = match &self.after.control {
-            Settling::None => None,
+            PostCaptureControl::None => None,
             control => Some(moving.remainder(control, &post_impact)?),
         };
-        Ok(Captured { impact, post_impact, targets: flown, further, penetration, remainder })
+        Ok(CaptureResult { impact, post_impact, targets: flown, further, penetration, remainder })
     }
 
     fn unsolved(self, source: Error) -> StudyError {
@@ -134,11 +138,11 @@ impl Course<'_> {
     }
 
     fn stopped(self, time: f64, source: Error) -> StudyError {
-        StudyError::PostImpact { case: self.case.name.clone(), source: Stopped { time, source } }
+        StudyError::PostImpact { case: self.case.name.clone(), source: PhaseError { time, source } }
     }
 
     /// By how much a tip is inside its target at most, in the samples of a phase, m.
-    fn penetration(self, pairs: &[Pair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
+    fn penetration(self, pairs: &[ContactPair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
         let closest = self.closest(pairs, phase, 0.0, |i| targets.get(i).cloned().unwrap_or_default());
         closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
     }
@@ -157,13 +161,13 @@ impl Course<'_> {
     }
 
     /// The tips and targets that may meet: those that are to, and do not hold each other yet.
-    fn pairs(self, attachments: &[Attachment]) -> Vec<Pair> {
+    fn pairs(self, attachments: &[Attachment]) -> Vec<ContactPair> {
         let mut pairs = Vec::new();
         for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
             for (k, (touch, kind)) in target.touches.iter().zip(kinds).enumerate() {
                 let held = attachments.iter().any(|grip| grip.arm == touch.arm);
                 if kind.is_some() && !held {
-                    pairs.push(Pair { target: i, touch: k, arm: touch.arm });
+                    pairs.push(ContactPair { target: i, touch: k, arm: touch.arm });
                 }
             }
         }
@@ -171,7 +175,7 @@ impl Course<'_> {
     }
 
     /// The contacts of an instant: the one that was detected, and those that come with it.
-    fn touching(self, pairs: &[Pair], event: usize, targets: &[Body], tips: &[[f64; 3]]) -> Vec<Touching> {
+    fn touching(self, pairs: &[ContactPair], event: usize, targets: &[Body], tips: &[[f64; 3]]) -> Vec<ImpactContact> {
         let mut touching = Vec::new();
         for (i, pair) in pairs.iter().enumerate() {
             let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
@@ -181,18 +185,18 @@ impl Course<'_> {
             let law = kind.and_then(|kind| contact_law(*kind, || normal, restitution));
             if let (true, Some(law)) = (i == event || distance.abs() <= TOGETHER, law) {
                 let offset = [tip[1] - body.pose[1], tip[2] - body.pose[2]];
-                touching.push(Touching { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
+                touching.push(ImpactContact { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
             }
         }
         touching
     }
 
-    fn check_apart(self, targets: &[Body], pairs: &[Pair]) -> Result<(), StudyError> {
+    fn check_apart(self, targets: &[Body], pairs: &[ContactPair]) -> Result<(), StudyError> {
         let initial = &self.scenario.initial;
         let mut tips = vec![[0.0; 3]; self.scenario.layout.arms.len()];
         (self.make)()
             .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut tips)
-            .map_err(|source| StudyError::Approach(Stopped { time: 0.0, source }))?;
+            .map_err(|source| StudyError::Approach(PhaseError { time: 0.0, source }))?;
         for pair in pairs {
             let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
             let (distance, _) = gap(self.scenario, pair.target, body, tip);
@@ -206,9 +210,20 @@ impl Course<'_> {
     }
 
     /// How near each pair comes in the samples of a phase that starts at `from` s.
-    fn closest(self, pairs: &[Pair], phase: &Phase, from: f64, targets: impl Fn(usize) -> Vec<Body>) -> Vec<Closest> {
-        let far = |pair: &Pair| Closest { target: pair.target, arm: pair.arm, distance: f64::INFINITY, time: from };
-        let mut closest: Vec<Closest> = pairs.iter().map(far).collect();
+    fn closest(
+        self,
+        pairs: &[ContactPair],
+        phase: &Phase,
+        from: f64,
+        targets: impl Fn(usize) -> Vec<Body>,
+    ) -> Vec<ClosestApproach> {
+        let far = |pair: &ContactPair| ClosestApproach {
+            target: pair.target,
+            arm: pair.arm,
+            distance: f64::INFINITY,
+            time: from,
+        };
+        let mut closest: Vec<ClosestApproach> = pairs.iter().map(far).collect();
         if closest.is_empty() {
             return closest;
         }
@@ -219,7 +234,7 @@ impl Course<'_> {
                 let (Some(body), Some(tip)) = (body, tip) else { continue };
                 let (distance, _) = gap(self.scenario, nearest.target, body, tip);
                 if distance < nearest.distance {
-                    *nearest = Closest { distance, time: from + sample.time, ..*nearest };
+                    *nearest = ClosestApproach { distance, time: from + sample.time, ..*nearest };
                 }
             }
         }
@@ -228,8 +243,8 @@ impl Course<'_> {
 }
 
 /// Robot and targets in the course of a case.
-struct Moving<'a> {
-    course: Course<'a>,
+struct SequenceState<'a> {
+    course: CaptureSequence<'a>,
     state: RobotState,
     targets: Vec<Body>,
     attachments: Vec<Attachment>,
@@ -238,9 +253,9 @@ struct Moving<'a> {
     angles: Vec<f64>,
 }
 
-impl Moving<'_> {
+impl SequenceState<'_> {
     /// Velocities change, and what takes hold becomes part of the assembly.
-    fn strike(&mut self, touching: &[Touching]) -> Result<Capture, StudyError> {
+    fn strike(&mut self, touching: &[ImpactContact]) -> Result<Capture, StudyError> {
         let course = self.course;
         let impact =
             capture(&self.assembly, &self.state, &self.targets, touching).map_err(|source| course.unsolved(source))?;
@@ -256,19 +271,20 @@ impl Moving<'_> {
     }
 
     /// The motion from `time` s after the first impact on, up to a contact of the pairs; and the targets at its samples.
-    fn coast(
+    fn integrate_to_contact(
         &mut self,
-        pairs: &[Pair],
+        pairs: &[ContactPair],
         time: f64,
         observer: &mut dyn Observer,
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
         let course = self.course;
         let Self { state, targets, assembly, .. } = self;
-        let mut gaps = Gaps::new(course.scenario, Flight::Assembled(assembly, targets), pairs.to_vec());
+        let mut gaps =
+            ContactDetection::new(course.scenario, TargetMotion::Assembled(assembly, targets), pairs.to_vec());
         let wheels = wheels(&course.scenario.layout, &self.attachments);
-        let wanted = Settle { after: course.after, wheels: &wheels, angles: &self.angles };
+        let wanted = PostCaptureLaw { after: course.after, wheels: &wheels, angles: &self.angles };
         let timing = course.timing(course.after.duration - time);
-        let phase = settle(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
+        let phase = run_post_capture(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
             .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
@@ -281,16 +297,16 @@ impl Moving<'_> {
     }
 
     /// What is left of the motion.
-    fn remainder(&self, control: &Settling, phase: &Phase) -> Result<Remainder, StudyError> {
+    fn remainder(&self, control: &PostCaptureControl, phase: &Phase) -> Result<ResidualMotion, StudyError> {
         let wheels = wheels(&self.course.scenario.layout, &self.attachments);
         let beside = phase.end().map_or_else(Vec::new, |end| self.assembly.pinned(&end.bodies));
-        Remainder::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
+        ResidualMotion::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
             .map_err(|source| self.course.stopped(phase.duration, source))
     }
 }
 
 /// The contacts that hold.
-fn holds(touching: &[Touching]) -> impl Iterator<Item = Attachment> {
+fn holds(touching: &[ImpactContact]) -> impl Iterator<Item = Attachment> {
     let held = touching.iter().filter(|touch| touch.law.kind().holds());
     held.map(|touch| Attachment { target: touch.target, arm: touch.arm, kind: touch.law.kind() })
 }

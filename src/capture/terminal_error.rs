@@ -1,15 +1,15 @@
 //! By how much a tip misses where it was wanted.
 
-use crate::scenario::{Scenario, TipGoal};
+use crate::scenario::{EndEffectorGoal, Scenario};
 use crate::simulate::Phase;
 use std::fmt::{Display, Formatter};
 
-/// Beyond this part of its reach, or so many rad, a tip is not where it was wanted.
+/// Outboard this part of its reach, or so many rad, a tip is not where it was wanted.
 const REACHED: f64 = 1e-3;
 
 /// Wanted less reached at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Miss {
+pub struct TerminalError {
     /// As the goal has them: [yaw, x, y] or [x, y]; rad to the nearest turn, m.
     pub parts: Vec<f64>,
     /// m.
@@ -20,7 +20,7 @@ pub struct Miss {
     pub reached: bool,
 }
 
-impl Miss {
+impl TerminalError {
     /// One per arm, `None` for an arm that may end anywhere; empty where no tip poses are wanted.
     #[must_use]
     pub fn of(scenario: &Scenario, phase: &Phase) -> Vec<Option<Self>> {
@@ -31,7 +31,7 @@ impl Miss {
         arms.map(|((goal, pose), arm)| Self::at(goal, pose, arm.reach())).collect()
     }
 
-    fn at(goal: &TipGoal, pose: &[f64; 3], reach: f64) -> Option<Self> {
+    fn at(goal: &EndEffectorGoal, pose: &[f64; 3], reach: f64) -> Option<Self> {
         let parts: Vec<f64> = goal.missing(pose).map(|(_, missing)| missing).collect();
         let (yaw, distance) = match parts.as_slice() {
             [x, y] => (None, x.hypot(*y)),
@@ -43,7 +43,7 @@ impl Miss {
     }
 }
 
-impl Display for Miss {
+impl Display for TerminalError {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         write!(f, "{:.2e} m", self.distance)?;
         self.yaw.map_or(Ok(()), |yaw| write!(f, ", {yaw:.2e} rad"))

@@ -2,15 +2,15 @@
 
 use super::number::short;
 use super::targets::distance_and_most;
-use crate::diagnostic::Oddity;
-use crate::scenario::{EndRates, Scenario, TipGoal, Tracking};
+use crate::diagnostic::Warning;
+use crate::scenario::{EndEffectorGoal, FinalRates, Scenario, Tracking};
 use std::f64::consts::TAU;
 
 /// Joints of space robots turn by degrees a second, not by more than a turn, in rad/s.
 const FASTEST: f64 = TAU;
 
 /// What is odd about the angles, rates and times of an approach.
-pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
+pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let fixed = [motionless(scenario), hasty(scenario), slack(scenario)];
     let of_ends = end_rates(scenario).into_iter().chain(out_of_reach(scenario)).chain(beyond_limits(scenario));
     angles(scenario).into_iter().chain(of_ends).chain(fixed.into_iter().flatten()).collect()
@@ -34,7 +34,7 @@ pub(super) fn joint_name(scenario: &Scenario, index: usize) -> String {
     scenario.layout.joint_name(index)
 }
 
-fn angles(scenario: &Scenario) -> Vec<Oddity> {
+fn angles(scenario: &Scenario) -> Vec<Warning> {
     let initial = &scenario.initial.joint_angles;
     let end = match scenario.approach.tracking {
         Tracking::ResolvedMotionRate { .. } => &[][..],
@@ -42,7 +42,7 @@ fn angles(scenario: &Scenario) -> Vec<Oddity> {
     };
     let beyond = |key: &'static str, angles: &[f64]| {
         let beyond: Vec<_> = angles.iter().enumerate().filter(|(_, angle)| angle.abs() > TAU).collect();
-        let odd = |(index, angle): &(usize, &f64)| Oddity {
+        let odd = |(index, angle): &(usize, &f64)| Warning {
             key: format!("{key}[{index}]"),
             why: format!("more than a whole turn of {}", joint_name(scenario, *index)),
             help: format!("angles are in rad; {} is the same pose", short(*angle % TAU)),
@@ -51,7 +51,7 @@ fn angles(scenario: &Scenario) -> Vec<Oddity> {
     };
     let turns = initial.iter().zip(end).enumerate().filter(|(_, (from, to))| (*to - *from).abs() > TAU);
     let turns =
-        turns.filter(|(_, (from, to))| from.abs() <= TAU && to.abs() <= TAU).map(|(index, (from, to))| Oddity {
+        turns.filter(|(_, (from, to))| from.abs() <= TAU && to.abs() <= TAU).map(|(index, (from, to))| Warning {
             key: format!("approach.final_joint_angles[{index}]"),
             why: format!(
                 "{} turns by {} rad from its initial angle {}, more than once round",
@@ -65,29 +65,29 @@ fn angles(scenario: &Scenario) -> Vec<Oddity> {
     beyond.into_iter().flatten().chain(turns).collect()
 }
 
-fn motionless(scenario: &Scenario) -> Option<Oddity> {
+fn motionless(scenario: &Scenario) -> Option<Warning> {
     let approach = &scenario.approach;
     let rest = match &approach.end {
-        EndRates::Rest => true,
-        EndRates::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
-        EndRates::EndEffectorTwists(twists) => twists.as_flattened().iter().flatten().all(|part| *part == 0.0),
+        FinalRates::Rest => true,
+        FinalRates::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
+        FinalRates::EndEffectorTwists(twists) => twists.as_flattened().iter().flatten().all(|part| *part == 0.0),
     };
     let designed = approach.final_end_effector_poses.is_some();
-    (rest && !designed && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Oddity {
+    (rest && !designed && approach.final_joint_angles == scenario.initial.joint_angles).then(|| Warning {
         key: "approach.final_joint_angles".to_owned(),
         why: "the arms are there already, and are to be at rest".to_owned(),
         help: "an approach moves the arms from initial.joint_angles to other angles, or to end rates".to_owned(),
     })
 }
 
-fn hasty(scenario: &Scenario) -> Option<Oddity> {
+fn hasty(scenario: &Scenario) -> Option<Warning> {
     let approach = &scenario.approach;
     if approach.final_end_effector_poses.is_some() {
         return None; // how far the joints turn is not known yet
     }
     let peak = peak_rate(scenario);
     let (joint, turn) = largest_turn(scenario);
-    (peak > FASTEST).then(|| Oddity {
+    (peak > FASTEST).then(|| Warning {
         key: if approach.trajectory_duration.is_some() {
             "approach.trajectory_duration".to_owned()
         } else {
@@ -106,11 +106,11 @@ fn hasty(scenario: &Scenario) -> Option<Oddity> {
     })
 }
 
-fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
-    let fast = |key: String, why: String, help: &str| Oddity { key, why, help: help.to_owned() };
+fn end_rates(scenario: &Scenario) -> Vec<Warning> {
+    let fast = |key: String, why: String, help: &str| Warning { key, why, help: help.to_owned() };
     match &scenario.approach.end {
-        EndRates::Rest => Vec::new(),
-        EndRates::JointRates(rates) => {
+        FinalRates::Rest => Vec::new(),
+        FinalRates::JointRates(rates) => {
             let odd = rates.iter().enumerate().filter(|(_, rate)| rate.abs() > FASTEST);
             odd.map(|(index, rate)| {
                 let why = format!("{} is to turn more than once a second", joint_name(scenario, index));
@@ -122,7 +122,7 @@ fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
             })
             .collect()
         }
-        EndRates::EndEffectorTwists(twists) => {
+        FinalRates::EndEffectorTwists(twists) => {
             let twists = twists.iter().map(|twist| twist.map(Option::unwrap_or_default));
             let odd = twists.zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
                 omega.abs() > FASTEST || vx.hypot(*vy) > FASTEST * arm.reach_from_base()
@@ -138,12 +138,12 @@ fn end_rates(scenario: &Scenario) -> Vec<Oddity> {
 }
 
 /// Tip poses beyond what any pose of the arm gives. Whether the arm gets to what is nearer is seen when it is run.
-fn out_of_reach(scenario: &Scenario) -> Vec<Oddity> {
+fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
     let goals = scenario.approach.final_end_effector_poses.iter().flatten().enumerate();
     let far = goals.filter_map(|(i, goal)| {
-        let (TipGoal::Position([x, y]) | TipGoal::Pose([_, x, y])) = goal else { return None };
+        let (EndEffectorGoal::Position([x, y]) | EndEffectorGoal::Pose([_, x, y])) = goal else { return None };
         let (distance, most) = distance_and_most(scenario, i, [*x, *y])?;
-        (distance > most).then(|| Oddity {
+        (distance > most).then(|| Warning {
             key: format!("approach.final_end_effector_poses[{i}]"),
             why: format!(
                 "out of reach, {} m from where the robot's COM is at the end of the approach; no pose of {} brings its tip \
@@ -159,7 +159,7 @@ fn out_of_reach(scenario: &Scenario) -> Vec<Oddity> {
 }
 
 /// Where the approach should end beyond the limits of its joints. (An initial state there is refused.)
-fn beyond_limits(scenario: &Scenario) -> Vec<Oddity> {
+fn beyond_limits(scenario: &Scenario) -> Vec<Warning> {
     let approach = &scenario.approach;
     let limits = || approach.actuation.joint_limits.iter().enumerate();
     let angles = match approach.final_end_effector_poses {
@@ -167,8 +167,8 @@ fn beyond_limits(scenario: &Scenario) -> Vec<Oddity> {
         None => &approach.final_joint_angles,
     };
     let rates = match &approach.end {
-        EndRates::JointRates(rates) => &rates[..],
-        EndRates::Rest | EndRates::EndEffectorTwists(_) => &[],
+        FinalRates::JointRates(rates) => &rates[..],
+        FinalRates::Rest | FinalRates::EndEffectorTwists(_) => &[],
     };
     let angles = limits().zip(angles).filter_map(|((i, joint), angle)| {
         let limit = joint.angle_beyond(*angle)?;
@@ -178,7 +178,7 @@ fn beyond_limits(scenario: &Scenario) -> Vec<Oddity> {
         let limit = joint.rate_beyond(*rate)?;
         Some(("rates", i, format!("beyond the limit of {}, {} rad/s", joint.name, short(limit))))
     });
-    let oddity = |(what, i, why)| Oddity {
+    let oddity = |(what, i, why)| Warning {
         key: format!("approach.final_joint_{what}[{i}]"),
         why,
         help: format!("limits.joint_{what} says so; a run reports what goes beyond it, and ends with exit code 1"),
@@ -190,13 +190,13 @@ fn arm_name(scenario: &Scenario, arm: usize) -> &str {
     scenario.layout.arms.get(arm).map_or("this arm", |arm| arm.name.as_str())
 }
 
-fn slack(scenario: &Scenario) -> Option<Oddity> {
+fn slack(scenario: &Scenario) -> Option<Warning> {
     let (Tracking::ProportionalDerivative { proportional_gain, .. }
     | Tracking::ComputedTorque { proportional_gain, .. }) = &scenario.approach.tracking
     else {
         return None;
     };
-    proportional_gain.iter().all(|gain| *gain == 0.0).then(|| Oddity {
+    proportional_gain.iter().all(|gain| *gain == 0.0).then(|| Warning {
         key: "approach.proportional_gain".to_owned(),
         why: "nothing pulls the arms to their trajectory".to_owned(),
         help: "a gain is 49 by default; `tracking = \"exact\"` follows without gains".to_owned(),

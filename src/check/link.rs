@@ -1,7 +1,7 @@
 //! Links that no body of their length can be.
 
 use super::number::short;
-use crate::diagnostic::Oddity;
+use crate::diagnostic::Warning;
 use crate::layout::Link;
 
 /// A link whose radius of gyration is a smaller part of its length has its mass nearly in one point.
@@ -11,12 +11,12 @@ const POINT: f64 = 0.01;
 type Odd = (&'static str, String, String);
 
 /// The first that is odd about a link; `path` is that of its table.
-pub(super) fn oddity(link: &Link, path: &str) -> Option<Oddity> {
+pub(super) fn oddity(link: &Link, path: &str) -> Option<Warning> {
     let found = match link.length {
         0.0 => unbalanced(link),
         _ => com_outside(link).or_else(|| too_much(link)).or_else(|| point_mass(link)),
     };
-    found.map(|(key, why, help)| Oddity { key: format!("{path}.{key}"), why, help })
+    found.map(|(key, why, help)| Warning { key: format!("{path}.{key}"), why, help })
 }
 
 fn unbalanced(wheel: &Link) -> Option<Odd> {

@@ -16,7 +16,7 @@ mod stiffness;
 mod study;
 mod targets;
 
-use crate::diagnostic::{Report, warnings};
+use crate::diagnostic::{Report, report_warnings};
 use crate::layout::Layout;
 use crate::scenario::Scenario;
 use kind::Kind;
@@ -25,7 +25,7 @@ pub(crate) use targets::distance_and_most;
 
 /// A file that can be worked with.
 #[derive(Clone, Debug)]
-pub struct Inspection {
+pub struct CheckReport {
     /// What it is, in lines for the terminal.
     pub description: String,
     /// What is odd about it, and about the layout that it names.
@@ -36,25 +36,25 @@ pub struct Inspection {
 ///
 /// # Errors
 /// All that is wrong with it.
-pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<Inspection, Report> {
+pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<CheckReport, Report> {
     match Kind::of(text, file)? {
         Kind::Layout => {
             let layout = Layout::parse(text, file)?;
-            Ok(Inspection { description: robot::description(&layout), warnings: layout_warnings(&layout, text, file) })
+            Ok(CheckReport { description: robot::description(&layout), warnings: layout_warnings(&layout, text, file) })
         }
         Kind::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let oddities = [approach::oddities, pose::oddities, stiffness::oddities, targets::oddities];
-            let oddities: Vec<_> = oddities.into_iter().flat_map(|look| look(&scenario)).collect();
+            let warnings = [approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
+            let warnings: Vec<_> = warnings.into_iter().flat_map(|look| look(&scenario)).collect();
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
-            Ok(Inspection {
+            Ok(CheckReport {
                 description: study::description(&scenario),
-                warnings: warnings(text, file, &oddities).and(of_layout),
+                warnings: report_warnings(text, file, &warnings).and(of_layout),
             })
         }
     }
 }
 
 fn layout_warnings(layout: &Layout, text: &str, file: &str) -> Report {
-    warnings(text, file, &[bodies::oddities(layout), arms::oddities(layout)].concat())
+    report_warnings(text, file, &[bodies::warnings(layout), arms::warnings(layout)].concat())
 }

@@ -1,10 +1,10 @@
 //! What the model says of a scenario's poses: singular ones.
 
 use super::number::short;
-use crate::diagnostic::Oddity;
+use crate::diagnostic::Warning;
 use crate::layout::{Arm, Layout};
 use crate::registry;
-use crate::scenario::{EndRates, Scenario, Tracking};
+use crate::scenario::{FinalRates, Scenario, Tracking};
 use crate::state::State;
 use nalgebra::DMatrix;
 
@@ -20,7 +20,7 @@ pub(super) struct FinalPose<'a> {
 }
 
 /// What is odd about the final pose.
-pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
+pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     [short_of_joints(scenario), singular(scenario)].into_iter().flatten().collect()
 }
 
@@ -32,7 +32,7 @@ pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     if scenario.approach.final_end_effector_poses.is_some() {
         return None; // it is designed by the run, which says the margin
     }
-    let designed = matches!(scenario.approach.end, EndRates::EndEffectorTwists(_));
+    let designed = matches!(scenario.approach.end, FinalRates::EndEffectorTwists(_));
     let captures =
         |i| designed || scenario.targets.iter().flat_map(|target| &target.touches).any(|touch| touch.arm == i);
     let arms = scenario.layout.arms.iter().enumerate();
@@ -53,10 +53,10 @@ pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     Some(FinalPose { arms: arms.into_iter().map(|(_, arm)| arm).collect(), margin })
 }
 
-fn singular(scenario: &Scenario) -> Option<Oddity> {
+fn singular(scenario: &Scenario) -> Option<Warning> {
     let FinalPose { arms, margin } = final_pose(scenario)?;
     let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
-    (margin < SINGULAR).then(|| Oddity {
+    (margin < SINGULAR).then(|| Warning {
         key: "approach.final_joint_angles".to_owned(),
         why: format!(
             "close to a singular pose of {}, where some tip motions take very high joint rates: the smallest singular \
@@ -68,14 +68,14 @@ fn singular(scenario: &Scenario) -> Option<Oddity> {
     })
 }
 
-fn short_of_joints(scenario: &Scenario) -> Option<Oddity> {
-    let EndRates::EndEffectorTwists(twists) = &scenario.approach.end else { return None };
+fn short_of_joints(scenario: &Scenario) -> Option<Warning> {
+    let FinalRates::EndEffectorTwists(twists) = &scenario.approach.end else { return None };
     if matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. }) {
         return None; // wishes are counted arm by arm when they are read
     }
     let joints = scenario.layout.joints();
     let wanted = twists.as_flattened().iter().flatten().count();
-    (wanted > joints).then(|| Oddity {
+    (wanted > joints).then(|| Warning {
         key: "approach.final_end_effector_twists".to_owned(),
         why: format!("{wanted} numbers to be given by {joints} joints, which can give few such twists"),
         help: "an arm needs three links to move its tip any way, two for [vx, vy]; final_joint_rates sets the rates \

@@ -2,8 +2,8 @@
 
 use super::number::short;
 use super::pose::reduced;
-use crate::diagnostic::Oddity;
-use crate::scenario::{Scenario, Settling, Tracking};
+use crate::diagnostic::Warning;
+use crate::scenario::{PostCaptureControl, Scenario, Tracking};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// In times of the fastest mode. The audit of the paper's study objects from 0.3 on; beyond 2.8 Runge–Kutta steps of
@@ -13,7 +13,7 @@ const COARSE: f64 = 0.5;
 const FINE: f64 = 0.2;
 
 /// What is odd about gains, steps and sample times.
-pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
+pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let Scenario { approach, .. } = scenario;
     let before = fastest_mode(scenario).map(|rate| Held {
         phase: "approach",
@@ -52,14 +52,14 @@ pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
 pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
     let angles = &scenario.approach.final_joint_angles;
     match &scenario.post_impact.as_ref()?.control {
-        Settling::None => None,
-        Settling::Hold { proportional_gain, derivative_gain } => {
+        PostCaptureControl::None => None,
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
             mode(scenario, angles, proportional_gain, derivative_gain)
         }
-        Settling::Damping { derivative_gain } => {
+        PostCaptureControl::Damping { derivative_gain } => {
             mode(scenario, angles, &vec![0.0; derivative_gain.len()], derivative_gain)
         }
-        Settling::Stabilise { derivative_gain, base_gain, .. } => {
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, .. } => {
             Some(derivative_gain.iter().copied().fold(*base_gain, f64::max))
         }
     }
@@ -93,9 +93,9 @@ struct Held {
 }
 
 impl Held {
-    fn coarse(&self) -> Option<Oddity> {
+    fn coarse(&self) -> Option<Warning> {
         let Self { phase, step, rate, .. } = self;
-        (step * rate > COARSE).then(|| Oddity {
+        (step * rate > COARSE).then(|| Warning {
             key: format!("{phase}.step"),
             why: format!(
                 "a step of {} s, while the fastest joint motion under these gains decays or swings within {} s",
@@ -107,10 +107,10 @@ impl Held {
     }
 
     /// Torques that are held for longer than the motion that they should steer takes.
-    fn seldom(&self) -> Option<Oddity> {
+    fn seldom(&self) -> Option<Warning> {
         let Self { phase, step, rate, .. } = self;
         let sample_time = f64::from(self.steps_per_sample?) * step;
-        (sample_time * rate > COARSE && step * rate <= COARSE).then(|| Oddity {
+        (sample_time * rate > COARSE && step * rate <= COARSE).then(|| Warning {
             key: format!("{phase}.sample_time"),
             why: format!(
                 "torques are held for {} s, while the fastest joint motion under these gains decays or swings within {} s",

@@ -8,7 +8,10 @@ use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::of_contact;
 use crate::contact::ContactKind;
 use crate::registry;
-use crate::scenario::{Actuation, Detection, EndRates, Scenario, Settling, TipGoal, TipTwist, Tracking, contact_name};
+use crate::scenario::{
+    Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, PostCaptureControl, Scenario, Tracking,
+    contact_name,
+};
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
@@ -50,7 +53,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
         let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
-        if after.control != Settling::None {
+        if after.control != PostCaptureControl::None {
             let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
             let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
                 format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
@@ -91,10 +94,10 @@ fn by_tips(scenario: &Scenario) -> bool {
 fn trajectory(scenario: &Scenario) -> String {
     let shape = scenario.approach.trajectory.properties().name.replace('_', " ");
     let end = match &scenario.approach.end {
-        EndRates::Rest => "rest".to_owned(),
-        EndRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
-        EndRates::EndEffectorTwists(twists) => {
-            let wanted = |twist: &TipTwist| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
+        FinalRates::Rest => "rest".to_owned(),
+        FinalRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
+        FinalRates::EndEffectorTwists(twists) => {
+            let wanted = |twist: &EndEffectorTwistGoal| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
             let twists: Vec<_> = twists.iter().map(wanted).collect();
             format!("tip twists {} rad/s, m/s", twists.join(", "))
         }
@@ -105,11 +108,11 @@ fn trajectory(scenario: &Scenario) -> String {
     format!("{shape}{whose}, to {end}{then}")
 }
 
-fn wishes(goals: &[TipGoal]) -> String {
+fn wishes(goals: &[EndEffectorGoal]) -> String {
     let goals = goals.iter().map(|goal| match goal {
-        TipGoal::Any => "any pose".to_owned(),
-        TipGoal::Position(position) => format!("tip at {} m", point(*position)),
-        TipGoal::Pose(pose) => format!("tip pose {} rad, m", list(pose)),
+        EndEffectorGoal::Any => "any pose".to_owned(),
+        EndEffectorGoal::Position(position) => format!("tip at {} m", point(*position)),
+        EndEffectorGoal::Pose(pose) => format!("tip pose {} rad, m", list(pose)),
     });
     goals.collect::<Vec<_>>().join(", ")
 }
@@ -138,14 +141,14 @@ fn actuation(torque_limits: Option<&[f64]>, steps_per_sample: Option<u32>) -> St
     format!("{limits}{samples}")
 }
 
-fn settling(control: &Settling) -> String {
+fn settling(control: &PostCaptureControl) -> String {
     match control {
-        Settling::None => "none".to_owned(),
-        Settling::Hold { proportional_gain, derivative_gain } => {
+        PostCaptureControl::None => "none".to_owned(),
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
             format!("hold, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }
-        Settling::Damping { derivative_gain } => format!("damping, {} N m s/rad", gains(derivative_gain)),
-        Settling::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
+        PostCaptureControl::Damping { derivative_gain } => format!("damping, {} N m s/rad", gains(derivative_gain)),
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
             let rates = format!("stabilise, joints {} 1/s, base {} 1/s", gains(derivative_gain), short(*base_gain));
             let torque = base_torque_limit.map(|limit| format!("; base torque of at most {} N m", short(limit)));
             rates + &torque.unwrap_or_default()

@@ -4,18 +4,18 @@ use super::number::{point, short};
 use super::places::{center_of_mass, places};
 use crate::capture::assembly::turned;
 use crate::contact::ContactKind;
-use crate::diagnostic::Oddity;
+use crate::diagnostic::Warning;
 use crate::layout::Layout;
-use crate::outline::Surface;
+use crate::outline::Outline;
 use crate::registry;
-use crate::scenario::{Detection, Scenario, Target, Touch};
+use crate::scenario::{Detection, PlannedContact, Scenario, Target};
 use std::f64::consts::TAU;
 
 /// Contact is made on a target's rim: to this part of the radius.
 const RIM: f64 = 0.05;
 
 /// What is odd about the targets, one by one.
-pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
+pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let targets = scenario.targets.iter().enumerate();
     let in_time = scenario.contact.detection == Detection::Time;
     let each = targets.flat_map(|(i, target)| {
@@ -28,7 +28,11 @@ pub(super) fn oddities(scenario: &Scenario) -> Vec<Oddity> {
             spin(&target.twist).map(|(why, help)| ("twist[0]", why, help)),
             too_few_joints(scenario, i, target),
         ];
-        found.into_iter().flatten().map(move |(key, why, help)| Oddity { key: format!("target[{i}].{key}"), why, help })
+        found.into_iter().flatten().map(move |(key, why, help)| Warning {
+            key: format!("target[{i}].{key}"),
+            why,
+            help,
+        })
     });
     each.chain(spinning_cases(scenario)).collect()
 }
@@ -46,15 +50,15 @@ fn heavy(scenario: &Scenario, target: &Target) -> Option<Odd> {
 
 fn off_rim(target: &Target) -> Option<Odd> {
     let size = target.surface.reach();
-    let apart = |touch: &Touch| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
+    let apart = |touch: &PlannedContact| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
     let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
     let why = match target.surface {
-        Surface::Disc { radius } => {
+        Outline::Disc { radius } => {
             let [x, y] = touch.contact;
             format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
         }
-        Surface::Polygon { .. } if apart(touch) > 0.0 => format!("{} m outside the polygon", short(apart(touch))),
-        Surface::Polygon { .. } => format!("{} m inside the polygon", short(-apart(touch))),
+        Outline::Polygon { .. } if apart(touch) > 0.0 => format!("{} m outside the polygon", short(apart(touch))),
+        Outline::Polygon { .. } => format!("{} m inside the polygon", short(-apart(touch))),
     };
     let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
     Some(("contact", why, help.to_owned()))
@@ -166,11 +170,11 @@ fn spin([omega, ..]: &[f64; 3]) -> Option<(String, String)> {
     })
 }
 
-fn spinning_cases(scenario: &Scenario) -> impl Iterator<Item = Oddity> {
+fn spinning_cases(scenario: &Scenario) -> impl Iterator<Item = Warning> {
     scenario.cases.iter().enumerate().filter_map(|(i, case)| {
         // of a target that is odd itself enough was said
         let own = case.target_twists.iter().zip(&scenario.targets).filter(|(_, target)| spin(&target.twist).is_none());
         let (why, help) = own.map(|(twist, _)| twist).find_map(spin)?;
-        Some(Oddity { key: format!("case[{i}].target_twists"), why, help })
+        Some(Warning { key: format!("case[{i}].target_twists"), why, help })
     })
 }

@@ -24,7 +24,7 @@ pub struct Adaptive {
     /// Some 12 kB of tables.
     solver: Box<Solver>,
     tolerance: f64,
-    /// Beyond it f may be another, s.
+    /// Outboard it f may be another, s.
     end: f64,
     /// Step wanted before it was cut to end at `end`, s.
     wanted: f64,

@@ -1,11 +1,11 @@
 //! The table that a run prints: what happened in each case, on one screen.
 
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
-use crate::capture::{Captured, CaseResult, Study};
-use crate::scenario::{Detection, Scenario, Settling, Tracking};
+use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::scenario::{Detection, PostCaptureControl, Scenario, Tracking};
 use crate::simulate::Phase;
-use crate::simulate::conservation::Drift;
+use crate::simulate::conservation::ConservationErrors;
 use std::fmt::Write;
 
 /// A tip this far from where it is to touch its target is told of, m.
@@ -100,8 +100,8 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     if !phase.saturation.joints.is_empty() {
         writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
     }
-    excesses(out, "  ", phase)?;
-    let Drift { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
+    limit_violations(out, "  ", phase)?;
+    let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
     writeln!(
         out,
         "  momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, centre-of-mass drift {center_of_mass_drift:.1e}"
@@ -109,9 +109,9 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
 }
 
 /// How the joints kept their limits, where they have any.
-fn excesses(out: &mut String, indent: &str, phase: &Phase) -> std::fmt::Result {
-    let Some(excesses) = &phase.excesses else { return Ok(()) };
-    let sentences = excesses.sentences();
+fn limit_violations(out: &mut String, indent: &str, phase: &Phase) -> std::fmt::Result {
+    let Some(limit_violations) = &phase.limit_violations else { return Ok(()) };
+    let sentences = limit_violations.sentences();
     if sentences.is_empty() {
         return writeln!(out, "{indent}all joints within their limits");
     }
@@ -149,7 +149,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         let later = captured.further.iter().map(|one| (first + one.time, &one.impact));
         for (time, impact) in std::iter::once((first, &captured.impact)).chain(later) {
             for contact in &impact.contacts {
-                let Touching { target, arm, law, .. } = contact.touching;
+                let ImpactContact { target, arm, law, .. } = contact.touching;
                 let Some(of) = scenario.layout.arms.get(arm) else { continue };
                 let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
                 let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
@@ -174,7 +174,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
         // of one arm, the target is where the tip puts it
         let apart = captured.impact.contacts.iter().filter(|contact| contact.touching.miss > APART);
-        for Touching { target, arm, miss, .. } in apart.map(|contact| contact.touching) {
+        for ImpactContact { target, arm, miss, .. } in apart.map(|contact| contact.touching) {
             let (of, target) = (scenario.layout.arms.get(arm), scenario.targets.get(target));
             let (Some(of), Some(target)) = (of, target) else { continue };
             let (of, target) = (&of.name, &target.name);
@@ -221,15 +221,15 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         }
     }
     let torques = match scenario.post_impact.as_ref().map(|after| &after.control) {
-        None | Some(Settling::None) => "no torques".to_owned(),
+        None | Some(PostCaptureControl::None) => "no torques".to_owned(),
         Some(control) => format!("control `{}`", control.name()),
     };
     writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, {torques}")?;
     let [momentum, energy, motion] = ["momentum drift", "energy error", "COM drift"];
     writeln!(out, "  {:<16} {:>10} {momentum:>15} {energy:>13} {motion:>10}", "case", "time [s]")?;
     for case in &study.cases {
-        let Some(Captured { post_impact, .. }) = &case.capture else { continue };
-        let Drift { momentum_drift, energy_error, center_of_mass_drift } = post_impact.drift;
+        let Some(CaptureResult { post_impact, .. }) = &case.capture else { continue };
+        let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = post_impact.drift;
         writeln!(
             out,
             "  {:<16} {:>10} {momentum_drift:>15.1e} {energy_error:>13.1e} {center_of_mass_drift:>10.1e}",
@@ -239,7 +239,7 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         if open > 0.0 {
             writeln!(out, "    what is held is open by {open:.1e} (rad, m) at most, and opens by {opening:.1e} 1/s")?;
         }
-        excesses(out, "    ", post_impact)?;
+        limit_violations(out, "    ", post_impact)?;
     }
     Ok(())
 }

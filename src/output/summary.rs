@@ -1,13 +1,13 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::{Capture, ContactResult, ImpactResult};
-use crate::capture::residual_motion::Remainder;
-use crate::capture::terminal_error::Miss;
+use crate::capture::residual_motion::ResidualMotion;
+use crate::capture::terminal_error::TerminalError;
 use crate::capture::{CaseResult, Study};
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
-use crate::simulate::limits::{Excess, Excesses};
+use crate::simulate::limits::{LimitViolation, LimitViolations};
 use serde_json::{Value, json};
 
 /// The whole summary; every number is finite and reads back as the same number.
@@ -34,7 +34,7 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
         });
     }
     if !study.misses.is_empty() {
-        let parts = |miss: &Option<Miss>| json!(miss.as_ref().map(|miss| &miss.parts));
+        let parts = |miss: &Option<TerminalError>| json!(miss.as_ref().map(|miss| &miss.parts));
         value["approach"]["missed"] = study.misses.iter().map(parts).collect();
     }
     if !case.closest.is_empty() {
@@ -100,7 +100,7 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     if let Some(margin) = phase.singularity_margin {
         value["singularity_margin"] = json!(margin);
     }
-    if let Some(Excesses { joint_angle, joint_rate }) = &phase.excesses {
+    if let Some(LimitViolations { joint_angle, joint_rate }) = &phase.limit_violations {
         value["limits"] =
             json!({"joint_angle": joint_angle.as_ref().map(excess), "joint_rate": joint_rate.as_ref().map(excess)});
     }
@@ -115,13 +115,13 @@ fn phase(phase: &Phase, tips: bool) -> Value {
     value
 }
 
-fn excess(excess: &Excess) -> Value {
+fn excess(excess: &LimitViolation) -> Value {
     json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
 }
 
 /// One contact, with names for numbers.
 fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
-    let Touching { target, arm, law, offset, miss } = result.touching;
+    let ImpactContact { target, arm, law, offset, miss } = result.touching;
     let response = &result.response;
     let mut value = json!({
         "target": scenario.targets.get(target).map(|target| &target.name),
@@ -146,7 +146,7 @@ fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
     value
 }
 
-fn remainder(left: &Remainder) -> Value {
+fn remainder(left: &ResidualMotion) -> Value {
     json!({
         "control": left.control,
         "momentum": left.momentum,

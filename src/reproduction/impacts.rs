@@ -3,7 +3,7 @@
 use super::Run;
 use super::markdown::{jump, number, table};
 use super::printed::IMPULSES;
-use crate::capture::Captured;
+use crate::capture::CaptureResult;
 use crate::capture::impact::ImpactResult;
 
 /// Name in the template and table.
@@ -20,12 +20,12 @@ pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
 }
 
 /// The captures of a run with their cases' names.
-fn captures(run: &Run) -> impl Iterator<Item = (&str, &Captured)> {
+fn captures(run: &Run) -> impl Iterator<Item = (&str, &CaptureResult)> {
     run.study.cases.iter().filter_map(|case| Some((case.name.as_str(), case.capture.as_ref()?)))
 }
 
 fn impulses(runs: &[Run; 3]) -> String {
-    let all: Vec<Vec<&Captured>> =
+    let all: Vec<Vec<&CaptureResult>> =
         runs.iter().map(|run| captures(run).map(|(_, captured)| captured).collect()).collect();
     let mut rows = Vec::new();
     for (case, printed) in IMPULSES.iter().enumerate() {
@@ -75,7 +75,7 @@ fn differences(run: &Run) -> String {
         result.target_twists_after.iter().flatten().flatten().copied().collect()
     };
     let rows: Vec<Vec<String>> = captures(run)
-        .filter_map(|(case, Captured { impact: both, .. })| {
+        .filter_map(|(case, CaptureResult { impact: both, .. })| {
             let (exact, literal) = (&both.exact, both.paper.as_ref()?);
             Some(vec![
                 case.to_owned(),

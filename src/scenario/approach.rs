@@ -32,9 +32,9 @@ pub struct Approach {
     /// give them, by default the initial ones; for resolved motion rate control these, which it does not look at.
     pub final_joint_angles: Vec<f64>,
     /// What is wanted of the tips at the end, one per arm; `None` where joint angles are given.
-    pub final_end_effector_poses: Option<Vec<TipGoal>>,
+    pub final_end_effector_poses: Option<Vec<EndEffectorGoal>>,
     /// Rates wanted at the end.
-    pub end: EndRates,
+    pub end: FinalRates,
     /// How the trajectory is followed.
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
@@ -45,7 +45,7 @@ pub struct Approach {
 
 /// Where a tip should be at the end of an approach, inertial frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TipGoal {
+pub enum EndEffectorGoal {
     /// Anywhere.
     Any,
     /// At [x, y] in m, at any yaw.
@@ -55,18 +55,18 @@ pub enum TipGoal {
 }
 
 /// [ω, vx, vy] wanted of a tip, rad/s, m/s; `None` where any will do.
-pub type TipTwist = [Option<f64>; 3];
+pub type EndEffectorTwistGoal = [Option<f64>; 3];
 
 /// The rates wanted at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
-pub enum EndRates {
+pub enum FinalRates {
     /// Rest: for a trajectory that ends so.
     Rest,
     /// Joint rates arm by arm, in rad/s.
     JointRates(Vec<f64>),
     /// Twists of the end effectors, one per arm, from which the generalized Jacobian
     /// gives the joint rates.
-    EndEffectorTwists(Vec<TipTwist>),
+    EndEffectorTwists(Vec<EndEffectorTwistGoal>),
 }
 
 /// How a trajectory is followed.
@@ -146,14 +146,14 @@ impl Approach {
                 .and_then(|value| joints.numbers(&value, &JOINT_ANGLE)),
         };
         let goals = match &goals {
-            Some(value) => tip_goals(value, joints).map(Some),
+            Some(value) => end_effector_goals(value, joints).map(Some),
             None => Some(None),
         };
-        let end = EndRates::from_table(table, trajectory, joints);
+        let end = FinalRates::from_table(table, trajectory, joints);
         let rest = match &end {
-            Some(EndRates::JointRates(rates)) => rates.iter().all(|rate| *rate == 0.0),
-            Some(EndRates::EndEffectorTwists(_)) => false,
-            Some(EndRates::Rest) | None => true,
+            Some(FinalRates::JointRates(rates)) => rates.iter().all(|rate| *rate == 0.0),
+            Some(FinalRates::EndEffectorTwists(_)) => false,
+            Some(FinalRates::Rest) | None => true,
         };
         let trajectory_duration = trajectory_duration(table, times, rest, "`final_joint_rates` of zeros");
         let tracking = Tracking::from_table(table, joints);
@@ -183,7 +183,7 @@ impl Approach {
     }
 }
 
-impl EndRates {
+impl FinalRates {
     fn from_table(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &Joints<'_>) -> Option<Self> {
         const NAMES: [&str; 2] = ["final_joint_rates", "final_end_effector_twists"];
         let [rates, twists] = NAMES.map(|key| table.get(key));
@@ -241,7 +241,7 @@ pub(super) fn trajectory_duration(
     Some((trajectory < duration).then_some(trajectory))
 }
 
-pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipGoal>> {
+pub(super) fn end_effector_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<EndEffectorGoal>> {
     const WANTED: &str = "one [yaw, x, y] or [x, y] per arm in rad, m, m, or [] for an arm that may end anywhere";
     let arms = joints.layout.map(|layout| &layout.arms);
     let items = value.items(WANTED)?;
@@ -249,14 +249,14 @@ pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Ti
     let goals = every(items.iter().enumerate().map(|(i, item)| {
         let links = arms.and_then(|arms| arms.get(i)).map_or(usize::MAX, |arm| arm.links.len());
         let goal = match item.items("[yaw, x, y], [x, y] or []")?.len() {
-            0 => TipGoal::Any,
-            2 => TipGoal::Position(item.vector(&POSITION)?),
-            _ => TipGoal::Pose(item.vector(&POSE)?),
+            0 => EndEffectorGoal::Any,
+            2 => EndEffectorGoal::Position(item.vector(&POSITION)?),
+            _ => EndEffectorGoal::Pose(item.vector(&POSE)?),
         };
         let short = match goal {
-            TipGoal::Any => None,
-            TipGoal::Position(_) => (links < 2).then_some("a single link has its tip on a circle, expected []"),
-            TipGoal::Pose(_) => {
+            EndEffectorGoal::Any => None,
+            EndEffectorGoal::Position(_) => (links < 2).then_some("a single link has its tip on a circle, expected []"),
+            EndEffectorGoal::Pose(_) => {
                 (links < 3).then_some("fewer than three links cannot choose the yaw too, expected [x, y]")
             }
         };
@@ -266,14 +266,14 @@ pub(super) fn tip_goals(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Ti
         }
         Some(goal)
     }))?;
-    if goals.iter().all(TipGoal::is_empty) {
+    if goals.iter().all(EndEffectorGoal::is_empty) {
         value.reject("nothing is wanted of any tip, expected a pose, or `final_joint_angles` alone");
         return None;
     }
     Some(goals)
 }
 
-pub(super) fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<TipTwist>> {
+pub(super) fn end_effector_twists(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<EndEffectorTwistGoal>> {
     let arms = joints.layout.map(|layout| &layout.arms);
     let wanted = match arms {
         Some(arms) => {

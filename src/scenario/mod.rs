@@ -17,11 +17,11 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 pub use actuation::Actuation;
-pub use approach::{Approach, EndRates, TipGoal, TipTwist, Tracking};
+pub use approach::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
-pub use post_impact::{PostImpact, Settling};
-pub use target::{Target, Touch, contact_name};
+pub use post_impact::{PostCaptureControl, PostImpact};
+pub use target::{PlannedContact, Target, contact_name};
 
 use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
@@ -35,7 +35,7 @@ pub const MOST_STEPS: f64 = 1e8;
 
 const DURATION: Quantity = Quantity::positive("a duration", "s");
 const STEP: Quantity = Quantity::positive("a time step", "s");
-/// Beyond two turns, an angle is in degrees.
+/// Outboard two turns, an angle is in degrees.
 const MOST_ANGLE: f64 = 4.0 * PI;
 const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
 const JOINT_RATE: Quantity = Quantity::any("a joint rate", "rad/s");

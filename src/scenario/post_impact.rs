@@ -21,7 +21,7 @@ pub struct PostImpact {
     /// Time step in s, at most the duration; default 0.005.
     pub step: f64,
     /// What the joints do.
-    pub control: Settling,
+    pub control: PostCaptureControl,
     /// Torque limits and sample time of the control law; none of them without a law.
     pub actuation: Actuation,
     /// By which integrator, in which coordinates.
@@ -30,7 +30,7 @@ pub struct PostImpact {
 
 /// What the joints do after a capture.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Settling {
+pub enum PostCaptureControl {
     /// Nothing, as in the paper: the default.
     None,
     /// τ = Kp (θ0 − θ) − Kd θ̇: they keep the angles θ0 of the capture.
@@ -56,7 +56,7 @@ pub enum Settling {
     },
 }
 
-impl Settling {
+impl PostCaptureControl {
     /// As in a scenario.
     #[must_use]
     pub const fn name(&self) -> &'static str {
@@ -153,9 +153,9 @@ impl PostImpact {
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
         let times = duration_and_step(table);
-        let control = Settling::from_table(table, joints);
+        let control = PostCaptureControl::from_table(table, joints);
         let actuation = match control {
-            Some(Settling::None) => Some(Actuation::default()),
+            Some(PostCaptureControl::None) => Some(Actuation::default()),
             _ => Actuation::from_table(table, times, joints),
         };
         let integration = integration::integration(table);

@@ -2,7 +2,8 @@
 
 use super::actuation::Actuation;
 use super::approach::{
-    Approach, EndRates, TipGoal, TipTwist, Tracking, end_effector_twists, tip_goals, trajectory_duration,
+    Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking, end_effector_goals, end_effector_twists,
+    trajectory_duration,
 };
 use super::duration_and_step;
 use super::integration;
@@ -36,7 +37,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
             "final_end_effector_poses",
             "one [yaw, x, y] or [x, y] per arm, or [] for an arm that keeps its angles",
         )
-        .and_then(|value| tip_goals(&value, joints));
+        .and_then(|value| end_effector_goals(&value, joints));
     let twists = match table.get("final_end_effector_twists") {
         Some(value) => end_effector_twists(&value, joints).and_then(|twists| wanted(&value, twists, goals.as_deref())),
         None => Some(vec![[Some(0.0); 3]; joints.layout.map_or(0, |layout| layout.arms.len())]),
@@ -65,7 +66,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         trajectory: TrajectoryKind::Quintic,
         final_joint_angles: initial.map_or_else(|| joints.repeat(0.0), <[f64]>::to_vec),
         final_end_effector_poses: Some(goals?),
-        end: EndRates::EndEffectorTwists(twists?),
+        end: FinalRates::EndEffectorTwists(twists?),
         tracking: Tracking::ResolvedMotionRate {
             pose_gain: pose_gain?,
             rate_gain: rate_gain?,
@@ -95,15 +96,19 @@ fn reject_joint_space(table: &Table<'_>) {
 }
 
 /// The twists, where nothing is asked of a tip that may end anywhere, and no rate of a yaw that is free.
-fn wanted(value: &Value<'_>, twists: Vec<TipTwist>, goals: Option<&[TipGoal]>) -> Option<Vec<TipTwist>> {
+fn wanted(
+    value: &Value<'_>,
+    twists: Vec<EndEffectorTwistGoal>,
+    goals: Option<&[EndEffectorGoal]>,
+) -> Option<Vec<EndEffectorTwistGoal>> {
     let items = value.items("twists")?;
     let mut good = true;
     for ((twist, goal), item) in twists.iter().zip(goals?).zip(items) {
         let why = match (goal, twist) {
-            (TipGoal::Any, [omega, x, y]) if [omega, x, y].into_iter().flatten().any(|part| *part != 0.0) => {
+            (EndEffectorGoal::Any, [omega, x, y]) if [omega, x, y].into_iter().flatten().any(|part| *part != 0.0) => {
                 "nothing is wanted of this tip, expected []"
             }
-            (TipGoal::Position(_), [Some(omega), ..]) if *omega != 0.0 => {
+            (EndEffectorGoal::Position(_), [Some(omega), ..]) if *omega != 0.0 => {
                 "the yaw of this tip is free, expected [vx, vy], or a pose [yaw, x, y] in `final_end_effector_poses`"
             }
             _ => continue,

@@ -5,7 +5,7 @@ use super::{Detection, POSITION, TWIST};
 use crate::contact::ContactKind;
 use crate::diagnostic::{Quantity, Table, Value, every, listing};
 use crate::layout::Layout;
-use crate::outline::Surface;
+use crate::outline::Outline;
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
@@ -28,13 +28,13 @@ pub struct Target {
     /// Unique in the scenario.
     pub name: String,
     /// Which arms touch it, at least one; no arm touches two targets.
-    pub touches: Vec<Touch>,
+    pub touches: Vec<PlannedContact>,
     /// Mass in kg, greater than 0.
     pub mass: f64,
     /// Moment of inertia about the COM in kg m², greater than 0.
     pub inertia: f64,
     /// Its outline, in its own frame.
-    pub surface: Surface,
+    pub surface: Outline,
     /// Of bounces, 0 to 1; default 0.
     pub restitution: f64,
     /// Twist of the COM before the impact [ω, vx, vy] in rad/s, m/s, m/s; default zero.
@@ -48,7 +48,7 @@ pub struct Target {
 
 /// An arm that touches a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct PlannedContact {
     /// Index of the arm.
     pub arm: usize,
     /// From the target's COM to the contact point at the impact, [x, y] in m, inertial axes; zero where it is found by
@@ -117,10 +117,10 @@ impl Target {
 
     /// Whether one of these contacts, one per touch, would bounce where a disc has no outward normal: prescribed at its COM.
     pub(super) fn bounces_at_its_com(&self, kinds: &[Option<ContactKind>]) -> bool {
-        let at_com = |touch: &Touch| touch.contact.iter().all(|x| *x == 0.0);
+        let at_com = |touch: &PlannedContact| touch.contact.iter().all(|x| *x == 0.0);
         let mut touches = self.touches.iter().zip(kinds);
         let bounces = touches.any(|(touch, kind)| *kind == Some(ContactKind::Bounce) && at_com(touch));
-        bounces && matches!(self.surface, Surface::Disc { .. })
+        bounces && matches!(self.surface, Outline::Disc { .. })
     }
 
     pub(super) fn from_table(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Self> {
@@ -152,7 +152,7 @@ impl Target {
             .into_iter()
             .zip(contacts?)
             .zip(kinds?)
-            .map(|((arm, contact), kind)| Touch { arm, contact, kind })
+            .map(|((arm, contact), kind)| PlannedContact { arm, contact, kind })
             .collect();
         let surface = surface?;
         let target = Self {
@@ -247,7 +247,7 @@ fn for_each(arms: Option<usize>, what: &str) -> String {
 }
 
 /// `radius` or `polygon`.
-fn surface(table: &Table<'_>) -> Option<Surface> {
+fn surface(table: &Table<'_>) -> Option<Outline> {
     match (table.get("radius"), table.get("polygon")) {
         (None, None) => {
             // unless one of them is misspelt, which was said
@@ -260,12 +260,12 @@ fn surface(table: &Table<'_>) -> Option<Surface> {
             polygon.reject("`radius` is there too, expected one of the two");
             None
         }
-        (Some(_), None) => table.number("radius", &RADIUS).map(|radius| Surface::Disc { radius }),
+        (Some(_), None) => table.number("radius", &RADIUS).map(|radius| Outline::Disc { radius }),
         (None, Some(value)) => {
             let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
             let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;
             let surrounded = surrounded(&corners);
-            let surface = Surface::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
+            let surface = Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
             if !surrounded {
                 value.reject("the COM, from which corners are counted, is outside, expected corners around [0, 0]");
                 return None;

@@ -5,7 +5,7 @@ use crate::owned::RobotState;
 use crate::scenario::Actuation;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, Stopped, Timing, simulate_within};
+use crate::simulate::{Phase, PhaseError, Timing, simulate_within};
 
 /// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate_within`].
 ///
@@ -19,7 +19,7 @@ pub fn drive(
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
-) -> Result<Phase, Stopped> {
+) -> Result<Phase, PhaseError> {
     let mut saturated = vec![false; system.model.joints()];
     let mut limited;
     let law: &mut dyn Control<f64> = match &actuation.torque_limits {

@@ -8,7 +8,7 @@ use crate::state::State;
 
 /// How far a phase strayed from the conservation laws, relative to what moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drift {
+pub struct ConservationErrors {
     /// Largest change of momentum, less the impulse from outside, over the largest Σ m|v|, or the same for the angular
     /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing moves.
     pub momentum_drift: f64,
@@ -19,7 +19,7 @@ pub struct Drift {
     pub center_of_mass_drift: f64,
 }
 
-impl Drift {
+impl ConservationErrors {
     /// The worse of all, number by number.
     #[must_use]
     pub fn worse(&self, other: &Self) -> Self {
@@ -33,7 +33,7 @@ impl Drift {
 
 /// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Done {
+pub struct AccumulatedInput {
     /// How long it is since the start, s.
     pub time: f64,
     /// By joint torques and from outside, J.
@@ -43,7 +43,7 @@ pub struct Done {
 }
 
 /// Watches one phase.
-pub struct Audit<'a> {
+pub struct ConservationAudit<'a> {
     model: &'a dyn Model<f64>,
     start: Momentum<f64>,
     center: [f64; 2],
@@ -71,7 +71,7 @@ impl Ratio {
     }
 }
 
-impl<'a> Audit<'a> {
+impl<'a> ConservationAudit<'a> {
     /// Starts watching at a state; work is counted from here.
     ///
     /// # Errors
@@ -81,7 +81,7 @@ impl<'a> Audit<'a> {
         let (center, _) = center_of_mass(&bodies(model, state, beside)?);
         let none = Ratio::default();
         let mut audit = Self { model, start, center, linear: none, angular: none, energy: none, motion: none };
-        audit.record(state, beside, &Done::default())?;
+        audit.record(state, beside, &AccumulatedInput::default())?;
         Ok(audit)
     }
 
@@ -90,7 +90,12 @@ impl<'a> Audit<'a> {
     ///
     /// # Errors
     /// What the model says of the state.
-    pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], done: &Done) -> Result<Momentum<f64>, Error> {
+    pub fn record(
+        &mut self,
+        state: &State<'_, f64>,
+        beside: &[Body],
+        done: &AccumulatedInput,
+    ) -> Result<Momentum<f64>, Error> {
         let now = with_bodies(self.model.momentum(state)?, beside);
         let bodies = bodies(self.model, state, beside)?;
         let [angular, linear] = momentum_sizes(&bodies);
@@ -110,8 +115,8 @@ impl<'a> Audit<'a> {
 
     /// The phase so far.
     #[must_use]
-    pub fn drift(&self) -> Drift {
-        Drift {
+    pub fn drift(&self) -> ConservationErrors {
+        ConservationErrors {
             momentum_drift: self.linear.value().max(self.angular.value()),
             energy_error: self.energy.value(),
             center_of_mass_drift: self.motion.value(),

@@ -94,7 +94,7 @@ impl<'a> Equation<'a> {
     /// # Errors
     /// [`Error::Beside`] where there are bodies beside the robot, and what the model says.
     pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
-        let count = system.bodies.len() + system.closures.len();
+        let count = system.bodies.len() + system.constraints.len();
         if count > 0 {
             return Err(Error::Beside { count });
         }
@@ -183,13 +183,13 @@ impl<'a> Equation<'a> {
         system.derivative(control, time, beside.x, rate, torques)?;
         let now = State::from_vector(beside.x, joints)?;
         let HalvesMut { rates, work: [.., base_torque], .. } = halves_mut(rate)?;
-        if system.bodies.is_empty() && system.closures.is_empty() {
+        if system.bodies.is_empty() && system.constraints.is_empty() {
             let forces = CoordinatesMut::new(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
             forces.joints.copy_from_slice(torques);
         }
         let places = &mut rates[..3 + joints];
-        if !system.bodies.is_empty() || !system.closures.is_empty() {
+        if !system.bodies.is_empty() || !system.constraints.is_empty() {
             model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
             model.bias(&now, beside.bias)?;
             let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());

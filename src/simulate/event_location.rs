@@ -23,12 +23,12 @@ pub(crate) struct EventLocator<'a> {
     system: &'a System<'a>,
     events: &'a mut dyn Events,
     armed: Vec<bool>,
-    now: Look,
+    now: EventValues,
 }
 
 /// Values and their rates at one instant.
 #[derive(Clone, Debug, Default)]
-struct Look {
+struct EventValues {
     values: Vec<f64>,
     rates: Vec<f64>,
 }
@@ -36,7 +36,7 @@ struct Look {
 impl<'a> EventLocator<'a> {
     pub(crate) fn new(system: &'a System<'a>, events: &'a mut dyn Events) -> Self {
         let count = events.count();
-        let now = Look { values: vec![0.0; count], rates: vec![0.0; count] };
+        let now = EventValues { values: vec![0.0; count], rates: vec![0.0; count] };
         Self { system, events, armed: vec![false; count], now }
     }
 
@@ -92,9 +92,9 @@ impl<'a> EventLocator<'a> {
         }
     }
 
-    fn look(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<Look, Error> {
+    fn look(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<EventValues, Error> {
         let count = self.armed.len();
-        let mut look = Look { values: vec![0.0; count], rates: vec![0.0; count] };
+        let mut look = EventValues { values: vec![0.0; count], rates: vec![0.0; count] };
         self.values(time, x, &mut look.values)?;
         let apart = NEAR * step;
         let mut beside = |side: f64| {

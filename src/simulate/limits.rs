@@ -30,7 +30,7 @@ impl JointLimits {
 
 /// A joint beyond its limit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Excess {
+pub struct LimitViolation {
     /// `joint 2 of arm1`.
     pub joint: String,
     /// Since the start of the phase, s.
@@ -41,7 +41,7 @@ pub struct Excess {
     pub limit: f64,
 }
 
-impl Excess {
+impl LimitViolation {
     /// By how much, more than 0.
     #[must_use]
     pub fn size(&self) -> f64 {
@@ -51,14 +51,14 @@ impl Excess {
 
 /// The largest excesses of a phase.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Excesses {
+pub struct LimitViolations {
     /// Of an angle, rad.
-    pub joint_angle: Option<Excess>,
+    pub joint_angle: Option<LimitViolation>,
     /// Of a rate, rad/s.
-    pub joint_rate: Option<Excess>,
+    pub joint_rate: Option<LimitViolation>,
 }
 
-impl Excesses {
+impl LimitViolations {
     /// Looks at one state.
     pub fn look(&mut self, limits: &[JointLimits], time: f64, state: &State<'_, f64>) {
         for (joint, (angle, rate)) in limits.iter().zip(state.joint_angles.iter().zip(state.joint_rates)) {
@@ -68,7 +68,7 @@ impl Excesses {
             ];
             for (largest, value, limit) in found {
                 let Some(limit) = limit else { continue };
-                let excess = Excess { joint: joint.name.clone(), time, value, limit };
+                let excess = LimitViolation { joint: joint.name.clone(), time, value, limit };
                 if largest.as_ref().is_none_or(|largest| excess.size() > largest.size()) {
                     *largest = Some(excess);
                 }
@@ -79,8 +79,8 @@ impl Excesses {
     /// These, and those of a phase that goes on from the end of one of `duration` (s): the larger of each.
     #[must_use]
     pub fn then(self, next: Self, duration: f64) -> Self {
-        let larger = |before: Option<Excess>, after: Option<Excess>| {
-            let after = after.map(|excess| Excess { time: duration + excess.time, ..excess });
+        let larger = |before: Option<LimitViolation>, after: Option<LimitViolation>| {
+            let after = after.map(|excess| LimitViolation { time: duration + excess.time, ..excess });
             match (before, after) {
                 (Some(before), Some(after)) => Some(if after.size() > before.size() { after } else { before }),
                 (before, after) => before.or(after),
@@ -95,8 +95,8 @@ impl Excesses {
     /// What is beyond its limit, in words.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
-        let say = |excess: &Option<Excess>, verb: &str, unit: &str| {
-            let Excess { joint, time, value, limit } = excess.as_ref()?;
+        let say = |excess: &Option<LimitViolation>, verb: &str, unit: &str| {
+            let LimitViolation { joint, time, value, limit } = excess.as_ref()?;
             Some(format!("{joint} {verb} {value:.6} {unit} at {time:.3} s, beyond its limit of {limit} {unit}"))
         };
         [say(&self.joint_angle, "is at", "rad"), say(&self.joint_rate, "turns with", "rad/s")]

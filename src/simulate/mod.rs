@@ -16,11 +16,11 @@ use crate::control::Control;
 use crate::dynamics::Momentum;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::simulate::conservation::Drift;
+use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::integration::Integration;
-use crate::simulate::limits::{Excesses, JointLimits};
+use crate::simulate::limits::{JointLimits, LimitViolations};
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Stepper;
 use crate::simulate::system::{Body, System};
@@ -93,7 +93,7 @@ pub struct Phase {
     /// The first, one per sampling time, and the last.
     pub samples: Vec<Sample>,
     /// The audit of every step.
-    pub drift: Drift,
+    pub drift: ConservationErrors,
     /// How long the actuators were at their limits.
     pub saturation: Saturation,
     /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
@@ -101,7 +101,7 @@ pub struct Phase {
     /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
-    pub excesses: Option<Excesses>,
+    pub limit_violations: Option<LimitViolations>,
 }
 
 /// How long actuators were at their limits, by what they gave when each step began.
@@ -141,7 +141,7 @@ impl Phase {
                 [Some(before), Some(after)] => Some(before.min(after)),
                 [before, after] => before.or(after),
             },
-            excesses: match (self.excesses, next.excesses) {
+            limit_violations: match (self.limit_violations, next.limit_violations) {
                 (Some(before), Some(after)) => Some(before.then(after, self.duration)),
                 (before, after) => before.or(after),
             },
@@ -153,14 +153,14 @@ impl Phase {
 /// Why a phase stopped, and when.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("at t = {time} s: {source}{}", self.hint())]
-pub struct Stopped {
+pub struct PhaseError {
     /// s, since the start of the phase.
     pub time: f64,
     /// What could not be computed.
     pub source: Error,
 }
 
-impl Stopped {
+impl PhaseError {
     /// Whether what was asked for cannot be, whatever the numbers.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
@@ -188,7 +188,7 @@ pub fn simulate(
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
-) -> Result<Phase, Stopped> {
+) -> Result<Phase, PhaseError> {
     simulate_within(system, &[], control, initial, timing, events, tick)
 }
 
@@ -204,8 +204,8 @@ pub fn simulate_within(
     timing: &Timing,
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
-) -> Result<Phase, Stopped> {
-    let at = |time| move |source| Stopped { time, source };
+) -> Result<Phase, PhaseError> {
+    let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut locator = EventLocator::new(system, events);

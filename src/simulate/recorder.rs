@@ -3,8 +3,8 @@
 use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::simulate::conservation::{Audit, Done};
-use crate::simulate::limits::{Excesses, JointLimits};
+use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
+use crate::simulate::limits::{JointLimits, LimitViolations};
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{ActuatorWork, State};
@@ -12,7 +12,7 @@ use crate::state::{ActuatorWork, State};
 /// Looks at a phase at the start of every step, and at its end.
 pub(crate) struct Recorder<'a> {
     system: &'a System<'a>,
-    audit: Audit<'a>,
+    audit: ConservationAudit<'a>,
     torques: Vec<f64>,
     samples: Vec<Sample>,
     saturation: Saturation,
@@ -21,7 +21,7 @@ pub(crate) struct Recorder<'a> {
     base_saturated: bool,
     constraint_errors: [f64; 2],
     limits: &'a [JointLimits],
-    excesses: Excesses,
+    limit_violations: LimitViolations,
 }
 
 impl<'a> Recorder<'a> {
@@ -36,7 +36,7 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, Error> {
         Ok(Self {
             system,
-            audit: Audit::new(system.model, start, system.bodies)?,
+            audit: ConservationAudit::new(system.model, start, system.bodies)?,
             torques: vec![0.0; system.model.joints()],
             samples: Vec::new(),
             saturation: Saturation::default(),
@@ -44,7 +44,7 @@ impl<'a> Recorder<'a> {
             base_saturated: false,
             constraint_errors: [0.0; 2],
             limits,
-            excesses: Excesses::default(),
+            limit_violations: LimitViolations::default(),
         })
     }
 
@@ -63,10 +63,10 @@ impl<'a> Recorder<'a> {
         let model = self.system.model;
         let state = State::from_vector(x, model.joints())?;
         let work = ActuatorWork::from_vector(x)?;
-        let done = Done { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
+        let done = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let open = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
-        self.excesses.look(self.limits, time, &state);
+        self.limit_violations.look(self.limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &done)?;
         if begins {
@@ -110,7 +110,7 @@ impl<'a> Recorder<'a> {
 
     /// The phase, so long.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
-        let Self { samples, audit, saturation, constraint_errors, limits, excesses, .. } = self;
+        let Self { samples, audit, saturation, constraint_errors, limits, limit_violations, .. } = self;
         Phase {
             duration,
             event,
@@ -119,7 +119,7 @@ impl<'a> Recorder<'a> {
             saturation,
             constraint_errors,
             singularity_margin: None,
-            excesses: (!limits.is_empty()).then_some(excesses),
+            limit_violations: (!limits.is_empty()).then_some(limit_violations),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What moves in one phase: a robot, and the free bodies that it holds or may meet.
 
-use crate::contact::{Closure, Contact, Hold, Workspace};
+use crate::contact::{ConstraintSolver, Contact, LoopConstraint, Workspace};
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -18,14 +18,14 @@ pub struct System<'a> {
     /// The bodies beside it: held as the closures say, free where none does.
     pub bodies: &'a [Body],
     /// Holds of tips on the bodies, and on what other tips hold.
-    pub closures: &'a [Closure<f64>],
+    pub constraints: &'a [LoopConstraint<f64>],
 }
 
 impl<'a> System<'a> {
     /// A robot alone.
     #[must_use]
     pub fn alone(model: &'a dyn Model<f64>) -> Self {
-        Self { model, bodies: &[], closures: &[] }
+        Self { model, bodies: &[], constraints: &[] }
     }
 
     /// The integrated vector at the start, from the robot's state.
@@ -69,7 +69,7 @@ impl<'a> System<'a> {
         torques: &mut [f64],
     ) -> Result<(), Error> {
         derivative(self.model, control, time, x, rate, torques)?;
-        if self.closures.is_empty() {
+        if self.constraints.is_empty() {
             return Ok(());
         }
         self.with_space(|hold, space| hold.constrain(x, rate, space))
@@ -80,7 +80,7 @@ impl<'a> System<'a> {
     /// # Errors
     /// As [`System::derivative`].
     pub fn restore(&self, x: &mut [f64]) -> Result<(), Error> {
-        if self.closures.is_empty() {
+        if self.constraints.is_empty() {
             return Ok(());
         }
         self.with_space(|hold, space| hold.restore(x, space))
@@ -91,17 +91,17 @@ impl<'a> System<'a> {
     /// # Errors
     /// What the model says.
     pub fn constraint_errors(&self, x: &[f64]) -> Result<[f64; 2], Error> {
-        if self.closures.is_empty() {
+        if self.constraints.is_empty() {
             return Ok([0.0; 2]);
         }
         self.with_space(|hold, space| hold.errors(x, space))
     }
 
-    fn with_space<R>(&self, run: impl FnOnce(&Hold<'_, f64>, &mut Workspace<'_, f64>) -> R) -> R {
-        let hold = Hold { model: self.model, bodies: self.bodies, closures: self.closures };
+    fn with_space<R>(&self, run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut Workspace<'_, f64>) -> R) -> R {
+        let hold = ConstraintSolver { model: self.model, bodies: self.bodies, constraints: self.constraints };
         let (joints, arms) = (self.model.joints(), self.model.arms());
         let mut space = Workspace {
-            contacts: &mut vec![Contact::any(); self.closures.len()],
+            contacts: &mut vec![Contact::any(); self.constraints.len()],
             numbers: &mut vec![0.0; hold.workspace_length()],
             forces: &mut vec![0.0; hold.rows()],
             jacobian: &mut vec![0.0; 3 * arms * (3 + joints)],

@@ -5,7 +5,7 @@ use super::document::Remark;
 use super::group::Group;
 use super::names::{arm_names, layout_name};
 use super::omission::omissions;
-use super::outline::Outline;
+use super::planar_body::PlanarBody;
 use super::plane::{Plane, direction, snapped, turned_back};
 use super::tip::{Tip, tips};
 use super::tree::Tree;
@@ -89,25 +89,25 @@ pub fn import(text: &str, options: &Options) -> Result<Import, UrdfError> {
         });
     };
     let plane = Plane::of_base(at.rotation * chain::axis(&tree, *first)?);
-    let base_outline = Outline::of(&tree, &base, &plane, 0.0)?;
+    let base_body = PlanarBody::of(&tree, &base, &plane, 0.0)?;
     let steps: Vec<Vec<Step>> =
         base.joints.iter().map(|joint| chain::follow(&tree, &plane, *joint)).collect::<Result<_, _>>()?;
     let first_joints: Vec<&str> = base.joints.iter().map(|(joint, _)| tree.joint(*joint).name.as_str()).collect();
     let names = arm_names(&first_joints);
     let ends = tips(&tree, &steps, &names, &options.tips, &mut remarks)?;
 
-    let mut outlines = vec![base_outline.clone()];
+    let mut planar_bodies = vec![base_body.clone()];
     let (mut arms, mut joints) = (Vec::new(), Vec::new());
     for ((steps, end), name) in steps.iter().zip(&ends).zip(&names) {
-        let (arm, coordinates) = arm(&tree, &base_outline, name, (steps, end), &mut outlines)?;
+        let (arm, coordinates) = arm(&tree, &base_body, name, (steps, end), &mut planar_bodies)?;
         arms.push(arm);
         joints.extend(coordinates);
     }
-    remarks.extend(super::outline::remarks(&outlines));
+    remarks.extend(super::planar_body::remarks(&planar_bodies));
     remarks.extend(tilts(&tree, &steps));
     let moving = steps.iter().flatten().map(|step| tree.joint(step.joint));
     remarks.extend(omissions(moving, &reader::joints_without_axis(text)));
-    let base_body = Base { mass: base_outline.mass, inertia: base_outline.inertia };
+    let base_body = Base { mass: base_body.mass, inertia: base_body.inertia };
     let result = Import {
         layout: Layout { name, base: base_body, arms },
         base: owned(&base.names(&tree)),
@@ -124,16 +124,16 @@ pub fn import(text: &str, options: &Options) -> Result<Import, UrdfError> {
 /// One arm and its coordinates.
 fn arm(
     tree: &Tree,
-    base: &Outline,
+    base: &PlanarBody,
     name: &str,
     (steps, end): (&[Step], &Tip),
-    outlines: &mut Vec<Outline>,
+    planar_bodies: &mut Vec<PlanarBody>,
 ) -> Result<(Arm, Vec<Joint>), UrdfError> {
     let (mut links, mut joints) = (Vec::new(), Vec::new());
     let (mut mount, mut mount_angle) = ([0.0; 2], 0.0);
     let mut before = 0.0; // direction of the link before this one in its URDF frame
     for (k, step) in steps.iter().enumerate() {
-        let outline = Outline::of(tree, &step.group, &step.plane, step.height)?;
+        let planar_body = PlanarBody::of(tree, &step.group, &step.plane, step.height)?;
         let outward = match steps.get(k + 1) {
             Some(next) => next.position,
             None => snapped(step.plane.project(&end.position).0, end.position.norm()),
@@ -146,11 +146,11 @@ fn arm(
             let scale = step.position[0].hypot(step.position[1]).max(base.com[0].hypot(base.com[1]));
             (mount, mount_angle) = (snapped(from_com, scale), offset);
         }
-        let com = turned_back(outline.com, along);
+        let com = turned_back(planar_body.com, along);
         links.push(Link {
             length,
-            mass: outline.mass,
-            inertia: outline.inertia,
+            mass: planar_body.mass,
+            inertia: planar_body.inertia,
             com: snapped(com, length.max(com[0].hypot(com[1]))),
         });
         joints.push(Joint {
@@ -161,7 +161,7 @@ fn arm(
             sign: step.sign,
             offset: if k == 0 { 0.0 } else { offset },
         });
-        outlines.push(outline);
+        planar_bodies.push(planar_body);
         before = along;
     }
     Ok((Arm { name: name.to_owned(), mount, mount_angle, links }, joints))

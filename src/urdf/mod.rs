@@ -13,7 +13,7 @@ mod group;
 mod import;
 mod names;
 mod omission;
-mod outline;
+mod planar_body;
 mod plane;
 mod reader;
 mod scan;

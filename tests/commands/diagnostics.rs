@@ -8,7 +8,7 @@ use std::path::Path;
 
 use planar_capture::diagnostic::{Report, nearest};
 use planar_capture::layout::Layout;
-use planar_capture::scenario::{EndRates, Scenario, Tracking};
+use planar_capture::scenario::{FinalRates, Scenario, Tracking};
 use planar_capture::trajectory::TrajectoryKind;
 
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
@@ -599,7 +599,7 @@ fn valid_files() -> Outcome {
 
     let demo = scenario(SCENARIO)?;
     assert_eq!(demo.approach.trajectory, TrajectoryKind::Quartic);
-    assert_eq!(demo.approach.end, EndRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0].map(Some)]));
+    assert_eq!(demo.approach.end, FinalRates::EndEffectorTwists(vec![[0.0, -0.1, 0.0].map(Some)]));
     assert_eq!((demo.approach.duration, demo.approach.step), (20.0, 0.005));
     let gains = (vec![49.0, 49.0], vec![14.0, 14.0]);
     let tracking =
@@ -618,7 +618,7 @@ fn valid_files() -> Outcome {
             1,
         );
     let demo = scenario(&text)?;
-    assert_eq!(demo.approach.end, EndRates::Rest);
+    assert_eq!(demo.approach.end, FinalRates::Rest);
     assert_eq!(demo.approach.tracking, tracking((vec![1.0, 2.0], vec![0.0, 0.0])));
     assert_eq!((demo.cases.len(), demo.cases[0].name.as_str()), (1, "demo"));
     assert_eq!(demo.cases[0].target_twists, [[0.2, 0.0, 0.0]]);

@@ -5,10 +5,10 @@ use crate::{run, scenario};
 use planar_capture::layout::Layout;
 use planar_capture::output::summary::summary;
 use planar_capture::registry;
-use planar_capture::scenario::{Scenario, Settling, Tracking};
+use planar_capture::scenario::{PostCaptureControl, Scenario, Tracking};
 use planar_capture::simulate::Phase;
-use planar_capture::simulate::conservation::{Audit, Done};
-use planar_capture::simulate::limits::{Excess, Excesses, JointLimits};
+use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit};
+use planar_capture::simulate::limits::{JointLimits, LimitViolation, LimitViolations};
 use planar_capture::simulate::system::Body;
 use planar_capture::state::State;
 use planar_proof::{assert_close, file, said, tolerance};
@@ -33,8 +33,8 @@ fn the_centre_of_mass_goes_its_way() {
     let mass: f64 = inertias.iter().map(|[m, _]| m).sum();
     let com = [1, 2].map(|i: usize| inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum::<f64>() / mass);
     let extent = poses.iter().map(|p| (p[1] - com[0]).hypot(p[2] - com[1])).fold(0.0, f64::max);
-    let mut audit = Audit::new(&*model, &state(1.0, 2.0), &[]).expect("a state");
-    let later = Done { time: 10.0, ..Done::default() };
+    let mut audit = ConservationAudit::new(&*model, &state(1.0, 2.0), &[]).expect("a state");
+    let later = AccumulatedInput { time: 10.0, ..AccumulatedInput::default() };
     audit.record(&state(6.0, 0.0), &[], &later).expect("a state");
     assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
     audit.record(&state(6.003, -0.004), &[], &later).expect("a state");
@@ -58,8 +58,8 @@ fn bodies_beside_the_robot_count() {
         let robot: f64 = inertias.iter().zip(&poses).map(|([m, _], p)| m * p[i]).sum();
         (robot + 40.0 * body(0.0).pose[i]) / mass
     });
-    let mut audit = Audit::new(&*model, &state, &[body(0.0)]).expect("a state");
-    let later = Done { time: 2.0, ..Done::default() };
+    let mut audit = ConservationAudit::new(&*model, &state, &[body(0.0)]).expect("a state");
+    let later = AccumulatedInput { time: 2.0, ..AccumulatedInput::default() };
     audit.record(&state, &[body(0.6)], &later).expect("a state");
     assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
     audit.record(&state, &[body(0.7)], &later).expect("a state");
@@ -75,12 +75,15 @@ fn bodies_beside_the_robot_count() {
 /// Of a phase and one that goes on from its end the larger excess counts, at its time since the start of the first.
 #[test]
 fn excesses_of_phases_that_follow_each_other() {
-    let excess = |value, time| Some(Excess { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
-    let first = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: None };
-    let second = Excesses { joint_angle: excess(1.2, 3.0), joint_rate: excess(1.1, 0.5) };
-    let both = Excesses { joint_angle: excess(1.5, 2.0), joint_rate: excess(1.1, 10.5) };
+    let excess = |value, time| Some(LimitViolation { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
+    let first = LimitViolations { joint_angle: excess(1.5, 2.0), joint_rate: None };
+    let second = LimitViolations { joint_angle: excess(1.2, 3.0), joint_rate: excess(1.1, 0.5) };
+    let both = LimitViolations { joint_angle: excess(1.5, 2.0), joint_rate: excess(1.1, 10.5) };
     assert_eq!(first.clone().then(second.clone(), 10.0), both);
-    assert_eq!(second.then(first, 10.0), Excesses { joint_angle: excess(1.5, 12.0), joint_rate: excess(1.1, 0.5) });
+    assert_eq!(
+        second.then(first, 10.0),
+        LimitViolations { joint_angle: excess(1.5, 12.0), joint_rate: excess(1.1, 0.5) }
+    );
 }
 
 /// The audit says so where the way of the centre of mass is lost.
@@ -143,15 +146,15 @@ fn the_largest_excess_is_found() {
     for (scenario, study) in &studies {
         let captured = study.cases[0].capture.as_ref().expect("a capture");
         for phase in [&study.approach, &captured.post_impact] {
-            let excesses = phase.excesses.as_ref().expect("limits");
+            let limit_violations = phase.limit_violations.as_ref().expect("limits");
             let angles = |i: usize| phase.samples[i].state.joint_angles.clone();
             let rates = |i: usize| phase.samples[i].state.joint_rates.clone();
             let checks = [
-                (&excesses.joint_angle, worst(phase, angles, |x| (x - 2.5).max(-1.45 - x))),
-                (&excesses.joint_rate, worst(phase, rates, |x| x.abs() - 0.12)),
+                (&limit_violations.joint_angle, worst(phase, angles, |x| (x - 2.5).max(-1.45 - x))),
+                (&limit_violations.joint_rate, worst(phase, rates, |x| x.abs() - 0.12)),
             ];
             for (found, (joint, time, value)) in checks {
-                let Some(Excess { joint: name, time: at, value: found, limit }) = found else {
+                let Some(LimitViolation { joint: name, time: at, value: found, limit }) = found else {
                     assert!(value.abs() <= 0.0, "{}: an excess that was not found", scenario.name);
                     continue;
                 };
@@ -166,7 +169,7 @@ fn the_largest_excess_is_found() {
     let (scenario, study) = &studies[0];
     let value = summary(scenario, "generated", study);
     let excess = &value["cases"][0]["approach"]["limits"]["joint_angle"];
-    let wanted = study.approach.excesses.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
+    let wanted = study.approach.limit_violations.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
     assert_eq!((excess["joint"].as_str(), excess["time"].as_f64()), (Some(wanted.joint.as_str()), Some(wanted.time)));
     assert_eq!((excess["value"].as_f64(), excess["limit"].as_f64()), (Some(wanted.value), Some(wanted.limit)));
 }
@@ -226,7 +229,7 @@ fn limits_are_watched_and_not_enforced() {
     let limits = limited(&scenario.layout, [-0.1, 0.1], 0.01);
     scenario.approach.actuation.joint_limits.clone_from(&limits);
     let after = scenario.post_impact.as_mut().expect("a capture");
-    assert!(matches!(after.control, Settling::Stabilise { .. }));
+    assert!(matches!(after.control, PostCaptureControl::Stabilise { .. }));
     after.actuation.joint_limits = limits;
     let watched = run(&scenario);
     assert_eq!(free.approach.samples, watched.approach.samples);
@@ -234,5 +237,5 @@ fn limits_are_watched_and_not_enforced() {
         study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone()
     };
     assert_eq!(of(&free), of(&watched));
-    assert!(free.approach.excesses.is_none() && watched.approach.excesses.is_some());
+    assert!(free.approach.limit_violations.is_none() && watched.approach.limit_violations.is_some());
 }

@@ -4,10 +4,10 @@ use crate::scenario;
 use planar_capture::capture::approach::Approach;
 use planar_capture::control::{Control, Limited, ProportionalDerivative};
 use planar_capture::registry;
-use planar_capture::scenario::{Actuation, EndRates, Scenario, Tracking};
+use planar_capture::scenario::{Actuation, FinalRates, Scenario, Tracking};
 use planar_capture::simulate::Phase;
 use planar_capture::state::State;
-use planar_capture::trajectory::Standing;
+use planar_capture::trajectory::ConstantSetpoint;
 use planar_capture::trajectory::TrajectoryKind;
 use planar_proof::{assert_close, tolerance};
 
@@ -71,7 +71,7 @@ fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
         let mut scenario = short(tracking);
         scenario.approach.trajectory = TrajectoryKind::Quintic;
         let last = vec![0.05, -0.1, 0.2];
-        scenario.approach.end = EndRates::JointRates(last.clone());
+        scenario.approach.end = FinalRates::JointRates(last.clone());
         scenario.initial.joint_rates = vec![0.2, -0.3, 0.1];
         let phase = track(&scenario, &last);
         let motion = &phase.end().expect("an end").state;
@@ -113,7 +113,7 @@ fn a_limit_is_not_saturated_until_more_is_wanted() {
     let state =
         State { base_pose: [0.0; 3], joint_angles: &[1.0, -1.0, 0.5], base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
     let law = ProportionalDerivative {
-        trajectory: Standing { angles: &[0.0; 3] },
+        trajectory: ConstantSetpoint { angles: &[0.0; 3] },
         proportional_gain: &[2.0; 3],
         derivative_gain: &[0.0; 3],
     };

@@ -2,15 +2,15 @@
 //! reduced coordinates.
 
 use crate::scenario;
-use planar_capture::contact::{Closure, Contact, ContactLaw, Other};
-use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled, Stabilise};
+use planar_capture::contact::{Contact, ContactLaw, ContactPartner, LoopConstraint};
+use planar_capture::control::{Control, ProportionalDerivative, Sampled, Stabilise, ZeroTorque};
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
-use planar_capture::trajectory::{Cycloidal, Ends, Standing};
+use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, Ends};
 use planar_proof::{assert_close, difference, tolerance};
 use std::f64::consts::PI;
 
@@ -104,10 +104,10 @@ fn the_adaptive_integrator_keeps_its_tolerance() {
 #[test]
 fn dense_output_is_as_good_as_steps() {
     let scheme = Scheme::Adaptive { tolerance: 1e-10 };
-    let long = run(&mut Free, 4.0, 0.01, scheme, FULL);
+    let long = run(&mut ZeroTorque, 4.0, 0.01, scheme, FULL);
     assert_eq!(long.samples.len(), 9);
     for sample in &long.samples[1..8] {
-        let short = run(&mut Free, sample.time, sample.time, scheme, FULL);
+        let short = run(&mut ZeroTorque, sample.time, sample.time, scheme, FULL);
         assert_close("sample", &values(&sample.state), &values(&end(&short).state), tolerance::DENSE);
     }
 }
@@ -117,7 +117,7 @@ fn dense_output_is_as_good_as_steps() {
 #[test]
 fn full_and_reduced_coordinates_agree() {
     let differences = [0.05, 0.025].map(|step| {
-        let [full, reduced] = [FULL, REDUCED].map(|mode| run(&mut Free, 4.0, step, Scheme::RungeKutta4, mode));
+        let [full, reduced] = [FULL, REDUCED].map(|mode| run(&mut ZeroTorque, 4.0, step, Scheme::RungeKutta4, mode));
         let drift = reduced.drift.momentum_drift;
         assert!(drift < tolerance::MOMENTUM_RECOVERED, "{drift:e} at {step} s");
         assert!(full.drift.momentum_drift > 1e4 * drift, "the drift of full coordinates is there to be seen");
@@ -129,7 +129,7 @@ fn full_and_reduced_coordinates_agree() {
     });
     let order = (differences[0] / differences[1]).log2();
     assert!((order - 4.0).abs() < tolerance::ORDER_OF_DIFFERENCE, "{order} {differences:?}");
-    let adaptive = [FULL, REDUCED].map(|mode| run(&mut Free, 4.0, 0.05, ADAPTIVE, mode));
+    let adaptive = [FULL, REDUCED].map(|mode| run(&mut ZeroTorque, 4.0, 0.05, ADAPTIVE, mode));
     let [full, reduced] = adaptive.each_ref().map(|phase| values(&end(phase).state));
     assert_close("full and reduced", &full, &reduced, tolerance::SAME_MOTION);
 }
@@ -165,15 +165,15 @@ fn both_coordinates_take_a_base_torque() {
 fn bodies_beside_the_robot() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
-    let system = System { model: &*model, bodies: &[body], closures: &[] };
+    let system = System { model: &*model, bodies: &[body], constraints: &[] };
     let run = |scheme, coordinates| {
         let integration = Integration { scheme, coordinates };
         let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
-        simulate(&system, &mut Free, &tumbling(), &timing, &mut NoEvents, &mut || ())
+        simulate(&system, &mut ZeroTorque, &tumbling(), &timing, &mut NoEvents, &mut || ())
     };
     let refused = run(Scheme::RungeKutta4, REDUCED).expect_err("a body is beside the robot").to_string();
     assert!(refused.contains("found 1 bodies") && refused.contains("`coordinates = \"full\"`"), "{refused}");
-    let alone = self::run(&mut Free, 1.0, 0.02, Scheme::GaussLegendre, FULL);
+    let alone = self::run(&mut ZeroTorque, 1.0, 0.02, Scheme::GaussLegendre, FULL);
     for scheme in [Scheme::GaussLegendre, ADAPTIVE] {
         let phase = run(scheme, FULL).expect("a phase");
         let end = end(&phase);
@@ -197,17 +197,17 @@ fn a_closed_loop_by_every_scheme() {
     let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);
     let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [omega, vx - omega * ry, vy + omega * rx] };
     let hold = |arm: usize, kind| {
-        let contact = Contact { arm, other: Other::Body(0), offset: [0.0; 2], law: kind };
-        Closure::new(&contact, &tips[arm], &pose).expect("a hold")
+        let contact = Contact { arm, other: ContactPartner::Body(0), offset: [0.0; 2], law: kind };
+        LoopConstraint::new(&contact, &tips[arm], &pose).expect("a hold")
     };
-    let closures = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
-    let system = System { model: &*model, bodies: &[body], closures: &closures };
+    let constraints = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
+    let system = System { model: &*model, bodies: &[body], constraints: &constraints };
     let wanted: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |scheme, step| {
         let timing =
             Timing { duration: 1.0, step, sample: 1.0, integration: Integration { scheme, coordinates: FULL } };
         let mut law = ProportionalDerivative {
-            trajectory: Standing { angles: &wanted },
+            trajectory: ConstantSetpoint { angles: &wanted },
             proportional_gain: &[5.0; 6],
             derivative_gain: &[3.0; 6],
         };
@@ -229,7 +229,7 @@ fn a_closed_loop_by_every_scheme() {
 #[test]
 fn sampled_torques_and_adaptive_steps() {
     let start = tumbling();
-    let standing = Standing { angles: &start.joint_angles };
+    let standing = ConstantSetpoint { angles: &start.joint_angles };
     let mut phases = [(Scheme::RungeKutta4, 0.002, 75), (ADAPTIVE, 0.05, 3), (Scheme::GaussLegendre, 0.05, 3)].map(
         |(scheme, step, steps)| {
             let gains = ([2.0; 6], [1.5; 6]);
@@ -252,7 +252,7 @@ fn sampled_torques_and_adaptive_steps() {
 #[test]
 fn samples_of_any_number_of_steps() {
     let start = tumbling();
-    let standing = Standing { angles: &start.joint_angles };
+    let standing = ConstantSetpoint { angles: &start.joint_angles };
     for steps in [1, 2, 3, 5, 7, 10, 20, 50, 100] {
         let mut ends = [Scheme::RungeKutta4, ADAPTIVE].map(|scheme| {
             let gains = ([2.0; 6], [1.5; 6]);
@@ -280,7 +280,7 @@ fn a_thousand_seconds() {
     let run = |scheme, step| {
         let integration = Integration { scheme, coordinates: FULL };
         let timing = Timing { duration: 1000.0, step, sample: 1.0, integration };
-        simulate(&System::alone(&*model), &mut Free, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+        simulate(&System::alone(&*model), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
     };
     // the largest energy error of each quarter
     let errors = |phase: &Phase| -> Vec<f64> {

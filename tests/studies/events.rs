@@ -1,7 +1,7 @@
 //! Events end a phase when a value falls to zero: at the right time, whatever integrates, however short they are.
 
 use crate::scenario;
-use planar_capture::control::{Control, Free, ProportionalDerivative, Sampled};
+use planar_capture::control::{Control, ProportionalDerivative, Sampled, ZeroTorque};
 use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
@@ -9,7 +9,7 @@ use planar_capture::simulate::event::{Events, Instant, NoEvents};
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
-use planar_capture::trajectory::Standing;
+use planar_capture::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, difference, tolerance};
 
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-12 };
@@ -118,7 +118,7 @@ fn a_straight_way_to_a_circle() {
     for (scheme, coordinates, _) in ALL {
         // the same from steps of any length
         for step in [0.005, 0.3] {
-            let phase = run(&start, 10.0, step, (scheme, coordinates), &mut Free, &mut circle());
+            let phase = run(&start, 10.0, step, (scheme, coordinates), &mut ZeroTorque, &mut circle());
             let (event, when) = phase.event.expect("the circle is met");
             assert_eq!((event, phase.duration, end(&phase).time), (0, when, when));
             assert!((when - wanted).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {wanted}");
@@ -133,10 +133,10 @@ fn a_straight_way_to_a_circle() {
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
     let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Coordinates::Full));
-    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut Free, &mut NoEvents)).state);
+    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents)).state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
-        circle().value(tip(&end(&run(&start, duration, duration, best, &mut Free, &mut NoEvents)).state))
+        circle().value(tip(&end(&run(&start, duration, duration, best, &mut ZeroTorque, &mut NoEvents)).state))
     };
     let (mut early, mut late) = (0.1, 0.2);
     while value(late) > 0.0 {
@@ -148,7 +148,7 @@ fn a_tumbling_robot_meets_a_circle() {
         if value(middle) > 0.0 { early = middle } else { late = middle }
     }
     for (scheme, coordinates, bound) in ALL {
-        let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut Free, &mut circle());
+        let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut circle());
         let (_, when) = phase.event.expect("the circle is met");
         assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
         assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
@@ -164,7 +164,8 @@ fn grazing() {
     let centre = [x + along[0] + 0.5 * across[0], y + along[1] + 0.5 * across[1]];
     let closest = 1.0 / 0.1_f64.sqrt();
     for (scheme, coordinates, _) in ALL {
-        let go = |radius| run(&start, 6.0, 0.005, (scheme, coordinates), &mut Free, &mut Circle { centre, radius });
+        let go =
+            |radius| run(&start, 6.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut Circle { centre, radius });
         assert_eq!(go(0.5 - 1e-9).event, None, "{scheme:?}");
         let (_, when) = go(0.5 + 1e-9).event.expect("it is touched");
         let early = (1e-9_f64 * (1.0 + 1e-9)).sqrt() / 0.1_f64.sqrt();
@@ -176,7 +177,8 @@ fn grazing() {
 #[test]
 fn arming_and_the_first_of_several() {
     let go = |functions: &[fn(f64) -> f64]| {
-        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Coordinates::Full), &mut Free, &mut Times(functions)).event
+        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Coordinates::Full), &mut ZeroTorque, &mut Times(functions))
+            .event
     };
     assert_eq!(go(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);
     let (event, when) = go(&[|t| (t - 0.1003) * (0.3507 - t)]).expect("it rises and falls");
@@ -195,7 +197,7 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
     let angles = [0.0; 3];
     for (scheme, coordinates, _) in ALL {
         let go = |events: &mut dyn Events, duration: f64, step: f64| {
-            let standing = Standing { angles: &angles };
+            let standing = ConstantSetpoint { angles: &angles };
             let gains = [3.0; 3];
             let law =
                 ProportionalDerivative { trajectory: standing, proportional_gain: &gains, derivative_gain: &gains };

@@ -2,12 +2,12 @@
 
 use crate::{Silent, scenario};
 use planar_capture::capture::impact::{Capture, ImpactResult};
-use planar_capture::capture::{Captured, CaseResult, Study, study};
+use planar_capture::capture::{CaptureResult, CaseResult, Study, study};
 use planar_capture::contact;
-use planar_capture::outline::Surface;
+use planar_capture::outline::Outline;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
-use planar_capture::scenario::{Scenario, Settling};
+use planar_capture::scenario::{PostCaptureControl, Scenario};
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, Left, impact};
 use planar_proof::maximal::motion::run;
@@ -58,8 +58,8 @@ fn gap(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f
     let body = all.bodies[1 + all.joints.len() + target];
     let away = all.position(&all.tips[arm]) - body.com();
     match &scenario.targets[target].surface {
-        Surface::Disc { radius } => (away.norm() - radius, (away / away.norm()).into()),
-        Surface::Polygon { corners } => {
+        Outline::Disc { radius } => (away.norm() - radius, (away / away.norm()).into()),
+        Outline::Polygon { corners } => {
             let next = corners.iter().cycle().skip(1);
             let of_edge = |(a, b): (&[f64; 2], &[f64; 2])| {
                 let (a, b) = (body.turned((*a).into()), body.turned((*b).into()));
@@ -110,14 +110,16 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<
 }
 
 /// The motion from an index of the samples on, for a time at most, against that of free bodies.
-fn check_motion(scenario: &Scenario, captured: &Captured, from: usize, held: &[Hold], duration: f64) {
+fn check_motion(scenario: &Scenario, captured: &CaptureResult, from: usize, held: &[Hold], duration: f64) {
     let samples = &captured.post_impact.samples;
     let to = samples.iter().rposition(|sample| sample.time <= samples[from].time + duration + 1e-9).expect("a sample");
     let mut all = system(scenario, &samples[from].state, &captured.targets[from], held);
     let after = scenario.post_impact.as_ref().expect("a motion after it");
     let law = |_: f64, angles: &[f64], rates: &[f64]| match &after.control {
-        Settling::None => vec![0.0; angles.len()],
-        Settling::Damping { derivative_gain } => rates.iter().zip(derivative_gain).map(|(rate, k)| -k * rate).collect(),
+        PostCaptureControl::None => vec![0.0; angles.len()],
+        PostCaptureControl::Damping { derivative_gain } => {
+            rates.iter().zip(derivative_gain).map(|(rate, k)| -k * rate).collect()
+        }
         other => panic!("{other:?}"),
     };
     run(&mut all, samples[to].time - samples[from].time, 0.25, &law);

@@ -174,8 +174,8 @@ mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
     use crate::{run, scenario};
     use foxglove::messages::{FrameTransforms, PointCloud, SceneUpdate};
-    use planar_capture::capture::{CaseResult, Further, Study};
-    use planar_capture::outline::Surface;
+    use planar_capture::capture::{CaseResult, FurtherImpact, Study};
+    use planar_capture::outline::Outline;
     use planar_capture::output::mcap::write_mcap;
     use planar_capture::output::time_series::columns;
     use planar_capture::scenario::Scenario;
@@ -387,7 +387,7 @@ mod mcap_files {
         let captured = study.cases[0].capture.as_mut().expect("a capture");
         let mut second = captured.impact.clone();
         second.exact.impulses[0] = None;
-        captured.further.push(Further { time: 10.0, impact: second });
+        captured.further.push(FurtherImpact { time: 10.0, impact: second });
         let captured = study.cases[0].capture.as_ref().expect("a capture");
         let (_, file) = record(&scenario, &study, &study.cases[0]);
         let times = |topic: &str| file.messages[topic].iter().map(|(time, _)| *time).collect::<Vec<_>>();
@@ -417,7 +417,7 @@ mod mcap_files {
         let study = run(&scenario);
         // not convex
         let corners = vec![[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.0, -0.5], [0.0, 0.0], [0.5, 0.0]];
-        scenario.targets[0].surface = Surface::polygon(corners.clone()).expect("a polygon");
+        scenario.targets[0].surface = Outline::polygon(corners.clone()).expect("a polygon");
         let (_, file) = record(&scenario, &study, &study.cases[0]);
         let scene = SceneUpdate::decode(&file.messages["/scene"][0].1[..]).expect("a scene");
         let entity = scene.entities.iter().find(|entity| entity.id == "targets/target1").expect("the target");

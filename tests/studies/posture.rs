@@ -1,13 +1,13 @@
 //! Wanted tip poses are reached by the exactly tracked approach, or it is said why not.
 
 use crate::{Silent, run, scenario};
-use planar_capture::capture::approach::inverse_kinematics::{Posture, PostureError, posture};
+use planar_capture::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, posture};
 use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::registry;
-use planar_capture::scenario::{EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::scenario::{EndEffectorGoal, FinalRates, Scenario, Tracking};
 use planar_proof::{assert_close, tolerance};
 
-fn wanting(name: &str, goals: &[TipGoal]) -> Scenario {
+fn wanting(name: &str, goals: &[EndEffectorGoal]) -> Scenario {
     let mut scenario = scenario(name);
     scenario.approach.tracking = Tracking::Exact;
     scenario.approach.step = 0.02;
@@ -27,7 +27,7 @@ fn the_papers_final_pose_is_found_from_its_tips() {
     let mut original = scenario("raina_shah_2017_exact_tracking");
     original.approach.step = 0.02;
     let study = run(&original);
-    let goals: Vec<_> = tips(&study).into_iter().map(TipGoal::Pose).collect();
+    let goals: Vec<_> = tips(&study).into_iter().map(EndEffectorGoal::Pose).collect();
     let mut scenario = wanting("raina_shah_2017_exact_tracking", &goals);
     let elsewhere = run(&scenario);
     for (found, wanted) in tips(&elsewhere).iter().zip(tips(&study)) {
@@ -40,7 +40,7 @@ fn the_papers_final_pose_is_found_from_its_tips() {
     for (found, wanted) in tips(&found).iter().zip(tips(&study)) {
         assert_close("tip", found, &wanted, tolerance::REACHED);
     }
-    let Posture { joint_angles, rounds, spare_joints, .. } = found.posture.as_ref().expect("a posture");
+    let InverseKinematics { joint_angles, rounds, spare_joints, .. } = found.posture.as_ref().expect("a posture");
     assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
     let rates = |study: &Study| study.design.as_ref().expect("rates").joint_rates.clone();
     assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
@@ -56,7 +56,7 @@ fn the_papers_final_pose_is_found_from_its_tips() {
 fn velocities_alone_are_designed() {
     let mut free = scenario("raina_shah_2017_exact_tracking");
     free.approach.step = 0.02;
-    free.approach.end = EndRates::EndEffectorTwists(vec![[None, Some(-0.1), Some(0.02)], [None; 3]]);
+    free.approach.end = FinalRates::EndEffectorTwists(vec![[None, Some(-0.1), Some(0.02)], [None; 3]]);
     let designed = run(&free);
     let [first, _] = designed.approach.end().expect("an end").end_effector_twists[..] else { panic!("two tips") };
     assert_close("velocity", &first[1..], &[-0.1, 0.02], tolerance::REACHED);
@@ -89,15 +89,15 @@ tracking = "exact"
 #[test]
 fn positions_alone_are_reached_with_joints_to_spare() {
     let places = [[2.0, -1.5], [-2.0, 1.5]];
-    let goals = places.map(TipGoal::Position);
+    let goals = places.map(EndEffectorGoal::Position);
     let study = run(&wanting("raina_shah_2017_exact_tracking", &goals));
     for (tip, wanted) in tips(&study).iter().zip(places) {
         assert_close("tip", &tip[1..], &wanted, tolerance::REACHED);
     }
     assert_eq!(study.posture.as_ref().expect("a posture").spare_joints, 2);
 
-    let mut alone = wanting("raina_shah_2017_exact_tracking", &[goals[0], TipGoal::Any]);
-    alone.approach.end = EndRates::JointRates(vec![0.01; 6]);
+    let mut alone = wanting("raina_shah_2017_exact_tracking", &[goals[0], EndEffectorGoal::Any]);
+    alone.approach.end = FinalRates::JointRates(vec![0.01; 6]);
     let study = run(&alone);
     assert_close("tip", &tips(&study)[0][1..], &places[0], tolerance::REACHED);
     assert_eq!(study.posture.expect("a posture").spare_joints, 4);
@@ -106,28 +106,29 @@ fn positions_alone_are_reached_with_joints_to_spare() {
 /// Yaws are wanted up to whole turns.
 #[test]
 fn a_yaw_more_than_a_turn_away_is_the_same_pose() {
-    let one = run(&wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0, 1.6, -1.2])]));
-    let other = run(&wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
+    let one = run(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]));
+    let other =
+        run(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
     assert_close("tip", &tips(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
     assert_close("tips", &tips(&one)[0], &tips(&other)[0], tolerance::REACHED);
 }
 
-fn fails(scenario: &Scenario) -> PostureError {
+fn fails(scenario: &Scenario) -> InverseKinematicsError {
     let model = registry::generated(&scenario.layout).expect("generated code");
     match study(scenario, &|| model.clone_box(), 0.05, &mut Silent) {
-        Err(StudyError::Posture(error)) => error,
+        Err(StudyError::InverseKinematics(error)) => error,
         other => panic!("{other:?}"),
     }
 }
 
 #[test]
 fn what_is_out_of_reach_is_said_to_be() {
-    let far = fails(&wanting("redysim_single_arm_3r", &[TipGoal::Position([5.0, 0.0])]));
-    assert!(matches!(&far, PostureError::OutOfReach { distance, most, .. } if distance > most), "{far:?}");
+    let far = fails(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Position([5.0, 0.0])]));
+    assert!(matches!(&far, InverseKinematicsError::OutOfReach { distance, most, .. } if distance > most), "{far:?}");
     assert!(far.to_string().contains("out of reach"), "{far}");
     // within the bound that needs no search, but not within the arm's own: the base is heavy
-    let edge = fails(&wanting("redysim_single_arm_3r", &[TipGoal::Position([3.6, 0.0])]));
-    let PostureError::Unsettled { residual, history, rounds, .. } = &edge else { panic!("{edge:?}") };
+    let edge = fails(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Position([3.6, 0.0])]));
+    let InverseKinematicsError::Unsettled { residual, history, rounds, .. } = &edge else { panic!("{edge:?}") };
     assert!(*residual > 1e-3 && history.0.len() == *rounds, "{edge:?}");
     assert!(edge.to_string().contains("may be out of reach") && edge.to_string().contains('…'), "{edge}");
 }
@@ -135,7 +136,7 @@ fn what_is_out_of_reach_is_said_to_be() {
 /// The report is that of the approach: the residual is what the tips miss, and the Jacobian that of the final pose.
 #[test]
 fn the_report_is_of_the_approach() {
-    let scenario = wanting("redysim_single_arm_3r", &[TipGoal::Pose([-1.0, 1.6, -1.2])]);
+    let scenario = wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]);
     let model = registry::generated(&scenario.layout).expect("generated code");
     let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
     let mut ticks = 0_usize;

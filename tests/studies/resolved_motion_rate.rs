@@ -7,7 +7,7 @@ use planar_capture::control::Control;
 use planar_capture::output::summary::summary;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
-use planar_capture::scenario::{Actuation, EndRates, Scenario, TipGoal, Tracking};
+use planar_capture::scenario::{Actuation, EndEffectorGoal, FinalRates, Scenario, Tracking};
 use planar_capture::simulate::Timing;
 use planar_capture::simulate::actuators::drive;
 use planar_capture::simulate::event::NoEvents;
@@ -23,18 +23,18 @@ const POSES: [[f64; 3]; 2] = [[-1.2, 2.0, -1.5], [1.9, -2.0, 1.5]];
 const TWISTS: [[f64; 3]; 2] = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]];
 
 /// The paper's robot and the shipped scenario's law without a sample time, for goals of one's own.
-fn steered(goals: &[TipGoal], twists: &[[f64; 3]]) -> Scenario {
+fn steered(goals: &[EndEffectorGoal], twists: &[[f64; 3]]) -> Scenario {
     let mut scenario = scenario("resolved_motion_rate");
     scenario.approach.actuation = Actuation::default();
     scenario.approach.final_end_effector_poses = Some(goals.to_vec());
-    scenario.approach.end = EndRates::EndEffectorTwists(twists.iter().map(|twist| twist.map(Some)).collect());
+    scenario.approach.end = FinalRates::EndEffectorTwists(twists.iter().map(|twist| twist.map(Some)).collect());
     (scenario.targets, scenario.post_impact) = (Vec::new(), None);
     scenario.cases.truncate(1);
     scenario
 }
 
 fn by_poses() -> Scenario {
-    steered(&POSES.map(TipGoal::Pose), &TWISTS)
+    steered(&POSES.map(EndEffectorGoal::Pose), &TWISTS)
 }
 
 fn generated(scenario: &Scenario) -> Box<dyn CloneModel> {
@@ -75,7 +75,7 @@ fn tips_follow_their_paths_to_poses_and_twists() {
     let off = off_path(&study, &POSES, &TWISTS);
     assert!(off < tolerance::STEERED, "{off:e}");
     // from rest to rest the lines are straight: one parameter for x and y
-    let study = run(&steered(&POSES.map(TipGoal::Pose), &[[0.0; 3]; 2]));
+    let study = run(&steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]));
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
     let from = &study.approach.samples[0].end_effector_poses;
     for sample in &study.approach.samples {
@@ -176,7 +176,7 @@ fn the_shipped_study_meets_its_targets() {
 /// Earlier there, they stay; a quintic of the joints does so too.
 #[test]
 fn tips_stay_where_their_paths_end() {
-    let mut scenario = steered(&POSES.map(TipGoal::Pose), &[[0.0; 3]; 2]);
+    let mut scenario = steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
     scenario.approach.trajectory_duration = Some(14.0);
     scenario.initial.base_twist = [0.002, 0.001, -0.001]; // the robot drifts on, the tips do not
     let study = run(&scenario);
@@ -185,7 +185,7 @@ fn tips_stay_where_their_paths_end() {
         assert_close("poses", sample.end_effector_poses.as_flattened(), POSES.as_flattened(), tolerance::STEERED);
     }
     let mut joints = crate::scenario("stabilised_capture");
-    joints.approach.end = EndRates::JointRates(vec![0.0; 6]);
+    joints.approach.end = FinalRates::JointRates(vec![0.0; 6]);
     joints.approach.tracking = Tracking::Exact;
     joints.approach.trajectory_duration = Some(12.0);
     joints.approach.actuation = Actuation::default();
@@ -211,8 +211,8 @@ fn weak_joints_catch_up() {
 #[test]
 fn an_arm_that_may_end_anywhere_holds_still() {
     let pose = [-1.2, 1.8, -1.4];
-    let turned = TipGoal::Pose([pose[0] + 2.0 * std::f64::consts::TAU, pose[1], pose[2]]);
-    let study = run(&steered(&[turned, TipGoal::Any], &[[0.0; 3]; 2]));
+    let turned = EndEffectorGoal::Pose([pose[0] + 2.0 * std::f64::consts::TAU, pose[1], pose[2]]);
+    let study = run(&steered(&[turned, EndEffectorGoal::Any], &[[0.0; 3]; 2]));
     let end = study.approach.end().expect("an end");
     assert_close("tip", &end.end_effector_poses[0], &pose, tolerance::STEERED);
     let angles = &study.approach.samples[0].state.joint_angles;
@@ -223,7 +223,7 @@ fn an_arm_that_may_end_anywhere_holds_still() {
 /// Stretched arms cannot move their tips inwards at first; they start gently, and get there.
 #[test]
 fn a_singular_start_does_not_blow_up() {
-    let mut scenario = steered(&POSES.map(TipGoal::Pose), &[[0.0; 3]; 2]);
+    let mut scenario = steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
     scenario.initial.joint_angles = vec![0.0, 1e-3, 0.0, std::f64::consts::PI, 0.0, -1e-3];
     let study = run(&scenario);
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
@@ -237,7 +237,8 @@ fn a_singular_start_does_not_blow_up() {
 /// The arm stretches towards a place out of reach and waits there; the other arm gets where it should.
 #[test]
 fn out_of_reach_the_run_ends_with_what_was_reached() {
-    let mut scenario = steered(&[TipGoal::Position([3.45, -0.3]), TipGoal::Position([-2.0, 1.5])], &[[0.0; 3]; 2]);
+    let mut scenario =
+        steered(&[EndEffectorGoal::Position([3.45, -0.3]), EndEffectorGoal::Position([-2.0, 1.5])], &[[0.0; 3]; 2]);
     scenario.approach.duration = 30.0;
     let study = run(&scenario);
     assert_eq!(study.objections(), Vec::<String>::new());
@@ -250,7 +251,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
 
 /// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k θ̇` in
 /// joints that are held. The tips' accelerations are differences of their twists along the motion.
-fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseError> {
+fn check_law(name: &str, goals: &[EndEffectorGoal], s: &Sample) -> Result<(), TestCaseError> {
     let layout = layout(name);
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
     let mut planned = by_poses();
@@ -260,7 +261,7 @@ fn check_law(name: &str, goals: &[TipGoal], s: &Sample) -> Result<(), TestCaseEr
     planned.approach.final_end_effector_poses = Some(goals.to_vec());
     let end: Vec<_> =
         (0..layout.arms.len()).map(|arm| [0.1, -0.2, 0.05 * f64::from(u8::try_from(arm).unwrap_or(0))]).collect();
-    planned.approach.end = EndRates::EndEffectorTwists(end.iter().map(|twist: &[f64; 3]| twist.map(Some)).collect());
+    planned.approach.end = FinalRates::EndEffectorTwists(end.iter().map(|twist: &[f64; 3]| twist.map(Some)).collect());
     planned.layout = layout.clone();
     let state = State {
         base_pose: s.base_pose,
@@ -326,18 +327,18 @@ proptest! {
 
     #[test]
     fn the_tips_accelerate_as_the_law_says(s in sample(2, 6)) {
-        check_law("dual_arm_3r", &POSES.map(TipGoal::Pose), &s)?;
-        check_law("dual_arm_3r", &[TipGoal::Any, TipGoal::Position([1.0, 2.0])], &s)?;
+        check_law("dual_arm_3r", &POSES.map(EndEffectorGoal::Pose), &s)?;
+        check_law("dual_arm_3r", &[EndEffectorGoal::Any, EndEffectorGoal::Position([1.0, 2.0])], &s)?;
     }
 
     #[test]
     fn with_a_wheel_and_a_mount_angle_too(s in sample(3, 6)) {
-        check_law("asymmetric_wheel", &[TipGoal::Pose(POSES[0]), TipGoal::Position([-1.0, 0.5]), TipGoal::Any], &s)?;
+        check_law("asymmetric_wheel", &[EndEffectorGoal::Pose(POSES[0]), EndEffectorGoal::Position([-1.0, 0.5]), EndEffectorGoal::Any], &s)?;
     }
 
     #[test]
     fn with_three_arms_too(s in sample(3, 9)) {
-        check_law("triple_arm_3r", &[TipGoal::Pose(POSES[0]), TipGoal::Any, TipGoal::Pose(POSES[1])], &s)?;
+        check_law("triple_arm_3r", &[EndEffectorGoal::Pose(POSES[0]), EndEffectorGoal::Any, EndEffectorGoal::Pose(POSES[1])], &s)?;
     }
 }
 

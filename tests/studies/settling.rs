@@ -1,13 +1,13 @@
 //! After the capture: what the laws keep, what they bring to rest, and what they say remains.
 
 use crate::{run, scenario};
-use planar_capture::capture::Captured;
-use planar_capture::capture::post_capture::{Settle, settle, wheels};
-use planar_capture::capture::residual_motion::Remainder;
+use planar_capture::capture::CaptureResult;
+use planar_capture::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
+use planar_capture::capture::residual_motion::ResidualMotion;
 use planar_capture::output::summary::summary;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
-use planar_capture::scenario::{Actuation, PostImpact, Scenario, Settling};
+use planar_capture::scenario::{Actuation, PostCaptureControl, PostImpact, Scenario};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
@@ -17,7 +17,7 @@ use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The paper's study with another end.
-fn study_with(control: Settling) -> (Scenario, Vec<Captured>) {
+fn study_with(control: PostCaptureControl) -> (Scenario, Vec<CaptureResult>) {
     let mut scenario = scenario("raina_shah_2017");
     scenario.post_impact.as_mut().expect("a capture").control = control;
     let study = run(&scenario);
@@ -25,11 +25,11 @@ fn study_with(control: Settling) -> (Scenario, Vec<Captured>) {
     (scenario, study.cases.into_iter().map(|case| case.capture.expect("a capture")).collect())
 }
 
-fn stabilise(base_torque_limit: Option<f64>) -> Settling {
-    Settling::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit }
+fn stabilise(base_torque_limit: Option<f64>) -> PostCaptureControl {
+    PostCaptureControl::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit }
 }
 
-fn ends(captured: &Captured) -> (&RobotState, &RobotState, &Remainder) {
+fn ends(captured: &CaptureResult) -> (&RobotState, &RobotState, &ResidualMotion) {
     let samples = &captured.post_impact.samples;
     (
         &samples.first().expect("a start").state,
@@ -40,7 +40,7 @@ fn ends(captured: &Captured) -> (&RobotState, &RobotState, &Remainder) {
 
 #[test]
 fn hold_keeps_the_angles_of_the_capture() {
-    let gains = Settling::Hold { proportional_gain: vec![49.0; 6], derivative_gain: vec![14.0; 6] };
+    let gains = PostCaptureControl::Hold { proportional_gain: vec![49.0; 6], derivative_gain: vec![14.0; 6] };
     for captured in study_with(gains).1 {
         let (start, end, left) = ends(&captured);
         assert_close("angles", &end.joint_angles, &start.joint_angles, tolerance::HELD);
@@ -50,7 +50,7 @@ fn hold_keeps_the_angles_of_the_capture() {
 
 #[test]
 fn damping_stops_the_joints_and_leaves_one_body() {
-    for captured in study_with(Settling::Damping { derivative_gain: vec![7.0; 6] }).1 {
+    for captured in study_with(PostCaptureControl::Damping { derivative_gain: vec![7.0; 6] }).1 {
         let (start, end, left) = ends(&captured);
         let largest = |rates: &[f64]| rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         assert!(
@@ -140,13 +140,16 @@ fn the_shipped_study_comes_to_rest() {
 }
 
 /// Four seconds of stabilisation of a shipped layout from any state; joints at 1 1/s, the base at 0.7 1/s.
-fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, Remainder, Vec<bool>) {
+fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, ResidualMotion, Vec<bool>) {
     let layout = layout(name);
     // the generic implementation where this build has no code: slower, the same to rounding
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
     let wheels = wheels(&layout, &[]);
-    let control =
-        Settling::Stabilise { derivative_gain: vec![1.0; layout.joints()], base_gain: 0.7, base_torque_limit };
+    let control = PostCaptureControl::Stabilise {
+        derivative_gain: vec![1.0; layout.joints()],
+        base_gain: 0.7,
+        base_torque_limit,
+    };
     let integration = Integration::default();
     let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
     let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
@@ -156,10 +159,11 @@ fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Pha
         base_twist: s.base_twist,
         joint_rates: s.joint_rates.clone(),
     };
-    let wanted = Settle { after: &after, wheels: &wheels, angles: &s.joint_angles };
-    let phase = settle(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    let wanted = PostCaptureLaw { after: &after, wheels: &wheels, angles: &s.joint_angles };
+    let phase =
+        run_post_capture(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     let end = phase.end().expect("an end").state.clone();
-    let left = Remainder::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
+    let left = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
     (phase, left, wheels)
 }
 

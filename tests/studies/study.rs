@@ -6,7 +6,7 @@ use planar_capture::capture::study;
 use planar_capture::contact::ContactKind;
 use planar_capture::output::summary::summary;
 use planar_capture::registry::{self, generic};
-use planar_capture::simulate::conservation::{Audit, Done, Drift};
+use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit, ConservationErrors};
 use planar_capture::state::State;
 use planar_proof::{assert_close, json, numbers, tolerance};
 use serde_json::Value;
@@ -127,13 +127,15 @@ fn the_audit_measures_what_strays() {
         joint_rates: &[0.0; 3],
     };
     for (delta, part) in [(1e-3, 0.0), (0.25, 0.5), (-0.25, 1.0)] {
-        let mut audit = Audit::new(&*model, &state(1.0), &[]).expect("a state");
-        let start = audit.record(&state(1.0), &[], &Done::default()).expect("a state").kinetic_energy;
-        assert_eq!(audit.drift(), Drift::default(), "nothing strayed yet");
+        let mut audit = ConservationAudit::new(&*model, &state(1.0), &[]).expect("a state");
+        let start = audit.record(&state(1.0), &[], &AccumulatedInput::default()).expect("a state").kinetic_energy;
+        assert_eq!(audit.drift(), ConservationErrors::default(), "nothing strayed yet");
         let gained = start * ((1.0 + delta) * (1.0 + delta) - 1.0);
         let largest = (start + gained).max(start);
-        audit.record(&state(1.0 + delta), &[], &Done { work: part * gained, ..Done::default() }).expect("a state");
-        let Drift { momentum_drift, energy_error, .. } = audit.drift();
+        audit
+            .record(&state(1.0 + delta), &[], &AccumulatedInput { work: part * gained, ..AccumulatedInput::default() })
+            .expect("a state");
+        let ConservationErrors { momentum_drift, energy_error, .. } = audit.drift();
         let wanted = [delta.abs() / (1.0 + delta).max(1.0), (1.0 - part) * gained.abs() / largest];
         assert_close("drift, error", &[momentum_drift, energy_error], &wanted, tolerance::IDENTITY);
     }
@@ -157,8 +159,8 @@ fn the_audit_measures_angular_momentum_too() {
         joint_rates: &[0.0; 3],
     };
     for delta in [0.25, -0.25] {
-        let mut audit = Audit::new(&*model, &state(1.0), &[]).expect("a state");
-        audit.record(&state(1.0 + delta), &[], &Done::default()).expect("a state");
+        let mut audit = ConservationAudit::new(&*model, &state(1.0), &[]).expect("a state");
+        audit.record(&state(1.0 + delta), &[], &AccumulatedInput::default()).expect("a state");
         let wanted = delta.abs() / (1.0_f64 + delta).max(1.0);
         assert_close("angular drift", &[audit.drift().momentum_drift], &[wanted], tolerance::IDENTITY);
     }

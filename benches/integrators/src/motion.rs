@@ -3,16 +3,16 @@
 use crate::Problem;
 use planar_capture::capture::approach::Approach;
 use planar_capture::capture::approach::terminal_rates::end_rates;
-use planar_capture::control::{BaseTorque, Control, Free, ProportionalDerivative};
+use planar_capture::control::{BaseTorque, Control, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
-use planar_capture::scenario::{EndRates, Scenario, Tracking};
+use planar_capture::scenario::{FinalRates, Scenario, Tracking};
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Phase, Stopped, Timing, simulate};
+use planar_capture::simulate::{Phase, PhaseError, Timing, simulate};
 use planar_capture::state::State;
 use planar_capture::trajectory::{Ends, Quartic};
 use std::f64::consts::PI;
@@ -55,13 +55,15 @@ impl Problems {
     pub fn new() -> Result<Self, Problem> {
         let scenario = Scenario::read(Path::new(SCENARIO), registry::SHIPPED)?;
         let model = registry::generated(&scenario.layout)?;
-        let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end else { return Err("no wanted twists".into()) };
+        let FinalRates::EndEffectorTwists(wanted) = &scenario.approach.end else {
+            return Err("no wanted twists".into());
+        };
         let design = end_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
         Ok(Self { rates: design.joint_rates, model, scenario })
     }
 
     /// The paper's approach: the phase, and the evaluations that it took.
-    pub fn approach(&self, (integration, step): (Integration, f64)) -> Result<(Phase, u64), Stopped> {
+    pub fn approach(&self, (integration, step): (Integration, f64)) -> Result<(Phase, u64), PhaseError> {
         let approach = &self.scenario.approach;
         let ends = Ends {
             initial_angles: &self.scenario.initial.joint_angles,
@@ -90,9 +92,9 @@ impl Problems {
         duration: f64,
         sample: f64,
         (integration, step): (Integration, f64),
-    ) -> Result<(Phase, u64), Stopped> {
+    ) -> Result<(Phase, u64), PhaseError> {
         let timing = Timing { duration, step, sample, integration };
-        self.run(&mut Free, start, &timing)
+        self.run(&mut ZeroTorque, start, &timing)
     }
 
     /// Turning with both arms out, which swing about that, and drifting away.
@@ -115,7 +117,7 @@ impl Problems {
         }
     }
 
-    fn run(&self, law: &mut dyn Control<f64>, start: &RobotState, timing: &Timing) -> Result<(Phase, u64), Stopped> {
+    fn run(&self, law: &mut dyn Control<f64>, start: &RobotState, timing: &Timing) -> Result<(Phase, u64), PhaseError> {
         let mut law = Counted { law, calls: 0 };
         let phase = simulate(&System::alone(&*self.model), &mut law, start, timing, &mut NoEvents, &mut || ())?;
         let samples = phase.samples.len() as u64; // the law is asked for each of them too

@@ -4,7 +4,7 @@ use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::{Problems, end};
 use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
-use planar_capture::simulate::{Phase, Stopped};
+use planar_capture::simulate::{Phase, PhaseError};
 
 /// Of one motion.
 pub struct Work {
@@ -31,7 +31,7 @@ pub struct Point {
     pub error: f64,
 }
 
-type Run<'a> = dyn Fn((Integration, f64)) -> Result<(Phase, u64), Stopped> + 'a;
+type Run<'a> = dyn Fn((Integration, f64)) -> Result<(Phase, u64), PhaseError> + 'a;
 
 pub fn approach() -> Result<Work, Problem> {
     let problems = Problems::new()?;

@@ -111,8 +111,8 @@ pub struct Momentum<T> {
     pub kinetic_energy: T,
 }
 
-/// Conserved quantities.
-pub trait Conserved<T: Real> {
+/// Momentum and energy of the robot.
+pub trait MomentumAndEnergy<T: Real> {
     /// Momentum and kinetic energy of the robot.
     ///
     /// # Errors
@@ -163,7 +163,7 @@ pub trait Model<T: Real>:
     + EquationsOfMotion<T>
     + ReducedDynamics<T>
     + ForwardDynamics<T>
-    + Conserved<T>
+    + MomentumAndEnergy<T>
     + Impact<T>
     + Merge<T>
 {
@@ -177,7 +177,7 @@ where
         + EquationsOfMotion<T>
         + ReducedDynamics<T>
         + ForwardDynamics<T>
-        + Conserved<T>
+        + MomentumAndEnergy<T>
         + Impact<T>
         + Merge<T>,
 {

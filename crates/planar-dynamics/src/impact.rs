@@ -10,7 +10,7 @@ use crate::target::Target;
 
 /// Where the results of an impact go: joints, and one entry per arm.
 #[derive(Debug)]
-pub struct After<'a, T> {
+pub struct RigidImpactOutput<'a, T> {
     /// rad/s.
     pub joint_rates: &'a mut [T],
     /// [ω, vx, vy] of each target's COM; zeros for an arm without target.
@@ -30,7 +30,7 @@ pub fn exact<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
     targets: &[Option<Target<T>>],
-    after: &mut After<'_, T>,
+    after: &mut RigidImpactOutput<'_, T>,
 ) -> Result<[T; 3], Error> {
     let base_twist = model.full_impact(state, targets, after.joint_rates)?;
     let moving = State { base_twist, joint_rates: after.joint_rates, ..*state };
@@ -64,7 +64,7 @@ pub fn paper<T: Real>(
     state: &State<'_, T>,
     targets: &[Option<Target<T>>],
     workspace: &mut Workspace<'_, T>,
-    after: &mut After<'_, T>,
+    after: &mut RigidImpactOutput<'_, T>,
 ) -> Result<[T; 3], Error> {
     let joints = model.joints();
     model.reduced_impact(state, targets, workspace.impact_matrix, workspace.impact_momentum, after.joint_rates)?;
@@ -83,7 +83,7 @@ pub fn paper<T: Real>(
 }
 
 /// From tip twists to target twists and impulses, arm by arm.
-fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut After<'_, T>) -> Result<(), Error> {
+fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut RigidImpactOutput<'_, T>) -> Result<(), Error> {
     let expected = targets.len();
     for found in [after.target_twists.len(), after.impulses.len()] {
         if found != expected {

@@ -9,7 +9,9 @@ macro_rules! implement_dynamics {
     (1) => {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
-            use $crate::dynamics::{Conserved, ForwardDynamics, Impact, Merge, Momentum, ReducedDynamics, Robot};
+            use $crate::dynamics::{
+                ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot,
+            };
             use $crate::error::Error;
             use $crate::manifest::Quantity;
             use $crate::scalar::Real;
@@ -96,7 +98,7 @@ macro_rules! implement_dynamics {
                 }
             }
 
-            impl<T: Real> Conserved<T> for Model<T> {
+            impl<T: Real> MomentumAndEnergy<T> for Model<T> {
                 fn momentum(&self, state: &State<'_, T>) -> Result<Momentum<T>, Error> {
                     finite_state(state)?;
                     let angles = array("joint_angles", state.joint_angles)?;

@@ -2,11 +2,11 @@
 //!
 //! Nothing here needs an operating system but the printing: the model and the integrator allocate nothing.
 
-use planar_capture::control::{Control, Free, ProportionalDerivative};
-use planar_capture::dynamics::{Conserved, Kinematics, Merge};
+use planar_capture::control::{Control, ProportionalDerivative, ZeroTorque};
+use planar_capture::dynamics::{Kinematics, Merge, MomentumAndEnergy};
 use planar_capture::error::Error;
 use planar_capture::formulation::derivative;
-use planar_capture::impact::{self, After};
+use planar_capture::impact::{self, RigidImpactOutput};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
 use planar_capture::target::Target;
@@ -62,7 +62,8 @@ fn capture() -> Result<f64, Error> {
 
     let targets: [Option<Target<f64>>; ARMS] = [Some(DEBRIS), None];
     let (mut joint_rates, mut twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut twists, impulses: &mut impulses };
     let before = x;
     let state = state(&before)?;
     let mut tips = [[0.0; 3]; ARMS];
@@ -75,9 +76,9 @@ fn capture() -> Result<f64, Error> {
     State { base_twist, joint_rates: &joint_rates, ..state }.write(&mut x)?;
     report("after the impact", &x);
 
-    run(&robot, &mut Free, 10.0, &mut x)?;
+    run(&robot, &mut ZeroTorque, 10.0, &mut x)?;
     report("10 s later", &x);
-    let drift = (Conserved::momentum(&robot, &self::state(&x)?)?.angular_momentum - brought).abs();
+    let drift = (MomentumAndEnergy::momentum(&robot, &self::state(&x)?)?.angular_momentum - brought).abs();
     println!("angular momentum: {brought:.6} N m s brought by the debris, {drift:.1e} of it lost");
     Ok(drift)
 }

@@ -1,10 +1,10 @@
 //! An approach by its tips: paths, wishes and working space of resolved motion rate control, from a scenario.
 
-use crate::control::{ResolvedMotionRate, TipWorkspace};
+use crate::control::{EndEffectorWorkspace, ResolvedMotionRate};
 use crate::dynamics::Model;
-use crate::scenario::{EndRates, Scenario, TipGoal};
-use crate::simulate::Stopped;
-use crate::trajectory::TipPath;
+use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
+use crate::simulate::PhaseError;
+use crate::trajectory::EndEffectorPath;
 
 /// Errors of the tips' poses count as no more: rad, m per m of reach. An arm that strains for a place out of reach then still
 /// leaves the other on its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s with the default gains.
@@ -38,16 +38,16 @@ impl Tips {
     ///
     /// # Errors
     /// What the model says of the initial state.
-    pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, Stopped> {
+    pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, PhaseError> {
         let (arms, joints) = (model.arms(), model.joints());
         let start = scenario.initial.view();
         let (mut initial_poses, mut initial_twists) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
         model
             .end_effector_poses(&start.base_pose, start.joint_angles, &mut initial_poses)
             .and_then(|()| model.end_effector_twists(&start, &mut initial_twists))
-            .map_err(|source| Stopped { time: 0.0, source })?;
+            .map_err(|source| PhaseError { time: 0.0, source })?;
         let goals = scenario.approach.final_end_effector_poses.as_deref().unwrap_or_default();
-        let goals: Vec<_> = (0..arms).map(|arm| goals.get(arm).copied().unwrap_or(TipGoal::Any)).collect();
+        let goals: Vec<_> = (0..arms).map(|arm| goals.get(arm).copied().unwrap_or(EndEffectorGoal::Any)).collect();
         let (mut final_poses, mut wanted) = (initial_poses.clone(), vec![[false; 3]; arms]);
         for ((goal, from), (to, wanted)) in
             goals.iter().zip(&initial_poses).zip(final_poses.iter_mut().zip(&mut wanted))
@@ -58,10 +58,10 @@ impl Tips {
             }
         }
         let final_twists = match &scenario.approach.end {
-            EndRates::EndEffectorTwists(twists) => {
+            FinalRates::EndEffectorTwists(twists) => {
                 twists.iter().map(|twist| twist.map(Option::unwrap_or_default)).collect()
             }
-            EndRates::Rest | EndRates::JointRates(_) => vec![[0.0; 3]; arms],
+            FinalRates::Rest | FinalRates::JointRates(_) => vec![[0.0; 3]; arms],
         };
         let layout = &scenario.layout.arms;
         let held =
@@ -92,7 +92,7 @@ impl Tips {
     #[must_use]
     pub fn law(&mut self, [pose_gain, rate_gain]: [f64; 2], singularity_threshold: f64) -> ResolvedMotionRate<'_, f64> {
         ResolvedMotionRate {
-            path: TipPath {
+            path: EndEffectorPath {
                 initial_poses: &self.initial_poses,
                 initial_twists: &self.initial_twists,
                 final_poses: &self.final_poses,
@@ -107,7 +107,7 @@ impl Tips {
             error_limit: ERROR_LIMIT,
             singularity_threshold,
             singularity_margin: None,
-            workspace: TipWorkspace {
+            workspace: EndEffectorWorkspace {
                 generalized_inertia: &mut self.generalized_inertia,
                 generalized_bias: &mut self.generalized_bias,
                 generalized_jacobian: &mut self.generalized_jacobian,

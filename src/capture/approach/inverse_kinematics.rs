@@ -1,11 +1,11 @@
 //! Final joint angles of the approach, designed from the tip poses that are wanted at contact.
 
 use crate::capture::approach::Approach;
-use crate::capture::approach::terminal_rates::{Design, DesignError, generalized_jacobian, rates_for};
+use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, generalized_jacobian, rates_for};
 use crate::check::distance_and_most;
 use crate::dynamics::Model;
-use crate::scenario::{EndRates, Scenario, TipGoal};
-use crate::simulate::{Phase, Stopped};
+use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
+use crate::simulate::{Phase, PhaseError};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
@@ -22,11 +22,11 @@ const MOST_HALVINGS: u32 = 12;
 
 /// Final joint angles whose exactly tracked approach ends with the tips at the wanted poses.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Posture {
+pub struct InverseKinematics {
     /// rad.
     pub joint_angles: Vec<f64>,
     /// The end rates that go with them, rad/s, and what their design saw.
-    pub rates: Design,
+    pub rates: TerminalRates,
     /// The largest that is missing: rad, and m per m of the arm's reach.
     pub residual: f64,
     /// How many approaches were tracked.
@@ -38,7 +38,7 @@ pub struct Posture {
 
 /// Why no final joint angles were found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PostureError {
+pub enum InverseKinematicsError {
     /// A place beyond the stretched arm.
     #[error(
         "the pose wanted of the tip of `{arm}` is out of reach: {distance:.4} m from where the robot's COM is at the end of \
@@ -70,7 +70,7 @@ pub enum PostureError {
     },
     /// The approach, or the design of its end rates, has no answer.
     #[error(transparent)]
-    Rates(#[from] DesignError),
+    Rates(#[from] TerminalRatesError),
 }
 
 /// Residuals of an iteration, round by round.
@@ -99,14 +99,14 @@ impl std::fmt::Display for History {
 /// together. The yaw of a tip is wanted up to whole turns.
 ///
 /// # Errors
-/// [`PostureError`], with the numbers.
+/// [`InverseKinematicsError`], with the numbers.
 pub fn posture(
     model: &dyn Model<f64>,
     scenario: &Scenario,
-    goals: &[TipGoal],
+    goals: &[EndEffectorGoal],
     sample: f64,
     tick: &mut dyn FnMut(),
-) -> Result<Posture, PostureError> {
+) -> Result<InverseKinematics, InverseKinematicsError> {
     out_of_reach(scenario, goals)?;
     let mut trial = Trial { scenario: scenario.clone(), rates: start_rates(scenario, model.joints()) };
     let mut best: Option<Step> = None;
@@ -123,9 +123,9 @@ pub fn posture(
         if let Some(step) = found.filter(|step| best.as_ref().is_none_or(|best| step.residual < best.residual)) {
             (part, halvings) = (1.0, 0);
             if step.residual <= ENOUGH && change <= ENOUGH {
-                let rates = Design { joint_rates: trial.rates, singularity_margin: margin, iterations: round };
-                let wanted: usize = goals.iter().map(TipGoal::len).sum();
-                return Ok(Posture {
+                let rates = TerminalRates { joint_rates: trial.rates, singularity_margin: margin, iterations: round };
+                let wanted: usize = goals.iter().map(EndEffectorGoal::len).sum();
+                return Ok(InverseKinematics {
                     joint_angles: step.angles,
                     rates,
                     residual: step.residual,
@@ -143,7 +143,7 @@ pub fn posture(
         trial.scenario.approach.final_joint_angles = moved.collect();
     }
     let (residual, singularity_margin) = best.map_or((f64::INFINITY, 0.0), |best| (best.residual, best.margin));
-    Err(PostureError::Unsettled { rounds: history.0.len(), residual, history, singularity_margin })
+    Err(InverseKinematicsError::Unsettled { rounds: history.0.len(), residual, history, singularity_margin })
 }
 
 /// What a round tracks.
@@ -165,23 +165,29 @@ impl Trial {
     fn track(
         &mut self,
         model: &dyn Model<f64>,
-        goals: &[TipGoal],
+        goals: &[EndEffectorGoal],
         sample: f64,
         tick: &mut dyn FnMut(),
-    ) -> Result<(Option<Step>, f64, f64), DesignError> {
+    ) -> Result<(Option<Step>, f64, f64), TerminalRatesError> {
         let phase = Approach::new(&self.scenario, sample).track_exactly(model, &self.rates, tick)?;
         let step = self.step(model, goals, &phase)?;
         let margin = step.as_ref().map_or(0.0, |step| step.margin);
-        let EndRates::EndEffectorTwists(wanted) = &self.scenario.approach.end else { return Ok((step, margin, 0.0)) };
+        let FinalRates::EndEffectorTwists(wanted) = &self.scenario.approach.end else { return Ok((step, margin, 0.0)) };
         let (rates, margin) = rates_for(model, &phase, wanted)?;
         let change = rates.iter().zip(&self.rates).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
         self.rates = rates;
         Ok((step, margin, change))
     }
 
-    fn step(&self, model: &dyn Model<f64>, goals: &[TipGoal], phase: &Phase) -> Result<Option<Step>, DesignError> {
+    fn step(
+        &self,
+        model: &dyn Model<f64>,
+        goals: &[EndEffectorGoal],
+        phase: &Phase,
+    ) -> Result<Option<Step>, TerminalRatesError> {
         let Some(end) = phase.end() else { return Ok(None) };
-        let jacobian = generalized_jacobian(model, &end.state).map_err(|source| Stopped { time: end.time, source })?;
+        let jacobian =
+            generalized_jacobian(model, &end.state).map_err(|source| PhaseError { time: end.time, source })?;
         let mut rows = Vec::new();
         for (i, ((goal, pose), arm)) in
             goals.iter().zip(&end.end_effector_poses).zip(&self.scenario.layout.arms).enumerate()
@@ -222,7 +228,7 @@ fn damped(jacobian: DMatrix<f64>, missing: &DVector<f64>) -> (DVector<f64>, f64)
     (change, smallest / largest)
 }
 
-impl TipGoal {
+impl EndEffectorGoal {
     /// How many numbers are wanted.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -253,18 +259,18 @@ impl TipGoal {
 
 fn start_rates(scenario: &Scenario, joints: usize) -> Vec<f64> {
     match &scenario.approach.end {
-        EndRates::JointRates(rates) => rates.clone(),
-        EndRates::Rest | EndRates::EndEffectorTwists(_) => vec![0.0; joints],
+        FinalRates::JointRates(rates) => rates.clone(),
+        FinalRates::Rest | FinalRates::EndEffectorTwists(_) => vec![0.0; joints],
     }
 }
 
-fn out_of_reach(scenario: &Scenario, goals: &[TipGoal]) -> Result<(), PostureError> {
+fn out_of_reach(scenario: &Scenario, goals: &[EndEffectorGoal]) -> Result<(), InverseKinematicsError> {
     for (i, (goal, arm)) in goals.iter().zip(&scenario.layout.arms).enumerate() {
-        let (TipGoal::Position([x, y]) | TipGoal::Pose([_, x, y])) = goal else { continue };
+        let (EndEffectorGoal::Position([x, y]) | EndEffectorGoal::Pose([_, x, y])) = goal else { continue };
         if let Some((distance, most)) = distance_and_most(scenario, i, [*x, *y])
             && distance > most
         {
-            return Err(PostureError::OutOfReach { arm: arm.name.clone(), distance, most });
+            return Err(InverseKinematicsError::OutOfReach { arm: arm.name.clone(), distance, most });
         }
     }
     Ok(())

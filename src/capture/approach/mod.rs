@@ -5,14 +5,14 @@ pub mod inverse_kinematics;
 pub mod terminal_rates;
 
 use crate::capture::approach::end_effector_paths::Tips;
-use crate::control::{ComputedTorque, Control, ExactTracking, ProportionalDerivative};
+use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::owned::RobotState;
 use crate::scenario::{Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::system::System;
-use crate::simulate::{Phase, Stopped, Timing, simulate_within};
+use crate::simulate::{Phase, PhaseError, Timing, simulate_within};
 use crate::trajectory::{AnyTrajectory, Ends};
 
 /// The approach of one scenario.
@@ -42,7 +42,7 @@ impl<'a> Approach<'a> {
     ///
     /// # Errors
     /// When and why it stopped.
-    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, Stopped> {
+    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, PhaseError> {
         self.track_until(model, rates, &mut NoEvents, tick)
     }
 
@@ -56,7 +56,7 @@ impl<'a> Approach<'a> {
         rates: &[f64],
         events: &mut dyn Events,
         tick: &mut dyn FnMut(),
-    ) -> Result<Phase, Stopped> {
+    ) -> Result<Phase, PhaseError> {
         let trajectory = self.trajectory(rates);
         let joints = model.joints();
         let initial = RobotState::of(&self.scenario.initial.view());
@@ -95,7 +95,7 @@ impl<'a> Approach<'a> {
         model: &dyn Model<f64>,
         rates: &[f64],
         tick: &mut dyn FnMut(),
-    ) -> Result<Phase, Stopped> {
+    ) -> Result<Phase, PhaseError> {
         self.track_exactly_until(model, rates, &mut NoEvents, tick)
     }
 
@@ -105,9 +105,9 @@ impl<'a> Approach<'a> {
         rates: &[f64],
         events: &mut dyn Events,
         tick: &mut dyn FnMut(),
-    ) -> Result<Phase, Stopped> {
+    ) -> Result<Phase, PhaseError> {
         let joints = model.joints();
-        let mut law = ExactTracking {
+        let mut law = InverseDynamics {
             trajectory: self.trajectory(rates),
             generalized_inertia: &mut vec![0.0; joints * joints],
             generalized_bias: &mut vec![0.0; joints],

@@ -3,8 +3,8 @@
 use crate::capture::approach::Approach;
 use crate::dynamics::Model;
 use crate::owned::RobotState;
-use crate::scenario::TipTwist;
-use crate::simulate::{Phase, Sample, Stopped};
+use crate::scenario::EndEffectorTwistGoal;
+use crate::simulate::{Phase, PhaseError, Sample};
 use nalgebra::{DMatrix, DVector};
 
 /// Fixed-point iterations before giving up; each gains several digits.
@@ -16,10 +16,10 @@ const MISS: f64 = 1e-9;
 
 /// Why no end rates were found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DesignError {
+pub enum TerminalRatesError {
     /// The approach could not be tracked.
     #[error("while the end rates were designed, {0}")]
-    Stopped(#[from] Stopped),
+    PhaseError(#[from] PhaseError),
     /// The end rates grew until their approach could not be tracked.
     #[error(
         "the end rates that the wanted tip twists ask for grow without bound, to {largest_rate:.3e} rad/s in round \
@@ -35,7 +35,7 @@ pub enum DesignError {
         /// Of the round before.
         singularity_margin: f64,
         /// How it failed.
-        source: Stopped,
+        source: PhaseError,
     },
     /// The wanted twist is out of reach at the final pose.
     #[error(
@@ -67,7 +67,7 @@ pub enum DesignError {
 
 /// End rates θ̇(T) such that `J(q(T)) θ̇(T)` is the wanted tip twist, and what the design saw.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct TerminalRates {
     /// rad/s, to be put into the trajectory.
     pub joint_rates: Vec<f64>,
     /// Smallest singular value of the generalized Jacobian at the final pose over its largest.
@@ -82,19 +82,19 @@ pub struct Design {
 /// weakly: the iteration contracts.
 ///
 /// # Errors
-/// [`DesignError`], with the numbers.
+/// [`TerminalRatesError`], with the numbers.
 pub fn end_rates(
     model: &dyn Model<f64>,
     approach: &Approach<'_>,
-    wanted: &[TipTwist],
+    wanted: &[EndEffectorTwistGoal],
     tick: &mut dyn FnMut(),
-) -> Result<Design, DesignError> {
+) -> Result<TerminalRates, TerminalRatesError> {
     let mut rates = vec![0.0; model.joints()];
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MOST_ITERATIONS {
         let phase = approach.track_exactly(model, &rates, tick).map_err(|source| match iteration {
-            1 => DesignError::Stopped(source),
-            _ => DesignError::Diverged { iteration, largest_rate: size, singularity_margin, source },
+            1 => TerminalRatesError::PhaseError(source),
+            _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
         })?;
         let (next, margin) = rates_for(model, &phase, wanted)?;
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -102,23 +102,23 @@ pub fn end_rates(
         size = largest(&mut next.iter().copied());
         (rates, singularity_margin) = (next, margin);
         if change <= AGREEMENT * size {
-            return Ok(Design { joint_rates: rates, singularity_margin, iterations: iteration });
+            return Ok(TerminalRates { joint_rates: rates, singularity_margin, iterations: iteration });
         }
     }
-    Err(DesignError::Unsettled { iterations: MOST_ITERATIONS, change })
+    Err(TerminalRatesError::Unsettled { iterations: MOST_ITERATIONS, change })
 }
 
 /// Joint rates that give the wanted twists at the end of a phase, and the singularity margin there.
 pub(crate) fn rates_for(
     model: &dyn Model<f64>,
     phase: &Phase,
-    wanted: &[TipTwist],
-) -> Result<(Vec<f64>, f64), DesignError> {
+    wanted: &[EndEffectorTwistGoal],
+) -> Result<(Vec<f64>, f64), TerminalRatesError> {
     let joints = model.joints();
     let Some(Sample { state, end_effector_twists, time, .. }) = phase.end() else {
         return Ok((vec![0.0; joints], 0.0));
     };
-    let jacobian = generalized_jacobian(model, state).map_err(|source| Stopped { time: *time, source })?;
+    let jacobian = generalized_jacobian(model, state).map_err(|source| PhaseError { time: *time, source })?;
     // t_e = J joint_rates + what the robot's momentum alone gives (zero for a robot at rest)
     let momentum_part = DVector::from_column_slice(end_effector_twists.as_flattened())
         - &jacobian * DVector::from_column_slice(&state.joint_rates);
@@ -130,7 +130,7 @@ pub(crate) fn rates_for(
     let right = DVector::from_iterator(rows, wanted.iter().map(|(row, part)| part - momentum_part[*row]));
     let svd = jacobian.clone().svd(true, true);
     let (largest, smallest) = (svd.singular_values.max(), svd.singular_values.min());
-    let unreachable = |miss| DesignError::Unreachable { rows, columns: joints, largest, smallest, miss };
+    let unreachable = |miss| TerminalRatesError::Unreachable { rows, columns: joints, largest, smallest, miss };
     let Ok(rates) = svd.solve(&right, largest * 1e-12) else {
         return Err(unreachable(right.amax()));
     };

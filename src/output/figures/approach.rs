@@ -4,7 +4,7 @@ use super::figure::{Figure, Mark, Panel, Series};
 use super::style::{Colour, Dash};
 use super::time::{base, joints, panel, tips};
 use crate::capture::Study;
-use crate::scenario::{EndRates, Scenario};
+use crate::scenario::{FinalRates, Scenario};
 use crate::simulate::Phase;
 
 const TIME: &str = "Time [s]";
@@ -42,7 +42,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 /// One component of the tips' twists, and what is wanted at the end.
 fn velocities(scenario: &Scenario, phase: &Phase, quantity: &str, component: usize) -> Panel {
     let mut series = tips(&scenario.layout, phase, component, |s| &s.end_effector_twists);
-    if let EndRates::EndEffectorTwists(wanted) = &scenario.approach.end {
+    if let FinalRates::EndEffectorTwists(wanted) = &scenario.approach.end {
         series.extend(wanted.iter().enumerate().filter_map(|(i, twist)| {
             let wanted = twist[component]?;
             Some(Series {

@@ -4,8 +4,8 @@ use super::figure::{Figure, Series};
 use super::frame::{self, Picture};
 use super::robot::{arrow, expected, pin, robot, target};
 use super::style::Colour;
-use crate::capture::contact_at_time::Touching;
-use crate::capture::{Captured, CaseResult, Study};
+use crate::capture::contact_at_time::ImpactContact;
+use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::contact::ContactKind;
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
@@ -62,7 +62,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 fn impacts(scenario: &Scenario, study: &Study, case: &CaseResult) -> Option<Figure> {
     let approach = case.approach(study);
     let mut pictures = Vec::new();
-    let picture = |title: String, now: &Sample, targets: &[Body], impulses: Vec<Series>, touching: &[Touching]| {
+    let picture = |title: String, now: &Sample, targets: &[Body], impulses: Vec<Series>, touching: &[ImpactContact]| {
         let mut series = expected_targets(scenario, "targets at the start");
         series.extend(robot(&scenario.layout, &now.state));
         series.extend(drawn_targets(scenario, targets, now, touching).concat());
@@ -103,7 +103,7 @@ fn impacts(scenario: &Scenario, study: &Study, case: &CaseResult) -> Option<Figu
 }
 
 /// At equal times from the impact to the end.
-pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &Captured) -> Option<Figure> {
+pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &CaptureResult) -> Option<Figure> {
     let phase = &captured.post_impact;
     let last = phase.samples.len().checked_sub(1)?;
     let places = (0..PICTURES).map(|k| last * k / (PICTURES - 1));
@@ -139,18 +139,18 @@ pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &Captured)
 }
 
 /// What is held at a time since the first impact.
-fn held(captured: &Captured, time: f64) -> Vec<Touching> {
+fn held(captured: &CaptureResult, time: f64) -> Vec<ImpactContact> {
     let later = captured.further.iter().filter(|one| one.time <= time).map(|one| &one.impact);
     let contacts = std::iter::once(&captured.impact).chain(later).flat_map(|impact| &impact.contacts);
     contacts.map(|one| one.touching).filter(|touch| touch.law.kind().holds()).collect()
 }
 
 /// Each target where it is, with a line to each tip that touches it.
-fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample, touching: &[Touching]) -> Vec<Vec<Series>> {
+fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample, touching: &[ImpactContact]) -> Vec<Vec<Series>> {
     let pairs = scenario.targets.iter().zip(targets).enumerate();
     pairs
         .map(|(i, (object, body))| {
-            let tip = |touch: &Touching| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
+            let tip = |touch: &ImpactContact| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
             let own = || touching.iter().filter(|touch| touch.target == i);
             let mut series = target(object, colour(scenario, i), body.pose, own().filter_map(tip));
             series.extend(own().filter(|touch| touch.law.kind() == ContactKind::Pin).filter_map(tip).map(pin));

@@ -3,7 +3,7 @@
 use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::Capture;
 use crate::capture::{CaseResult, Study};
 use crate::contact::ContactKind;
@@ -94,7 +94,7 @@ fn instants<'a>(study: &'a Study, result: &'a CaseResult) -> Vec<Instant<'a>> {
 
 fn contacts(scenario: &Scenario, result: &CaseResult, instant: &Instant<'_>) -> Vec<Contact> {
     let each = instant.impact.contacts.iter().filter_map(|contact| {
-        let Touching { target: i, arm, law, offset: [rx, ry], .. } = contact.touching;
+        let ImpactContact { target: i, arm, law, offset: [rx, ry], .. } = contact.touching;
         let kind = law.kind();
         let (target, before) = (scenario.targets.get(i)?, instant.targets.get(i)?);
         let after = *instant.impact.target_twists.get(i)?;

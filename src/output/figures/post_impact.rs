@@ -3,13 +3,13 @@
 use super::configuration;
 use super::figure::Figure;
 use super::time::{base, joints, panel, tips};
-use crate::capture::Captured;
+use crate::capture::CaptureResult;
 use crate::scenario::{Case, Scenario};
 
 const TIME: &str = "Time after the impact [s]";
 
 /// Joints, base and tips over time, and pictures of the robot with what it holds.
-pub(super) fn figures(scenario: &Scenario, case: &Case, captured: &Captured) -> Vec<Figure> {
+pub(super) fn figures(scenario: &Scenario, case: &Case, captured: &CaptureResult) -> Vec<Figure> {
     let (layout, phase, name) = (&scenario.layout, &captured.post_impact, &case.name);
     let angles = joints(layout, phase, |s| &s.state.joint_angles);
     let rates = joints(layout, phase, |s| &s.state.joint_rates);

@@ -3,7 +3,7 @@
 use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Shape};
 use crate::layout::Layout;
-use crate::outline::Surface;
+use crate::outline::Outline;
 use crate::output::scene::{base, point, poses, robot_frames};
 use crate::owned::RobotState;
 use crate::scenario::Target;
@@ -42,7 +42,7 @@ pub(super) fn target(
 ) -> Vec<Series> {
     let [_, x, y] = pose;
     let mut spots: Vec<[f64; 2]> = tips.collect();
-    if let (Surface::Disc { radius }, true) = (&target.surface, spots.is_empty()) {
+    if let (Outline::Disc { radius }, true) = (&target.surface, spots.is_empty()) {
         spots.push(point(pose, [*radius, 0.0]));
     }
     let mut series = vec![outline(&target.name, colour, Dash::Solid, &target.surface, pose)];
@@ -79,7 +79,7 @@ pub(super) fn expected(label: &str, target: &Target, [x, y]: [f64; 2]) -> Series
     outline(label, Colour::Grey, Dash::Dashed, &target.surface, [target.yaw, x, y])
 }
 
-fn outline(label: &str, colour: Colour, dash: Dash, surface: &Surface, pose: [f64; 3]) -> Series {
+fn outline(label: &str, colour: Colour, dash: Dash, surface: &Outline, pose: [f64; 3]) -> Series {
     let [edge, _] = crate::output::scene::outline(surface).lines();
     line(label, colour, dash, OUTLINE, edge.into_iter().map(|corner| point(pose, corner).into()).collect())
 }

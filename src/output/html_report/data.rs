@@ -3,7 +3,7 @@
 use super::impacts::{distances, holds, impacts, open};
 use crate::capture::{CaseResult, Study};
 use crate::layout::Layout;
-use crate::outline::Surface;
+use crate::outline::Outline;
 use crate::output::scene::{Motion, base_size, robot_frames};
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
@@ -20,8 +20,8 @@ pub fn data(scenario: &Scenario, study: &Study) -> Value {
         "targets": scenario.targets.iter().map(|target| json!({
             "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.surface.reach(),
             "polygon": match &target.surface {
-                Surface::Disc { .. } => None,
-                Surface::Polygon { corners } => Some(corners),
+                Outline::Disc { .. } => None,
+                Outline::Polygon { corners } => Some(corners),
             },
         })).collect::<Vec<_>>(),
         "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),

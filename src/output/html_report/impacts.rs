@@ -2,10 +2,10 @@
 
 use super::data::digits;
 use crate::capture::assembly::turned;
-use crate::capture::contact_at_time::Touching;
+use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_detection::gap;
 use crate::capture::impact::{Capture, ContactResult, ImpactResult};
-use crate::capture::{Captured, CaseResult, Study};
+use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::output::time_series::rows;
 use crate::scenario::{Case, Detection, Scenario};
 use crate::simulate::system::Body;
@@ -36,7 +36,7 @@ pub(super) fn impacts(scenario: &Scenario, study: &Study, result: &CaseResult) -
 }
 
 /// The first sample after an impact: there are two at its time.
-fn sample_after(captured: &Captured, time: f64) -> usize {
+fn sample_after(captured: &CaptureResult, time: f64) -> usize {
     captured.post_impact.samples.iter().rposition(|sample| sample.time <= time).unwrap_or_default()
 }
 
@@ -49,7 +49,7 @@ fn balance(result: &ImpactResult) -> Value {
 }
 
 fn contact(scenario: &Scenario, result: &ContactResult, tips: &[[f64; 3]], impact: &Capture) -> Value {
-    let Touching { target, arm, law, miss, .. } = result.touching;
+    let ImpactContact { target, arm, law, miss, .. } = result.touching;
     let response = &result.response;
     let literal = impact.paper.as_ref().and_then(|paper| paper.impulses.get(arm).copied().flatten());
     let [_, vx, vy] = response.relative_twist;
@@ -108,13 +108,13 @@ pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result:
 /// distance of the contact points, m, and of the turn of one that is rigid, rad. `None` before it takes hold.
 ///
 /// The first rigid hold of a target makes it part of the robot's link: there is nothing that could open.
-pub(super) fn holds(captured: &Captured) -> Vec<Value> {
+pub(super) fn holds(captured: &CaptureResult) -> Vec<Value> {
     let later = captured.further.iter().map(|one| (sample_after(captured, one.time), &one.impact));
     let mut holds = Vec::new();
     let mut merged = Vec::new();
     for (from, impact) in std::iter::once((0, &captured.impact)).chain(later) {
         let held = impact.contacts.iter().map(|one| one.touching);
-        for Touching { target, arm, law, .. } in held.filter(|touch| touch.law.kind().holds()) {
+        for ImpactContact { target, arm, law, .. } in held.filter(|touch| touch.law.kind().holds()) {
             let keeps_yaw = law.kind().holds_yaw();
             if keeps_yaw && !merged.contains(&target) {
                 merged.push(target);

@@ -2,7 +2,7 @@
 
 use super::{Motion, frames};
 use crate::layout::{Layout, Link};
-use crate::outline::Surface;
+use crate::outline::Outline;
 use crate::scenario::Scenario;
 use std::f64::consts::TAU;
 
@@ -75,10 +75,10 @@ pub fn bodies(scenario: &Scenario) -> Vec<Body> {
 }
 
 /// Of a target.
-pub(crate) fn outline(surface: &Surface) -> Shape {
+pub(crate) fn outline(surface: &Outline) -> Shape {
     match surface {
-        Surface::Disc { radius } => Shape::Disc { radius: *radius },
-        Surface::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
+        Outline::Disc { radius } => Shape::Disc { radius: *radius },
+        Outline::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a layout or a scenario is said to be.
 
 use super::{LAYOUT, SCENARIO, check, look};
-use planar_capture::check::{Inspection, inspect};
+use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
@@ -26,7 +26,7 @@ fn what_a_layout_is() {
     let (squares, first): (f64, f64) = (10.0 * (1.0 + 4.0 + 9.0 + 0.0 + 1.0 + 4.0), 10.0 * (6.0 + 3.0));
     let inertia = 83.61 + 6.0 * 1.05 + squares - first * first / 560.0;
     assert_eq!(format!("{inertia:.1}"), "265.4");
-    let Inspection { description, .. } = look(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
+    let CheckReport { description, .. } = look(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
     assert!(description.contains("(-0.5, 0.3) at 3\n") && description.contains("a mount angle"), "{description}");
     assert!(description.contains("none of this structure in this build"), "{description}");
     assert!(description.contains("codegen/layouts/robot.toml"), "the way to the code\n{description}");

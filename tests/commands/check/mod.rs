@@ -5,7 +5,7 @@ mod odd;
 mod wrong;
 
 use crate::command;
-use planar_capture::check::{Inspection, inspect};
+use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::{file, said};
 use std::fs;
@@ -77,7 +77,7 @@ target_twists = { ball = [0.0, 0.0, 0.0] }
 duration = 50.0
 "#;
 
-fn look(text: &str) -> Inspection {
+fn look(text: &str) -> CheckReport {
     let shipped = [("robot", LAYOUT)];
     inspect(text, "it.toml", Path::new(""), &shipped).unwrap_or_else(|report| panic!("{report}\nin\n{text}"))
 }

@@ -1,7 +1,7 @@
 //! Every oddity seen once, and none where there is none.
 
 use super::{LAYOUT, SCENARIO, look};
-use planar_capture::check::{Inspection, inspect};
+use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
@@ -179,7 +179,7 @@ const ODD_SCENARIOS: &[Edit] = &[
 
 #[track_caller]
 fn one_warning(text: &str, line: usize, wanted: &[&str]) {
-    let Inspection { warnings, .. } = look(text);
+    let CheckReport { warnings, .. } = look(text);
     let shown = warnings.to_string();
     assert_eq!(warnings.count(), 1, "one warning is wanted in\n{text}\nnot\n{shown}");
     let place = format!("it.toml:{line}:");

@@ -6,21 +6,22 @@
 
 use planar_capture::body::Body;
 use planar_capture::contact::{
-    self, Closure, Contact, Hold, ImpulseEllipse, InverseInertia, Rows, Workspace as HoldWorkspace, workspace_length,
+    self, ConstraintSolver, Contact, DelassusMatrix, ImpulseEllipse, InverseInertia, LoopConstraint,
+    Workspace as HoldWorkspace, workspace_length,
 };
 use planar_capture::control::{
-    ComputedTorque, Control, ExactTracking, Free, Limited, ProportionalDerivative, ResolvedMotionRate, Sampled,
-    Stabilise, TipWorkspace,
+    ComputedTorque, Control, EndEffectorWorkspace, InverseDynamics, Limited, ProportionalDerivative,
+    ResolvedMotionRate, Sampled, Stabilise, ZeroTorque,
 };
-use planar_capture::dynamics::{Conserved, Kinematics, Merge, Momentum};
+use planar_capture::dynamics::{Kinematics, Merge, Momentum, MomentumAndEnergy};
 use planar_capture::error::Error;
 use planar_capture::formulation::{Canonical, Reduced, derivative};
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
-use planar_capture::impact::{self, After, Workspace};
+use planar_capture::impact::{self, RigidImpactOutput, Workspace};
 use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
 use planar_capture::state::{Halves, HalvesMut, State, halves, halves_mut, vector_length};
 use planar_capture::target::Target;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic, Quintic, TipPath};
+use planar_capture::trajectory::{Cycloidal, EndEffectorPath, Ends, Quartic, Quintic};
 
 const LENGTH: usize = vector_length(JOINTS);
 const ARMS: usize = 2;
@@ -57,7 +58,7 @@ pub fn approach_step(
 /// What the core says of the numbers.
 #[inline(never)]
 pub fn exact_step(model: &Model<f32>, ends: Ends<'_, f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    let mut law = ExactTracking {
+    let mut law = InverseDynamics {
         trajectory: Cycloidal { ends },
         generalized_inertia: &mut [0.0; JOINTS * JOINTS],
         generalized_bias: &mut [0.0; JOINTS],
@@ -104,7 +105,7 @@ pub fn computed_step(
 #[inline(never)]
 pub fn steered_step(
     model: &Model<f32>,
-    path: TipPath<'_, f32>,
+    path: EndEffectorPath<'_, f32>,
     time: f32,
     x: &mut [f32; LENGTH],
 ) -> Result<Option<f32>, Error> {
@@ -118,7 +119,7 @@ pub fn steered_step(
         error_limit: 0.05,
         singularity_threshold: 0.04,
         singularity_margin: None,
-        workspace: TipWorkspace {
+        workspace: EndEffectorWorkspace {
             generalized_inertia: &mut [0.0; JOINTS * JOINTS],
             generalized_bias: &mut [0.0; JOINTS],
             generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
@@ -165,7 +166,8 @@ pub fn capture(
     let before = *x;
     let state = State::from_vector(&before, JOINTS)?;
     let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; ARMS], [[0.0; 3]; ARMS]);
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = impact::exact(model, &state, targets, &mut after)?;
     model.merge(&state.base_pose, state.joint_angles, targets)?;
     State { base_twist, joint_rates: &joint_rates, ..state }.write(x)?;
@@ -189,7 +191,8 @@ pub fn paper(
         jacobian: &mut [0.0; 3 * ARMS * JOINTS],
         mass_matrix: &mut [0.0; SIZE * SIZE],
     };
-    let mut after = After { joint_rates, target_twists: &mut [[0.0; 3]; ARMS], impulses: &mut [[0.0; 3]; ARMS] };
+    let mut after =
+        RigidImpactOutput { joint_rates, target_twists: &mut [[0.0; 3]; ARMS], impulses: &mut [[0.0; 3]; ARMS] };
     impact::paper(model, state, targets, &mut workspace, &mut after)
 }
 
@@ -198,8 +201,8 @@ pub fn paper(
 /// # Errors
 /// What the core says of the numbers.
 #[inline(never)]
-pub fn coast(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    step(model, &mut Free, time, x)
+pub fn integrate_to_contact(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+    step(model, &mut ZeroTorque, time, x)
 }
 
 /// One semi-implicit step in reduced coordinates, with the momentum [l, px, py].
@@ -218,7 +221,7 @@ pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [
     let mut torques = [0.0; JOINTS];
     let mut workspace = [0.0; LENGTH];
     let mut euler = SemiImplicitEuler::new(&mut workspace);
-    euler.step(time, 0.005, x, |t, x, rate| equation.derivative(model, &mut Free, t, x, rate, &mut torques))?;
+    euler.step(time, 0.005, x, |t, x, rate| equation.derivative(model, &mut ZeroTorque, t, x, rate, &mut torques))?;
     equation.recover(model, x)
 }
 
@@ -264,7 +267,7 @@ pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> 
 #[inline(never)]
 pub fn look(model: &Model<f32>, state: &State<'_, f32>, tips: &mut [[f32; 3]; ARMS]) -> Result<Momentum<f32>, Error> {
     Kinematics::end_effector_poses(model, &state.base_pose, state.joint_angles, tips)?;
-    Conserved::momentum(model, state)
+    MomentumAndEnergy::momentum(model, state)
 }
 
 fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
@@ -293,12 +296,12 @@ pub fn touch(
     let state = State::from_vector(&before, JOINTS)?;
     let bodies = [*body];
     let mut numbers = [0.0; NUMBERS];
-    let length = workspace_length(JOINTS, ARMS, 1, Rows::count(contacts));
+    let length = workspace_length(JOINTS, ARMS, 1, DelassusMatrix::count(contacts));
     let numbers = numbers.get_mut(..length).unwrap_or_default();
-    let rows = Rows::new(model, &state.base_pose, state.joint_angles, &bodies, contacts, numbers)?;
+    let rows = DelassusMatrix::new(model, &state.base_pose, state.joint_angles, &bodies, contacts, numbers)?;
     let (mut joint_rates, mut body_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; 1], [[0.0; 3]; ARMS]);
     let mut after =
-        contact::After { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
+        contact::ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
     let base_twist = contact::impact(model, &state, &bodies, rows, &mut after)?;
     let [twist] = body_twists;
     body.twist = twist;
@@ -314,12 +317,12 @@ pub fn touch(
 pub fn held_step(
     model: &Model<f32>,
     body: &Body<f32>,
-    closures: &[Closure<f32>; ARMS],
+    constraints: &[LoopConstraint<f32>; ARMS],
     time: f32,
     x: &mut [f32; LENGTH + 6],
 ) -> Result<[f32; 2], Error> {
     let bodies = [*body];
-    let hold = Hold { model, bodies: &bodies, closures };
+    let hold = ConstraintSolver { model, bodies: &bodies, constraints };
     let mut numbers = [0.0; NUMBERS];
     let mut forces = [0.0; ROWS];
     let mut space = HoldWorkspace {
@@ -333,7 +336,7 @@ pub fn held_step(
     let mut torques = [0.0; JOINTS];
     let mut integrator = RungeKutta4::new(&mut workspace)?;
     integrator.step(time, 0.005, x, |t, x, rate| {
-        derivative(model, &mut Free, t, x, rate, &mut torques)?;
+        derivative(model, &mut ZeroTorque, t, x, rate, &mut torques)?;
         hold.constrain(x, rate, &mut space)
     })?;
     hold.restore(x, &mut space)?;

@@ -3,7 +3,7 @@
 use crate::prove::owned::{CloneModel, RobotState};
 use planar_dynamics::dynamics::Model;
 use planar_dynamics::error::Error;
-use planar_dynamics::impact::{self, After};
+use planar_dynamics::impact::{self, RigidImpactOutput};
 use planar_dynamics::quantity::{Extent, Quantity};
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
@@ -184,7 +184,8 @@ fn reduced_impact(model: &dyn Model<f64>, instant: &Instant, values: &mut Values
 fn capture(model: &dyn Model<f64>, instant: &Instant, values: &mut Values) -> Result<(), Error> {
     let mut joint_rates = vec![0.0; values.joints];
     let (mut target_twists, mut impulses) = (vec![[0.0; 3]; values.arms], vec![[0.0; 3]; values.arms]);
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = impact::exact(model, &instant.state.view(), &instant.targets, &mut after)?;
     finite("target_twists_after", target_twists.as_flattened())?;
     finite("impulses", impulses.as_flattened())?;

@@ -92,7 +92,7 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let vectors = (0..CARRIED).map(|index| {
-        let vectors = at(layout, Regime::Moving, index)?;
+        let vectors = at(layout, Regime::SequenceState, index)?;
         let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::from)?;
         Ok(vectors.to_json(&found))
     });

@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// Everything moves, at about 1 rad/s.
-    Moving,
+    SequenceState,
     /// Nothing moves: accelerations come from forces alone.
     AtRest,
     /// 100 rad/s, 100 m/s: the bias dominates.
@@ -43,7 +43,7 @@ pub enum Regime {
 
 /// Every regime.
 pub const REGIMES: [Regime; 13] = [
-    Regime::Moving,
+    Regime::SequenceState,
     Regime::AtRest,
     Regime::Fast,
     Regime::Stretched,
@@ -72,7 +72,7 @@ impl Regime {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Moving => "moving",
+            Self::SequenceState => "moving",
             Self::AtRest => "at rest",
             Self::Fast => "fast",
             Self::Stretched => "stretched",

@@ -1,6 +1,6 @@
 //! One row of a contact.
 
-use super::{Contact, ContactLaw, Other};
+use super::{Contact, ContactLaw, ContactPartner};
 use crate::linear::dot;
 use crate::scalar::Real;
 
@@ -8,7 +8,7 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row<T> {
     pub(super) arm: usize,
-    pub(super) other: Other,
+    pub(super) other: ContactPartner,
     /// [n, fx, fy] on the robot at the tip.
     pub(super) wrench: [T; 3],
     /// The same about the origin of what is touched, on which it acts with the other sign.
@@ -23,8 +23,8 @@ impl<T: Real> Row<T> {
     /// Its velocity u, or acceleration, for these of the tips and of the bodies: rad/s for a moment, m/s for a force.
     pub(super) fn velocity_of(&self, tips: &[[T; 3]], bodies: &[[T; 3]]) -> T {
         let other = match self.other {
-            Other::Body(i) => bodies.get(i),
-            Other::Tip(arm) => tips.get(arm),
+            ContactPartner::Body(i) => bodies.get(i),
+            ContactPartner::EndEffector(arm) => tips.get(arm),
         };
         let part = |wrench: &[T; 3], twist: Option<&[T; 3]>| twist.map_or(T::ZERO, |twist| dot(wrench, twist));
         part(&self.wrench, tips.get(self.arm)) - part(&self.at_other, other)

@@ -1,7 +1,7 @@
 //! Motion with holds: the constraint forces, and what rounding opened closed again.
 
-use super::delassus_matrix::{Rows, workspace_length};
-use super::{Closure, Contact, Other};
+use super::delassus_matrix::{DelassusMatrix, workspace_length};
+use super::{Contact, ContactPartner, LoopConstraint};
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -14,23 +14,23 @@ const MOST_CORRECTIONS: usize = 4;
 
 /// A robot, the bodies beside it and what the tips hold.
 #[derive(Clone, Copy)]
-pub struct Hold<'a, T> {
+pub struct ConstraintSolver<'a, T> {
     /// The robot.
     pub model: &'a dyn Model<T>,
     /// The bodies beside it, for their masses and inertias: where they are is in the integrated vector.
     pub bodies: &'a [Body<T>],
     /// What is held.
-    pub closures: &'a [Closure<T>],
+    pub constraints: &'a [LoopConstraint<T>],
 }
 
-/// Working space of a [`Hold`]; any values.
+/// Working space of a [`ConstraintSolver`]; any values.
 #[derive(Debug)]
 pub struct Workspace<'a, T> {
     /// As many as closures.
     pub contacts: &'a mut [Contact<T>],
-    /// [`Hold::workspace_length`].
+    /// [`ConstraintSolver::workspace_length`].
     pub numbers: &'a mut [T],
-    /// One per row, see [`Hold::rows`].
+    /// One per row, see [`ConstraintSolver::rows`].
     pub forces: &'a mut [T],
     /// 3 arms × (3 + joints).
     pub jacobian: &'a mut [T],
@@ -38,11 +38,11 @@ pub struct Workspace<'a, T> {
     pub tips: &'a mut [[T; 3]],
 }
 
-impl<T: Real> Hold<'_, T> {
+impl<T: Real> ConstraintSolver<'_, T> {
     /// Number of constraints: 3 for each rigid hold, 2 for each pin.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.closures.iter().map(|closure| if closure.yaw.is_some() { 3 } else { 2 }).sum()
+        self.constraints.iter().map(|constraint| if constraint.yaw.is_some() { 3 } else { 2 }).sum()
     }
 
     /// Length of [`Workspace::numbers`].
@@ -60,7 +60,8 @@ impl<T: Real> Hold<'_, T> {
         self.find_contacts(x, workspace)?;
         let Workspace { contacts, numbers, forces, jacobian, tips } = workspace;
         let (state, _, twists) = self.parts(x)?;
-        let mut rows = Rows::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
+        let mut rows =
+            DelassusMatrix::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
         let HalvesMut { rates: accelerations, .. } = halves_mut(rate)?;
         let CoordinatesMut { base, joints, bodies } = CoordinatesMut::new(accelerations, self.model.joints())?;
         let free = State { base_twist: *base, joint_rates: joints, ..state };
@@ -70,8 +71,8 @@ impl<T: Real> Hold<'_, T> {
         self.model.end_effector_twists(&state, tips)?;
         for (force, row) in forces.iter_mut().zip(rows.rows()) {
             let spin = match row.other {
-                Other::Body(i) => twists.get(i),
-                Other::Tip(arm) => tips.get(arm),
+                ContactPartner::Body(i) => twists.get(i),
+                ContactPartner::EndEffector(arm) => tips.get(arm),
             };
             let omega = spin.map_or(T::ZERO, |[omega, ..]| *omega);
             *force = -(row.velocity_of(rows.tips, bodies) + omega * omega * row.reach);
@@ -86,14 +87,15 @@ impl<T: Real> Hold<'_, T> {
     /// do, so that momentum stays.
     ///
     /// # Errors
-    /// As [`Hold::constrain`].
+    /// As [`ConstraintSolver::constrain`].
     pub fn restore(&self, x: &mut [T], workspace: &mut Workspace<'_, T>) -> Result<(), Error> {
         let mut rounds = 0;
         loop {
             let open = self.find_contacts(x, workspace)?;
             let Workspace { contacts, numbers, forces, .. } = &mut *workspace;
             let (state, _, twists) = self.parts(x)?;
-            let mut rows = Rows::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
+            let mut rows =
+                DelassusMatrix::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
             let size = state.base_pose.iter().fold(T::ONE, |sum, value| sum + value.abs());
             let closed = open <= T::EPSILON * T::constant(16.0) * size || rounds == MOST_CORRECTIONS;
             if closed {
@@ -129,27 +131,27 @@ impl<T: Real> Hold<'_, T> {
 
     /// The holds as contacts at `x`, with minus what they are open by as forces; returns the largest size of that.
     fn find_contacts(&self, x: &[T], workspace: &mut Workspace<'_, T>) -> Result<T, Error> {
-        length("contacts", self.closures.len(), workspace.contacts.len())?;
+        length("contacts", self.constraints.len(), workspace.contacts.len())?;
         length("constraint forces", self.rows(), workspace.forces.len())?;
         let (state, poses, _) = self.parts(x)?;
         self.model.end_effector_poses(&state.base_pose, state.joint_angles, workspace.tips)?;
         let mut forces = workspace.forces.iter_mut();
         let mut open = T::ZERO;
-        for (place, closure) in workspace.contacts.iter_mut().zip(self.closures) {
-            let held = match closure.other {
-                Other::Body(i) => poses.get(i),
-                Other::Tip(arm) => workspace.tips.get(arm),
+        for (place, constraint) in workspace.contacts.iter_mut().zip(self.constraints) {
+            let held = match constraint.other {
+                ContactPartner::Body(i) => poses.get(i),
+                ContactPartner::EndEffector(arm) => workspace.tips.get(arm),
             };
             let count = workspace.tips.len();
-            let tip = workspace.tips.get(closure.arm).ok_or(Error::Index {
+            let tip = workspace.tips.get(constraint.arm).ok_or(Error::Index {
                 what: "arm that holds",
-                index: closure.arm,
+                index: constraint.arm,
                 count,
             })?;
-            let held = held.ok_or(closure.other.missing(count, poses.len()))?;
-            *place = closure.contact(held);
+            let held = held.ok_or(constraint.other.missing(count, poses.len()))?;
+            *place = constraint.contact(held);
             // the errors first: where they end, no force is taken
-            for (error, force) in closure.errors(tip, held).zip(&mut forces) {
+            for (error, force) in constraint.errors(tip, held).zip(&mut forces) {
                 *force = -error;
                 open = largest(open, error.abs());
             }

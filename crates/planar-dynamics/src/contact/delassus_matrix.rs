@@ -2,7 +2,7 @@
 
 use super::complementarity::solve_rows;
 use super::constraint_row::{Row, Set};
-use super::{Contact, Other};
+use super::{Contact, ContactPartner};
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -13,7 +13,7 @@ use crate::validate::{finite, length};
 /// The most rows that are solved together: a bit each.
 const MOST_ROWS: usize = 64;
 
-/// Numbers of working space for [`Rows::new`].
+/// Numbers of working space for [`DelassusMatrix::new`].
 #[must_use]
 pub const fn workspace_length(joints: usize, arms: usize, bodies: usize, rows: usize) -> usize {
     rows * (3 + joints + 3 * bodies + 2 * rows + 5) + 6 * arms + joints
@@ -22,7 +22,7 @@ pub const fn workspace_length(joints: usize, arms: usize, bodies: usize, rows: u
 /// W, the inverse inertia that the contacts see (the Delassus matrix): `W = A M⁻¹ Aᵀ` with the rows A and the mass matrix
 /// M of robot and bodies together; and `M⁻¹ Aᵀ`, the change of velocities per unit impulse along each row.
 #[derive(Debug)]
-pub struct Rows<'a, T> {
+pub struct DelassusMatrix<'a, T> {
     contacts: &'a [Contact<T>],
     /// W, rows × rows.
     pub(super) matrix: &'a mut [T],
@@ -39,7 +39,7 @@ pub struct Rows<'a, T> {
     pub(super) bilateral: Set,
 }
 
-impl<'a, T: Real> Rows<'a, T> {
+impl<'a, T: Real> DelassusMatrix<'a, T> {
     /// How many rows contacts have.
     #[must_use]
     pub fn count(contacts: &[Contact<T>]) -> usize {
@@ -109,7 +109,7 @@ impl<'a, T: Real> Rows<'a, T> {
         for (row, (response, products)) in rows.zip(responses.chunks_exact_mut(size.max(1)).zip(products)) {
             wrenches.fill([T::ZERO; 3]);
             add_at(wrenches, row.arm, &row.wrench, T::ONE);
-            if let Other::Tip(arm) = row.other {
+            if let ContactPartner::EndEffector(arm) = row.other {
                 add_at(wrenches, arm, &row.at_other, -T::ONE);
             }
             let Some((base, rest)) = response.split_first_chunk_mut::<3>() else { continue };
@@ -120,7 +120,7 @@ impl<'a, T: Real> Rows<'a, T> {
             model.end_effector_twists(&State { base_twist, joint_rates, ..at_rest }, tips)?;
             of_bodies.fill(T::ZERO);
             let (twists, _) = of_bodies.as_chunks_mut::<3>();
-            if let Other::Body(i) = row.other
+            if let ContactPartner::Body(i) = row.other
                 && let (Some(body), Some(twist)) = (bodies.get(i), twists.get_mut(i))
             {
                 let [n, fx, fy] = row.at_other;
@@ -177,8 +177,8 @@ fn check<T: Real>(contacts: &[Contact<T>], arms: usize, bodies: usize) -> Result
         }
         let (what, index, count) = match contact.other {
             _ if contact.arm >= arms => ("arm of a contact", contact.arm, arms),
-            Other::Tip(arm) if arm >= arms => ("arm that is touched", arm, arms),
-            Other::Body(body) if body >= bodies => ("body that is touched", body, bodies),
+            ContactPartner::EndEffector(arm) if arm >= arms => ("arm that is touched", arm, arms),
+            ContactPartner::Body(body) if body >= bodies => ("body that is touched", body, bodies),
             _ => continue,
         };
         return Err(Error::Index { what, index, count });

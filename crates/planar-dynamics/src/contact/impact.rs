@@ -1,7 +1,7 @@
 //! The impact of any mixture of contacts.
 
 use super::complementarity::solve_contacts;
-use super::delassus_matrix::Rows;
+use super::delassus_matrix::DelassusMatrix;
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -12,7 +12,7 @@ use crate::validate::{finite_state, length};
 
 /// Where the results of an impact go.
 #[derive(Debug)]
-pub struct After<'a, T> {
+pub struct ImpactOutput<'a, T> {
     /// rad/s.
     pub joint_rates: &'a mut [T],
     /// [ω, vx, vy] of each body's COM.
@@ -44,8 +44,8 @@ pub fn impact<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
     bodies: &[Body<T>],
-    mut rows: Rows<'_, T>,
-    after: &mut After<'_, T>,
+    mut rows: DelassusMatrix<'_, T>,
+    after: &mut ImpactOutput<'_, T>,
 ) -> Result<[T; 3], Error> {
     finite_state(state)?;
     length("joint_rates", model.joints(), state.joint_rates.len())?;

@@ -1,22 +1,22 @@
 //! What tips hold after an impact, and the forces that keep it so.
 
-use super::{Contact, ContactLaw, Other};
+use super::{Contact, ContactLaw, ContactPartner};
 use crate::scalar::{Real, Scalar};
 
 /// A hold that closes a loop, or that holds a body which is no part of the robot's tree: a contact that lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closure<T> {
+pub struct LoopConstraint<T> {
     /// The arm whose tip holds.
     pub arm: usize,
     /// What it holds.
-    pub other: Other,
+    pub other: ContactPartner,
     /// From the COM of the body, or from the other tip, to the point that is held, in the frame of body or last link, m.
     pub offset: [T; 2],
     /// Yaw of the tip less that of what it holds, rad; `None` for a pin, which turns freely.
     pub yaw: Option<T>,
 }
 
-impl<T: Real> Closure<T> {
+impl<T: Real> LoopConstraint<T> {
     /// The hold that a contact begins, from the poses of the tip and of what it touches at that instant; `None` for a
     /// bounce. The point that is held is where the tip is.
     #[must_use]

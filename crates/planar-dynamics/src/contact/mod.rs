@@ -10,8 +10,8 @@
 //! | [`ContactLaw::Pin`] | relative velocity of the contact points | force |
 //! | [`ContactLaw::Bounce`] | relative velocity along the normal | force along the normal, pushing only |
 //!
-//! With W the rows' velocities per row impulses ([`Rows`]), an impact is solved by Poisson's law with the rigid and pinned
-//! contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed ([`Hold`]).
+//! With W the rows' velocities per row impulses ([`DelassusMatrix`]), an impact is solved by Poisson's law with the rigid and pinned
+//! contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed ([`ConstraintSolver`]).
 
 mod complementarity;
 mod constraint_row;
@@ -22,31 +22,31 @@ mod inverse_inertia;
 mod kind;
 mod loop_constraint;
 
-pub use constraint_solver::{Hold, Workspace};
-pub use delassus_matrix::{Rows, workspace_length};
-pub use impact::{After, impact};
+pub use constraint_solver::{ConstraintSolver, Workspace};
+pub use delassus_matrix::{DelassusMatrix, workspace_length};
+pub use impact::{ImpactOutput, impact};
 pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
 pub use kind::{ContactKind, ContactLaw};
-pub use loop_constraint::Closure;
+pub use loop_constraint::LoopConstraint;
 
 use crate::error::Error;
 use crate::scalar::Real;
 
 /// What a tip touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Other {
+pub enum ContactPartner {
     /// A free body, by its index.
     Body(usize),
     /// Something that the tip of that arm holds rigidly, part of its last link.
-    Tip(usize),
+    EndEffector(usize),
 }
 
-impl Other {
+impl ContactPartner {
     /// That it is not there, among so many arms and bodies.
     pub(crate) fn missing(self, arms: usize, bodies: usize) -> Error {
         match self {
             Self::Body(index) => Error::Index { what: "body that is held", index, count: bodies },
-            Self::Tip(index) => Error::Index { what: "arm that is held", index, count: arms },
+            Self::EndEffector(index) => Error::Index { what: "arm that is held", index, count: arms },
         }
     }
 }
@@ -57,7 +57,7 @@ pub struct Contact<T> {
     /// The arm whose tip touches.
     pub arm: usize,
     /// What it touches.
-    pub other: Other,
+    pub other: ContactPartner,
     /// From the COM of the body, or from the other tip, to the contact point, inertial axes, m.
     pub offset: [T; 2],
     /// What the contact does.
@@ -68,6 +68,6 @@ impl<T: Real> Contact<T> {
     /// Any contact, to fill working space with.
     #[must_use]
     pub fn any() -> Self {
-        Self { arm: 0, other: Other::Tip(0), offset: [T::ZERO; 2], law: ContactLaw::Pin }
+        Self { arm: 0, other: ContactPartner::EndEffector(0), offset: [T::ZERO; 2], law: ContactLaw::Pin }
     }
 }

@@ -12,7 +12,7 @@ use crate::validate::length;
 ///
 /// For a robot that starts on the trajectory. The slices are working space: joints², joints, 3 arms × joints.
 #[derive(Debug)]
-pub struct ExactTracking<'a, T, R> {
+pub struct InverseDynamics<'a, T, R> {
     /// Desired accelerations.
     pub trajectory: R,
     /// joints².
@@ -23,7 +23,7 @@ pub struct ExactTracking<'a, T, R> {
     pub generalized_jacobian: &'a mut [T],
 }
 
-impl<T: Real, R: Trajectory<T>> Control<T> for ExactTracking<'_, T, R> {
+impl<T: Real, R: Trajectory<T>> Control<T> for InverseDynamics<'_, T, R> {
     fn joint_torques(
         &mut self,
         time: T,

@@ -9,10 +9,10 @@ mod sampled;
 mod stabilise;
 
 pub use computed_torque::ComputedTorque;
-pub use inverse_dynamics::ExactTracking;
+pub use inverse_dynamics::InverseDynamics;
 pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
-pub use resolved_motion_rate::{ResolvedMotionRate, TipWorkspace};
+pub use resolved_motion_rate::{EndEffectorWorkspace, ResolvedMotionRate};
 pub use sampled::Sampled;
 pub use stabilise::Stabilise;
 
@@ -102,9 +102,9 @@ impl<T: Real, C: Control<T> + ?Sized> Control<T> for &mut C {
 
 /// No torque: the paper's post-impact phase.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Free;
+pub struct ZeroTorque;
 
-impl<T: Real> Control<T> for Free {
+impl<T: Real> Control<T> for ZeroTorque {
     fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         torques.fill(T::ZERO);
         Ok(())

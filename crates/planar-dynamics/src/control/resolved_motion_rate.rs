@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::linear::least_squares;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
-use crate::trajectory::TipPath;
+use crate::trajectory::EndEffectorPath;
 use crate::validate::length;
 
 /// Resolved motion rate control with the generalized Jacobian J, in closed loop over the tips' poses x:
@@ -33,7 +33,7 @@ use crate::validate::length;
 #[derive(Debug)]
 pub struct ResolvedMotionRate<'a, T> {
     /// `x_d`, `t_d` and `ṫ_d` of every tip.
-    pub path: TipPath<'a, T>,
+    pub path: EndEffectorPath<'a, T>,
     /// Which of [yaw, x, y] follow the path, one per arm.
     pub wanted: &'a [[bool; 3]],
     /// Which joints are brought to rest instead, at the rate k, and kept there; one per joint.
@@ -52,12 +52,12 @@ pub struct ResolvedMotionRate<'a, T> {
     /// The smallest singular value over the largest of the wanted rows of J, the smallest so far; `None` to begin with.
     pub singularity_margin: Option<T>,
     /// Working space.
-    pub workspace: TipWorkspace<'a, T>,
+    pub workspace: EndEffectorWorkspace<'a, T>,
 }
 
 /// Working space of [`ResolvedMotionRate`].
 #[derive(Debug)]
-pub struct TipWorkspace<'a, T> {
+pub struct EndEffectorWorkspace<'a, T> {
     /// joints².
     pub generalized_inertia: &'a mut [T],
     /// joints.

@@ -39,7 +39,7 @@ pub struct Canonical<'a, T> {
 
 /// What a sweep over the bodies from the tips to the base gathers: the momentum beyond a joint.
 #[derive(Clone, Copy)]
-struct Beyond<T> {
+struct Outboard<T> {
     /// About the base COM.
     angular: T,
     linear: [T; 2],
@@ -83,7 +83,7 @@ impl<T: Real> Canonical<'_, T> {
     /// # Errors
     /// What the model says.
     pub fn momenta(&mut self, model: &dyn Model<T>, state: &State<'_, T>, momenta: &mut [T]) -> Result<(), Error> {
-        self.sweep(model, state, |place, [x, y], _, Beyond { angular, linear: [px, py] }| {
+        self.sweep(model, state, |place, [x, y], _, Outboard { angular, linear: [px, py] }| {
             if let Some(momentum) = momenta.get_mut(place) {
                 *momentum = angular - (x * py - y * px);
             }
@@ -123,7 +123,7 @@ impl<T: Real> Canonical<'_, T> {
         state: &State<'_, T>,
         rates: &mut [T],
     ) -> Result<(), Error> {
-        self.sweep(model, state, |place, _, [vx, vy], Beyond { linear: [px, py], .. }| {
+        self.sweep(model, state, |place, _, [vx, vy], Outboard { linear: [px, py], .. }| {
             if let Some(rate) = rates.get_mut(place) {
                 *rate += vy * px - vx * py;
             }
@@ -136,12 +136,12 @@ impl<T: Real> Canonical<'_, T> {
         &mut self,
         model: &dyn Model<T>,
         state: &State<'_, T>,
-        mut each: impl FnMut(usize, [T; 2], [T; 2], Beyond<T>),
+        mut each: impl FnMut(usize, [T; 2], [T; 2], Outboard<T>),
     ) -> Result<(), Error> {
         model.body_poses(&state.base_pose, state.joint_angles, self.poses)?;
         model.body_twists(state, self.twists)?;
         let [_, base_x, base_y] = state.base_pose;
-        let none = Beyond { angular: T::ZERO, linear: [T::ZERO; 2] };
+        let none = Outboard { angular: T::ZERO, linear: [T::ZERO; 2] };
         let (mut beyond, mut all) = (none, none);
         let moving = self.poses.iter().zip(self.twists.iter()).zip(self.inertias.iter()).skip(1).enumerate();
         let links = moving.zip(self.offsets.iter().zip(self.ends.iter()));

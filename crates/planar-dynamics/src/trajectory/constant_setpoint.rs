@@ -5,12 +5,12 @@ use crate::scalar::Real;
 
 /// No motion: these angles, at any time.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing<'a, T> {
+pub struct ConstantSetpoint<'a, T> {
     /// One per joint, rad.
     pub angles: &'a [T],
 }
 
-impl<T: Real> Trajectory<T> for Standing<'_, T> {
+impl<T: Real> Trajectory<T> for ConstantSetpoint<'_, T> {
     fn joint(&self, joint: usize, _: T) -> Option<Desired<T>> {
         Some(Desired { angle: *self.angles.get(joint)?, rate: T::ZERO, acceleration: T::ZERO })
     }

@@ -5,7 +5,7 @@ use crate::scalar::Real;
 
 /// What one tip should do at one time, inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DesiredTip<T> {
+pub struct DesiredEndEffector<T> {
     /// [yaw, x, y]; rad, m.
     pub pose: [T; 3],
     /// [ω, vx, vy], its rate; rad/s, m/s.
@@ -21,7 +21,7 @@ pub struct DesiredTip<T> {
 /// The yaw goes from the one number to the other, by more than a turn where they differ by more. Before the start and after
 /// the end it is as at the nearer of them.
 #[derive(Clone, Copy, Debug)]
-pub struct TipPath<'a, T> {
+pub struct EndEffectorPath<'a, T> {
     /// At time 0, one per arm; rad, m.
     pub initial_poses: &'a [[T; 3]],
     /// At time 0, one per arm; rad/s, m/s.
@@ -34,9 +34,9 @@ pub struct TipPath<'a, T> {
     pub duration: T,
 }
 
-impl<T: Real> TipPath<'_, T> {
+impl<T: Real> EndEffectorPath<'_, T> {
     /// What the tip of `arm` should do at `time` (s); `None` for an arm that the path does not have.
-    pub fn tip(&self, arm: usize, time: T) -> Option<DesiredTip<T>> {
+    pub fn tip(&self, arm: usize, time: T) -> Option<DesiredEndEffector<T>> {
         let tau = part(time, self.duration);
         let [x0, y0, z0] = *self.initial_poses.get(arm)?;
         let [x1, y1, z1] = *self.final_poses.get(arm)?;
@@ -44,7 +44,7 @@ impl<T: Real> TipPath<'_, T> {
         let [u1, v1, w1] = *self.final_twists.get(arm)?;
         let parts = [([x0, x1], [u0, u1]), ([y0, y1], [v0, v1]), ([z0, z1], [w0, w1])];
         let parts = parts.map(|(ends, rates)| quintic(ends, rates, self.duration, tau));
-        Some(DesiredTip {
+        Some(DesiredEndEffector {
             pose: parts.map(|part| part.angle),
             twist: parts.map(|part| part.rate),
             acceleration: parts.map(|part| part.acceleration),

@@ -9,9 +9,9 @@ mod kind;
 mod quartic;
 mod quintic;
 
-pub use constant_setpoint::Standing;
+pub use constant_setpoint::ConstantSetpoint;
 pub use cycloidal::Cycloidal;
-pub use end_effector_path::{DesiredTip, TipPath};
+pub use end_effector_path::{DesiredEndEffector, EndEffectorPath};
 pub use kind::{AnyTrajectory, JointTrajectory, Properties, TrajectoryKind};
 pub use quartic::{Quartic, QuarticAsPrinted};
 pub use quintic::{Quintic, quintic};

@@ -2,15 +2,15 @@
 //!
 //! [`read_text`] reads a file, [`read_document`] parses it and hands its root [`Table`] to a
 //! reader. Readers note every problem they meet and carry on, so that one [`Report`] shows all.
-//! What can be read but is odd, somebody else finds in the content; [`warnings`] shows it at its place in the file.
+//! What can be read but is odd, somebody else finds in the content; [`report_warnings`] shows it at its place in the file.
 
 mod document;
 mod file;
-mod oddity;
 mod quantity;
 mod syntax;
 mod table;
 mod value;
+mod warning;
 
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
@@ -21,10 +21,10 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 pub use document::read_document;
 pub use file::read_text;
-pub use oddity::{Oddity, warnings};
 pub use quantity::Quantity;
 pub use table::{Table, every};
 pub use value::Value;
+pub use warning::{Warning, report_warnings};
 
 /// How many problems a report shows before it only counts them: about one screen.
 const SHOWN: usize = 8;
@@ -84,7 +84,7 @@ fn first_line(text: &str, span: &Range<usize>) -> Range<usize> {
     span.start..length.map_or(span.end, |length| span.start + length)
 }
 
-/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see [`warnings`].
+/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see [`report_warnings`].
 ///
 /// `Display` is [`render`](Self::render) without colour: for each problem (the first eight; the
 /// rest are counted) what is wrong, the file, line and column, the line itself, and a hint.

@@ -21,7 +21,7 @@ enum Least {
     AboveZero,
 }
 
-/// Beyond this size the number is surely in another unit, worth `factor` of the right one.
+/// Outboard this size the number is surely in another unit, worth `factor` of the right one.
 #[derive(Clone, Copy, Debug)]
 struct Suspect {
     beyond: f64,

@@ -23,7 +23,7 @@ pub struct Object {
 
 /// An arm's tip touches a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Touch {
+pub struct PlannedContact {
     /// Which.
     pub arm: usize,
     /// Index into the scene's targets.
@@ -42,7 +42,7 @@ pub struct Scene {
     /// What is touched.
     pub targets: Vec<Object>,
     /// At most one per arm, in arm order.
-    pub touches: Vec<Touch>,
+    pub touches: Vec<PlannedContact>,
 }
 
 impl Scene {
@@ -59,7 +59,7 @@ impl Scene {
 
     /// The contacts between them.
     pub fn contacts(&self, all: &System) -> Vec<Contact> {
-        let of = |touch: &Touch| Contact::new(all, touch.arm, 1 + all.joints.len() + touch.target, touch.kind);
+        let of = |touch: &PlannedContact| Contact::new(all, touch.arm, 1 + all.joints.len() + touch.target, touch.kind);
         self.touches.iter().map(of).collect()
     }
 
@@ -122,7 +122,7 @@ fn scene(layout: &Layout, state: Sample, draws: &[Draw], yaws: &[f64]) -> Scene 
             1 => Kind::Pin,
             _ => Kind::Bounce { normal: [cos, sin], restitution: draw.restitution },
         };
-        scene.touches.push(Touch { arm, target, offset: [tip.x - x, tip.y - y], kind });
+        scene.touches.push(PlannedContact { arm, target, offset: [tip.x - x, tip.y - y], kind });
     }
     let all = scene.system(layout);
     let openings: Vec<_> = scene.contacts(&all).iter().map(|contact| contact.opening(&all)).collect();

@@ -1,10 +1,10 @@
 //! What the product computes in joint coordinates, by recursion, elimination and merging.
 
 use crate::{rigid_targets, robot, simulated, targets};
-use planar_capture::control::{Control, Free};
+use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::impact::{After, exact};
+use planar_capture::impact::{RigidImpactOutput, exact};
 use planar_capture::layout::Layout;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
@@ -57,7 +57,8 @@ fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, R
     let (arms, joints) = (layout.arms.len(), layout.joints());
     let (mut joint_rates, mut target_twists, mut impulses) =
         (vec![0.0; joints], vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = exact(&*model, &s.state(), &targets(s), &mut after).expect("an impact");
     let mut all = robot(layout, s);
     let contacts = rigid_targets(&mut all, s);
@@ -98,7 +99,7 @@ impl Control<f64> for Shaken {
 /// Motion after the capture against that of the merged robot.
 fn check_motion(layout: &Layout, s: &Sample, duration: f64, controlled: bool) {
     let (mut all, merged, motion) = check_capture(layout, s);
-    let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut Free };
+    let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut ZeroTorque };
     let end = simulated(&*merged, control, &motion, duration);
     let nothing = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
     let seen = run(&mut all, duration, 0.25, if controlled { &shaken } else { &nothing });

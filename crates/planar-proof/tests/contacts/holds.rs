@@ -4,7 +4,7 @@ use crate::against_product::{Shaken, shaken};
 use crate::product::law;
 use crate::robot;
 use planar_capture::capture::assembly::{Assembly, Attachment};
-use planar_capture::control::{Control, Free};
+use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
@@ -52,7 +52,7 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
 
 impl Held {
     fn simulated(&self, controlled: bool, timing: &Timing) -> Phase {
-        let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut Free };
+        let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut ZeroTorque };
         simulate(&self.assembly.system(), control, &self.state, timing, &mut NoEvents, &mut || ()).expect("a motion")
     }
 

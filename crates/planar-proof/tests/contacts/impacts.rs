@@ -3,9 +3,9 @@
 use crate::product::{Outcome, both_models, described, law, strike};
 use crate::robot;
 use planar_capture::capture::assembly::{Assembly, Attachment};
-use planar_capture::capture::contact_at_time::Touching;
+use planar_capture::capture::contact_at_time::ImpactContact;
 use planar_capture::capture::impact::{Capture, ImpactResult, capture};
-use planar_capture::contact::{self, ContactKind, Other};
+use planar_capture::contact::{self, ContactKind, ContactPartner};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
@@ -13,7 +13,7 @@ use planar_capture::owned::RobotState;
 use planar_capture::state::State;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, Left, impact};
-use planar_proof::maximal::random::{Scene, Touch, random_contacts};
+use planar_proof::maximal::random::{PlannedContact, Scene, random_contacts};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{Sample, config, sample};
 use planar_proof::{close, layout, tolerance};
@@ -77,7 +77,7 @@ fn all_hold(layout: &Layout, mut scene: Scene, kinds: &[Kind]) -> Scene {
     let [_, x, y] = scene.targets[0].pose;
     let touch = |(arm, kind): (usize, &Kind)| {
         let tip = all.position(&all.tips[arm]);
-        Touch { arm, target: 0, offset: [tip.x - x, tip.y - y], kind: *kind }
+        PlannedContact { arm, target: 0, offset: [tip.x - x, tip.y - y], kind: *kind }
     };
     scene.touches = kinds.iter().enumerate().map(touch).collect();
     scene
@@ -251,9 +251,9 @@ proptest! {
         let from_tip = |arm: usize| (point(arm) - point(1)).into();
         let free = held.before.bodies[held.bodies[1]].com();
         let (second_other, second_offset) =
-            if same { (Other::Tip(1), from_tip(2)) } else { (Other::Body(0), (point(2) - free).into()) };
+            if same { (ContactPartner::EndEffector(1), from_tip(2)) } else { (ContactPartner::Body(0), (point(2) - free).into()) };
         let contacts = [
-            contact::Contact { arm: 0, other: Other::Tip(1), offset: from_tip(0), law: law(first) },
+            contact::Contact { arm: 0, other: ContactPartner::EndEffector(1), offset: from_tip(0), law: law(first) },
             contact::Contact { arm: 2, other: second_other, offset: second_offset, law: law(second) },
         ];
         let [first, second] = held.targets()[..] else { unreachable!() };
@@ -289,7 +289,7 @@ proptest! {
         let grips = [0, 1].map(|arm| Attachment { target: 0, arm, kind: law(holding[arm]).kind() });
         let target = usize::from(!same);
         let offset = held.before.position(&held.before.tips[2]) - held.before.bodies[held.bodies[target]].com();
-        let touching = [Touching { target, arm: 2, law: law(what), offset: offset.into(), miss: 0.0 }];
+        let touching = [ImpactContact { target, arm: 2, law: law(what), offset: offset.into(), miss: 0.0 }];
         for model in both_models(&layout) {
             let assembly = Assembly::new(model, &motion, &held.targets(), &grips).expect("an assembly");
             let found = capture(&assembly, &motion, &held.targets(), &touching).expect("an impact");

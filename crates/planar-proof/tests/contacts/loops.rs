@@ -2,7 +2,7 @@
 
 use crate::{robot, simulated};
 use nalgebra::{DMatrix, DVector};
-use planar_capture::control::Free;
+use planar_capture::control::ZeroTorque;
 use planar_capture::layout::{Layout, Link};
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
@@ -151,7 +151,7 @@ proptest! {
             base_twist: all.bodies[0].twist,
             joint_rates: rate(&all),
         };
-        let end = simulated(&*registry::generic(&longer), &mut Free, &start, 1.5);
+        let end = simulated(&*registry::generic(&longer), &mut ZeroTorque, &start, 1.5);
         run(&mut all, 1.5, 0.2, &|_, angles, _| vec![0.0; angles.len()]);
         close("angles", &angle(&all), &end.joint_angles, tolerance::MAXIMAL_MOTION);
         close("rates", &rate(&all), &end.joint_rates, tolerance::MAXIMAL_MOTION);

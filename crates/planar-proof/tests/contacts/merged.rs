@@ -1,8 +1,10 @@
 //! Contacts of all kinds: against the rigid capture, in free motion with holds, and what the laws promise.
 
 use planar_capture::body::Body;
-use planar_capture::contact::{After, Closure, Contact, ContactLaw, Other, Rows, impact, workspace_length};
-use planar_capture::control::Free;
+use planar_capture::contact::{
+    Contact, ContactLaw, ContactPartner, DelassusMatrix, ImpactOutput, LoopConstraint, impact, workspace_length,
+};
+use planar_capture::control::ZeroTorque;
 use planar_capture::dynamics::{Kinematics, Merge};
 use planar_capture::generated::dual_arm_3r::Model;
 use planar_capture::impact as rigid;
@@ -25,11 +27,12 @@ fn state() -> State<'static, f64> {
 type Outcome = ([f64; 3], [f64; 6], Vec<[f64; 3]>, Vec<[f64; 3]>);
 
 fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], contacts: &[Contact<f64>]) -> Outcome {
-    let mut numbers = vec![0.0; workspace_length(6, 2, bodies.len(), Rows::count(contacts))];
-    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers).expect("rows");
+    let mut numbers = vec![0.0; workspace_length(6, 2, bodies.len(), DelassusMatrix::count(contacts))];
+    let rows =
+        DelassusMatrix::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers).expect("rows");
     let (mut rates, mut twists) = ([0.0; 6], vec![[0.0; 3]; bodies.len()]);
     let mut impulses = vec![[0.0; 3]; contacts.len()];
-    let mut after = After { joint_rates: &mut rates, body_twists: &mut twists, impulses: &mut impulses };
+    let mut after = ImpactOutput { joint_rates: &mut rates, body_twists: &mut twists, impulses: &mut impulses };
     let base = impact(model, state, bodies, rows, &mut after).expect("an impact");
     (base, rates, twists, impulses)
 }
@@ -49,7 +52,8 @@ fn rigid_contacts_are_the_rigid_capture() {
         |scale: f64| Target { mass: 12.0 * scale, inertia: 3.0 * scale, contact: [0.3, -0.4], twist: [-0.7, 0.2, 0.6] };
     let targets = [Some(target(1.0)), Some(target(40.0))];
     let (mut rates, mut twists, mut impulses) = ([0.0; 6], [[0.0; 3]; 2], [[0.0; 3]; 2]);
-    let mut after = rigid::After { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
+    let mut after =
+        rigid::RigidImpactOutput { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
     let base = rigid::exact(&model, &state, &targets, &mut after).expect("an impact");
 
     let bodies: Vec<_> = targets
@@ -58,7 +62,7 @@ fn rigid_contacts_are_the_rigid_capture() {
         .map(|t| Body { mass: t.mass, inertia: t.inertia, pose: [0.0; 3], twist: t.twist })
         .collect();
     let contacts =
-        [0, 1].map(|i| Contact { arm: i, other: Other::Body(i), offset: [0.3, -0.4], law: ContactLaw::Rigid });
+        [0, 1].map(|i| Contact { arm: i, other: ContactPartner::Body(i), offset: [0.3, -0.4], law: ContactLaw::Rigid });
     let found = solve(&model, &state, &bodies, &contacts);
     assert_close("base twist", &found.0, &base, tolerance::SAME_IMPACT);
     assert_close("joint rates", &found.1, &rates, tolerance::SAME_IMPACT);
@@ -71,22 +75,22 @@ fn rigid_contacts_are_the_rigid_capture() {
 fn a_rigid_hold_is_a_merged_link() {
     let state = state();
     let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
-    let contact = Contact { arm: 1, other: Other::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
+    let contact = Contact { arm: 1, other: ContactPartner::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
     let tip = tips(&state)[1];
     let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
     let model = Model::<f64>::default();
     let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
     let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
     let held = [Body { twist: twists[0], ..body }];
-    let closures = [Closure::new(&contact, &tip, &body.pose).expect("a hold")];
-    let system = System { model: &model, bodies: &held, closures: &closures };
-    let by_forces = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+    let constraints = [LoopConstraint::new(&contact, &tip, &body.pose).expect("a hold")];
+    let system = System { model: &model, bodies: &held, constraints: &constraints };
+    let by_forces = simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
     let mut merged = model;
     let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
     Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
-    let as_one =
-        simulate(&System::alone(&merged), &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+    let as_one = simulate(&System::alone(&merged), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {})
+        .expect("a motion");
     let (a, b) = (by_forces.end().expect("an end"), as_one.end().expect("an end"));
     assert_close("base pose", &a.state.base_pose, &b.state.base_pose, tolerance::MERGED_MOTION);
     assert_close("joint angles", &a.state.joint_angles, &b.state.joint_angles, tolerance::MERGED_MOTION);
@@ -109,7 +113,7 @@ fn a_loop_stays_closed() {
         let contacts: Vec<_> = touching
             .map(|(arm, (tip, kind))| Contact {
                 arm,
-                other: Other::Body(0),
+                other: ContactPartner::Body(0),
                 offset: [tip[1] - com[0], tip[2] - com[1]],
                 law: kind,
             })
@@ -118,12 +122,13 @@ fn a_loop_stays_closed() {
         let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
         let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
         let held = [Body { twist: twists[0], ..body }];
-        let closure = |(contact, tip)| Closure::new(contact, tip, &body.pose).expect("a hold");
-        let closures: Vec<_> = contacts.iter().zip(&both).map(closure).collect();
-        let system = System { model: &model, bodies: &held, closures: &closures };
+        let constraint = |(contact, tip)| LoopConstraint::new(contact, tip, &body.pose).expect("a hold");
+        let constraints: Vec<_> = contacts.iter().zip(&both).map(constraint).collect();
+        let system = System { model: &model, bodies: &held, constraints: &constraints };
         let drift = |step: f64| {
             let timing = Timing { duration: 2.0, step, sample: 2.0, ..Timing::default() };
-            let phase = simulate(&system, &mut Free, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+            let phase =
+                simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
             let [open, opening] = phase.constraint_errors;
             assert!(open < tolerance::HOLD && opening < tolerance::HOLD, "{kinds:?}: {open} {opening}");
             phase.drift

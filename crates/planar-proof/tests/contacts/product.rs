@@ -1,7 +1,7 @@
 //! The product's impacts, in the reference's terms.
 
 use planar_capture::body::Body;
-use planar_capture::contact::{self, After, Contact, Other, Rows, workspace_length};
+use planar_capture::contact::{self, Contact, ContactPartner, DelassusMatrix, ImpactOutput, workspace_length};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
@@ -10,7 +10,7 @@ use planar_capture::registry;
 use planar_capture::scalar::Real;
 use planar_capture::state::State;
 use planar_proof::maximal::impact::Kind;
-use planar_proof::maximal::random::{Object, Scene, Touch};
+use planar_proof::maximal::random::{Object, PlannedContact, Scene};
 
 /// What an impact leaves, by the product.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,9 +46,9 @@ pub fn law(kind: Kind) -> contact::ContactLaw<f64> {
 pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
     let body =
         |target: &Object| Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist };
-    let contact = |touch: &Touch| Contact {
+    let contact = |touch: &PlannedContact| Contact {
         arm: touch.arm,
-        other: Other::Body(touch.target),
+        other: ContactPartner::Body(touch.target),
         offset: touch.offset,
         law: law(touch.kind),
     };
@@ -62,16 +62,16 @@ pub fn strike<T: Real>(
     bodies: &[Body<T>],
     contacts: &[Contact<T>],
 ) -> Result<Outcome<T>, Error> {
-    let length = workspace_length(model.joints(), model.arms(), bodies.len(), Rows::count(contacts));
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(contacts));
     let mut numbers = vec![T::constant(f64::NAN); length];
-    let rows = Rows::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers)?;
+    let rows = DelassusMatrix::new(model, &state.base_pose, state.joint_angles, bodies, contacts, &mut numbers)?;
     let mut found = Outcome {
         base_twist: [T::ZERO; 3],
         joint_rates: vec![T::ZERO; model.joints()],
         body_twists: vec![[T::ZERO; 3]; bodies.len()],
         impulses: vec![[T::ZERO; 3]; contacts.len()],
     };
-    let mut after = After {
+    let mut after = ImpactOutput {
         joint_rates: &mut found.joint_rates,
         body_twists: &mut found.body_twists,
         impulses: &mut found.impulses,

@@ -3,7 +3,7 @@
 use crate::product::{both_models, strike};
 use nalgebra::{DMatrix, Matrix2, Matrix3, SMatrix, Vector2};
 use planar_capture::body::Body;
-use planar_capture::contact::{Contact, ContactLaw, InverseInertia, Other};
+use planar_capture::contact::{Contact, ContactLaw, ContactPartner, InverseInertia};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::layout::Layout;
@@ -133,7 +133,7 @@ proptest! {
         let speed = Vector2::from(closing);
         let both = of_tip(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
         let hit = |law| {
-            let contact = Contact { arm: 1, other: Other::Body(0), offset: [rx, ry], law };
+            let contact = Contact { arm: 1, other: ContactPartner::Body(0), offset: [rx, ry], law };
             strike(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]
         };
         let [fx, fy] = both.stopping_impulse(&closing);

@@ -1,8 +1,8 @@
 //! Two ways to one answer: the impact solved in full coordinates, and as accelerations of the merged robot.
 
-use planar_capture::dynamics::{Conserved, EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge};
+use planar_capture::dynamics::{EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge, MomentumAndEnergy};
 use planar_capture::generated::dual_arm_3r::Model;
-use planar_capture::impact::{self, After, Workspace};
+use planar_capture::impact::{self, RigidImpactOutput, Workspace};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use planar_proof::{assert_close, tolerance};
@@ -81,9 +81,9 @@ fn the_merged_robot_carries_the_momentum_of_robot_and_targets() {
         let after = State { base_twist, joint_rates: &rates, ..state };
         let mut merged = model;
         Merge::merge(&mut merged, &state.base_pose, &ANGLES, &targets).expect("a merged robot");
-        let whole = Conserved::momentum(&merged, &after).expect("momentum");
+        let whole = MomentumAndEnergy::momentum(&merged, &after).expect("momentum");
 
-        let robot = Conserved::momentum(&model, &state).expect("momentum");
+        let robot = MomentumAndEnergy::momentum(&model, &state).expect("momentum");
         let mut tips = [[0.0; 3]; 2];
         Kinematics::end_effector_poses(&model, &state.base_pose, &ANGLES, &mut tips).expect("tips");
         let mut sum = [robot.angular_momentum, robot.linear_momentum[0], robot.linear_momentum[1]];
@@ -117,12 +117,13 @@ fn the_papers_base_twist_keeps_the_robots_momentum() {
         jacobian: &mut [0.0; 36],
         mass_matrix: &mut [0.0; 81],
     };
-    let mut after = After { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
+    let mut after =
+        RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let targets = [Some(target(1.0)), Some(target(40.0))];
     let base_twist = impact::paper(&model, &state, &targets, &mut workspace, &mut after).expect("an impact");
     let moving = State { base_twist, joint_rates: &joint_rates, ..state };
     let [wanted, found] = [&state, &moving].map(|state| {
-        let momentum = Conserved::momentum(&model, state).expect("momentum");
+        let momentum = MomentumAndEnergy::momentum(&model, state).expect("momentum");
         [momentum.angular_momentum, momentum.linear_momentum[0], momentum.linear_momentum[1]]
     });
     let [l, px, py] = wanted;

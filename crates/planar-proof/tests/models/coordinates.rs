@@ -1,6 +1,6 @@
 //! Momenta for rates and back, the gradient of the energy, and rates from the momentum, for every shipped layout.
 
-use planar_capture::control::{Control, Free};
+use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::formulation::{Canonical, Reduced, derivative};
@@ -137,6 +137,6 @@ fn reduced_coordinates_accelerate_as_full_ones() {
         close("power", &reduced[2 * half..], &full[2 * half..], 100.0, tolerance::SOLVED_IDENTITY);
         equation.recover(model, &mut forgotten).expect("a twist");
         close("recovered", &forgotten, &x, speed, tolerance::SOLVED_IDENTITY);
-        equation.derivative(model, &mut Free, 0.0, &x[1..], &mut reduced, &mut torques).expect_err("too short");
+        equation.derivative(model, &mut ZeroTorque, 0.0, &x[1..], &mut reduced, &mut torques).expect_err("too short");
     });
 }

@@ -117,7 +117,7 @@ fn the_bias_does_no_work_beyond_the_change_of_the_mass_matrix() {
 fn a_mount_angle_is_an_offset_of_the_first_joint() {
     let turned = layout();
     let mut straight = turned.clone();
-    let sample = Regime::Moving.sample(&turned, SEED, 0);
+    let sample = Regime::SequenceState.sample(&turned, SEED, 0);
     let mut angles = sample.instant.state.joint_angles.clone();
     let mut first = 0;
     for arm in &mut straight.arms {

@@ -1,7 +1,7 @@
 //! Every quantity of layouts of different shape against states that Pinocchio and MuJoCo computed: see `README.md` here.
 
 use planar_capture::dynamics::Model;
-use planar_capture::impact::{After, exact};
+use planar_capture::impact::{RigidImpactOutput, exact};
 use planar_capture::layout::Layout;
 use planar_capture::owned::CloneModel;
 use planar_capture::registry;
@@ -239,7 +239,7 @@ fn reduced_impact(model: &dyn Model<f64>, state: &State<'_, f64>, targets: &[Opt
 fn capture(model: &dyn Model<f64>, state: &State<'_, f64>, targets: &[Option<Target<f64>>]) -> Value {
     let (mut rates, mut twists) = (vec![0.0; model.joints()], vec![[0.0; 3]; model.arms()]);
     let mut impulses = twists.clone();
-    let mut after = After { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
+    let mut after = RigidImpactOutput { joint_rates: &mut rates, target_twists: &mut twists, impulses: &mut impulses };
     let base = exact(model, state, targets, &mut after).expect("exact impact");
     let captured = |values: &[[f64; 3]]| -> Vec<Option<[f64; 3]>> {
         targets.iter().zip(values).map(|(target, value)| target.map(|_| *value)).collect()

@@ -1,6 +1,6 @@
 //! One generated text, every scalar: f64, f32, lanes, dual numbers; and what is an error.
 
-use planar_capture::dynamics::{Conserved, ForwardDynamics, Kinematics, ReducedDynamics};
+use planar_capture::dynamics::{ForwardDynamics, Kinematics, MomentumAndEnergy, ReducedDynamics};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{MANIFEST, Model, Parameters};
 use planar_capture::scalar::{self, Scalar};
@@ -96,7 +96,7 @@ fn numbers_that_are_not_finite_are_errors_that_name_them() {
     assert_eq!(found, Err(Error::NotFinite { quantity: "joint_torques", index: 1, value: f64::INFINITY }));
     // finite input whose result is not
     let rates = [1e200; 6];
-    let found = Conserved::momentum(&model, &state(&ANGLES, &rates));
+    let found = MomentumAndEnergy::momentum(&model, &state(&ANGLES, &rates));
     assert!(matches!(found, Err(Error::NotFinite { quantity: "kinetic_energy", index: 0, .. })), "{found:?}");
 }
 

@@ -1,7 +1,9 @@
 //! Trajectories do at their ends what they promise, and their rates are the derivatives of their angles.
 
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::trajectory::{Cycloidal, Ends, Quartic, QuarticAsPrinted, Quintic, TipPath, Trajectory, quintic};
+use planar_capture::trajectory::{
+    Cycloidal, EndEffectorPath, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic,
+};
 use planar_proof::dual::Dual;
 use planar_proof::{assert_close, tolerance};
 
@@ -141,7 +143,7 @@ fn runge_kutta_has_order_four() {
 #[test]
 fn tips_go_along_quintics() {
     let (twists, start) = ([[0.1, -0.2, 0.3]; 2], [[-0.1, 0.0, 0.2]; 2]);
-    let path = TipPath {
+    let path = EndEffectorPath {
         initial_poses: &[TO, FROM],
         initial_twists: &start,
         final_poses: &[FROM, TO],

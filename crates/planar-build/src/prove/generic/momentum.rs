@@ -1,12 +1,12 @@
-//! Conserved quantities, body by body.
+//! Momentum and energy of the robot and its targets, summed body by body.
 
 use super::{Generic, GenericState};
-use planar_dynamics::dynamics::{Conserved, Momentum};
+use planar_dynamics::dynamics::{Momentum, MomentumAndEnergy};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
 use planar_dynamics::validate::finite;
 
-impl Conserved<f64> for Generic {
+impl MomentumAndEnergy<f64> for Generic {
     /// p = Σ m v, l = Σ I ω + r × m v about the inertial origin, T = ½ Σ I ω² + m v².
     fn momentum(&self, state: &State<'_, f64>) -> Result<Momentum<f64>, Error> {
         let now = GenericState::new(self, state)?;

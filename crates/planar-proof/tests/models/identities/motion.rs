@@ -1,6 +1,6 @@
 //! What moves conserves what must be conserved.
 
-use planar_capture::control::Free;
+use planar_capture::control::ZeroTorque;
 use planar_capture::dynamics::Model;
 use planar_capture::formulation::derivative;
 use planar_capture::integrate::RungeKutta4;
@@ -8,13 +8,13 @@ use planar_capture::state::{State, vector_length};
 use planar_proof::sample::Sample;
 
 /// Free motion for `steps` of `step` seconds; the state is `[pose, angles, twist, rates, work]`.
-fn coast(model: &dyn Model<f64>, x: &mut [f64], step: f64, steps: u32) {
+fn integrate_to_contact(model: &dyn Model<f64>, x: &mut [f64], step: f64, steps: u32) {
     let mut workspace = vec![0.0; 3 * x.len()];
     let mut torques = vec![0.0; model.joints()];
     let mut integrator = RungeKutta4::new(&mut workspace).expect("a workspace");
     for _ in 0..steps {
         integrator
-            .step(0.0, step, x, |t, x, rate| derivative(model, &mut Free, t, x, rate, &mut torques))
+            .step(0.0, step, x, |t, x, rate| derivative(model, &mut ZeroTorque, t, x, rate, &mut torques))
             .expect("a step");
     }
 }
@@ -36,12 +36,12 @@ fn vector(sample: &Sample) -> Vec<f64> {
 macro_rules! motion {
     ($($layout:ident)*) => {$(
         mod $layout {
-            use super::{coast, vector};
+            use super::{integrate_to_contact, vector};
             use planar_proof::dual::Dual;
             use planar_proof::sample::{config, sample};
             use planar_proof::tolerance;
             use crate::identities::{close, inputs, moving, velocity};
-            use planar_capture::dynamics::{Conserved, Kinematics};
+            use planar_capture::dynamics::{MomentumAndEnergy, Kinematics};
             use planar_capture::generated::$layout::{ARMS, BODIES, JOINTS, Model, SIZE};
             use planar_capture::state::{State, vector_length};
             use proptest::prelude::*;
@@ -97,10 +97,10 @@ macro_rules! motion {
                     let model = Model::<f64>::default();
                     let start = vector(&s);
                     let mut x = start.clone();
-                    coast(&model, &mut x, 2.5e-4, 1000);
+                    integrate_to_contact(&model, &mut x, 2.5e-4, 1000);
                     let conserved = |x: &[f64]| {
                         let state = State::from_vector(x, JOINTS).expect("a state");
-                        let momentum = Conserved::momentum(&model, &state).expect("momentum");
+                        let momentum = MomentumAndEnergy::momentum(&model, &state).expect("momentum");
                         let (mut inertias, mut poses) = ([[0.0; 2]; BODIES], [[0.0; 3]; BODIES]);
                         planar_capture::dynamics::Robot::body_inertias(&model, &mut inertias).expect("inertias");
                         Kinematics::body_poses(&model, &state.base_pose, state.joint_angles, &mut poses).expect("poses");
@@ -121,7 +121,7 @@ macro_rules! motion {
                     close("T", after.kinetic_energy, before.kinetic_energy, before.kinetic_energy, tolerance::INTEGRATED);
                     let velocities = 3 + JOINTS..2 * (3 + JOINTS);
                     x[velocities.clone()].iter_mut().for_each(|v| *v = -*v);
-                    coast(&model, &mut x, 2.5e-4, 1000);
+                    integrate_to_contact(&model, &mut x, 2.5e-4, 1000);
                     x[velocities].iter_mut().for_each(|v| *v = -*v);
                     for (now, then) in x.iter().zip(&start) {
                         close("reversed", *now, *then, 10.0, tolerance::INTEGRATED);
@@ -181,7 +181,7 @@ macro_rules! motion {
                 }
                 let end = |steps: u32| {
                     let mut x = start.clone();
-                    coast(&model, &mut x, 0.5 / f64::from(steps), steps);
+                    integrate_to_contact(&model, &mut x, 0.5 / f64::from(steps), steps);
                     x
                 };
                 let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();

@@ -9,7 +9,7 @@ use super::{Report, Severity};
 
 /// Something in a file that can be worked with, but is probably not what was meant.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Oddity {
+pub struct Warning {
     /// Path of the key: `arm[1].link[0].mass`.
     pub key: String,
     /// What is odd about its value, as it reads after "`key` is value:".
@@ -22,11 +22,11 @@ pub struct Oddity {
 ///
 /// A key that is left out is shown at the table that could hold it.
 #[must_use]
-pub fn warnings(text: &str, file: &str, oddities: &[Oddity]) -> Report {
+pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
     let text = without_mark(text);
     let document = Document::new(text, file);
     let (tree, _) = DeTable::parse_recoverable(text);
-    for Oddity { key, why, help } in oddities {
+    for Warning { key, why, help } in warnings {
         let found = follow(tree.get_ref(), key);
         let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
         let (message, label) = match found {

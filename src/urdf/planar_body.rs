@@ -13,7 +13,7 @@ const BALANCED: f64 = 1e-9;
 
 /// Mass, centre of mass and inertia in a plane.
 #[derive(Clone, Debug)]
-pub(super) struct Outline {
+pub(super) struct PlanarBody {
     link: String,
     pub(super) mass: f64,
     /// In the plane's axes of the group.
@@ -26,7 +26,7 @@ pub(super) struct Outline {
     products: [f64; 2],
 }
 
-impl Outline {
+impl PlanarBody {
     /// Of a group whose frame stands at a height; it must have mass and inertia.
     pub(super) fn of(tree: &Tree, group: &Group, plane: &Plane, height: f64) -> Result<Self, UrdfError> {
         let (com, above) = plane.project(&group.body.com);
@@ -48,18 +48,18 @@ impl Outline {
 }
 
 /// Warnings of what makes a robot without supports leave the plane.
-pub(super) fn remarks(outlines: &[Outline]) -> Vec<Remark> {
+pub(super) fn remarks(planar_bodies: &[PlanarBody]) -> Vec<Remark> {
     let mut remarks = Vec::new();
-    let highest = outlines.iter().fold(f64::NEG_INFINITY, |most, outline| most.max(outline.height));
-    let lowest = outlines.iter().fold(f64::INFINITY, |least, outline| least.min(outline.height));
+    let highest = planar_bodies.iter().fold(f64::NEG_INFINITY, |most, planar_body| most.max(planar_body.height));
+    let lowest = planar_bodies.iter().fold(f64::INFINITY, |least, planar_body| least.min(planar_body.height));
     if highest - lowest > FLAT {
-        let heights: Vec<String> = outlines.iter().map(|o| format!("`{}` {:?} m", o.link, o.height)).collect();
+        let heights: Vec<String> = planar_bodies.iter().map(|o| format!("`{}` {:?} m", o.link, o.height)).collect();
         remarks.push(Remark::warning(&format!(
             "the robot would leave the plane: centres of mass are at different heights along its normal: {}",
             heights.join(", ")
         )));
     }
-    let skew = outlines.iter().filter(|o| o.products[0].hypot(o.products[1]) > BALANCED * o.inertia);
+    let skew = planar_bodies.iter().filter(|o| o.products[0].hypot(o.products[1]) > BALANCED * o.inertia);
     let skew: Vec<String> = skew.map(|o| format!("`{}` {:?} kg m²", o.link, o.products)).collect();
     if !skew.is_empty() {
         remarks.push(Remark::warning(&format!(
