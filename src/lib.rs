@@ -1,8 +1,8 @@
 //! Closed-form planar dynamics of free-floating multi-arm space robots, from approach through impact to post-impact.
 //!
-//! A layout of arms and links (TOML) becomes an expression graph (JSON, derived with CasADi) and the graph becomes plain
-//! Rust: [`generated`]. What it is used for follows Raina & Shah, *Impact Modeling and Estimation for Multi-Arm Space
-//! Robot while Capturing Tumbling Orbiting Objects* (2017); equation numbers are the paper's.
+//! A layout of arms and links (TOML) becomes an expression graph (JSON, derived with CasADi) and the graph becomes
+//! plain Rust: [`generated`]. What it is used for follows Raina & Shah, *Impact Modeling and Estimation for Multi-Arm
+//! Space Robot while Capturing Tumbling Orbiting Objects* (2017); equation numbers are the paper's.
 //!
 //! | equation | where |
 //! |---|---|
@@ -11,13 +11,13 @@
 //! | (3)–(5) target, contact Jacobian `J_t` | [`target`] |
 //! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
 //! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
-//! | end rates from the generalized Jacobian | `approach::design` |
-//! | final joint angles from wanted tip poses | `approach::posture` |
+//! | end rates from the generalized Jacobian | `capture::approach::terminal_rates` |
+//! | final joint angles from wanted end effector poses | `capture::approach::inverse_kinematics` |
 //! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
 //! | (12) impulse | [`target::Target::impulse`] |
 //! | (17) base twist from momentum | [`impact::paper`] |
 //! | (18) PD control | [`control::ProportionalDerivative`] |
-//! | resolved motion rate control of the tips | [`control::ResolvedMotionRate`] |
+//! | resolved motion rate control of the end effectors | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
 //! | momentum equation (17) in place of the base's equations of motion | [`formulation::Reduced`] |
 //! | canonical momenta, for integrators that keep them | [`formulation::Canonical`], [`integrate::GaussLegendre`] |
@@ -39,8 +39,9 @@
 //! # The core and the rest
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
-//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as SVG
-//! and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as scalars.
+//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as
+//! SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as
+//! scalars.
 //!
 //! # Example
 //! ```

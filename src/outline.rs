@@ -71,7 +71,7 @@ impl Outline {
 
     /// How a point of the body's frame lies to the outline.
     #[must_use]
-    pub fn gap(&self, [x, y]: [f64; 2]) -> SignedDistance {
+    pub fn signed_distance(&self, [x, y]: [f64; 2]) -> SignedDistance {
         match self {
             Self::Disc { radius } => {
                 let distance = x.hypot(y);
@@ -173,17 +173,20 @@ mod tests {
             ([0.7, 0.6], -0.5, [0.6, 0.8]),
         ];
         for (point, distance, normal) in cases {
-            let gap = plus_shape().gap(point);
-            assert!((gap.distance - distance).abs() < 1e-14, "{point:?}: {gap:?}");
-            assert!(minus(gap.normal, normal).iter().all(|x| x.abs() < 1e-14), "{point:?}: {gap:?}");
+            let signed_distance = plus_shape().signed_distance(point);
+            assert!((signed_distance.distance - distance).abs() < 1e-14, "{point:?}: {signed_distance:?}");
+            assert!(
+                minus(signed_distance.normal, normal).iter().all(|x| x.abs() < 1e-14),
+                "{point:?}: {signed_distance:?}"
+            );
         }
     }
 
     #[test]
     fn corners_the_other_way_round_are_the_same_outline() {
         let corners = vec![[0.0, 0.0], [0.0, 1.0], [2.0, 1.0], [2.0, 0.0]];
-        let gap = Outline::polygon(corners).expect("a rectangle").gap([1.0, 1.25]);
-        assert_eq!(gap, SignedDistance { distance: 0.25, normal: [0.0, 1.0] });
+        let signed_distance = Outline::polygon(corners).expect("a rectangle").signed_distance([1.0, 1.25]);
+        assert_eq!(signed_distance, SignedDistance { distance: 0.25, normal: [0.0, 1.0] });
     }
 
     #[test]

@@ -19,16 +19,16 @@ pub struct Attachment {
 
 /// How a target is part of what moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum TargetPlacement {
     /// A body beside the robot, free or pinned, by its index.
     Beside(usize),
     /// One with the last link of an arm.
     Merged {
         /// The arm.
         arm: usize,
-        /// COM in the frame of the tip, m.
+        /// COM in the frame of the end effector, m.
         offset: [f64; 2],
-        /// Yaw of the target less that of the tip, rad.
+        /// Yaw of the target less that of the end effector, rad.
         yaw: f64,
     },
 }
@@ -42,10 +42,10 @@ pub struct Assembly {
     pub model: Box<dyn CloneModel>,
     /// Targets that are no part of a link.
     pub bodies: Vec<Body>,
-    /// Holds between tips and bodies, or tips and tips.
+    /// Holds between end effectors and bodies, or end effectors and end effectors.
     pub constraints: Vec<LoopConstraint<f64>>,
     /// Where each target is.
-    pub places: Vec<Place>,
+    pub places: Vec<TargetPlacement>,
 }
 
 impl Assembly {
@@ -59,8 +59,8 @@ impl Assembly {
         targets: &[Body],
         attachments: &[Attachment],
     ) -> Result<Self, Error> {
-        let mut tips = vec![[0.0; 3]; model.arms()];
-        model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips)?;
+        let mut end_effectors = vec![[0.0; 3]; model.arms()];
+        model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut end_effectors)?;
         let mut merged = vec![None; model.arms()];
         let (mut bodies, mut places) = (Vec::new(), Vec::new());
         for (i, target) in targets.iter().enumerate() {
@@ -68,13 +68,18 @@ impl Assembly {
             places.push(match rigid {
                 None => {
                     bodies.push(*target);
-                    Place::Beside(bodies.len() - 1)
+                    TargetPlacement::Beside(bodies.len() - 1)
                 }
                 Some(Attachment { arm, .. }) => {
-                    let (tip, [yaw, x, y]) = (tips[*arm], target.pose);
+                    let (end_effector, [yaw, x, y]) = (end_effectors[*arm], target.pose);
                     let Body { mass, inertia, twist, .. } = *target;
-                    merged[*arm] = Some(Target { mass, inertia, contact: [tip[1] - x, tip[2] - y], twist });
-                    Place::Merged { arm: *arm, offset: turned([x - tip[1], y - tip[2]], -tip[0]), yaw: yaw - tip[0] }
+                    merged[*arm] =
+                        Some(Target { mass, inertia, contact: [end_effector[1] - x, end_effector[2] - y], twist });
+                    TargetPlacement::Merged {
+                        arm: *arm,
+                        offset: turned([x - end_effector[1], y - end_effector[2]], -end_effector[0]),
+                        yaw: yaw - end_effector[0],
+                    }
                 }
             });
         }
@@ -82,9 +87,9 @@ impl Assembly {
         let mut constraints = Vec::new();
         for attachment in attachments {
             let (other, pose) = match places[attachment.target] {
-                Place::Merged { arm, .. } if arm == attachment.arm => continue,
-                Place::Merged { arm, .. } => (ContactPartner::EndEffector(arm), tips[arm]),
-                Place::Beside(i) => (ContactPartner::Body(i), bodies[i].pose),
+                TargetPlacement::Merged { arm, .. } if arm == attachment.arm => continue,
+                TargetPlacement::Merged { arm, .. } => (ContactPartner::EndEffector(arm), end_effectors[arm]),
+                TargetPlacement::Beside(i) => (ContactPartner::Body(i), bodies[i].pose),
             };
             let contact = Contact {
                 arm: attachment.arm,
@@ -92,7 +97,7 @@ impl Assembly {
                 offset: [0.0; 2],
                 law: ContactLaw::new(attachment.kind, Default::default, 0.0),
             };
-            constraints.extend(LoopConstraint::new(&contact, &tips[attachment.arm], &pose));
+            constraints.extend(LoopConstraint::new(&contact, &end_effectors[attachment.arm], &pose));
         }
         Ok(Self { model, bodies, constraints, places })
     }
@@ -107,36 +112,42 @@ impl Assembly {
     #[must_use]
     pub fn beside(&self, targets: &[Body]) -> Vec<Body> {
         let pairs = targets.iter().zip(&self.places);
-        pairs.filter(|(_, place)| matches!(place, Place::Beside(_))).map(|(target, _)| *target).collect()
+        pairs.filter(|(_, place)| matches!(place, TargetPlacement::Beside(_))).map(|(target, _)| *target).collect()
     }
 
-    /// Those of the bodies beside the robot that tips hold.
+    /// Those of the bodies beside the robot that end effectors hold.
     #[must_use]
     pub fn pinned(&self, bodies: &[Body]) -> Vec<Body> {
         let held = |i: usize| self.constraints.iter().any(|constraint| constraint.other == ContactPartner::Body(i));
         bodies.iter().enumerate().filter(|(i, _)| held(*i)).map(|(_, body)| *body).collect()
     }
 
-    /// The holds as contacts, at poses of the tips and bodies.
-    pub(crate) fn holds(&self, tips: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
+    /// The holds as contacts, at poses of the end effectors and bodies.
+    pub(crate) fn holds(&self, end_effectors: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
         let pose = |other: ContactPartner| match other {
             ContactPartner::Body(i) => bodies[i].pose,
-            ContactPartner::EndEffector(arm) => tips[arm],
+            ContactPartner::EndEffector(arm) => end_effectors[arm],
         };
         self.constraints.iter().map(|constraint| constraint.contact(&pose(constraint.other))).collect()
     }
 
-    /// All targets, from poses and twists of the tips and the bodies beside the robot.
+    /// All targets, from poses and twists of the end effectors and the bodies beside the robot.
     #[must_use]
-    pub fn targets(&self, targets: &[Body], tips: &[[f64; 3]], tip_twists: &[[f64; 3]], bodies: &[Body]) -> Vec<Body> {
-        let of = |(target, place): (&Body, &Place)| match *place {
-            Place::Beside(i) => bodies[i],
-            Place::Merged { arm, offset, yaw } => {
-                let [tip_yaw, x, y] = tips[arm];
-                let [omega, vx, vy] = tip_twists[arm];
-                let [rx, ry] = turned(offset, tip_yaw);
+    pub fn targets(
+        &self,
+        targets: &[Body],
+        end_effectors: &[[f64; 3]],
+        end_effector_twists: &[[f64; 3]],
+        bodies: &[Body],
+    ) -> Vec<Body> {
+        let of = |(target, place): (&Body, &TargetPlacement)| match *place {
+            TargetPlacement::Beside(i) => bodies[i],
+            TargetPlacement::Merged { arm, offset, yaw } => {
+                let [end_effector_yaw, x, y] = end_effectors[arm];
+                let [omega, vx, vy] = end_effector_twists[arm];
+                let [rx, ry] = turned(offset, end_effector_yaw);
                 Body {
-                    pose: [tip_yaw + yaw, x + rx, y + ry],
+                    pose: [end_effector_yaw + yaw, x + rx, y + ry],
                     twist: [omega, vx - omega * ry, vy + omega * rx],
                     ..*target
                 }

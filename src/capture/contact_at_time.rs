@@ -1,11 +1,11 @@
-//! Tips and targets at the instant of an impact: where they touch, and how.
+//! End effectors and targets at the instant of an impact: where they touch, and how.
 
 use crate::capture::assembly::turned;
 use crate::contact::{ContactKind, ContactLaw};
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 
-/// One contact of a tip with a target.
+/// One contact of an end effector with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpactContact {
     /// Index of the target.
@@ -14,18 +14,24 @@ pub struct ImpactContact {
     pub arm: usize,
     /// What the contact does.
     pub law: ContactLaw<f64>,
-    /// From the COM of the target to the tip, inertial axes, m.
+    /// From the COM of the target to the end effector, inertial axes, m.
     pub offset: [f64; 2],
-    /// Distance of the tip from where the contact was wanted on the target, m: between several tips on one target.
+    /// Distance of the end effector from where the contact was wanted on the target, m: between several end effectors
+    /// on one target.
     pub miss: f64,
 }
 
-/// The targets at the end of an approach that ends by time: each is where the tips put it, and contacts are where the tips
-/// are. With one arm that is the tip less the wanted contact; with several the mean of that.
+/// The targets at the end of an approach that ends by time: each is where the end effectors put it, and contacts are
+/// where the end effectors are. With one arm that is the end effector less the wanted contact; with several the mean of
+/// that.
 ///
 /// Yaws are the scenario's. A target that no arm takes hold of is where its arms would have, had they closed.
 #[must_use]
-pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body>, Vec<ImpactContact>) {
+pub fn contact_at_time(
+    scenario: &Scenario,
+    case: &Case,
+    end_effectors: &[[f64; 3]],
+) -> (Vec<Body>, Vec<ImpactContact>) {
     let (mut bodies, mut touching) = (Vec::new(), Vec::new());
     for (i, target) in scenario.targets.iter().enumerate() {
         let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
@@ -34,7 +40,7 @@ pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body
         let placed: Vec<[f64; 2]> = each()
             .filter(|(_, kind)| !closing || kind.is_some())
             .filter_map(|(touch, _)| {
-                let [_, x, y] = tips.get(touch.arm)?;
+                let [_, x, y] = end_effectors.get(touch.arm)?;
                 Some([x - touch.contact[0], y - touch.contact[1]])
             })
             .collect();
@@ -44,9 +50,10 @@ pub fn in_time(scenario: &Scenario, case: &Case, tips: &[[f64; 3]]) -> (Vec<Body
         let twist = case.target_twists.get(i).copied().unwrap_or(target.twist);
         bodies.push(Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist });
         for (touch, kind) in each() {
-            let Some([_, tip_x, tip_y]) = tips.get(touch.arm) else { continue };
-            let offset = [tip_x - x, tip_y - y];
-            let outline = || turned(target.surface.gap(turned(touch.contact, -target.yaw)).normal, target.yaw);
+            let Some([_, end_effector_x, end_effector_y]) = end_effectors.get(touch.arm) else { continue };
+            let offset = [end_effector_x - x, end_effector_y - y];
+            let outline =
+                || turned(target.surface.signed_distance(turned(touch.contact, -target.yaw)).normal, target.yaw);
             if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
                 let miss = (offset[0] - touch.contact[0]).hypot(offset[1] - touch.contact[1]);
                 touching.push(ImpactContact { target: i, arm: touch.arm, law, offset, miss });

@@ -1,9 +1,9 @@
-//! Contacts found by detection: the gaps between tips and their targets as events.
+//! Contacts found by detection: the gaps between end effectors and their targets as events.
 
 use crate::capture::assembly::{Assembly, turned};
 use crate::error::Error;
 use crate::scenario::Scenario;
-use crate::simulate::event::{Events, Instant};
+use crate::simulate::event::{EventState, Events};
 use crate::simulate::system::Body;
 
 /// How the targets move meanwhile.
@@ -15,16 +15,16 @@ pub enum TargetMotion<'a> {
     Assembled(&'a Assembly, &'a [Body]),
 }
 
-/// One value for each pair of a tip and its target that may meet: the distance of the tip from the target's outline, m,
-/// negative inside.
+/// One value for each pair of an end effector and its target that may meet: the distance of the end effector from the
+/// target's outline, m, negative inside.
 pub struct ContactDetection<'a> {
     scenario: &'a Scenario,
     flight: TargetMotion<'a>,
     pairs: Vec<ContactPair>,
-    tips: Vec<[f64; 3]>,
+    end_effectors: Vec<[f64; 3]>,
 }
 
-/// A tip and a target.
+/// An end effector and a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContactPair {
     /// Index of the target.
@@ -39,17 +39,23 @@ impl<'a> ContactDetection<'a> {
     /// Watches these pairs.
     #[must_use]
     pub fn new(scenario: &'a Scenario, flight: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
-        Self { scenario, flight, pairs, tips: vec![[0.0; 3]; scenario.layout.arms.len()] }
+        Self { scenario, flight, pairs, end_effectors: vec![[0.0; 3]; scenario.layout.arms.len()] }
     }
 }
 
-/// Distance and outward normal, inertial axes, of a tip from a target of the scenario.
-pub(crate) fn gap(scenario: &Scenario, target: usize, body: &Body, tip: &[f64; 3]) -> (f64, [f64; 2]) {
+/// Distance and outward normal, inertial axes, of an end effector from a target of the scenario.
+pub(crate) fn signed_distance(
+    scenario: &Scenario,
+    target: usize,
+    body: &Body,
+    end_effector: &[f64; 3],
+) -> (f64, [f64; 2]) {
     let [yaw, x, y] = body.pose;
     match scenario.targets.get(target) {
         Some(target) => {
-            let gap = target.surface.gap(turned([tip[1] - x, tip[2] - y], -yaw));
-            (gap.distance, turned(gap.normal, yaw))
+            let signed_distance =
+                target.surface.signed_distance(turned([end_effector[1] - x, end_effector[2] - y], -yaw));
+            (signed_distance.distance, turned(signed_distance.normal, yaw))
         }
         None => (f64::INFINITY, [1.0, 0.0]),
     }
@@ -60,17 +66,21 @@ impl Events for ContactDetection<'_> {
         self.pairs.len()
     }
 
-    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error> {
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
         let model = now.system.model;
-        model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut self.tips)?;
+        model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut self.end_effectors)?;
         let targets = match self.flight {
             TargetMotion::Free(targets) => targets.iter().map(|target| target.after(now.time)).collect(),
             // of twists nothing is asked
-            TargetMotion::Assembled(assembly, targets) => assembly.targets(targets, &self.tips, &self.tips, now.bodies),
+            TargetMotion::Assembled(assembly, targets) => {
+                assembly.targets(targets, &self.end_effectors, &self.end_effectors, now.bodies)
+            }
         };
         for (value, pair) in values.iter_mut().zip(&self.pairs) {
-            let (Some(body), Some(tip)) = (targets.get(pair.target), self.tips.get(pair.arm)) else { continue };
-            (*value, _) = gap(self.scenario, pair.target, body, tip);
+            let (Some(body), Some(end_effector)) = (targets.get(pair.target), self.end_effectors.get(pair.arm)) else {
+                continue;
+            };
+            (*value, _) = signed_distance(self.scenario, pair.target, body, end_effector);
         }
         Ok(())
     }

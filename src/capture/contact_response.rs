@@ -7,17 +7,18 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::system::Body;
 
-/// Before an impact, for the contact by itself: tip and target free to move otherwise.
+/// Before an impact, for the contact by itself: end effector and target free to move otherwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResponse {
-    /// [ω, vx, vy] of the tip relative to the contact point of the target.
+    /// [ω, vx, vy] of the end effector relative to the contact point of the target.
     pub relative_twist: [f64; 3],
-    /// The direction that the effective masses are of: of a bounce the normal, else that of the relative velocity; `None`
-    /// where there is none.
+    /// The direction that the effective masses are of: of a bounce the normal, else that of the relative velocity;
+    /// `None` where there is none.
     pub direction: Option<[f64; 2]>,
-    /// Of the tip: Yoshida & Sashida's extended inverse inertia tensor.
+    /// Of the end effector: Yoshida & Sashida's extended inverse inertia tensor.
     pub inverse_inertia: InverseInertia<f64>,
-    /// Along the direction, kg: of the robot at its tip, of the target at its contact point, of both against each other.
+    /// Along the direction, kg: of the robot at its end effector, of the target at its contact point, of both against
+    /// each other.
     pub effective_masses: Option<[f64; 3]>,
     /// Size of the impulse, N s, that a closing speed of 1 m/s along the direction asks for at a point contact without
     /// restitution.
@@ -36,20 +37,21 @@ pub fn response(
     target: &Body,
     touch: &ImpactContact,
 ) -> Result<ContactResponse, Error> {
-    let mut tips = vec![[0.0; 3]; model.arms()];
-    model.end_effector_twists(&before.view(), &mut tips)?;
-    let [tip_omega, tip_x, tip_y] = tips[touch.arm];
+    let mut end_effectors = vec![[0.0; 3]; model.arms()];
+    model.end_effector_twists(&before.view(), &mut end_effectors)?;
+    let [end_effector_omega, end_effector_x, end_effector_y] = end_effectors[touch.arm];
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
-    let relative = [tip_omega - omega, tip_x - (vx - omega * ry), tip_y - (vy + omega * rx)];
+    let relative = [end_effector_omega - omega, end_effector_x - (vx - omega * ry), end_effector_y - (vy + omega * rx)];
     let speed = relative[1].hypot(relative[2]);
     let along_velocity = || (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]);
     let direction = touch.law.bounce().map(|(normal, _)| normal).or_else(along_velocity);
     let (pose, angles) = (&before.base_pose, &before.joint_angles);
     let mut scratch = vec![0.0; 2 * model.joints()];
-    let of_tip = InverseInertia::of_tip(model, pose, angles, touch.arm, &mut tips, &mut scratch)?;
+    let of_end_effector =
+        InverseInertia::of_end_effector(model, pose, angles, touch.arm, &mut end_effectors, &mut scratch)?;
     let of_target = InverseInertia::of_body(target.mass, target.inertia, touch.offset);
-    let of_both = of_tip.plus(&of_target);
-    let masses = |along: &[f64; 2]| [of_tip, of_target, of_both].map(|inertia| inertia.effective_mass(along));
+    let of_both = of_end_effector.plus(&of_target);
+    let masses = |along: &[f64; 2]| [of_end_effector, of_target, of_both].map(|inertia| inertia.effective_mass(along));
     let index = |along: &[f64; 2]| {
         let [fx, fy] = match touch.law.bounce() {
             // only the part along the normal
@@ -61,7 +63,7 @@ pub fn response(
     Ok(ContactResponse {
         relative_twist: relative,
         direction,
-        inverse_inertia: of_tip,
+        inverse_inertia: of_end_effector,
         effective_masses: direction.as_ref().map(masses),
         impulse_index: direction.as_ref().map(index),
         impulse_ellipse: of_both.impulse_ellipse(),

@@ -1,12 +1,12 @@
 //! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
 
-use crate::capture::assembly::{Assembly, Place};
+use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
 use crate::contact::{self, Contact, ContactKind, ContactPartner, DelassusMatrix, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::impact::{self, RigidImpactOutput, Workspace};
+use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use crate::owned::RobotState;
 use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
@@ -15,7 +15,7 @@ use crate::target::Target;
 
 /// The impact by both models.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Capture {
+pub struct ImpactSolution {
     /// In full coordinates.
     pub exact: ImpactResult,
     /// The paper's literal equations, which are about rigid captures of one target per arm; `None` for other contacts.
@@ -31,7 +31,7 @@ pub struct Capture {
 pub struct ContactResult {
     /// Who touches whom, where and how.
     pub touching: ImpactContact,
-    /// [n, fx, fy] on the robot at the tip; N m s, N s.
+    /// [n, fx, fy] on the robot at the end effector; N m s, N s.
     pub impulse: [f64; 3],
     /// What the impulse had to do with.
     pub response: ContactResponse,
@@ -46,7 +46,7 @@ pub struct ImpactResult {
     pub base_twist_after: [f64; 3],
     /// [ω, vx, vy] of each target's COM.
     pub target_twists_after: Vec<Option<[f64; 3]>>,
-    /// [n, fx, fy] on the robot at each tip; N m s, N s.
+    /// [n, fx, fy] on the robot at each end effector; N m s, N s.
     pub impulses: Vec<Option<[f64; 3]>>,
     /// [l, px, py] after less before, robot and targets together, about the inertial origin.
     pub momentum_jump: [f64; 3],
@@ -70,12 +70,12 @@ impl ImpactResult {
 ///
 /// # Errors
 /// What the model says of the state and the targets; [`Error::Singular`] where contacts depend on each other.
-pub fn capture(
+pub fn solve_impact(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
     touching: &[ImpactContact],
-) -> Result<Capture, Error> {
+) -> Result<ImpactSolution, Error> {
     let model = &*assembly.model;
     let exact = by_contacts(assembly, before, targets, touching)?;
     let literal = rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty());
@@ -89,7 +89,7 @@ pub fn capture(
     let result = |velocities: &Velocities| balance(assembly, before, targets, touching, velocities);
     let paper = paper.as_ref().map(result).transpose()?;
     let target_twists = exact.targets.clone();
-    Ok(Capture { exact: result(&exact)?, paper, target_twists, contacts })
+    Ok(ImpactSolution { exact: result(&exact)?, paper, target_twists, contacts })
 }
 
 /// What an impact leaves: all targets, and one impulse per contact.
@@ -102,7 +102,9 @@ struct Velocities {
 
 /// The targets by arm, where each contact is rigid and the only one of its target, and nothing is held yet.
 fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact]) -> Option<Vec<Option<Target<f64>>>> {
-    if assembly.places.iter().any(|place| matches!(place, Place::Merged { .. })) || !assembly.constraints.is_empty() {
+    if assembly.places.iter().any(|place| matches!(place, TargetPlacement::Merged { .. }))
+        || !assembly.constraints.is_empty()
+    {
         return None;
     }
     let mut by_arm = vec![None; assembly.model.arms()];
@@ -130,7 +132,7 @@ fn by_equations_of_the_paper(
     let mut impulses = vec![[0.0; 3]; arms];
     let mut after =
         RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
-    let mut workspace = Workspace {
+    let mut workspace = PaperImpactWorkspace {
         impact_matrix: &mut vec![0.0; joints * joints],
         impact_momentum: &mut vec![0.0; joints],
         jacobian: &mut vec![0.0; 3 * arms * joints],
@@ -155,21 +157,21 @@ fn by_contacts(
     touching: &[ImpactContact],
 ) -> Result<Velocities, Error> {
     let model = &*assembly.model;
-    let mut tips = vec![[0.0; 3]; model.arms()];
-    model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut tips)?;
-    // the tips and bodies as they are now
+    let mut end_effectors = vec![[0.0; 3]; model.arms()];
+    model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut end_effectors)?;
+    // the end effectors and bodies as they are now
     let bodies: Vec<Body> = assembly.beside(targets);
     let new = touching.iter().map(|touch| {
         let (other, offset) = match assembly.places[touch.target] {
-            Place::Merged { arm, .. } => {
-                let ([_, x, y], [_, from_x, from_y]) = (tips[touch.arm], tips[arm]);
+            TargetPlacement::Merged { arm, .. } => {
+                let ([_, x, y], [_, from_x, from_y]) = (end_effectors[touch.arm], end_effectors[arm]);
                 (ContactPartner::EndEffector(arm), [x - from_x, y - from_y])
             }
-            Place::Beside(i) => (ContactPartner::Body(i), touch.offset),
+            TargetPlacement::Beside(i) => (ContactPartner::Body(i), touch.offset),
         };
         Contact { arm: touch.arm, other, offset, law: touch.law }
     });
-    let held = assembly.holds(&tips, &bodies);
+    let held = assembly.holds(&end_effectors, &bodies);
     let contacts: Vec<_> = new.chain(held).collect();
     let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&contacts));
     let mut numbers = vec![0.0; length];
@@ -180,11 +182,11 @@ fn by_contacts(
     let mut after =
         contact::ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
     let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
-    let mut tip_twists = vec![[0.0; 3]; model.arms()];
+    let mut end_effector_twists = vec![[0.0; 3]; model.arms()];
     let moving = State { base_twist, joint_rates: &joint_rates, ..before.view() };
-    model.end_effector_twists(&moving, &mut tip_twists)?;
+    model.end_effector_twists(&moving, &mut end_effector_twists)?;
     let moved: Vec<_> = bodies.iter().zip(&body_twists).map(|(body, twist)| Body { twist: *twist, ..*body }).collect();
-    let after = assembly.targets(targets, &tips, &tip_twists, &moved);
+    let after = assembly.targets(targets, &end_effectors, &end_effector_twists, &moved);
     impulses.truncate(touching.len());
     let twists = after.iter().map(|target| target.twist).collect();
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })

@@ -12,9 +12,9 @@ mod sequence;
 pub mod terminal_error;
 
 use crate::capture::approach::Approach;
-use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, posture};
-use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, end_rates};
-use crate::capture::impact::{Capture, ImpactResult};
+use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
+use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
+use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
@@ -26,7 +26,8 @@ use crate::simulate::{Phase, PhaseError};
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
-/// Largest drift of the centre of mass in a phase that passes the audit: it is the integral of what the momentum drifts by.
+/// Largest drift of the centre of mass in a phase that passes the audit: it is the integral of what the momentum drifts
+/// by.
 pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
@@ -34,7 +35,7 @@ pub const ENERGY_BOUND: f64 = 1e-6;
 /// Largest opening of what is held that passes the audit, rad or m, and its rate.
 pub const CONSTRAINT_BOUND: f64 = 1e-10;
 
-/// Deepest that a tip may be inside a target that it does not hold, m.
+/// Deepest that an end effector may be inside a target that it does not hold, m.
 pub const PENETRATION_BOUND: f64 = 1e-6;
 
 /// Makes a model of the robot, in its state before any capture.
@@ -44,13 +45,13 @@ pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
     /// Where the end rates of the approach come from, where they were designed.
-    pub design: Option<TerminalRates>,
+    pub terminal_rates: Option<TerminalRates>,
     /// Where its final joint angles come from, where they were designed.
-    pub posture: Option<InverseKinematics>,
+    pub inverse_kinematics: Option<InverseKinematics>,
     /// The approach: of all cases where contacts come by time, else as far as it would go without any.
     pub approach: Phase,
-    /// By how much it misses the wanted tip poses, one per arm; empty where none are wanted.
-    pub misses: Vec<Option<TerminalError>>,
+    /// By how much it misses the wanted end effector poses, one per arm; empty where none are wanted.
+    pub terminal_errors: Vec<Option<TerminalError>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
@@ -64,9 +65,9 @@ pub struct CaseResult {
     pub approach: Option<Phase>,
     /// The targets at the end of the approach, before they are touched.
     pub targets: Vec<Body>,
-    /// Tips and targets that were to meet and did not, where contacts are found by detection.
+    /// End effectors and targets that were to meet and did not, where contacts are found by detection.
     pub closest: Vec<ClosestApproach>,
-    /// Impact and what follows; `None` where there is nothing to capture, or no tip met its target.
+    /// Impact and what follows; `None` where there is nothing to capture, or no end effector met its target.
     pub capture: Option<CaptureResult>,
 }
 
@@ -76,10 +77,10 @@ pub struct FurtherImpact {
     /// Since the first impact, s.
     pub time: f64,
     /// The impact.
-    pub impact: Capture,
+    pub impact: ImpactSolution,
 }
 
-/// How near a tip came to a target that it never touched.
+/// How near an end effector came to a target that it never touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestApproach {
     /// Index of the target.
@@ -96,14 +97,14 @@ pub struct ClosestApproach {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaptureResult {
     /// Exact and as the paper writes it.
-    pub impact: Capture,
+    pub impact: ImpactSolution,
     /// Robot and targets from the exact velocities on.
     pub post_impact: Phase,
     /// The targets at each of its samples.
     pub targets: Vec<Vec<Body>>,
     /// Impacts after the first one, where contacts are found by detection.
     pub further: Vec<FurtherImpact>,
-    /// By how much a tip was inside a target that it does not hold, at most, m.
+    /// By how much an end effector was inside a target that it does not hold, at most, m.
     pub penetration: f64,
     /// What is left at its end; `None` where the joints are free, as in the paper.
     pub remainder: Option<ResidualMotion>,
@@ -121,7 +122,7 @@ pub enum StudyError {
     /// The approach stopped.
     #[error("the approach stopped {0}")]
     Approach(PhaseError),
-    /// A tip is inside its target when the approach begins.
+    /// An end effector is inside its target when the approach begins.
     #[error(
         "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
          detection begin apart"
@@ -186,36 +187,36 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
-    // tips on paths of their own need no joint trajectory
-    let by_tips = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
-    let posture = match &scenario.approach.final_end_effector_poses {
-        Some(goals) if !by_tips => {
+    // end effectors on paths of their own need no joint trajectory
+    let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
+    let inverse_kinematics = match &scenario.approach.final_end_effector_poses {
+        Some(goals) if !by_end_effectors => {
             observer.begin("designing final joint angles", 0);
-            Some(posture(&*model, scenario, goals, sample, &mut || observer.step())?)
+            Some(inverse_kinematics(&*model, scenario, goals, sample, &mut || observer.step())?)
         }
         _ => None,
     };
     let mut designed;
-    let scenario = match &posture {
-        Some(posture) => {
+    let scenario = match &inverse_kinematics {
+        Some(inverse_kinematics) => {
             designed = scenario.clone();
-            designed.approach.final_joint_angles.clone_from(&posture.joint_angles);
+            designed.approach.final_joint_angles.clone_from(&inverse_kinematics.joint_angles);
             &designed
         }
         None => scenario,
     };
     let approach = Approach::new(scenario, sample);
-    let design = match (&scenario.approach.end, &posture) {
-        (FinalRates::EndEffectorTwists(_), Some(posture)) => Some(posture.rates.clone()),
-        (FinalRates::EndEffectorTwists(wanted), None) if !by_tips => {
+    let terminal_rates = match (&scenario.approach.end, &inverse_kinematics) {
+        (FinalRates::EndEffectorTwists(_), Some(inverse_kinematics)) => Some(inverse_kinematics.rates.clone()),
+        (FinalRates::EndEffectorTwists(wanted), None) if !by_end_effectors => {
             observer.begin("designing end rates", 0);
-            Some(end_rates(&*model, &approach, wanted, &mut || observer.step())?)
+            Some(terminal_rates(&*model, &approach, wanted, &mut || observer.step())?)
         }
         _ => None,
     };
-    let rates = match (&scenario.approach.end, &design) {
+    let rates = match (&scenario.approach.end, &terminal_rates) {
         (FinalRates::JointRates(rates), _) => rates.clone(),
-        (_, Some(design)) => design.joint_rates.clone(),
+        (_, Some(terminal_rates)) => terminal_rates.joint_rates.clone(),
         (_, None) => vec![0.0; model.joints()],
     };
     observer.begin("approach", approach.steps());
@@ -227,15 +228,15 @@ pub fn study(
             (Some(after), Some(end)) => {
                 let course = CaptureSequence { scenario, case, after, make, sample };
                 match scenario.contact.detection {
-                    Detection::Time => course.in_time(&end.state, &end.end_effector_poses, observer),
+                    Detection::Time => course.contact_at_time(&end.state, &end.end_effector_poses, observer),
                     Detection::Event => course.contact_by_detection(&rates, observer),
                 }
             }
             _ => Ok(CaseResult::alone(&case.name)),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
-    let misses = TerminalError::of(scenario, &approach);
-    Ok(Study { design, posture, approach, misses, cases })
+    let terminal_errors = TerminalError::of(scenario, &approach);
+    Ok(Study { terminal_rates, inverse_kinematics, approach, terminal_errors, cases })
 }
 
 impl CaseResult {
@@ -250,8 +251,8 @@ impl CaseResult {
         self.approach.as_ref().unwrap_or(&study.approach)
     }
 
-    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together, which nothing changes before
-    /// they are touched; N m s, N s, J.
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together, which nothing changes
+    /// before they are touched; N m s, N s, J.
     #[must_use]
     pub fn targets_momentum(&self) -> ([f64; 3], f64) {
         self.targets.iter().map(Body::momentum).fold(([0.0; 3], 0.0), |(sum, energy), (part, more)| {

@@ -11,7 +11,8 @@ use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing};
 use crate::trajectory::ConstantSetpoint;
 
-/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold nothing.
+/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold
+/// nothing.
 #[must_use]
 pub fn wheels(layout: &Layout, attachments: &[Attachment]) -> Vec<bool> {
     let arms = layout.arms.iter().enumerate();
@@ -23,7 +24,7 @@ fn is_wheel(arm: &Arm) -> bool {
     matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
-/// What a scenario wants after an impact, for what its tips hold.
+/// What a scenario wants after an impact, for what its end effectors hold.
 #[derive(Clone, Copy, Debug)]
 pub struct PostCaptureLaw<'a> {
     /// The law.

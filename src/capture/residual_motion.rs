@@ -29,7 +29,8 @@ pub struct ResidualMotion {
 }
 
 impl ResidualMotion {
-    /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn wheels.
+    /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn
+    /// wheels.
     ///
     /// # Errors
     /// What the model says of the state.

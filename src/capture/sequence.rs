@@ -2,9 +2,9 @@
 
 use crate::capture::approach::Approach;
 use crate::capture::assembly::{Assembly, Attachment};
-use crate::capture::contact_at_time::{ImpactContact, contact_law, in_time};
-use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, gap};
-use crate::capture::impact::{Capture, capture};
+use crate::capture::contact_at_time::{ImpactContact, contact_at_time, contact_law};
+use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, signed_distance};
+use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::{CaptureResult, CaseResult, ClosestApproach, FurtherImpact, ModelFactory, Observer, StudyError};
@@ -17,7 +17,7 @@ use crate::simulate::{Phase, PhaseError, Sample, Timing};
 /// The most impacts of one case.
 const MOST_IMPACTS: usize = 1000;
 
-/// Tips no farther than this from their targets touch them when another does, m.
+/// End effectors no farther than this from their targets touch them when another does, m.
 const TOGETHER: f64 = 1e-9;
 
 /// What a case is run from.
@@ -32,21 +32,21 @@ pub(crate) struct CaptureSequence<'a> {
 }
 
 impl CaptureSequence<'_> {
-    /// Contacts are where the tips are when the approach ends.
-    pub(crate) fn in_time(
+    /// Contacts are where the end effectors are when the approach ends.
+    pub(crate) fn contact_at_time(
         self,
         end: &RobotState,
-        tips: &[[f64; 3]],
+        end_effectors: &[[f64; 3]],
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
-        let (targets, touching) = in_time(self.scenario, self.case, tips);
+        let (targets, touching) = contact_at_time(self.scenario, self.case, end_effectors);
         let capture = self.after_impact(end, &targets, &touching, false, observer)?;
         let name = self.case.name.clone();
         Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
     }
 
-    /// The targets fly freely from the start on, and the approach ends where a tip reaches its target; `rates` are the
-    /// approach's end rates, rad/s.
+    /// The targets fly freely from the start on, and the approach ends where an end effector reaches its target;
+    /// `rates` are the approach's end rates, rad/s.
     pub(crate) fn contact_by_detection(
         self,
         rates: &[f64],
@@ -57,10 +57,11 @@ impl CaptureSequence<'_> {
         self.check_apart(&start, &pairs)?;
         let approach = Approach::new(self.scenario, self.sample);
         observer.begin(&format!("approach of {}", self.case.name), approach.steps());
-        let mut gaps = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
+        let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let model = (self.make)();
-        let phase =
-            approach.track_until(&*model, rates, &mut gaps, &mut || observer.step()).map_err(StudyError::Approach)?;
+        let phase = approach
+            .track_until(&*model, rates, &mut contact_detection, &mut || observer.step())
+            .map_err(StudyError::Approach)?;
         let flown = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
         let targets = flown(phase.duration);
         let mut closest = self.closest(&pairs, &phase, 0.0, |i| flown(phase.samples.get(i).map_or(0.0, |s| s.time)));
@@ -86,7 +87,8 @@ impl CaptureSequence<'_> {
         Ok(CaseResult { name, approach: Some(phase), targets, closest, capture })
     }
 
-    /// An impact, the motion after it, and the impacts that interrupt that: of tips and targets that `detected` asks for.
+    /// An impact, the motion after it, and the impacts that interrupt that: of end effectors and targets that
+    /// `detected` asks for.
     fn after_impact(
         self,
         before: &RobotState,
@@ -105,7 +107,7 @@ impl CaptureSequence<'_> {
             assembly: free,
             angles: before.joint_angles.clone(),
         };
-        let impact = moving.strike(touching)?;
+        let impact = moving.apply_impact(touching)?;
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
         let (mut post_impact, mut flown) = moving.integrate_to_contact(&open, 0.0, observer)?;
         let mut further = Vec::new();
@@ -116,7 +118,7 @@ impl CaptureSequence<'_> {
                 return Err(StudyError::Chatter { case: self.case.name.clone(), impacts: further.len() + 1, time });
             }
             let touching = self.touching(&open, event, &moving.targets, &end.end_effector_poses);
-            further.push(FurtherImpact { time, impact: moving.strike(&touching)? });
+            further.push(FurtherImpact { time, impact: moving.apply_impact(&touching)? });
             if time >= self.after.duration {
                 break;
             }
@@ -141,7 +143,7 @@ impl CaptureSequence<'_> {
         StudyError::PostImpact { case: self.case.name.clone(), source: PhaseError { time, source } }
     }
 
-    /// By how much a tip is inside its target at most, in the samples of a phase, m.
+    /// By how much an end effector is inside its target at most, in the samples of a phase, m.
     fn penetration(self, pairs: &[ContactPair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
         let closest = self.closest(pairs, phase, 0.0, |i| targets.get(i).cloned().unwrap_or_default());
         closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
@@ -160,7 +162,7 @@ impl CaptureSequence<'_> {
         pairs.map(body).collect()
     }
 
-    /// The tips and targets that may meet: those that are to, and do not hold each other yet.
+    /// The end effectors and targets that may meet: those that are to, and do not hold each other yet.
     fn pairs(self, attachments: &[Attachment]) -> Vec<ContactPair> {
         let mut pairs = Vec::new();
         for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
@@ -175,16 +177,24 @@ impl CaptureSequence<'_> {
     }
 
     /// The contacts of an instant: the one that was detected, and those that come with it.
-    fn touching(self, pairs: &[ContactPair], event: usize, targets: &[Body], tips: &[[f64; 3]]) -> Vec<ImpactContact> {
+    fn touching(
+        self,
+        pairs: &[ContactPair],
+        event: usize,
+        targets: &[Body],
+        end_effectors: &[[f64; 3]],
+    ) -> Vec<ImpactContact> {
         let mut touching = Vec::new();
         for (i, pair) in pairs.iter().enumerate() {
-            let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
-            let (distance, normal) = gap(self.scenario, pair.target, body, tip);
+            let (Some(body), Some(end_effector)) = (targets.get(pair.target), end_effectors.get(pair.arm)) else {
+                continue;
+            };
+            let (distance, normal) = signed_distance(self.scenario, pair.target, body, end_effector);
             let kind = self.case.kinds.get(pair.target).and_then(|kinds| kinds.get(pair.touch));
             let restitution = self.case.restitutions.get(pair.target).copied();
             let law = kind.and_then(|kind| contact_law(*kind, || normal, restitution));
             if let (true, Some(law)) = (i == event || distance.abs() <= TOGETHER, law) {
-                let offset = [tip[1] - body.pose[1], tip[2] - body.pose[2]];
+                let offset = [end_effector[1] - body.pose[1], end_effector[2] - body.pose[2]];
                 touching.push(ImpactContact { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
             }
         }
@@ -193,13 +203,15 @@ impl CaptureSequence<'_> {
 
     fn check_apart(self, targets: &[Body], pairs: &[ContactPair]) -> Result<(), StudyError> {
         let initial = &self.scenario.initial;
-        let mut tips = vec![[0.0; 3]; self.scenario.layout.arms.len()];
+        let mut end_effectors = vec![[0.0; 3]; self.scenario.layout.arms.len()];
         (self.make)()
-            .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut tips)
+            .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut end_effectors)
             .map_err(|source| StudyError::Approach(PhaseError { time: 0.0, source }))?;
         for pair in pairs {
-            let (Some(body), Some(tip)) = (targets.get(pair.target), tips.get(pair.arm)) else { continue };
-            let (distance, _) = gap(self.scenario, pair.target, body, tip);
+            let (Some(body), Some(end_effector)) = (targets.get(pair.target), end_effectors.get(pair.arm)) else {
+                continue;
+            };
+            let (distance, _) = signed_distance(self.scenario, pair.target, body, end_effector);
             if distance <= 0.0 {
                 let arm = self.scenario.layout.arms.get(pair.arm).map_or_else(String::new, |arm| arm.name.clone());
                 let target = self.scenario.targets.get(pair.target).map_or_else(String::new, |t| t.name.clone());
@@ -230,9 +242,9 @@ impl CaptureSequence<'_> {
         for (i, sample) in phase.samples.iter().enumerate() {
             let targets = targets(i);
             for nearest in &mut closest {
-                let (body, tip) = (targets.get(nearest.target), sample.end_effector_poses.get(nearest.arm));
-                let (Some(body), Some(tip)) = (body, tip) else { continue };
-                let (distance, _) = gap(self.scenario, nearest.target, body, tip);
+                let (body, end_effector) = (targets.get(nearest.target), sample.end_effector_poses.get(nearest.arm));
+                let (Some(body), Some(end_effector)) = (body, end_effector) else { continue };
+                let (distance, _) = signed_distance(self.scenario, nearest.target, body, end_effector);
                 if distance < nearest.distance {
                     *nearest = ClosestApproach { distance, time: from + sample.time, ..*nearest };
                 }
@@ -255,10 +267,10 @@ struct SequenceState<'a> {
 
 impl SequenceState<'_> {
     /// Velocities change, and what takes hold becomes part of the assembly.
-    fn strike(&mut self, touching: &[ImpactContact]) -> Result<Capture, StudyError> {
+    fn apply_impact(&mut self, touching: &[ImpactContact]) -> Result<ImpactSolution, StudyError> {
         let course = self.course;
-        let impact =
-            capture(&self.assembly, &self.state, &self.targets, touching).map_err(|source| course.unsolved(source))?;
+        let impact = solve_impact(&self.assembly, &self.state, &self.targets, touching)
+            .map_err(|source| course.unsolved(source))?;
         self.state.base_twist = impact.exact.base_twist_after;
         self.state.joint_rates.clone_from(&impact.exact.joint_rates_after);
         for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
@@ -270,7 +282,8 @@ impl SequenceState<'_> {
         Ok(impact)
     }
 
-    /// The motion from `time` s after the first impact on, up to a contact of the pairs; and the targets at its samples.
+    /// The motion from `time` s after the first impact on, up to a contact of the pairs; and the targets at its
+    /// samples.
     fn integrate_to_contact(
         &mut self,
         pairs: &[ContactPair],
@@ -279,13 +292,14 @@ impl SequenceState<'_> {
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
         let course = self.course;
         let Self { state, targets, assembly, .. } = self;
-        let mut gaps =
-            ContactDetection::new(course.scenario, TargetMotion::Assembled(assembly, targets), pairs.to_vec());
+        let flight = TargetMotion::Assembled(assembly, targets);
+        let mut contacts = ContactDetection::new(course.scenario, flight, pairs.to_vec());
         let wheels = wheels(&course.scenario.layout, &self.attachments);
         let wanted = PostCaptureLaw { after: course.after, wheels: &wheels, angles: &self.angles };
         let timing = course.timing(course.after.duration - time);
-        let phase = run_post_capture(&assembly.system(), wanted, state, &timing, &mut gaps, &mut || observer.step())
-            .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
+        let phase =
+            run_post_capture(&assembly.system(), wanted, state, &timing, &mut contacts, &mut || observer.step())
+                .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
         let along: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();

@@ -1,10 +1,10 @@
-//! By how much a tip misses where it was wanted.
+//! By how much an end effector misses where it was wanted.
 
 use crate::scenario::{EndEffectorGoal, Scenario};
 use crate::simulate::Phase;
 use std::fmt::{Display, Formatter};
 
-/// Outboard this part of its reach, or so many rad, a tip is not where it was wanted.
+/// Outboard this part of its reach, or so many rad, an end effector is not where it was wanted.
 const REACHED: f64 = 1e-3;
 
 /// Wanted less reached at the end of an approach.
@@ -21,7 +21,7 @@ pub struct TerminalError {
 }
 
 impl TerminalError {
-    /// One per arm, `None` for an arm that may end anywhere; empty where no tip poses are wanted.
+    /// One per arm, `None` for an arm that may end anywhere; empty where no end effector poses are wanted.
     #[must_use]
     pub fn of(scenario: &Scenario, phase: &Phase) -> Vec<Option<Self>> {
         let (Some(goals), Some(end)) = (&scenario.approach.final_end_effector_poses, phase.end()) else {

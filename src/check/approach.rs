@@ -12,7 +12,7 @@ const FASTEST: f64 = TAU;
 /// What is odd about the angles, rates and times of an approach.
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let fixed = [motionless(scenario), hasty(scenario), slack(scenario)];
-    let of_ends = end_rates(scenario).into_iter().chain(out_of_reach(scenario)).chain(beyond_limits(scenario));
+    let of_ends = terminal_rates(scenario).into_iter().chain(out_of_reach(scenario)).chain(beyond_limits(scenario));
     angles(scenario).into_iter().chain(of_ends).chain(fixed.into_iter().flatten()).collect()
 }
 
@@ -106,7 +106,7 @@ fn hasty(scenario: &Scenario) -> Option<Warning> {
     })
 }
 
-fn end_rates(scenario: &Scenario) -> Vec<Warning> {
+fn terminal_rates(scenario: &Scenario) -> Vec<Warning> {
     let fast = |key: String, why: String, help: &str| Warning { key, why, help: help.to_owned() };
     match &scenario.approach.end {
         FinalRates::Rest => Vec::new(),
@@ -137,7 +137,8 @@ fn end_rates(scenario: &Scenario) -> Vec<Warning> {
     }
 }
 
-/// Tip poses beyond what any pose of the arm gives. Whether the arm gets to what is nearer is seen when it is run.
+/// End effector poses beyond what any pose of the arm gives. Whether the arm gets to what is nearer is seen when it is
+/// run.
 fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
     let goals = scenario.approach.final_end_effector_poses.iter().flatten().enumerate();
     let far = goals.filter_map(|(i, goal)| {

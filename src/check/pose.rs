@@ -24,8 +24,8 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     [short_of_joints(scenario), singular(scenario)].into_iter().flatten().collect()
 }
 
-/// The arms whose tips are to move or to capture, and that have the joints to move their tips any way: they need three.
-/// `None` where there are none, or their Jacobian cannot be computed.
+/// The arms whose end effectors are to move or to capture, and that have the joints to move their end effectors any
+/// way: they need three. `None` where there are none, or their Jacobian cannot be computed.
 ///
 /// It does not matter where the base is and how it is turned: that turns the twists and leaves the singular values.
 pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {

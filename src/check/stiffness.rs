@@ -28,8 +28,9 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     before.iter().chain(&after).flat_map(|held| [held.coarse(), held.seldom()]).flatten().collect()
 }
 
-/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains, and so
-/// does resolved motion rate control away from singular poses; under PD control it is, at the initial or the final pose, that of
+/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains, and
+/// so does resolved motion rate control away from singular poses; under PD control it is, at the initial or the final
+/// pose, that of
 ///
 /// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I: the largest of the damping rates, eigenvalues of I⁻¹ Kd, and
 /// the natural frequencies, roots of those of I⁻¹ Kp.
@@ -47,8 +48,8 @@ pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
     poses.into_iter().filter_map(|angles| mode(scenario, angles, proportional_gain, derivative_gain)).reduce(f64::max)
 }
 
-/// The same after the impact, at the final joint angles. It is that of the robot alone, which bounds that of robot and targets:
-/// with them the kinetic energy of any joint rates, ½ θ̇ᵀ I θ̇ at the best of all base twists, is larger.
+/// The same after the impact, at the final joint angles. It is that of the robot alone, which bounds that of robot and
+/// targets: with them the kinetic energy of any joint rates, ½ θ̇ᵀ I θ̇ at the best of all base twists, is larger.
 pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
     let angles = &scenario.approach.final_joint_angles;
     match &scenario.post_impact.as_ref()?.control {

@@ -34,7 +34,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
     match &approach.final_end_effector_poses {
-        Some(goals) if by_tips(scenario) => writeln!(out, "  tips                to {}", wishes(goals))?,
+        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  tips                to {}", wishes(goals))?,
         Some(goals) => writeln!(out, "  final angles        to be designed, for {}", wishes(goals))?,
         None => writeln!(out, "  largest turn        {}", turn(scenario))?,
     }
@@ -87,7 +87,7 @@ fn start(scenario: &Scenario) -> String {
     }
 }
 
-fn by_tips(scenario: &Scenario) -> bool {
+fn by_end_effectors(scenario: &Scenario) -> bool {
     matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. })
 }
 
@@ -102,7 +102,7 @@ fn trajectory(scenario: &Scenario) -> String {
             format!("tip twists {} rad/s, m/s", twists.join(", "))
         }
     };
-    let whose = if by_tips(scenario) { " of the tips" } else { "" };
+    let whose = if by_end_effectors(scenario) { " of the tips" } else { "" };
     let then = scenario.approach.trajectory_duration;
     let then = then.map_or_else(String::new, |time| format!(" in {} s, and there until the end", short(time)));
     format!("{shape}{whose}, to {end}{then}")

@@ -17,11 +17,11 @@ const RIM: f64 = 0.05;
 /// What is odd about the targets, one by one.
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let targets = scenario.targets.iter().enumerate();
-    let in_time = scenario.contact.detection == Detection::Time;
+    let contact_at_time = scenario.contact.detection == Detection::Time;
     let each = targets.flat_map(|(i, target)| {
         let found = [
             heavy(scenario, target),
-            if in_time { off_rim(target) } else { None },
+            if contact_at_time { off_rim(target) } else { None },
             inertia(target),
             on_a_wheel(scenario, target),
             out_of_reach(scenario, target),
@@ -50,7 +50,7 @@ fn heavy(scenario: &Scenario, target: &Target) -> Option<Odd> {
 
 fn off_rim(target: &Target) -> Option<Odd> {
     let size = target.surface.reach();
-    let apart = |touch: &PlannedContact| target.surface.gap(turned(touch.contact, -target.yaw)).distance;
+    let apart = |touch: &PlannedContact| target.surface.signed_distance(turned(touch.contact, -target.yaw)).distance;
     let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
     let why = match target.surface {
         Outline::Disc { radius } => {
@@ -107,11 +107,11 @@ pub(super) fn of_contact(scenario: &Scenario, target: &Target) -> Option<(f64, f
     distance_and_most(scenario, target.arm(), [x + rx, y + ry])
 }
 
-/// The distance of a point from the robot's COM at the end of the approach, and the most at which the arm can have its tip,
-/// in m; `None` for a wheel.
+/// The distance of a point from the robot's COM at the end of the approach, and the most at which the arm can have its
+/// end effector, in m; `None` for a wheel.
 ///
-/// The COM goes its way whatever the joints do. In any pose it is within Σ m d of the base COM, d being how far out each
-/// link's COM can be, and the tip within the arm's reach.
+/// The COM goes its way whatever the joints do. In any pose it is within Σ m d of the base COM, d being how far out
+/// each link's COM can be, and the end effector within the arm's reach.
 pub(crate) fn distance_and_most(scenario: &Scenario, arm: usize, [x, y]: [f64; 2]) -> Option<(f64, f64)> {
     let [from_x, from_y] = center_of_mass_at_end(scenario)?;
     let arm = scenario.layout.arms.get(arm).filter(|arm| arm.reach() > 0.0)?;

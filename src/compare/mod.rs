@@ -9,7 +9,7 @@ use crate::layout::Layout;
 use crate::quantities::{Difference, differences};
 use crate::quantity::Quantity;
 use crate::registry::{NoModel, generated, generic};
-use crate::sampling::{REGIMES, Regime, Sample};
+use crate::sampling::{REGIMES, Regime, RegimeSample};
 
 /// The worst that was found in one quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Worst {
     /// Which of its samples.
     pub index: u64,
     /// Layout and state.
-    pub sample: Sample,
+    pub sample: RegimeSample,
 }
 
 /// A state that one implementation has no answer for.

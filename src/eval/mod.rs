@@ -10,7 +10,7 @@ mod result;
 mod write;
 
 use crate::dynamics::Model;
-use crate::evaluation::Instant;
+use crate::evaluation::EvaluationInput;
 use elements::Elements;
 pub use result::result_to_json;
 use std::io::{self, BufRead};
@@ -59,7 +59,7 @@ impl<R: BufRead> States<R> {
     ///
     /// # Errors
     /// [`StateError`]; there is no going on after it.
-    pub fn next_state(&mut self) -> Result<Option<Instant>, StateError> {
+    pub fn next_state(&mut self) -> Result<Option<EvaluationInput>, StateError> {
         let Some(element) = self.elements.next_element()? else { return Ok(None) };
         let read = reader::read(element.text, self.joints, self.arms);
         read.map(Some).map_err(|(line, message)| StateError::State {

@@ -1,8 +1,8 @@
 //! One state from its JSON text.
 
 use super::places::places;
-use crate::diagnostic::{Quantity, excerpt, listing, nearest};
-use crate::evaluation::Instant;
+use crate::diagnostic::{NumberRule, excerpt, listing, nearest};
+use crate::evaluation::EvaluationInput;
 use crate::owned::RobotState;
 use crate::target::Target;
 use serde_json::{Map, Value};
@@ -22,8 +22,8 @@ const TARGET: [&str; 4] = ["mass", "inertia", "contact", "twist"];
 const POSE: &str = "[yaw, x, y] in rad, m, m";
 const TWIST: &str = "[ω, vx, vy] in rad/s, m/s, m/s";
 const WRENCH: &str = "[n, fx, fy] in N m, N, N";
-const MASS: Quantity = Quantity::positive("a mass", "kg");
-const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
+const MASS: NumberRule = NumberRule::positive("a mass", "kg");
+const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
 
 /// What is wrong, and the path of the value.
 struct Wrong {
@@ -37,7 +37,7 @@ type Read<T> = Result<T, Wrong>;
 ///
 /// # Errors
 /// Lines from the start of the text to what is wrong, and a message with key, value and what would be right.
-pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<Instant, (usize, String)> {
+pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, (usize, String)> {
     let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
     repeated(text, &tree)
         .map_or(Ok(()), Err)
@@ -45,7 +45,7 @@ pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<Instant, (usize, 
         .map_err(|wrong| (line_of(text, &wrong.path), wrong.message))
 }
 
-fn instant(tree: &Value, joints: usize, arms: usize) -> Read<Instant> {
+fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     let state = object(tree, "", "the state", &STATE)?;
     let required = |key: &str, wanted: &str| {
         state
@@ -70,7 +70,7 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<Instant> {
             .map(|(path, value)| if value.is_null() { Ok(None) } else { target(value, &path).map(Some) })
             .collect::<Read<Vec<_>>>()
     });
-    Ok(Instant {
+    Ok(EvaluationInput {
         state: RobotState {
             base_pose: vector("base_pose", POSE)?,
             joint_angles: list("joint_angles", "rad")?,
@@ -92,7 +92,7 @@ fn target(value: &Value, path: &str) -> Read<Target<f64>> {
             message: format!("missing key `{path}.{key}`, expected {wanted}"),
         })
     };
-    let amount = |key: &str, quantity: &Quantity| {
+    let amount = |key: &str, quantity: &NumberRule| {
         let (value, path, wanted) = (required(key, &quantity.to_string())?, format!("{path}.{key}"), quantity);
         let number = number(value, &path, &wanted.to_string())?;
         if number > 0.0 { Ok(number) } else { Err(expected(&path, value, &wanted.to_string())) }

@@ -5,8 +5,8 @@ use crate::quantity::Quantity;
 use crate::target::Target;
 use serde_json::{Map, Value, json};
 
-/// Quantities under their names, `impact.G` as `G` in a block `impact`: matrices as nested rows, and `null` for an arm that
-/// captures nothing. A block that has no values is absent.
+/// Quantities under their names, `impact.G` as `G` in a block `impact`: matrices as nested rows, and `null` for an arm
+/// that captures nothing. A block that has no values is absent.
 #[must_use]
 pub fn result_to_json(values: &Values, targets: &[Option<Target<f64>>]) -> Value {
     let mut result = Map::new();

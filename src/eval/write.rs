@@ -1,12 +1,12 @@
 //! A state as JSON, so that it reads back as the same numbers.
 
-use crate::evaluation::Instant;
+use crate::evaluation::EvaluationInput;
 use crate::target::Target;
 use serde_json::{Value, json};
 
 /// The object that [`States`](super::States) reads as this instant; what is absent stays out.
 #[must_use]
-pub fn to_json(instant: &Instant) -> Value {
+pub fn to_json(instant: &EvaluationInput) -> Value {
     let motion = &instant.state;
     let mut value = json!({
         "base_pose": motion.base_pose,

@@ -1,5 +1,5 @@
-//! Verner's pair of orders 9 and 8 with steps of its own, by the crate `differential-equations`: nothing of that crate is
-//! known outside this file.
+//! Verner's pair of orders 9 and 8 with steps of its own, by the crate `differential-equations`: nothing of that crate
+//! is known outside this file.
 
 use crate::error::Error;
 use differential_equations::error::Error as SolverError;
@@ -17,9 +17,10 @@ type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Vec<f64>, 9, 16, 26>;
 
 /// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
 ///
-/// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and go
-/// on beyond the times that are asked for: what is there between two steps comes from the interpolant. Each accepted step
-/// takes 26 evaluations, each rejected one 15. Of the crate's methods this one has an interpolant as good as its steps.
+/// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and
+/// go on beyond the times that are asked for: what is there between two steps comes from the interpolant. Each accepted
+/// step takes 26 evaluations, each rejected one 15. Of the crate's methods this one has an interpolant as good as its
+/// steps.
 pub struct Adaptive {
     /// Some 12 kB of tables.
     solver: Box<Solver>,

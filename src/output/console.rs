@@ -8,7 +8,7 @@ use crate::simulate::Phase;
 use crate::simulate::conservation::ConservationErrors;
 use std::fmt::Write;
 
-/// A tip this far from where it is to touch its target is told of, m.
+/// An end effector this far from where it is to touch its target is told of, m.
 const APART: f64 = 1e-4;
 
 /// The numbers of a study in words and columns.
@@ -34,23 +34,23 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     let phase = &study.approach;
     let Some(end) = phase.end() else { return Ok(()) };
     writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
-    if let Some(posture) = &study.posture {
+    if let Some(inverse_kinematics) = &study.inverse_kinematics {
         writeln!(
             out,
             "  final joint angles designed in {} rounds [rad]: {}\n  (tips missed by {:.1e}; {})",
-            posture.rounds,
-            list(&posture.joint_angles, 6),
-            posture.residual,
-            spare(posture.spare_joints)
+            inverse_kinematics.rounds,
+            list(&inverse_kinematics.joint_angles, 6),
+            inverse_kinematics.residual,
+            spare(inverse_kinematics.spare_joints)
         )?;
     }
-    if let Some(design) = &study.design {
+    if let Some(terminal_rates) = &study.terminal_rates {
         writeln!(
             out,
             "  end rates designed in {} rounds [rad/s]: {}\n  (generalized Jacobian at the final pose: smallest/largest singular value {:.3})",
-            design.iterations,
-            list(&design.joint_rates, 6),
-            design.singularity_margin
+            terminal_rates.iterations,
+            list(&terminal_rates.joint_rates, 6),
+            terminal_rates.singularity_margin
         )?;
     }
     let [yaw, x, y] = end.state.base_pose;
@@ -68,8 +68,8 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
             arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
         )?;
-        let in_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
-        let mut touches = in_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+        let contact_at_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+        let mut touches = contact_at_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
         let touch = touches.find(|(_, touch)| touch.arm == i);
         if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
         {
@@ -77,7 +77,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
             write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
         }
         writeln!(out)?;
-        if let Some(miss) = study.misses.get(i).and_then(Option::as_ref) {
+        if let Some(miss) = study.terminal_errors.get(i).and_then(Option::as_ref) {
             let head =
                 if miss.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
             writeln!(out, "    {head} {miss}")?;
@@ -172,7 +172,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         if captured.impact.contacts.is_empty() {
             writeln!(out, "  {:<16} no contact", case.name)?;
         }
-        // of one arm, the target is where the tip puts it
+        // of one arm, the target is where the end effector puts it
         let apart = captured.impact.contacts.iter().filter(|contact| contact.touching.miss > APART);
         for ImpactContact { target, arm, miss, .. } in apart.map(|contact| contact.touching) {
             let (of, target) = (scenario.layout.arms.get(arm), scenario.targets.get(target));
@@ -187,7 +187,7 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     Ok(())
 }
 
-/// Tips and targets that were to meet and did not.
+/// End effectors and targets that were to meet and did not.
 fn missed(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
     for case in &study.cases {
         for pair in &case.closest {

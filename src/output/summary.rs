@@ -1,7 +1,7 @@
 //! `summary.json`: the numbers of a study, by the contract in README.md.
 
 use crate::capture::contact_at_time::ImpactContact;
-use crate::capture::impact::{Capture, ContactResult, ImpactResult};
+use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::terminal_error::TerminalError;
 use crate::capture::{CaseResult, Study};
@@ -24,18 +24,18 @@ pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
 
 fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
     let mut value = json!({"name": case.name, "approach": phase(case.approach(study), true)});
-    if let Some(posture) = &study.posture {
+    if let Some(inverse_kinematics) = &study.inverse_kinematics {
         value["approach"]["designed"] = json!({
-            "final_joint_angles": posture.joint_angles,
-            "residual": posture.residual,
-            "rounds": posture.rounds,
-            "singularity_margin": posture.rates.singularity_margin,
-            "spare_joints": posture.spare_joints,
+            "final_joint_angles": inverse_kinematics.joint_angles,
+            "residual": inverse_kinematics.residual,
+            "rounds": inverse_kinematics.rounds,
+            "singularity_margin": inverse_kinematics.rates.singularity_margin,
+            "spare_joints": inverse_kinematics.spare_joints,
         });
     }
-    if !study.misses.is_empty() {
+    if !study.terminal_errors.is_empty() {
         let parts = |miss: &Option<TerminalError>| json!(miss.as_ref().map(|miss| &miss.parts));
-        value["approach"]["missed"] = study.misses.iter().map(parts).collect();
+        value["approach"]["missed"] = study.terminal_errors.iter().map(parts).collect();
     }
     if !case.closest.is_empty() {
         let closest = case.closest.iter().map(|pair| {
@@ -69,7 +69,7 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
     value
 }
 
-fn capture(scenario: &Scenario, impact: &Capture) -> Value {
+fn capture(scenario: &Scenario, impact: &ImpactSolution) -> Value {
     json!({
         "exact": result(&impact.exact),
         "paper": impact.paper.as_ref().map(result),
@@ -78,7 +78,7 @@ fn capture(scenario: &Scenario, impact: &Capture) -> Value {
 }
 
 /// The end of a phase and its audit.
-fn phase(phase: &Phase, tips: bool) -> Value {
+fn phase(phase: &Phase, end_effectors: bool) -> Value {
     let Some(end) = phase.end() else { return Value::Null };
     let mut value = json!({
         "duration": phase.duration,
@@ -87,7 +87,7 @@ fn phase(phase: &Phase, tips: bool) -> Value {
         "joint_angles": end.state.joint_angles,
         "joint_rates": end.state.joint_rates,
     });
-    if tips {
+    if end_effectors {
         value["end_effector_poses"] = json!(end.end_effector_poses);
         value["end_effector_twists"] = json!(end.end_effector_twists);
     }

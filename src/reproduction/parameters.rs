@@ -1,4 +1,4 @@
-//! Tables 1 to 4: robot, targets, joint angles and tips.
+//! Tables 1 to 4: robot, targets, joint angles and end effectors.
 
 use super::Run;
 use super::markdown::{number, point, table};
@@ -8,7 +8,11 @@ use crate::simulate::Sample;
 /// Name in the template and table.
 pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
     let mut tables = vec![("bodies", bodies(&runs[0])), ("targets", targets(&runs[0]))];
-    tables.extend([("joint_angles", joint_angles(runs)), ("tips", tips(runs)), ("tip_velocities", velocities(runs))]);
+    tables.extend([
+        ("joint_angles", joint_angles(runs)),
+        ("tips", end_effectors(runs)),
+        ("tip_velocities", velocities(runs)),
+    ]);
     tables.push(("ends", ends(runs)));
     tables
 }
@@ -45,9 +49,9 @@ fn targets(run: &Run) -> String {
     let [mass, radius, inertia] = TARGET;
     let mut rows = Vec::new();
     for (target, [x, y]) in run.scenario.targets.iter().zip(LOCATIONS) {
-        let Some([_, tip_x, tip_y]) = end.end_effector_poses.get(target.arm()) else { continue };
+        let Some([_, end_effector_x, end_effector_y]) = end.end_effector_poses.get(target.arm()) else { continue };
         let [rx, ry] = target.contact();
-        let place = [tip_x - rx, tip_y - ry];
+        let place = [end_effector_x - rx, end_effector_y - ry];
         rows.push(vec![
             target.name.clone(),
             format!("{mass} kg, {radius} m, {inertia} kg m², at {}", point([x, y], 1)),
@@ -82,23 +86,23 @@ fn joint_angles(runs: &[Run; 3]) -> String {
     table(&head, &rows)
 }
 
-fn tips(runs: &[Run; 3]) -> String {
-    let tip = |sample: Option<&Sample>, i: usize| {
+fn end_effectors(runs: &[Run; 3]) -> String {
+    let end_effector = |sample: Option<&Sample>, i: usize| {
         let pose = sample.and_then(|sample| sample.end_effector_poses.get(i)).copied().unwrap_or_default();
         [pose[1], pose[2]]
     };
     let mut rows = Vec::new();
     let [initial, last] = TIPS;
     for (i, (initial, last)) in initial.into_iter().zip(last).enumerate() {
-        let start = tip(runs[0].study.approach.samples.first(), i);
+        let start = end_effector(runs[0].study.approach.samples.first(), i);
         let mut row = vec![format!("tip {}", i + 1), point(initial, 2), point(start, 4), point(last, 1)];
-        row.extend(runs.iter().map(|run| point(tip(end(run), i), 4)));
+        row.extend(runs.iter().map(|run| point(end_effector(end(run), i), 4)));
         rows.push(row);
     }
     let mut row = vec!["tip 1 from the base COM".to_owned(), String::new(), String::new()];
     row.push(number(last[0][0].hypot(last[0][1]), 4));
     row.extend(runs.iter().map(|run| {
-        let [x, y] = tip(end(run), 0);
+        let [x, y] = end_effector(end(run), 0);
         let [_, base_x, base_y] = end(run).map(|end| end.state.base_pose).unwrap_or_default();
         number((x - base_x).hypot(y - base_y), 4)
     }));

@@ -1,12 +1,12 @@
 //! `torque_limits` and `sample_time`: what stands between a control law and the joints.
 
 use super::joints::Joints;
-use crate::diagnostic::{Quantity, Table, Value};
+use crate::diagnostic::{NumberRule, Table, Value};
 use crate::simulate::Timing;
 use crate::simulate::limits::JointLimits;
 
-const TORQUE_LIMIT: Quantity = Quantity::non_negative("a torque limit (or one per joint)", "N m");
-const SAMPLE_TIME: Quantity = Quantity::positive("a sample time", "s");
+const TORQUE_LIMIT: NumberRule = NumberRule::non_negative("a torque limit (or one per joint)", "N m");
+const SAMPLE_TIME: NumberRule = NumberRule::positive("a sample time", "s");
 
 /// By how much a sample time may miss a whole number of steps, in steps: rounding of decimal fractions.
 const WHOLE: f64 = 1e-6;
@@ -18,7 +18,8 @@ pub struct Actuation {
     pub torque_limits: Option<Vec<f64>>,
     /// How many steps each sample of the law is held for (zero-order hold); default none: the law acts continuously.
     pub steps_per_sample: Option<u32>,
-    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty without it.
+    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty
+    /// without it.
     pub joint_limits: Vec<JointLimits>,
 }
 

@@ -5,16 +5,17 @@ use super::integration;
 use super::joints::{Joints, check_length};
 use super::resolved;
 use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step};
-use crate::diagnostic::{Quantity, Table, Value, every, listing};
+use crate::diagnostic::{NumberRule, Table, Value, every, listing};
 use crate::simulate::integration::Integration;
 use crate::trajectory::TrajectoryKind;
 
-const PROPORTIONAL_GAIN: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
-const DERIVATIVE_GAIN: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+const PROPORTIONAL_GAIN: NumberRule = NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
+const DERIVATIVE_GAIN: NumberRule = NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
 /// Of accelerations, not of torques.
-const ERROR_GAIN: Quantity =
-    Quantity::non_negative("a proportional gain of computed torque (or one per joint)", "1/s²");
-const RATE_GAIN: Quantity = Quantity::non_negative("a derivative gain of computed torque (or one per joint)", "1/s");
+const ERROR_GAIN: NumberRule =
+    NumberRule::non_negative("a proportional gain of computed torque (or one per joint)", "1/s²");
+const RATE_GAIN: NumberRule =
+    NumberRule::non_negative("a derivative gain of computed torque (or one per joint)", "1/s");
 
 /// A joint trajectory and how it is followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,15 +24,16 @@ pub struct Approach {
     pub duration: f64,
     /// Time step in s, at most the duration; default 0.005.
     pub step: f64,
-    /// How long the trajectory takes, in s, less than the duration, for one that ends at rest: what is wanted at its end stays
-    /// wanted. `None` where it takes the whole duration, as by default.
+    /// How long the trajectory takes, in s, less than the duration, for one that ends at rest: what is wanted at its
+    /// end stays wanted. `None` where it takes the whole duration, as by default.
     pub trajectory_duration: Option<f64>,
     /// The joint trajectories.
     pub trajectory: TrajectoryKind,
-    /// Joint angles wanted at the end, arm by arm, in rad. Where tip poses are wanted, the first guess of the angles that
-    /// give them, by default the initial ones; for resolved motion rate control these, which it does not look at.
+    /// Joint angles wanted at the end, arm by arm, in rad. Where end effector poses are wanted, the first guess of the
+    /// angles that give them, by default the initial ones; for resolved motion rate control these, which it does not
+    /// look at.
     pub final_joint_angles: Vec<f64>,
-    /// What is wanted of the tips at the end, one per arm; `None` where joint angles are given.
+    /// What is wanted of the end effectors at the end, one per arm; `None` where joint angles are given.
     pub final_end_effector_poses: Option<Vec<EndEffectorGoal>>,
     /// Rates wanted at the end.
     pub end: FinalRates,
@@ -43,7 +45,7 @@ pub struct Approach {
     pub integration: Integration,
 }
 
-/// Where a tip should be at the end of an approach, inertial frame.
+/// Where an end effector should be at the end of an approach, inertial frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EndEffectorGoal {
     /// Anywhere.
@@ -54,7 +56,7 @@ pub enum EndEffectorGoal {
     Pose([f64; 3]),
 }
 
-/// [ω, vx, vy] wanted of a tip, rad/s, m/s; `None` where any will do.
+/// [ω, vx, vy] wanted of an end effector, rad/s, m/s; `None` where any will do.
 pub type EndEffectorTwistGoal = [Option<f64>; 3];
 
 /// The rates wanted at the end of an approach.
@@ -81,7 +83,7 @@ pub enum Tracking {
         /// Kd for each joint in N m s/rad, 0 or more; default 14.
         derivative_gain: Vec<f64>,
     },
-    /// The tips follow straight paths to `final_end_effector_poses`, by feedback of their poses; see
+    /// The end effectors follow straight paths to `final_end_effector_poses`, by feedback of their poses; see
     /// [`ResolvedMotionRate`](crate::control::ResolvedMotionRate).
     ResolvedMotionRate {
         /// K in 1/s, greater than 0; default 2.
@@ -130,7 +132,7 @@ impl Approach {
     ];
 
     pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Self> {
-        if Law::of(table) == Some(Law::Tips) {
+        if Law::of(table) == Some(Law::EndEffectorFeedback) {
             return resolved::approach(table, joints, initial);
         }
         let times = duration_and_step(table);
@@ -217,7 +219,8 @@ impl FinalRates {
     }
 }
 
-/// The time of the trajectory, `Some(None)` where it is that of the phase; `rest` is whether it ends at rest, and `by` how it would.
+/// The time of the trajectory, `Some(None)` where it is that of the phase; `rest` is whether it ends at rest, and `by`
+/// how it would.
 #[allow(clippy::option_option, reason = "nothing where it is wrong, and nothing given")]
 pub(super) fn trajectory_duration(
     table: &Table<'_>,
@@ -305,7 +308,7 @@ impl Tracking {
             None => Law::Torques,
         };
         let [error, rate] = match law {
-            Law::Tips => return None, // read by `resolved`
+            Law::EndEffectorFeedback => return None, // read by `resolved`
             Law::Torques => [&PROPORTIONAL_GAIN, &DERIVATIVE_GAIN],
             Law::Accelerations => [&ERROR_GAIN, &RATE_GAIN],
             Law::Exact => {
@@ -322,7 +325,7 @@ impl Tracking {
         let (proportional_gain, derivative_gain) = (proportional_gain?, derivative_gain?);
         Some(match law {
             Law::Accelerations => Self::ComputedTorque { proportional_gain, derivative_gain },
-            Law::Torques | Law::Exact | Law::Tips => {
+            Law::Torques | Law::Exact | Law::EndEffectorFeedback => {
                 Self::ProportionalDerivative { proportional_gain, derivative_gain }
             }
         })
@@ -335,7 +338,7 @@ enum Law {
     Torques,
     Accelerations,
     Exact,
-    Tips,
+    EndEffectorFeedback,
 }
 
 impl Law {
@@ -343,7 +346,7 @@ impl Law {
         ("pd", Self::Torques),
         ("exact", Self::Exact),
         ("computed_torque", Self::Accelerations),
-        ("resolved_motion_rate", Self::Tips),
+        ("resolved_motion_rate", Self::EndEffectorFeedback),
     ];
 
     /// What the table names; `None` where that is nothing, or no law.

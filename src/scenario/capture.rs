@@ -73,8 +73,8 @@ pub(super) fn read(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>
     Some(Capture { targets, contact: contact?, cases, post_impact: post_impact? })
 }
 
-/// Notes each target with an arm of an earlier one, where one of the two names several arms: single names are told apart as
-/// they stand.
+/// Notes each target with an arm of an earlier one, where one of the two names several arms: single names are told
+/// apart as they stand.
 fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout) {
     let values: Vec<_> = tables.iter().map(|table| table.get("arm")).collect();
     for (i, (target, value)) in targets.iter().zip(&values).enumerate() {

@@ -4,9 +4,9 @@ use super::contact::Detection;
 use super::target::{NO_BOUNCE, NO_NORMAL, Target, contact_kinds, restitution};
 use super::{FILE_NAME, TWIST, file_name};
 use crate::contact::ContactKind;
-use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::diagnostic::{NumberRule, Table, Value, every};
 
-const IMPULSE: Quantity = Quantity::non_negative("an impulse magnitude", "N s");
+const IMPULSE: NumberRule = NumberRule::non_negative("an impulse magnitude", "N s");
 
 /// One variant of the capture. All lists are in the targets' order.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,12 @@
 //! `integrator`, `tolerance` and `coordinates`: how a phase is integrated.
 
-use crate::diagnostic::{Quantity, Table};
+use crate::diagnostic::{NumberRule, Table};
 use crate::integrate::Adaptive;
-use crate::simulate::integration::{Coordinates, Integration, Scheme};
+use crate::simulate::integration::{Formulation, Integration, Scheme};
 
 pub(super) const KEYS: [&str; 3] = ["integrator", "tolerance", "coordinates"];
 
-const TOLERANCE: Quantity = Quantity::positive("a tolerance", "parts of 1");
+const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 
 /// Looser is no longer what anybody wants of an order 9.
 const MOST_TOLERANCE: f64 = 1e-3;
@@ -17,10 +17,10 @@ pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
         None => Some(Scheme::RungeKutta4),
     };
     let coordinates = match table.get("coordinates") {
-        Some(value) => value.choice(&[("full", Coordinates::Full), ("reduced", Coordinates::Reduced)]),
-        None => Some(Coordinates::Full),
+        Some(value) => value.choice(&[("full", Formulation::Full), ("reduced", Formulation::Reduced)]),
+        None => Some(Formulation::Full),
     };
-    if let (Some(scheme), Some(Coordinates::Reduced), Some(value)) = (scheme, coordinates, table.get("coordinates"))
+    if let (Some(scheme), Some(Formulation::Reduced), Some(value)) = (scheme, coordinates, table.get("coordinates"))
         && scheme.properties().is_canonical
     {
         let name = scheme.properties().name;

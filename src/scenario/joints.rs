@@ -1,6 +1,6 @@
 //! Checking lists against the joints and arms of the layout.
 
-use crate::diagnostic::{Quantity, Table, Value};
+use crate::diagnostic::{NumberRule, Table, Value};
 use crate::layout::Layout;
 
 /// The joints that lists are checked against; nothing is known of them where the layout is broken.
@@ -19,14 +19,14 @@ impl Joints<'_> {
     }
 
     /// A list with one number per joint; notes the first that is wrong.
-    pub(super) fn numbers(&self, value: &Value<'_>, quantity: &Quantity) -> Option<Vec<f64>> {
+    pub(super) fn numbers(&self, value: &Value<'_>, quantity: &NumberRule) -> Option<Vec<f64>> {
         let items = value.items(&self.one_each())?;
         check_length(value, items.len(), self.layout.map(Layout::joints), &self.one_each())?;
         items.iter().map(|item| item.number(quantity)).collect()
     }
 
     /// One number for all joints, or a list with one per joint.
-    pub(super) fn one_or_each(&self, value: &Value<'_>, quantity: &Quantity) -> Option<Vec<f64>> {
+    pub(super) fn one_or_each(&self, value: &Value<'_>, quantity: &NumberRule) -> Option<Vec<f64>> {
         if value.is_array() {
             return self.numbers(value, quantity);
         }
@@ -34,7 +34,7 @@ impl Joints<'_> {
     }
 
     /// The gain under a key, or the default for every joint.
-    pub(super) fn gain(&self, table: &Table<'_>, key: &str, quantity: &Quantity, default: f64) -> Option<Vec<f64>> {
+    pub(super) fn gain(&self, table: &Table<'_>, key: &str, quantity: &NumberRule, default: f64) -> Option<Vec<f64>> {
         table.get(key).map_or_else(|| Some(self.repeat(default)), |value| self.one_or_each(&value, quantity))
     }
 

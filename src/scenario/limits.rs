@@ -2,15 +2,15 @@
 
 use super::MOST_ANGLE;
 use super::joints::{Joints, check_length};
-use crate::diagnostic::{Quantity, Table, Value, every};
+use crate::diagnostic::{NumberRule, Table, Value, every};
 use crate::owned::RobotState;
 use crate::simulate::limits::JointLimits;
 
 pub(super) const KEYS: [&str; 2] = ["joint_angles", "joint_rates"];
 
-const RATE: Quantity = Quantity::positive("a largest joint rate (or one per joint)", "rad/s");
-const PAIR: [Quantity; 2] =
-    [Quantity::any("low", "rad").not_degrees(MOST_ANGLE), Quantity::any("high", "rad").not_degrees(MOST_ANGLE)];
+const RATE: NumberRule = NumberRule::positive("a largest joint rate (or one per joint)", "rad/s");
+const PAIR: [NumberRule; 2] =
+    [NumberRule::any("low", "rad").not_degrees(MOST_ANGLE), NumberRule::any("high", "rad").not_degrees(MOST_ANGLE)];
 
 /// One per joint.
 pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Vec<JointLimits>> {

@@ -23,7 +23,7 @@ pub use contact::{ContactRules, Detection};
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use target::{PlannedContact, Target, contact_name};
 
-use crate::diagnostic::{Quantity, Report, Table, Value, read_document, read_text};
+use crate::diagnostic::{NumberRule, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
 use joints::Joints;
 
@@ -33,15 +33,16 @@ pub const DEFAULT_STEP: f64 = 0.005;
 /// The most steps that one phase may take; more would run for days and fill the disk.
 pub const MOST_STEPS: f64 = 1e8;
 
-const DURATION: Quantity = Quantity::positive("a duration", "s");
-const STEP: Quantity = Quantity::positive("a time step", "s");
+const DURATION: NumberRule = NumberRule::positive("a duration", "s");
+const STEP: NumberRule = NumberRule::positive("a time step", "s");
 /// Outboard two turns, an angle is in degrees.
 const MOST_ANGLE: f64 = 4.0 * PI;
-const JOINT_ANGLE: Quantity = Quantity::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
-const JOINT_RATE: Quantity = Quantity::any("a joint rate", "rad/s");
-const POSITION: [Quantity; 2] = [Quantity::any("x", "m"), Quantity::any("y", "m")];
-const POSE: [Quantity; 3] = [Quantity::any("yaw", "rad"), Quantity::any("x", "m"), Quantity::any("y", "m")];
-const TWIST: [Quantity; 3] = [Quantity::any("ω", "rad/s"), Quantity::any("vx", "m/s"), Quantity::any("vy", "m/s")];
+const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
+const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s");
+const POSITION: [NumberRule; 2] = [NumberRule::any("x", "m"), NumberRule::any("y", "m")];
+const POSE: [NumberRule; 3] = [NumberRule::any("yaw", "rad"), NumberRule::any("x", "m"), NumberRule::any("y", "m")];
+const TWIST: [NumberRule; 3] =
+    [NumberRule::any("ω", "rad/s"), NumberRule::any("vx", "m/s"), NumberRule::any("vy", "m/s")];
 
 const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
 const LAYOUT: &str = "a shipped layout's name or the path of a layout file";

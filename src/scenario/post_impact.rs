@@ -4,14 +4,15 @@ use super::actuation::Actuation;
 use super::duration_and_step;
 use super::integration;
 use super::joints::Joints;
-use crate::diagnostic::{Quantity, Table};
+use crate::diagnostic::{NumberRule, Table};
 use crate::simulate::integration::Integration;
 
-const STIFFNESS: Quantity = Quantity::non_negative("a proportional gain (or one per joint)", "N m/rad");
-const DAMPING: Quantity = Quantity::non_negative("a derivative gain (or one per joint)", "N m s/rad");
-const JOINT_DECAY: Quantity = Quantity::non_negative("a derivative gain of stabilisation (or one per joint)", "1/s");
-const BASE_DECAY: Quantity = Quantity::non_negative("a gain of the base rate", "1/s");
-const BASE_TORQUE: Quantity = Quantity::non_negative("a limit of the torque on the base", "N m");
+const STIFFNESS: NumberRule = NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
+const DAMPING: NumberRule = NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+const JOINT_DECAY: NumberRule =
+    NumberRule::non_negative("a derivative gain of stabilisation (or one per joint)", "1/s");
+const BASE_DECAY: NumberRule = NumberRule::non_negative("a gain of the base rate", "1/s");
+const BASE_TORQUE: NumberRule = NumberRule::non_negative("a limit of the torque on the base", "N m");
 
 /// The motion of robot and targets, as one, after the capture.
 #[derive(Clone, Debug, PartialEq)]

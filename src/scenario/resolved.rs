@@ -1,4 +1,4 @@
-//! `[approach]` with `tracking = "resolved_motion_rate"`: tips that follow paths of their own.
+//! `[approach]` with `tracking = "resolved_motion_rate"`: end effectors that follow paths of their own.
 
 use super::actuation::Actuation;
 use super::approach::{
@@ -8,15 +8,15 @@ use super::approach::{
 use super::duration_and_step;
 use super::integration;
 use super::joints::Joints;
-use crate::diagnostic::{Quantity, Table, Value};
+use crate::diagnostic::{NumberRule, Table, Value};
 use crate::trajectory::TrajectoryKind;
 
 /// What only this tracking has.
 pub(super) const KEYS: [&str; 3] = ["pose_gain", "rate_gain", "singularity_threshold"];
 
-const POSE_GAIN: Quantity = Quantity::positive("a gain of the tips' poses", "1/s");
-const RATE_GAIN: Quantity = Quantity::positive("a gain of the joint rates", "1/s");
-const THRESHOLD: Quantity = Quantity::positive("a part of the largest singular value", "1");
+const POSE_GAIN: NumberRule = NumberRule::positive("a gain of the tips' poses", "1/s");
+const RATE_GAIN: NumberRule = NumberRule::positive("a gain of the joint rates", "1/s");
+const THRESHOLD: NumberRule = NumberRule::positive("a part of the largest singular value", "1");
 
 /// Notes the keys of this tracking in an approach with another.
 pub(super) fn reject_gains(table: &Table<'_>) {
@@ -95,7 +95,7 @@ fn reject_joint_space(table: &Table<'_>) {
     }
 }
 
-/// The twists, where nothing is asked of a tip that may end anywhere, and no rate of a yaw that is free.
+/// The twists, where nothing is asked of an end effector that may end anywhere, and no rate of a yaw that is free.
 fn wanted(
     value: &Value<'_>,
     twists: Vec<EndEffectorTwistGoal>,

@@ -3,19 +3,19 @@
 use super::joints::check_length;
 use super::{Detection, POSITION, TWIST};
 use crate::contact::ContactKind;
-use crate::diagnostic::{Quantity, Table, Value, every, listing};
+use crate::diagnostic::{NumberRule, Table, Value, every, listing};
 use crate::layout::Layout;
 use crate::outline::Outline;
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
-const MASS: Quantity = Quantity::positive("a mass", "kg");
-const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
-const RADIUS: Quantity = Quantity::positive("a radius", "m");
-const YAW: Quantity = Quantity::any("a yaw", "rad").not_degrees(4.0 * PI);
-const RESTITUTION: Quantity = Quantity::any("a restitution, 0 (nothing comes back) to 1 (all of it)", "");
+const MASS: NumberRule = NumberRule::positive("a mass", "kg");
+const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
+const RADIUS: NumberRule = NumberRule::positive("a radius", "m");
+const YAW: NumberRule = NumberRule::any("a yaw", "rad").not_degrees(4.0 * PI);
+const RESTITUTION: NumberRule = NumberRule::any("a restitution, 0 (nothing comes back) to 1 (all of it)", "");
 const CONTACTS: &str = "[rx, ry] in m, or a list of those, one per arm";
-const CONTACT: [Quantity; 2] = [Quantity::any("rx", "m"), Quantity::any("ry", "m")];
+const CONTACT: [NumberRule; 2] = [NumberRule::any("rx", "m"), NumberRule::any("ry", "m")];
 
 pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
 
@@ -115,7 +115,8 @@ impl Target {
         self.touches.first().map_or([0.0; 2], |touch| touch.contact)
     }
 
-    /// Whether one of these contacts, one per touch, would bounce where a disc has no outward normal: prescribed at its COM.
+    /// Whether one of these contacts, one per touch, would bounce where a disc has no outward normal: prescribed at its
+    /// COM.
     pub(super) fn bounces_at_its_com(&self, kinds: &[Option<ContactKind>]) -> bool {
         let at_com = |touch: &PlannedContact| touch.contact.iter().all(|x| *x == 0.0);
         let mut touches = self.touches.iter().zip(kinds);
@@ -275,7 +276,8 @@ fn surface(table: &Table<'_>) -> Option<Outline> {
     }
 }
 
-/// Whether the origin is inside the convex hull of some corners, as every COM is: from there the corners are all around.
+/// Whether the origin is inside the convex hull of some corners, as every COM is: from there the corners are all
+/// around.
 fn surrounded(corners: &[[f64; 2]]) -> bool {
     let mut directions: Vec<f64> =
         corners.iter().filter(|[x, y]| x.hypot(*y) > 0.0).map(|[x, y]| y.atan2(*x)).collect();

@@ -21,7 +21,8 @@ pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[B
     Ok(of_robot.chain(beside.iter().copied()).collect())
 }
 
-/// Σ |I ω| + m |r × v| and Σ m |v|: what angular and linear momentum could be, against which their changes are rounding.
+/// Σ |I ω| + m |r × v| and Σ m |v|: what angular and linear momentum could be, against which their changes are
+/// rounding.
 pub(crate) fn momentum_sizes(bodies: &[Body]) -> [f64; 2] {
     let mut sizes = [0.0; 2];
     for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {

@@ -10,12 +10,14 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ConservationErrors {
     /// Largest change of momentum, less the impulse from outside, over the largest Σ m|v|, or the same for the angular
-    /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing moves.
+    /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing
+    /// moves.
     pub momentum_drift: f64,
-    /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing moves.
+    /// Largest |E(t) − E(0) − work of joint torques and base torque| over the largest kinetic energy; 0 where nothing
+    /// moves.
     pub energy_error: f64,
-    /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over the
-    /// largest distance of a body's COM from it.
+    /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over
+    /// the largest distance of a body's COM from it.
     pub center_of_mass_drift: f64,
 }
 
@@ -31,7 +33,8 @@ impl ConservationErrors {
     }
 }
 
-/// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes its way.
+/// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes
+/// its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccumulatedInput {
     /// How long it is since the start, s.
@@ -85,8 +88,8 @@ impl<'a> ConservationAudit<'a> {
         Ok(audit)
     }
 
-    /// Looks at one state, this having been done to the robot since the start. Momentum and energy are of the robot and the
-    /// bodies beside it together.
+    /// Looks at one state, this having been done to the robot since the start. Momentum and energy are of the robot and
+    /// the bodies beside it together.
     ///
     /// # Errors
     /// What the model says of the state.

@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::formulation::{Canonical, Reduced};
 use crate::simulate::system::System;
-use crate::state::{CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut};
+use crate::state::{CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut};
 
 /// What is integrated: full or reduced coordinates, or canonical variables.
 pub(crate) struct Equation<'a> {
@@ -160,9 +160,9 @@ impl<'a> Equation<'a> {
         }
     }
 
-    /// d/dt of positions, momenta and effort: `ṗ = f + ∂T/∂q`, with the torques for f, so that what no force acts on stays as it
-    /// is to the last bit. Where there are bodies beside the robot and forces between them, these are in the accelerations:
-    /// `f = M v̇ + c`; the bodies keep twists for momenta, for their masses are constant.
+    /// d/dt of positions, momenta and effort: `ṗ = f + ∂T/∂q`, with the torques for f, so that what no force acts on
+    /// stays as it is to the last bit. Where there are bodies beside the robot and forces between them, these are in
+    /// the accelerations: `f = M v̇ + c`; the bodies keep twists for momenta, for their masses are constant.
     ///
     /// # Errors
     /// What model and law say.
@@ -182,7 +182,7 @@ impl<'a> Equation<'a> {
         replace(&mut canonical, system, beside.x, beside.results, Direction::ToRates)?;
         system.derivative(control, time, beside.x, rate, torques)?;
         let now = State::from_vector(beside.x, joints)?;
-        let HalvesMut { rates, work: [.., base_torque], .. } = halves_mut(rate)?;
+        let StateVectorMut { rates, work: [.., base_torque], .. } = split_mut(rate)?;
         if system.bodies.is_empty() && system.constraints.is_empty() {
             let forces = CoordinatesMut::new(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
@@ -201,8 +201,8 @@ impl<'a> Equation<'a> {
         canonical.add_energy_gradient(model, &now, places)
     }
 
-    /// Puts canonical momenta in the place of rates: those that the last step ended with, where nobody changed `x` since, for
-    /// there and back would round.
+    /// Puts canonical momenta in the place of rates: those that the last step ended with, where nobody changed `x`
+    /// since, for there and back would round.
     ///
     /// # Errors
     /// What the model says.
@@ -275,13 +275,13 @@ fn replace(
     match direction {
         Direction::ToMomenta => canonical.momenta(system.model, &now, results)?,
         Direction::ToRates => {
-            let Halves { rates: momenta, .. } = halves(x)?;
+            let StateVector { rates: momenta, .. } = split(x)?;
             let CoordinatesMut { base, joints: of_joints, .. } = CoordinatesMut::new(results, joints)?;
             let momenta = &momenta[..3 + joints];
             *base = canonical.velocities(system.model, now.base_pose, now.joint_angles, momenta, of_joints)?;
         }
     }
-    let HalvesMut { rates: places, .. } = halves_mut(x)?;
+    let StateVectorMut { rates: places, .. } = split_mut(x)?;
     places[..3 + joints].copy_from_slice(results);
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::state::State;
 
 /// One instant of a phase, to be looked at.
 #[derive(Clone, Copy)]
-pub struct Instant<'a> {
+pub struct EventState<'a> {
     /// Since the start of the phase, s.
     pub time: f64,
     /// What moves.
@@ -20,7 +20,8 @@ pub struct Instant<'a> {
 /// Values that end a phase: an event is a value that falls from above 0 to 0 or below.
 ///
 /// A value that is 0 or below when the phase begins is no event until it has been above 0 at the end of a step. Values
-/// should be smooth in the state: they are looked at after every step, and where one has a minimum within a step, there.
+/// should be smooth in the state: they are looked at after every step, and where one has a minimum within a step,
+/// there.
 pub trait Events {
     /// How many there are.
     fn count(&self) -> usize;
@@ -29,7 +30,7 @@ pub trait Events {
     ///
     /// # Errors
     /// What the model says.
-    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error>;
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error>;
 }
 
 /// A phase that ends when its time is over.
@@ -41,7 +42,7 @@ impl Events for NoEvents {
         0
     }
 
-    fn values(&mut self, _: &Instant<'_>, _: &mut [f64]) -> Result<(), Error> {
+    fn values(&mut self, _: &EventState<'_>, _: &mut [f64]) -> Result<(), Error> {
         Ok(())
     }
 }

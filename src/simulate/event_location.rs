@@ -1,15 +1,15 @@
 //! Looks for events while a phase runs, and locates their times.
 
 use crate::error::Error;
-use crate::simulate::event::{Events, Instant};
+use crate::simulate::event::{EventState, Events};
 use crate::simulate::system::System;
 use crate::state::State;
 
 /// Event times are found to this, relative to the time or, below one second, in s.
 const ACCURACY: f64 = 1e-13;
 
-/// How far before and after an instant the rates of values are taken from, relative to the step: far above rounding, and
-/// short enough for a sign.
+/// How far before and after an instant the rates of values are taken from, relative to the step: far above rounding,
+/// and short enough for a sign.
 const NEAR: f64 = 1e-3;
 
 /// The part of a bracket that remains in a step of a golden section.
@@ -112,7 +112,7 @@ impl<'a> EventLocator<'a> {
     fn values(&mut self, time: f64, x: &[f64], values: &mut [f64]) -> Result<(), Error> {
         let state = State::from_vector(x, self.system.model.joints())?;
         let bodies = self.system.bodies_at(x)?;
-        self.events.values(&Instant { time, system: self.system, state, bodies: &bodies }, values)
+        self.events.values(&EventState { time, system: self.system, state, bodies: &bodies }, values)
     }
 
     fn value_at(&mut self, event: usize, time: f64, state_at: &mut StateAt<'_>) -> Result<f64, Error> {
@@ -154,8 +154,8 @@ impl<'a> EventLocator<'a> {
         }
     }
 
-    /// When a value that is above 0 at the first time and 0 or below at the second falls to 0, or just after. By the method of
-    /// Oliveira & Takahashi (2020): as good as bisection at worst, superlinear for what is smooth.
+    /// When a value that is above 0 at the first time and 0 or below at the second falls to 0, or just after. By the
+    /// method of Oliveira & Takahashi (2020): as good as bisection at worst, superlinear for what is smooth.
     fn root(
         &mut self,
         event: usize,

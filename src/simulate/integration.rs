@@ -6,7 +6,7 @@ pub struct Integration {
     /// The integrator.
     pub scheme: Scheme,
     /// What is integrated.
-    pub coordinates: Coordinates,
+    pub coordinates: Formulation,
 }
 
 /// An integrator. What each is and can stands with its steps, in [`stepper`](super::stepper).
@@ -28,7 +28,7 @@ pub enum Scheme {
 
 /// What is integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Coordinates {
+pub enum Formulation {
     /// Base and joints.
     #[default]
     Full,

@@ -35,9 +35,9 @@ pub struct Sample {
     pub state: RobotState,
     /// N m.
     pub joint_torques: Vec<f64>,
-    /// [yaw, x, y] of each tip; rad, m.
+    /// [yaw, x, y] of each end effector; rad, m.
     pub end_effector_poses: Vec<[f64; 3]>,
-    /// [ω, vx, vy] of each tip; rad/s, m/s.
+    /// [ω, vx, vy] of each end effector; rad/s, m/s.
     pub end_effector_twists: Vec<[f64; 3]>,
     /// Of robot and the bodies beside it together.
     pub momentum: Momentum<f64>,
@@ -54,8 +54,8 @@ pub struct Sample {
 pub struct Timing {
     /// s.
     pub duration: f64,
-    /// Wanted step, s; the nearest that divides the duration is taken. An adaptive integrator has steps of its own: it is
-    /// looked at and audited so often.
+    /// Wanted step, s; the nearest that divides the duration is taken. An adaptive integrator has steps of its own: it
+    /// is looked at and audited so often.
     pub step: f64,
     /// Time between samples, s, at least one step; the last instant is always sampled.
     pub sample: f64,
@@ -98,7 +98,8 @@ pub struct Phase {
     pub saturation: Saturation,
     /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
     pub constraint_errors: [f64; 2],
-    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on the way.
+    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on
+    /// the way.
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
@@ -179,8 +180,8 @@ impl PhaseError {
 /// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
 ///
 /// # Errors
-/// The time and the reason where the model or the law has no answer (singular, not finite), and where the integrator has
-/// none.
+/// The time and the reason where the model or the law has no answer (singular, not finite), and where the integrator
+/// has none.
 pub fn simulate(
     system: &System<'_>,
     control: &mut dyn Control<f64>,

@@ -1,11 +1,11 @@
 //! What moves in one phase: a robot, and the free bodies that it holds or may meet.
 
-use crate::contact::{ConstraintSolver, Contact, LoopConstraint, Workspace};
+use crate::contact::{ConstraintSolver, ConstraintWorkspace, Contact, LoopConstraint};
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::formulation::derivative;
-use crate::state::{Coordinates, CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut, vector_length};
+use crate::state::{Coordinates, CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut, vector_length};
 
 /// A rigid body beside the robot.
 pub type Body = crate::body::Body<f64>;
@@ -17,7 +17,7 @@ pub struct System<'a> {
     pub model: &'a dyn Model<f64>,
     /// The bodies beside it: held as the closures say, free where none does.
     pub bodies: &'a [Body],
-    /// Holds of tips on the bodies, and on what other tips hold.
+    /// Holds of end effectors on the bodies, and on what other end effectors hold.
     pub constraints: &'a [LoopConstraint<f64>],
 }
 
@@ -36,7 +36,7 @@ impl<'a> System<'a> {
         let joints = self.model.joints();
         let mut x = vec![0.0; vector_length(joints) + 6 * self.bodies.len()];
         state.write(&mut x)?;
-        let HalvesMut { positions, rates, .. } = halves_mut(&mut x)?;
+        let StateVectorMut { positions, rates, .. } = split_mut(&mut x)?;
         let (positions, rates) = (CoordinatesMut::new(positions, joints)?, CoordinatesMut::new(rates, joints)?);
         for ((pose, twist), body) in positions.bodies.iter_mut().zip(rates.bodies).zip(self.bodies) {
             (*pose, *twist) = (body.pose, body.twist);
@@ -50,7 +50,7 @@ impl<'a> System<'a> {
     /// [`Error::StateVector`], [`Error::Length`] where the vector is another system's.
     pub fn bodies_at(&self, x: &[f64]) -> Result<Vec<Body>, Error> {
         let joints = self.model.joints();
-        let Halves { positions, rates, .. } = halves(x)?;
+        let StateVector { positions, rates, .. } = split(x)?;
         let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
         let each = self.bodies.iter().zip(positions.bodies).zip(rates.bodies);
         Ok(each.map(|((body, pose), twist)| Body { pose: *pose, twist: *twist, ..*body }).collect())
@@ -97,15 +97,15 @@ impl<'a> System<'a> {
         self.with_space(|hold, space| hold.errors(x, space))
     }
 
-    fn with_space<R>(&self, run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut Workspace<'_, f64>) -> R) -> R {
+    fn with_space<R>(&self, run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut ConstraintWorkspace<'_, f64>) -> R) -> R {
         let hold = ConstraintSolver { model: self.model, bodies: self.bodies, constraints: self.constraints };
         let (joints, arms) = (self.model.joints(), self.model.arms());
-        let mut space = Workspace {
+        let mut space = ConstraintWorkspace {
             contacts: &mut vec![Contact::any(); self.constraints.len()],
             numbers: &mut vec![0.0; hold.workspace_length()],
             forces: &mut vec![0.0; hold.rows()],
             jacobian: &mut vec![0.0; 3 * arms * (3 + joints)],
-            tips: &mut vec![[0.0; 3]; arms],
+            end_effectors: &mut vec![[0.0; 3]; arms],
         };
         run(&hold, &mut space)
     }

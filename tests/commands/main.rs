@@ -1,4 +1,5 @@
-//! What a user types and sees: the commands from a layout to its code, what they print, and what is said of wrong input.
+//! What a user types and sees: the commands from a layout to its code, what they print, and what is said of wrong
+//! input.
 
 mod check;
 mod compare;

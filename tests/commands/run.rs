@@ -296,7 +296,8 @@ fn a_twist_out_of_reach_is_refused_with_its_numbers() {
     assert!(err.contains("out of reach") && err.contains("singular values"), "{err}");
 }
 
-/// What an integrator cannot do is said with what would help: bad input where it never can, a stopped study where a step can.
+/// What an integrator cannot do is said with what would help: bad input where it never can, a stopped study where a
+/// step can.
 #[test]
 fn integrators_say_what_they_cannot_do() {
     let held = fs::read_to_string(file("scenarios/large_target.toml")).expect("the scenario");

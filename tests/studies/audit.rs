@@ -15,7 +15,8 @@ use planar_proof::{assert_close, file, said, tolerance};
 use std::fs;
 use tempfile::TempDir;
 
-/// A robot that moves on as it started is where it should be; one that is elsewhere by δ has strayed by δ over its extent.
+/// A robot that moves on as it started is where it should be; one that is elsewhere by δ has strayed by δ over its
+/// extent.
 #[test]
 fn the_centre_of_mass_goes_its_way() {
     let layout = scenario("redysim_single_arm_3r").layout;

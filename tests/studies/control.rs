@@ -47,7 +47,8 @@ fn computed_torque_on_the_trajectory_is_exact_tracking() {
     }
 }
 
-/// With gains k² and 2k an initial rate error decays as r t exp(−kt), joint by joint, while the base drifts with momentum.
+/// With gains k² and 2k an initial rate error decays as r t exp(−kt), joint by joint, while the base drifts with
+/// momentum.
 #[test]
 fn errors_under_computed_torque_decay_joint_by_joint() {
     let mut scenario = short(computed_torque());
@@ -80,7 +81,8 @@ fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
     }
 }
 
-/// No torque is over its limit, the time at the limit is the time of the samples there, and energy and momentum balance.
+/// No torque is over its limit, the time at the limit is the time of the samples there, and energy and momentum
+/// balance.
 #[test]
 fn torques_stay_within_their_limits() {
     for tracking in [pd(), computed_torque()] {
@@ -139,7 +141,8 @@ fn held_torques_are_the_laws_at_the_sample() {
     assert_eq!(changes, 39, "a new torque at every sample after the first, but not at the end");
 }
 
-/// The shorter the sample time, the closer to the continuous law: the hold delays by half a sample, an error of first order.
+/// The shorter the sample time, the closer to the continuous law: the hold delays by half a sample, an error of first
+/// order.
 #[test]
 fn sampled_control_converges_to_the_continuous_law() {
     for tracking in [pd(), computed_torque()] {

@@ -7,15 +7,15 @@ use planar_capture::control::{Control, ProportionalDerivative, Sampled, Stabilis
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, Ends};
 use planar_proof::{assert_close, difference, tolerance};
 use std::f64::consts::PI;
 
-const FULL: Coordinates = Coordinates::Full;
-const REDUCED: Coordinates = Coordinates::Reduced;
+const FULL: Formulation = Formulation::Full;
+const REDUCED: Formulation = Formulation::Reduced;
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-13 };
 
 fn model() -> Box<dyn CloneModel> {
@@ -32,14 +32,14 @@ fn tumbling() -> RobotState {
     }
 }
 
-fn run(law: &mut dyn Control<f64>, duration: f64, step: f64, scheme: Scheme, coordinates: Coordinates) -> Phase {
+fn run(law: &mut dyn Control<f64>, duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
     let model = model();
     let timing = Timing { duration, step, sample: duration / 8.0, integration: Integration { scheme, coordinates } };
     simulate(&System::alone(&*model), law, &tumbling(), &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
 /// Under a law that knows of time, angles and rates.
-fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Coordinates) -> Phase {
+fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
     let start = tumbling();
     let ends = Ends { initial_angles: &start.joint_angles, final_angles: &[0.2, -0.5, 0.4, 2.0, 1.0, 0.1], duration };
     let (stiffness, damping) = ([2.0; 6], [1.5; 6]);
@@ -61,8 +61,8 @@ fn error(phase: &Phase, reference: &Phase) -> f64 {
     difference(&values(phase), &values(reference))
 }
 
-/// The error falls by 2^order when the step is halved: under a law that depends on time, angles and rates, and with it the
-/// work of its torques.
+/// The error falls by 2^order when the step is halved: under a law that depends on time, angles and rates, and with it
+/// the work of its torques.
 #[test]
 fn orders_of_convergence() {
     let reference = swing(2.0, 0.05, ADAPTIVE, FULL);
@@ -82,8 +82,8 @@ fn orders_of_convergence() {
     }
 }
 
-/// The error follows the tolerance down to rounding, in both coordinates; that this goes on from one version of the crate to
-/// the next is why it is pinned.
+/// The error follows the tolerance down to rounding, in both coordinates; that this goes on from one version of the
+/// crate to the next is why it is pinned.
 #[test]
 fn the_adaptive_integrator_keeps_its_tolerance() {
     // a reference of another kind: Richardson's extrapolation of two Gauss–Legendre solutions
@@ -183,8 +183,8 @@ fn bodies_beside_the_robot() {
     }
 }
 
-/// A body in both hands, one clamped and one on a pin, while a law moves the joints: the loop stays closed, the momentum stays,
-/// and all schemes agree.
+/// A body in both hands, one clamped and one on a pin, while a law moves the joints: the loop stays closed, the
+/// momentum stays, and all schemes agree.
 #[test]
 fn a_closed_loop_by_every_scheme() {
     let model = model();
@@ -247,8 +247,8 @@ fn sampled_torques_and_adaptive_steps() {
     }
 }
 
-/// However many steps a sample is held for: its end is a sum of steps, which rounding puts before or after the time that is
-/// meant.
+/// However many steps a sample is held for: its end is a sum of steps, which rounding puts before or after the time
+/// that is meant.
 #[test]
 fn samples_of_any_number_of_steps() {
     let start = tumbling();
@@ -266,8 +266,8 @@ fn samples_of_any_number_of_steps() {
     }
 }
 
-/// Gauss–Legendre steps over 1,000 s of turning with both arms out, which swing about that: momenta to rounding, and an energy
-/// error that does not grow, where that of Runge–Kutta steps grows with the time.
+/// Gauss–Legendre steps over 1,000 s of turning with both arms out, which swing about that: momenta to rounding, and an
+/// energy error that does not grow, where that of Runge–Kutta steps grows with the time.
 #[test]
 fn a_thousand_seconds() {
     let start = RobotState {

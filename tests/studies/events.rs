@@ -5,8 +5,8 @@ use planar_capture::control::{Control, ProportionalDerivative, Sampled, ZeroTorq
 use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
-use planar_capture::simulate::event::{Events, Instant, NoEvents};
-use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::event::{EventState, Events, NoEvents};
+use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::ConstantSetpoint;
@@ -15,14 +15,14 @@ use planar_proof::{assert_close, difference, tolerance};
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-12 };
 
 /// With how far the end of a phase may be from the true motion, in s.
-const ALL: [(Scheme, Coordinates, f64); 7] = [
-    (Scheme::RungeKutta4, Coordinates::Full, 1e-9),
-    (Scheme::RungeKutta4, Coordinates::Reduced, 1e-9),
-    (Scheme::SemiImplicitEuler, Coordinates::Full, 2e-2),
-    (Scheme::SemiImplicitEuler, Coordinates::Reduced, 2e-2),
-    (Scheme::GaussLegendre, Coordinates::Full, 1e-11),
-    (ADAPTIVE, Coordinates::Full, 1e-11),
-    (ADAPTIVE, Coordinates::Reduced, 1e-11),
+const ALL: [(Scheme, Formulation, f64); 7] = [
+    (Scheme::RungeKutta4, Formulation::Full, 1e-9),
+    (Scheme::RungeKutta4, Formulation::Reduced, 1e-9),
+    (Scheme::SemiImplicitEuler, Formulation::Full, 2e-2),
+    (Scheme::SemiImplicitEuler, Formulation::Reduced, 2e-2),
+    (Scheme::GaussLegendre, Formulation::Full, 1e-11),
+    (ADAPTIVE, Formulation::Full, 1e-11),
+    (ADAPTIVE, Formulation::Reduced, 1e-11),
 ];
 
 fn model() -> Box<dyn CloneModel> {
@@ -46,7 +46,7 @@ impl Events for Circle {
         1
     }
 
-    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error> {
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
         let mut tips = [[0.0; 3]];
         now.system.model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut tips)?;
         values[0] = self.value(tips[0]);
@@ -62,7 +62,7 @@ impl Events for Times<'_> {
         self.0.len()
     }
 
-    fn values(&mut self, now: &Instant<'_>, values: &mut [f64]) -> Result<(), Error> {
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
         for (value, function) in values.iter_mut().zip(self.0) {
             *value = function(now.time);
         }
@@ -87,7 +87,7 @@ fn run(
     start: &RobotState,
     duration: f64,
     step: f64,
-    (scheme, coordinates): (Scheme, Coordinates),
+    (scheme, coordinates): (Scheme, Formulation),
     law: &mut dyn Control<f64>,
     events: &mut dyn Events,
 ) -> Phase {
@@ -132,7 +132,7 @@ fn a_straight_way_to_a_circle() {
 /// A tumbling one: the time is that of a root found by whole phases of other lengths, without events.
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
-    let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Coordinates::Full));
+    let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Formulation::Full));
     let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents)).state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
@@ -155,7 +155,8 @@ fn a_tumbling_robot_meets_a_circle() {
     }
 }
 
-/// The tip goes by at 0.5 m: a circle a nanometre smaller is not met, one a nanometre larger is, for a fraction of a step.
+/// The tip goes by at 0.5 m: a circle a nanometre smaller is not met, one a nanometre larger is, for a fraction of a
+/// step.
 #[test]
 fn grazing() {
     let start = drifting();
@@ -177,7 +178,7 @@ fn grazing() {
 #[test]
 fn arming_and_the_first_of_several() {
     let go = |functions: &[fn(f64) -> f64]| {
-        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Coordinates::Full), &mut ZeroTorque, &mut Times(functions))
+        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Formulation::Full), &mut ZeroTorque, &mut Times(functions))
             .event
     };
     assert_eq!(go(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);

@@ -1,7 +1,7 @@
 //! Scenarios end to end: what a study says of its contacts, from its own states before them.
 
 use crate::{Silent, scenario};
-use planar_capture::capture::impact::{Capture, ImpactResult};
+use planar_capture::capture::impact::{ImpactResult, ImpactSolution};
 use planar_capture::capture::{CaptureResult, CaseResult, Study, study};
 use planar_capture::contact;
 use planar_capture::outline::Outline;
@@ -52,9 +52,9 @@ impl Hold {
     }
 }
 
-/// Distance of a tip from the outline of a target, and the outward normal, inertial axes; of convex outlines, from inside
-/// or beside an edge.
-fn gap(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f64; 2]) {
+/// Distance of a tip from the outline of a target, and the outward normal, inertial axes; of convex outlines, from
+/// inside or beside an edge.
+fn signed_distance(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f64; 2]) {
     let body = all.bodies[1 + all.joints.len() + target];
     let away = all.position(&all.tips[arm]) - body.com();
     match &scenario.targets[target].surface {
@@ -74,7 +74,7 @@ fn gap(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f
 }
 
 /// What a study's impact left.
-fn left(found: &Capture) -> Left {
+fn left(found: &ImpactSolution) -> Left {
     let ImpactResult { base_twist_after, joint_rates_after, .. } = &found.exact;
     let velocities = base_twist_after.iter().chain(joint_rates_after).chain(found.target_twists.as_flattened());
     let impulses = found.contacts.iter().map(|contact| contact.impulse).collect();
@@ -82,7 +82,7 @@ fn left(found: &Capture) -> Left {
 }
 
 /// An impact of the study against the reference's; returns what is held from then on.
-fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<Hold> {
+fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) -> Vec<Hold> {
     let mut holds = vec![];
     for contact in &capture.contacts {
         let touching = contact.touching;
@@ -90,7 +90,7 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &Capture) -> Vec<
             contact::ContactLaw::Rigid => Kind::Rigid,
             contact::ContactLaw::Pin => Kind::Pin,
             contact::ContactLaw::Bounce { normal, restitution } => {
-                let (_, wanted) = gap(scenario, before, touching.arm, touching.target);
+                let (_, wanted) = signed_distance(scenario, before, touching.arm, touching.target);
                 assert_close("normal", &normal, &wanted, tolerance::IN_SERIES);
                 Kind::Bounce { normal, restitution }
             }
@@ -211,7 +211,8 @@ fn a_missed_target_flies_on() {
     assert!(missed >= 3, "{missed}");
 }
 
-/// Contacts are where tip and outline meet, to 1e-10 m, and no tip is inside before or after; what is elastic keeps the energy.
+/// Contacts are where tip and outline meet, to 1e-10 m, and no tip is inside before or after; what is elastic keeps the
+/// energy.
 #[test]
 fn rebounds_are_detected() {
     let (scenario, study, impacts) = check_scenario("elastic_rebound");
@@ -225,7 +226,7 @@ fn rebounds_are_detected() {
             let all = system(&scenario, &sample.state, &targets, &[]);
             let least = if i + 1 == approach.samples.len() { -tolerance::DETECTED } else { 0.0 };
             for (target, arm) in &touches {
-                let (distance, _) = gap(&scenario, &all, *arm, *target);
+                let (distance, _) = signed_distance(&scenario, &all, *arm, *target);
                 assert!(distance > least, "{}: {distance:e} m at {} s", case.name, sample.time);
             }
         }
@@ -233,14 +234,17 @@ fn rebounds_are_detected() {
         for (sample, targets) in captured.post_impact.samples.iter().zip(&captured.targets) {
             let all = system(&scenario, &sample.state, targets, &[]);
             for (target, arm) in &touches {
-                let (distance, _) = gap(&scenario, &all, *arm, *target);
+                let (distance, _) = signed_distance(&scenario, &all, *arm, *target);
                 assert!(distance > -tolerance::DETECTED, "{}: {distance:e} m at {} s", case.name, sample.time);
             }
         }
         let end = approach.end().expect("an end");
         let all = system(&scenario, &end.state, &result.targets, &[]);
-        let distances =
-            captured.impact.contacts.iter().map(|c| gap(&scenario, &all, c.touching.arm, c.touching.target).0);
+        let distances = captured
+            .impact
+            .contacts
+            .iter()
+            .map(|c| signed_distance(&scenario, &all, c.touching.arm, c.touching.target).0);
         assert!(
             distances.clone().all(|distance| distance.abs() <= tolerance::DETECTED),
             "{:?}",

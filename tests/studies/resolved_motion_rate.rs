@@ -1,8 +1,8 @@
-//! Tips steered by the generalized Jacobian: they stay on their paths, come back to them, and arrive.
+//! End effectors steered by the generalized Jacobian: they stay on their paths, come back to them, and arrive.
 
 use crate::{run, scenario};
 use planar_capture::capture::Study;
-use planar_capture::capture::approach::end_effector_paths::Tips;
+use planar_capture::capture::approach::end_effector_paths::EndEffectorFeedback;
 use planar_capture::control::Control;
 use planar_capture::output::summary::summary;
 use planar_capture::owned::{CloneModel, RobotState};
@@ -14,7 +14,7 @@ use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::system::System;
 use planar_capture::state::{Forces, State};
 use planar_capture::trajectory::quintic;
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, difference, layout, tolerance};
 use proptest::prelude::*;
 
@@ -47,8 +47,8 @@ fn check_end(study: &Study, poses: &[[f64; 3]], twists: &[[f64; 3]], tolerance: 
     let end = study.approach.end().expect("an end");
     assert_close("poses", end.end_effector_poses.as_flattened(), poses.as_flattened(), tolerance);
     assert_close("twists", end.end_effector_twists.as_flattened(), twists.as_flattened(), tolerance);
-    assert!(study.misses.iter().flatten().all(|miss| miss.reached), "{:?}", study.misses);
-    assert!(study.posture.is_none() && study.design.is_none(), "nothing to design");
+    assert!(study.terminal_errors.iter().flatten().all(|miss| miss.reached), "{:?}", study.terminal_errors);
+    assert!(study.inverse_kinematics.is_none() && study.terminal_rates.is_none(), "nothing to design");
 }
 
 /// The largest distance of tip poses from quintic paths between the first and the wanted ones.
@@ -110,7 +110,7 @@ fn errors_decay_with_the_two_gains() {
     }
     start.joint_rates = vec![0.01, 0.0, -0.02, 0.01, 0.02, 0.0];
     start.base_twist = [0.003, 0.002, -0.004];
-    let mut tips = Tips::new(&*model, &planned).expect("paths");
+    let mut tips = EndEffectorFeedback::new(&*model, &planned).expect("paths");
     let mut law = tips.law(GAINS, 0.01);
     let timing = Timing { duration: 4.0, step: 0.0025, sample: 0.1, ..Timing::default() };
     let phase =
@@ -217,7 +217,7 @@ fn an_arm_that_may_end_anywhere_holds_still() {
     assert_close("tip", &end.end_effector_poses[0], &pose, tolerance::STEERED);
     let angles = &study.approach.samples[0].state.joint_angles;
     assert_close("held", &end.state.joint_angles[3..], &angles[3..], tolerance::STEERED);
-    assert!(difference(&end.state.base_pose, &[0.0; 3]) > 0.05 && study.misses[1].is_none());
+    assert!(difference(&end.state.base_pose, &[0.0; 3]) > 0.05 && study.terminal_errors[1].is_none());
 }
 
 /// Stretched arms cannot move their tips inwards at first; they start gently, and get there.
@@ -242,16 +242,16 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
     scenario.approach.duration = 30.0;
     let study = run(&scenario);
     assert_eq!(study.objections(), Vec::<String>::new());
-    let [Some(far), Some(_)] = study.misses.as_slice() else { panic!("{:?}", study.misses) };
+    let [Some(far), Some(_)] = study.terminal_errors.as_slice() else { panic!("{:?}", study.terminal_errors) };
     assert!(!far.reached && (0.01..0.2).contains(&far.distance), "{far:?}");
     assert!(study.approach.singularity_margin.is_some_and(|margin| margin < 0.04));
     let shown = planar_capture::output::console::table(&scenario, &study);
     assert!(shown.contains("DID NOT REACH the wanted pose: misses it by") && shown.contains("was damped"), "{shown}");
 }
 
-/// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k θ̇` in
-/// joints that are held. The tips' accelerations are differences of their twists along the motion.
-fn check_law(name: &str, goals: &[EndEffectorGoal], s: &Sample) -> Result<(), TestCaseError> {
+/// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k
+/// θ̇` in joints that are held. The tips' accelerations are differences of their twists along the motion.
+fn check_law(name: &str, goals: &[EndEffectorGoal], s: &RandomState) -> Result<(), TestCaseError> {
     let layout = layout(name);
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
     let mut planned = by_poses();
@@ -269,7 +269,7 @@ fn check_law(name: &str, goals: &[EndEffectorGoal], s: &Sample) -> Result<(), Te
         base_twist: s.base_twist,
         joint_rates: &s.joint_rates,
     };
-    let mut tips = Tips::new(&*model, &planned).expect("paths");
+    let mut tips = EndEffectorFeedback::new(&*model, &planned).expect("paths");
     let mut law = tips.law(GAINS, 1e-9);
     let (path, wanted, held) = (law.path, law.wanted, law.held);
     let (joints, time) = (layout.joints(), 3.0);
@@ -300,7 +300,7 @@ fn check_law(name: &str, goals: &[EndEffectorGoal], s: &Sample) -> Result<(), Te
     let mut poses = vec![[0.0; 3]; layout.arms.len()];
     model.end_effector_poses(&s.base_pose, &s.joint_angles, &mut poses).expect("poses");
     for (arm, wanted) in wanted.iter().enumerate() {
-        let desired = path.tip(arm, time).expect("a path");
+        let desired = path.end_effector(arm, time).expect("a path");
         for part in (0..3).filter(|part| wanted[*part]) {
             let error = desired.pose[part] - poses[arm][part];
             let limit = 0.05 * if part == 0 { 1.0 } else { layout.arms[arm].reach() };
@@ -342,8 +342,8 @@ proptest! {
     }
 }
 
-/// At rest but for joints, without momentum, the rates that the law wants are those of Umetani and Yoshida: with them, the
-/// generalized Jacobian gives the tips the path's twist and the correction.
+/// At rest but for joints, without momentum, the rates that the law wants are those of Umetani and Yoshida: with them,
+/// the generalized Jacobian gives the tips the path's twist and the correction.
 #[test]
 fn without_momentum_the_wanted_rates_are_those_of_the_generalized_jacobian() {
     let scenario = by_poses();

@@ -12,7 +12,7 @@ use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Timing};
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
@@ -140,7 +140,7 @@ fn the_shipped_study_comes_to_rest() {
 }
 
 /// Four seconds of stabilisation of a shipped layout from any state; joints at 1 1/s, the base at 0.7 1/s.
-fn settle_layout(name: &str, s: &Sample, base_torque_limit: Option<f64>) -> (Phase, ResidualMotion, Vec<bool>) {
+fn settle_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>) -> (Phase, ResidualMotion, Vec<bool>) {
     let layout = layout(name);
     // the generic implementation where this build has no code: slower, the same to rounding
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));

@@ -37,7 +37,7 @@ fn every_number_of_the_summary_agrees_with_an_independent_model() {
         assert!(SCENARIOS.contains(&name));
         let scenario = scenario(name);
         let study = run(&scenario);
-        let designed = study.design.as_ref().expect("designed rates");
+        let designed = study.terminal_rates.as_ref().expect("designed rates");
         let rates = numbers(&reference["designed_joint_rates"]);
         assert_close("designed rates", &designed.joint_rates, &rates, tolerance::APPROACH);
         let ours = summary(&scenario, "generated", &study);
@@ -59,9 +59,9 @@ fn every_number_of_the_summary_agrees_with_an_independent_model() {
 #[test]
 fn exact_tracking_gives_the_notes_digits() {
     let study = run(&scenario("raina_shah_2017_exact_tracking"));
-    let design = study.design.as_ref().expect("designed rates");
+    let terminal_rates = study.terminal_rates.as_ref().expect("designed rates");
     let rates = [0.014_021_81, -0.124_352_22, 0.096_810_71, 0.014_061_43, -0.124_387_95, 0.096_806_82];
-    assert_close("end rates", &design.joint_rates, &rates, tolerance::PRINTED_DIGITS);
+    assert_close("end rates", &terminal_rates.joint_rates, &rates, tolerance::PRINTED_DIGITS);
     let end = study.approach.end().expect("an end");
     let [yaw, x, y] = end.state.base_pose;
     assert_close("yaw, y", &[yaw, y], &[0.687_457_5, 0.019_422_8], 10.0 * tolerance::PRINTED_DIGITS);
@@ -114,8 +114,8 @@ fn patterns_that_must_hold() {
     assert!(printed[1][0] < 0.2 * printed[0][0], "with the printed (7), case 2 is far below case 1");
 }
 
-/// A robot that moves on without turning, faster by a part δ: all of it is drift, relative to what it has then, and what
-/// was gained without work is an error of the energy.
+/// A robot that moves on without turning, faster by a part δ: all of it is drift, relative to what it has then, and
+/// what was gained without work is an error of the energy.
 #[test]
 fn the_audit_measures_what_strays() {
     let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
@@ -141,8 +141,8 @@ fn the_audit_measures_what_strays() {
     }
 }
 
-/// A robot that turns about its COM at the origin, faster by a part δ: its linear momentum stays zero, and all bodies turn
-/// the same way, so that the part of its angular momentum is what strays.
+/// A robot that turns about its COM at the origin, faster by a part δ: its linear momentum stays zero, and all bodies
+/// turn the same way, so that the part of its angular momentum is what strays.
 #[test]
 fn the_audit_measures_angular_momentum_too() {
     let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");

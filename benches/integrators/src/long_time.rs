@@ -6,7 +6,7 @@ use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::owned::RobotState;
-use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample};
 
 /// s.
@@ -60,7 +60,7 @@ pub fn motions() -> Result<[LongTime; 2], Problem> {
 fn chosen(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
     let method = |scheme, coordinates| Method { integration: Integration { scheme, coordinates } };
     let adaptive = Scheme::Adaptive { tolerance: 0.0 };
-    let (full, reduced) = (Coordinates::Full, Coordinates::Reduced);
+    let (full, reduced) = (Formulation::Full, Formulation::Reduced);
     let mut all = Vec::from(gauss.map(|step| (method(Scheme::GaussLegendre, full), Fineness::Step(step))));
     for coordinates in [full, reduced] {
         all.extend(runge_kutta.map(|step| (method(Scheme::RungeKutta4, coordinates), Fineness::Step(step))));

@@ -1,7 +1,8 @@
-//! What integrators cost and keep: runs the paper's approach and free motion by every scheme in either coordinates, and writes
-//! `docs/integrators.md` with its figures, or checks that they are what is computed.
+//! What integrators cost and keep: runs the paper's approach and free motion by every scheme in either coordinates, and
+//! writes `docs/integrators.md` with its figures, or checks that they are what is computed.
 //!
-//! Work is counted in evaluations of the derivative: that depends on no machine, but for the last bit of its library's powers.
+//! Work is counted in evaluations of the derivative: that depends on no machine, but for the last bit of its library's
+//! powers.
 
 mod figure;
 mod long_time;

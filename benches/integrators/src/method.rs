@@ -1,7 +1,7 @@
 //! The schemes that are compared, and how they are named and drawn.
 
 use planar_capture::output::figures::{Colour, Dash, Shape};
-use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 
 /// A scheme in one of the coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,9 +22,9 @@ impl Method {
     pub fn all() -> Vec<Self> {
         let method = |scheme, coordinates| Self { integration: Integration { scheme, coordinates } };
         let adaptive = Scheme::Adaptive { tolerance: 0.0 };
-        let mut all = vec![method(Scheme::GaussLegendre, Coordinates::Full)];
+        let mut all = vec![method(Scheme::GaussLegendre, Formulation::Full)];
         for scheme in [Scheme::RungeKutta4, adaptive, Scheme::SemiImplicitEuler] {
-            all.extend([Coordinates::Full, Coordinates::Reduced].map(|coordinates| method(scheme, coordinates)));
+            all.extend([Formulation::Full, Formulation::Reduced].map(|coordinates| method(scheme, coordinates)));
         }
         all
     }
@@ -42,8 +42,8 @@ impl Method {
     /// As in a scenario.
     pub fn coordinates(self) -> &'static str {
         match self.integration.coordinates {
-            Coordinates::Full => "full",
-            Coordinates::Reduced => "reduced",
+            Formulation::Full => "full",
+            Formulation::Reduced => "reduced",
         }
     }
 
@@ -61,8 +61,8 @@ impl Method {
             Scheme::SemiImplicitEuler => Colour::Purple,
         };
         match self.integration.coordinates {
-            Coordinates::Full => (colour, Dash::Solid, Shape::Circle),
-            Coordinates::Reduced => (colour, Dash::Dashed, Shape::Cross),
+            Formulation::Full => (colour, Dash::Solid, Shape::Circle),
+            Formulation::Reduced => (colour, Dash::Dashed, Shape::Cross),
         }
     }
 

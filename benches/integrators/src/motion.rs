@@ -2,7 +2,7 @@
 
 use crate::Problem;
 use planar_capture::capture::approach::Approach;
-use planar_capture::capture::approach::terminal_rates::end_rates;
+use planar_capture::capture::approach::terminal_rates::terminal_rates;
 use planar_capture::control::{BaseTorque, Control, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -58,8 +58,8 @@ impl Problems {
         let FinalRates::EndEffectorTwists(wanted) = &scenario.approach.end else {
             return Err("no wanted twists".into());
         };
-        let design = end_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
-        Ok(Self { rates: design.joint_rates, model, scenario })
+        let terminal_rates = terminal_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
+        Ok(Self { rates: terminal_rates.joint_rates, model, scenario })
     }
 
     /// The paper's approach: the phase, and the evaluations that it took.

@@ -3,7 +3,7 @@
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::{Problems, end};
-use planar_capture::simulate::integration::{Coordinates, Integration, Scheme};
+use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::{Phase, PhaseError};
 
 /// Of one motion.
@@ -51,7 +51,7 @@ fn measure(title: &'static str, duration: f64, run: &Run<'_>) -> Result<Work, Pr
         let integration = Integration { scheme: Scheme::Adaptive { tolerance: 1e-14 }, coordinates };
         run((integration, duration)).map(|(phase, _)| end(&phase))
     };
-    let (reference, other) = (best(Coordinates::Full)?, best(Coordinates::Reduced)?);
+    let (reference, other) = (best(Formulation::Full)?, best(Formulation::Reduced)?);
     let lines = Method::all().into_iter().map(|method| {
         let points = finenesses(method).into_iter().map(|fineness| {
             let point = run(method.with(fineness, duration))

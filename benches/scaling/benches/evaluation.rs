@@ -50,7 +50,7 @@ fn measure(
     model: &dyn ForwardDynamics<f64>,
     layout: &Layout,
 ) -> Result<(), Box<dyn Error>> {
-    let states: Vec<_> = (0..STATES).map(|index| Regime::SequenceState.sample(layout, 1, index).instant).collect();
+    let states: Vec<_> = (0..STATES).map(|index| Regime::Moving.sample(layout, 1, index).instant).collect();
     let mut accelerations = vec![0.0; layout.joints()];
     for instant in &states {
         // an error would be quick

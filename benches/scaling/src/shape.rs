@@ -28,8 +28,8 @@ impl Shape {
         format!("arms_{}_links_{}", self.arms, self.links)
     }
 
-    /// Arms spread evenly round the base, pointing outwards; no mount is on an axis, so that nothing is a structural zero
-    /// for one arm and not for another. Masses and lengths are those of a satellite with equal links.
+    /// Arms spread evenly round the base, pointing outwards; no mount is on an axis, so that nothing is a structural
+    /// zero for one arm and not for another. Masses and lengths are those of a satellite with equal links.
     pub fn layout(self) -> Layout {
         let link = Link { length: 0.8, mass: 7.0, inertia: 0.6, com: [0.35, 0.0] };
         let arm = |i: u8| {

@@ -3,7 +3,7 @@
 use crate::renderer::camel;
 use crate::renderer::json::{list, text};
 use planar_layout::layout::Layout;
-use planar_layout::structure::quantities;
+use planar_layout::structure::layout_parameters;
 use serde_json::{Value, json};
 
 /// The format of the graphs that are read.
@@ -57,14 +57,14 @@ pub fn read(graph_text: &str, layout: &Layout) -> Result<Value, GraphError> {
     let arms: Vec<Value> = layout.arms.iter().map(|arm| json!({"name": arm.name, "links": arm.links.len()})).collect();
     same("name", &graph["layout"]["name"], &json!(layout.name))?;
     same("arms", &graph["layout"]["arms"], &json!(arms))?;
-    let quantities = quantities(layout);
+    let parameters = layout_parameters(layout);
     for parameter in list(&graph["parameters"])? {
         let name = text(&parameter["name"])?;
         let place = |key: &str| parameter[key].as_u64().and_then(|place| usize::try_from(place).ok()).unwrap_or(0);
         let (arm, link) = (place("arm"), place("link"));
-        let quantity = camel(text(&parameter["quantity"])?);
-        let value = quantities.iter().find(|(q, a, l, _)| format!("{q:?}") == quantity && (*a, *l) == (arm, link));
-        let (.., value) = value.ok_or_else(|| format!("parameter `{name}` is no quantity of the layout"))?;
+        let kind = camel(text(&parameter["quantity"])?);
+        let value = parameters.iter().find(|(k, a, l, _)| format!("{k:?}") == kind && (*a, *l) == (arm, link));
+        let (.., value) = value.ok_or_else(|| format!("parameter `{name}` is no parameter of the layout"))?;
         same(&format!("the default of `{name}`"), &parameter["default"], &json!(value))?;
     }
     Ok(graph)

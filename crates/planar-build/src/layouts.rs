@@ -1,8 +1,8 @@
 //! For build scripts of crates with a robot of their own: graphs to Rust, without Python.
 //!
-//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and, beside it, the graph that
-//! `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has `planar-capture`
-//! twice, as the core that the generated code stands on, and for the build script:
+//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and, beside it, the graph
+//! that `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has
+//! `planar-capture` twice, as the core that the generated code stands on, and for the build script:
 //!
 //! ```toml
 //! [dependencies]
@@ -93,8 +93,8 @@ impl Layouts {
     /// Renders them all.
     ///
     /// # Errors
-    /// [`BuildError`]: a layout that is wrong, a graph that is missing, of another layout, or without a layout; each with
-    /// the command that mends it.
+    /// [`BuildError`]: a layout that is wrong, a graph that is missing, of another layout, or without a layout; each
+    /// with the command that mends it.
     pub fn render(&self) -> Result<(), BuildError> {
         let shown = self.folder.display();
         println!("cargo::rerun-if-changed={shown}");
@@ -138,8 +138,8 @@ impl Layouts {
     }
 }
 
-/// Compares a module that `planar-capture generate` wrote, and that is kept with the sources, with its layout: it has to
-/// be of this layout, and as it was written.
+/// Compares a module that `planar-capture generate` wrote, and that is kept with the sources, with its layout: it has
+/// to be of this layout, and as it was written.
 ///
 /// # Errors
 /// [`BuildError`], with the command that mends it.

@@ -1,4 +1,5 @@
-//! From the expression graph of a layout to Rust text, and (feature `prove`) the proof of it by a generic implementation.
+//! From the expression graph of a layout to Rust text, and (feature `prove`) the proof of it by a generic
+//! implementation.
 //!
 //! It never contains: a scenario, a simulation, a command line, the text of the Python package.
 

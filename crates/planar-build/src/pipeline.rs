@@ -7,8 +7,8 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-/// The whole build script of the crate that ships the layouts in `codegen`: [`render_all`] into `$OUT_DIR`, for the layouts
-/// whose cargo features are on; ends the process with exit code 1 where that fails.
+/// The whole build script of the crate that ships the layouts in `codegen`: [`render_all`] into `$OUT_DIR`, for the
+/// layouts whose cargo features are on; ends the process with exit code 1 where that fails.
 pub fn build(codegen: &str) {
     println!("cargo::rerun-if-changed={codegen}");
     let out = std::env::var_os("OUT_DIR").unwrap_or_default();

@@ -149,7 +149,7 @@ pub trait Impact<T: Real> {
 
 /// Becoming one with what was captured.
 pub trait Merge<T: Real> {
-    /// Merges each target, held at its contact point by the tip, with the last link of its arm.
+    /// Merges each target, held at its contact point by the end effector, with the last link of its arm.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`]; the model is then as it was.

@@ -15,7 +15,7 @@ pub struct RigidImpactOutput<'a, T> {
     pub joint_rates: &'a mut [T],
     /// [ω, vx, vy] of each target's COM; zeros for an arm without target.
     pub target_twists: &'a mut [[T; 3]],
-    /// [n, fx, fy] on the robot at each tip, inertial axes, N m s, N s; zeros for an arm without target.
+    /// [n, fx, fy] on the robot at each end effector, inertial axes, N m s, N s; zeros for an arm without target.
     pub impulses: &'a mut [[T; 3]],
 }
 
@@ -41,7 +41,7 @@ pub fn exact<T: Real>(
 
 /// Working space of [`paper`].
 #[derive(Debug)]
-pub struct Workspace<'a, T> {
+pub struct PaperImpactWorkspace<'a, T> {
     /// joints².
     pub impact_matrix: &'a mut [T],
     /// joints.
@@ -55,7 +55,8 @@ pub struct Workspace<'a, T> {
 /// The paper's literal equations: (15), (16) for the joint rates, (14) for the targets, and (17), fed with the
 /// robot's momentum before the impact, for the base twist that is returned.
 ///
-/// Not momentum-conserving: J maps joint rates to tip twists only without robot momentum, which the impact gives.
+/// Not momentum-conserving: J maps joint rates to end effector twists only without robot momentum, which the impact
+/// gives.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -63,7 +64,7 @@ pub fn paper<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
     targets: &[Option<Target<T>>],
-    workspace: &mut Workspace<'_, T>,
+    workspace: &mut PaperImpactWorkspace<'_, T>,
     after: &mut RigidImpactOutput<'_, T>,
 ) -> Result<[T; 3], Error> {
     let joints = model.joints();
@@ -82,7 +83,7 @@ pub fn paper<T: Real>(
     Ok(equation.base_twist([before.angular_momentum, px, py], &state.base_pose, after.joint_rates))
 }
 
-/// From tip twists to target twists and impulses, arm by arm.
+/// From end effector twists to target twists and impulses, arm by arm.
 fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut RigidImpactOutput<'_, T>) -> Result<(), Error> {
     let expected = targets.len();
     for found in [after.target_twists.len(), after.impulses.len()] {

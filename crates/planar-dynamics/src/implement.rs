@@ -6,14 +6,14 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_dynamics {
-    (1) => {
+    (2) => {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
             use $crate::dynamics::{
                 ForwardDynamics, Impact, Merge, Momentum, MomentumAndEnergy, ReducedDynamics, Robot,
             };
             use $crate::error::Error;
-            use $crate::manifest::Quantity;
+            use $crate::manifest::ParameterKind;
             use $crate::scalar::Real;
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
@@ -31,12 +31,13 @@ macro_rules! implement_dynamics {
                 fn body_inertias(&self, inertias: &mut [[T; 2]]) -> Result<(), Error> {
                     let values = self.parameters().to_array();
                     let mut bodies = [[T::ZERO; 2]; JOINTS + 1];
-                    let body = |quantity, arm, link| value(&values, quantity, arm, link);
-                    bodies[0] = [body(Quantity::BaseMass, 0, 0), body(Quantity::BaseInertia, 0, 0)];
+                    let body = |kind, arm, link| value(&values, kind, arm, link);
+                    bodies[0] = [body(ParameterKind::BaseMass, 0, 0), body(ParameterKind::BaseInertia, 0, 0)];
                     let links =
                         MANIFEST.links.iter().enumerate().flat_map(|(arm, n)| (0..*n).map(move |link| (arm, link)));
                     for (place, (arm, link)) in bodies.iter_mut().skip(1).zip(links) {
-                        *place = [body(Quantity::LinkMass, arm, link), body(Quantity::LinkInertia, arm, link)];
+                        *place =
+                            [body(ParameterKind::LinkMass, arm, link), body(ParameterKind::LinkInertia, arm, link)];
                     }
                     store_rows("body_inertias", &bodies, inertias)
                 }
@@ -177,25 +178,27 @@ macro_rules! implement_dynamics {
                 ) -> Result<(), Error> {
                     finite_configuration(base_pose, joint_angles)?;
                     whole(targets)?;
-                    let tips = Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
+                    let end_effectors =
+                        Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
-                    for (arm, ((target, tip), links)) in targets.iter().zip(&tips).zip(MANIFEST.links).enumerate() {
+                    for (arm, ((target, end_effector), links)) in
+                        targets.iter().zip(&end_effectors).zip(MANIFEST.links).enumerate()
+                    {
                         let (Some(target), Some(link)) = (target, links.checked_sub(1)) else { continue };
-                        let of = |quantity| value(&values, quantity, arm, link);
+                        let of = |kind| value(&values, kind, arm, link);
                         let before = LinkInertia {
-                            mass: of(Quantity::LinkMass),
-                            inertia: of(Quantity::LinkInertia),
-                            com: [of(Quantity::LinkComX), of(Quantity::LinkComY)],
+                            mass: of(ParameterKind::LinkMass),
+                            inertia: of(ParameterKind::LinkInertia),
+                            com: [of(ParameterKind::LinkComX), of(ParameterKind::LinkComY)],
                         };
-                        let after = target.merged_link(&before, of(Quantity::LinkLength), tip[0]);
-                        for (quantity, number) in [
-                            (Quantity::LinkMass, after.mass),
-                            (Quantity::LinkInertia, after.inertia),
-                            (Quantity::LinkComX, after.com[0]),
-                            (Quantity::LinkComY, after.com[1]),
+                        let after = target.merged_link(&before, of(ParameterKind::LinkLength), end_effector[0]);
+                        for (kind, number) in [
+                            (ParameterKind::LinkMass, after.mass),
+                            (ParameterKind::LinkInertia, after.inertia),
+                            (ParameterKind::LinkComX, after.com[0]),
+                            (ParameterKind::LinkComY, after.com[1]),
                         ] {
-                            if let Some(place) = MANIFEST.position(quantity, arm, link).and_then(|i| values.get_mut(i))
-                            {
+                            if let Some(place) = MANIFEST.position(kind, arm, link).and_then(|i| values.get_mut(i)) {
                                 *place = number;
                             }
                         }
@@ -207,8 +210,8 @@ macro_rules! implement_dynamics {
             }
 
             /// A parameter's value; 0 for a structural zero.
-            fn value<T: Real>(values: &[T; PARAMETERS], quantity: Quantity, arm: usize, link: usize) -> T {
-                MANIFEST.position(quantity, arm, link).and_then(|i| values.get(i).copied()).unwrap_or(T::ZERO)
+            fn value<T: Real>(values: &[T; PARAMETERS], kind: ParameterKind, arm: usize, link: usize) -> T {
+                MANIFEST.position(kind, arm, link).and_then(|i| values.get(i).copied()).unwrap_or(T::ZERO)
             }
 
             /// One target per arm, massless for an arm without one.
@@ -229,8 +232,8 @@ macro_rules! implement_dynamics {
     };
 }
 
-/// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model, by its inherent functions of the same
-/// names.
+/// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model, by its inherent functions of the
+/// same names.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_functions {

@@ -1,5 +1,5 @@
-//! The core of `planar-capture`: traits of a robot's dynamics, contacts, control, integration, trajectories, formulations
-//! and impacts, on slices and arrays.
+//! The core of `planar-capture`: traits of a robot's dynamics, contacts, control, integration, trajectories,
+//! formulations and impacts, on slices and arrays.
 //!
 //! It never contains: std, an allocation, a panic, a number type of its own choosing, a file, a text to be read.
 #![no_std]

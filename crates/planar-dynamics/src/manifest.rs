@@ -2,7 +2,7 @@
 
 /// Where one parameter of a generated model comes from in a layout. Arms and links count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ParameterKind {
     /// Mass of the base, kg.
     BaseMass,
     /// Inertia of the base about its COM, kg m².
@@ -13,7 +13,7 @@ pub enum Quantity {
     MountY,
     /// Direction of joint 1 = 0 in the base frame, rad.
     MountAngle,
-    /// Joint to next joint, or to the tip, m.
+    /// Joint to next joint, or to the end effector, m.
     LinkLength,
     /// Mass of a link, kg.
     LinkMass,
@@ -31,7 +31,7 @@ pub struct Parameter {
     /// Name of the field in the model's `Parameters`.
     pub name: &'static str,
     /// What it is.
-    pub quantity: Quantity,
+    pub kind: ParameterKind,
     /// Which arm, 0 for the base.
     pub arm: usize,
     /// Which link of the arm, 0 for the base and the mounts.
@@ -98,8 +98,8 @@ pub struct Manifest {
 impl Manifest {
     /// Position of a parameter, `None` for a structural zero.
     #[must_use]
-    pub fn position(&self, quantity: Quantity, arm: usize, link: usize) -> Option<usize> {
-        self.parameters.iter().position(|p| p.quantity == quantity && p.arm == arm && p.link == link)
+    pub fn position(&self, kind: ParameterKind, arm: usize, link: usize) -> Option<usize> {
+        self.parameters.iter().position(|p| p.kind == kind && p.arm == arm && p.link == link)
     }
 
     /// Number of links of all arms.

@@ -1,10 +1,10 @@
 //! The one table of quantities: name, unit, shape and origin of everything that a model computes.
 //!
-//! What follows from a row: the method of its trait and the implementations of that for generated models and the generic
-//! one, its place in `eval`, in `compare` and in the reference vectors of generated modules, and the tests that every
-//! layout's graph has it. What a row of [`with_quantities!`](crate::with_quantities) needs besides: its derivation
-//! (`codegen/`), and its formula and natural sizes in the generic implementation (`planar_build::prove`); the compiler asks for
-//! those.
+//! What follows from a row: the method of its trait and the implementations of that for generated models and the
+//! generic one, its place in `eval`, in `compare` and in the reference vectors of generated modules, and the tests that
+//! every layout's graph has it. What a row of [`with_quantities!`](crate::with_quantities) needs besides: its
+//! derivation (`codegen/`), and its formula and natural sizes in the generic implementation (`planar_build::prove`);
+//! the compiler asks for those.
 
 /// Number of entries along one axis of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +49,7 @@ pub enum Rounding {
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct Definition {
     /// As `compare` prints it. `impact.G` is the entry `G` of the block `impact` in the output of `eval`.
     pub name: &'static str,
     /// SI, as graphs have it.
@@ -68,9 +68,9 @@ pub struct Row {
 
 /// Hands the table to a macro.
 ///
-/// `functions` are results of the configuration, or of the state, alone: one method each of the trait before the brace, with
-/// numbers in a `matrix`, in a `vector`, or as `triples` in a list. `results` are what the other traits' methods give. The
-/// number of `shown` is the place in the output of `eval`.
+/// `functions` are results of the configuration, or of the state, alone: one method each of the trait before the brace,
+/// with numbers in a `matrix`, in a `vector`, or as `triples` in a list. `results` are what the other traits' methods
+/// give. The number of `shown` is the place in the output of `eval`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_quantities {
@@ -187,9 +187,9 @@ macro_rules! quantities {
 
             /// Its row.
             #[must_use]
-            pub const fn row(self) -> &'static Row {
+            pub const fn row(self) -> &'static Definition {
                 match self {
-                    $($(Self::$function => &Row {
+                    $($(Self::$function => &Definition {
                         name: stringify!($method),
                         unit: $unit,
                         shape: shape!($kind $extents),
@@ -198,7 +198,7 @@ macro_rules! quantities {
                         rounding: Rounding::Polynomial,
                         shown: shown!($seen $place),
                     },)*)*
-                    $(Self::$result => &Row {
+                    $(Self::$result => &Definition {
                         name: $name,
                         unit: $of,
                         shape: shape!(result $shape),

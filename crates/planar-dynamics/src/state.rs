@@ -56,7 +56,7 @@ pub struct Forces<'a, T> {
     pub joint_torques: &'a [T],
     /// [n, fx, fy] on the base at its COM, inertial axes; N m, N.
     pub base_wrench: Option<[T; 3]>,
-    /// [n, fx, fy] on the robot at each tip, inertial axes; N m, N.
+    /// [n, fx, fy] on the robot at each end effector, inertial axes; N m, N.
     pub end_effector_wrenches: Option<&'a [[T; 3]]>,
 }
 
@@ -88,7 +88,7 @@ fn positions<T>(vector: &[T]) -> Result<usize, Error> {
 
 /// An integrated vector in its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Halves<'a, T> {
+pub struct StateVector<'a, T> {
     /// Of base, joints and bodies beside the robot.
     pub positions: &'a [T],
     /// Of the positions.
@@ -97,9 +97,9 @@ pub struct Halves<'a, T> {
     pub work: &'a [T; 3],
 }
 
-/// As [`Halves`], to be changed.
+/// As [`StateVector`], to be changed.
 #[derive(Debug)]
-pub struct HalvesMut<'a, T> {
+pub struct StateVectorMut<'a, T> {
     /// Of base, joints and bodies beside the robot.
     pub positions: &'a mut [T],
     /// Of the positions.
@@ -112,22 +112,22 @@ pub struct HalvesMut<'a, T> {
 ///
 /// # Errors
 /// [`Error::StateVector`] where the vector is not two halves and actuator work.
-pub fn halves<T>(vector: &[T]) -> Result<Halves<'_, T>, Error> {
+pub fn split<T>(vector: &[T]) -> Result<StateVector<'_, T>, Error> {
     let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
     let (state, work) = vector.split_last_chunk::<3>().ok_or(wrong)?;
     let (positions, rates) = state.split_at_checked(count).ok_or(wrong)?;
-    Ok(Halves { positions, rates, work })
+    Ok(StateVector { positions, rates, work })
 }
 
 /// The parts of an integrated vector, to be changed.
 ///
 /// # Errors
 /// As [`halves`].
-pub fn halves_mut<T>(vector: &mut [T]) -> Result<HalvesMut<'_, T>, Error> {
+pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVectorMut<'_, T>, Error> {
     let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
     let (state, work) = vector.split_last_chunk_mut::<3>().ok_or(wrong)?;
     let (positions, rates) = state.split_at_mut_checked(count).ok_or(wrong)?;
-    Ok(HalvesMut { positions, rates, work })
+    Ok(StateVectorMut { positions, rates, work })
 }
 
 /// One half of an integrated vector by what it belongs to.
@@ -229,7 +229,7 @@ impl<'a, T: Copy> State<'a, T> {
     /// # Errors
     /// [`Error::StateVector`], [`Error::Length`] where the vector is no state of a robot with so many joints.
     pub fn from_vector(vector: &'a [T], joints: usize) -> Result<Self, Error> {
-        let Halves { positions, rates, .. } = halves(vector)?;
+        let StateVector { positions, rates, .. } = split(vector)?;
         let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
         Ok(Self {
             base_pose: *positions.base,
@@ -244,7 +244,7 @@ impl<'a, T: Copy> State<'a, T> {
     /// # Errors
     /// [`Error::StateVector`] where the vector is not two halves and actuator work.
     pub fn write(&self, vector: &mut [T]) -> Result<(), Error> {
-        let HalvesMut { positions, rates, .. } = halves_mut(vector)?;
+        let StateVectorMut { positions, rates, .. } = split_mut(vector)?;
         let of_positions = self.base_pose.iter().chain(self.joint_angles);
         let of_rates = self.base_twist.iter().chain(self.joint_rates);
         for (place, value) in positions.iter_mut().zip(of_positions).chain(rates.iter_mut().zip(of_rates)) {

@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::scalar::Scalar;
 
-/// A free-floating rigid body that a tip takes hold of at one point.
+/// A free-floating rigid body that an end effector takes hold of at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target<T> {
     /// kg.
@@ -59,20 +59,21 @@ impl<T: Scalar> Target<T> {
         Body { mass: self.mass, inertia: self.inertia, pose: [T::ZERO, x, y], twist: *twist }.momentum()
     }
 
-    /// Position of its COM when the contact point is at the tip.
+    /// Position of its COM when the contact point is at the end effector.
     #[must_use]
-    pub fn position(&self, tip: &[T; 3]) -> [T; 2] {
-        [tip[1] - self.contact[0], tip[2] - self.contact[1]]
+    pub fn position(&self, end_effector: &[T; 3]) -> [T; 2] {
+        [end_effector[1] - self.contact[0], end_effector[2] - self.contact[1]]
     }
 
-    /// The link that results when a link, whose tip at `[length, 0]` of its frame holds the target, becomes one with it.
+    /// The link that results when a link, whose end effector at `[length, 0]` of its frame holds the target, becomes
+    /// one with it.
     ///
     /// `yaw` is the absolute direction of the link, rad.
     #[must_use]
     pub fn merged_link(&self, link: &LinkInertia<T>, length: T, yaw: T) -> LinkInertia<T> {
         let (sin, cos) = yaw.sin_cos();
         let [rx, ry] = self.contact;
-        // the target's COM in the link's frame: tip − R(−yaw) r
+        // the target's COM in the link's frame: end effector − R(−yaw) r
         let com = [length - (cos * rx + sin * ry), sin * rx - cos * ry];
         let mass = link.mass + self.mass;
         let offset = [com[0] - link.com[0], com[1] - link.com[1]];

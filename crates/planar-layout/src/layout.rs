@@ -5,14 +5,14 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{Quantity, Report, Table, Value, every, read_document, read_text};
+use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
 
-const MASS: Quantity = Quantity::positive("a mass", "kg");
-const INERTIA: Quantity = Quantity::positive("a moment of inertia", "kg m²");
-const LENGTH: Quantity = Quantity::non_negative("a length", "m").not_millimetres(1e4);
-const ANGLE: Quantity = Quantity::any("an angle", "rad").not_degrees(2.0 * PI);
-const POSITION: [Quantity; 2] =
-    [Quantity::any("x", "m").not_millimetres(1e4), Quantity::any("y", "m").not_millimetres(1e4)];
+const MASS: NumberRule = NumberRule::positive("a mass", "kg");
+const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
+const LENGTH: NumberRule = NumberRule::non_negative("a length", "m").not_millimetres(1e4);
+const ANGLE: NumberRule = NumberRule::any("an angle", "rad").not_degrees(2.0 * PI);
+const POSITION: [NumberRule; 2] =
+    [NumberRule::any("x", "m").not_millimetres(1e4), NumberRule::any("y", "m").not_millimetres(1e4)];
 
 /// Rust's keywords, strict and reserved, up to edition 2024.
 const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else enum extern \
@@ -52,10 +52,10 @@ pub struct Arm {
     pub links: Vec<Link>,
 }
 
-/// A rigid link; its frame has its origin at its joint and x towards the next joint or the tip.
+/// A rigid link; its frame has its origin at its joint and x towards the next joint or the end effector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// Distance to the next joint, or to the tip, in m; 0 for a reaction wheel.
+    /// Distance to the next joint, or to the end effector, in m; 0 for a reaction wheel.
     pub length: f64,
     /// Mass in kg, greater than 0.
     pub mass: f64,
@@ -222,13 +222,13 @@ impl Arm {
         self.links.iter().map(|link| link.mass).sum()
     }
 
-    /// The distance of the tip from the mount when the arm is stretched, in m; 0 for a reaction wheel.
+    /// The distance of the end effector from the mount when the arm is stretched, in m; 0 for a reaction wheel.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.links.iter().map(|link| link.length).sum()
     }
 
-    /// The largest distance of the tip from the base COM, in m.
+    /// The largest distance of the end effector from the base COM, in m.
     #[must_use]
     pub fn reach_from_base(&self) -> f64 {
         self.mount[0].hypot(self.mount[1]) + self.reach()

@@ -1,7 +1,7 @@
 //! Structures of layouts: arms, links, and which numbers are exactly zero.
 
 use crate::layout::Layout;
-use planar_dynamics::manifest::{Manifest, Quantity};
+use planar_dynamics::manifest::{Manifest, ParameterKind};
 use std::fmt;
 
 /// A number that keeps a layout from the structure of some generated code.
@@ -41,15 +41,15 @@ pub fn parameters(manifest: &Manifest, layout: &Layout) -> Result<Vec<f64>, Mism
     }
     let mut values = vec![0.0; manifest.parameters.len()];
     let mut differences = Vec::new();
-    for (quantity, arm, link, value) in quantities(layout) {
-        let mut differ = |instead| differences.push(Difference { key: key(quantity, arm, link), value, instead });
-        let place = manifest.position(quantity, arm, link).and_then(|i| values.get_mut(i));
+    for (kind, arm, link, value) in layout_parameters(layout) {
+        let mut differ = |instead| differences.push(Difference { key: key(kind, arm, link), value, instead });
+        let place = manifest.position(kind, arm, link).and_then(|i| values.get_mut(i));
         let inner = links.get(arm).is_some_and(|n| link + 1 < *n);
         match place {
             None if value == 0.0 => {}
             None => differ("an exact zero, which costs no operations"),
             // the length of an inner link is divided by
-            Some(_) if quantity == Quantity::LinkLength && inner && value == 0.0 => differ("a length other than zero"),
+            Some(_) if kind == ParameterKind::LinkLength && inner && value == 0.0 => differ("a length other than zero"),
             Some(place) => *place = value,
         }
     }
@@ -60,19 +60,19 @@ pub fn parameters(manifest: &Manifest, layout: &Layout) -> Result<Vec<f64>, Mism
     if differences.is_empty() { Ok(values) } else { Err(Mismatch::Zeros(differences)) }
 }
 
-/// Path of a quantity's key in a layout file.
-fn key(quantity: Quantity, arm: usize, link: usize) -> String {
-    match quantity {
-        Quantity::BaseMass => "base.mass".to_owned(),
-        Quantity::BaseInertia => "base.inertia".to_owned(),
-        Quantity::MountX => format!("arm[{arm}].mount[0]"),
-        Quantity::MountY => format!("arm[{arm}].mount[1]"),
-        Quantity::MountAngle => format!("arm[{arm}].mount_angle"),
-        Quantity::LinkLength => format!("arm[{arm}].link[{link}].length"),
-        Quantity::LinkMass => format!("arm[{arm}].link[{link}].mass"),
-        Quantity::LinkInertia => format!("arm[{arm}].link[{link}].inertia"),
-        Quantity::LinkComX => format!("arm[{arm}].link[{link}].com[0]"),
-        Quantity::LinkComY => format!("arm[{arm}].link[{link}].com[1]"),
+/// Key of a parameter in a layout file.
+fn key(kind: ParameterKind, arm: usize, link: usize) -> String {
+    match kind {
+        ParameterKind::BaseMass => "base.mass".to_owned(),
+        ParameterKind::BaseInertia => "base.inertia".to_owned(),
+        ParameterKind::MountX => format!("arm[{arm}].mount[0]"),
+        ParameterKind::MountY => format!("arm[{arm}].mount[1]"),
+        ParameterKind::MountAngle => format!("arm[{arm}].mount_angle"),
+        ParameterKind::LinkLength => format!("arm[{arm}].link[{link}].length"),
+        ParameterKind::LinkMass => format!("arm[{arm}].link[{link}].mass"),
+        ParameterKind::LinkInertia => format!("arm[{arm}].link[{link}].inertia"),
+        ParameterKind::LinkComX => format!("arm[{arm}].link[{link}].com[0]"),
+        ParameterKind::LinkComY => format!("arm[{arm}].link[{link}].com[1]"),
     }
 }
 
@@ -83,19 +83,21 @@ fn first_mounts_coincide(layout: &Layout) -> bool {
 
 /// Every number of a layout: what it is, of which arm and link (0 where there is none), and its value.
 #[must_use]
-pub fn quantities(layout: &Layout) -> Vec<(Quantity, usize, usize, f64)> {
-    let mut all =
-        vec![(Quantity::BaseMass, 0, 0, layout.base.mass), (Quantity::BaseInertia, 0, 0, layout.base.inertia)];
+pub fn layout_parameters(layout: &Layout) -> Vec<(ParameterKind, usize, usize, f64)> {
+    let mut all = vec![
+        (ParameterKind::BaseMass, 0, 0, layout.base.mass),
+        (ParameterKind::BaseInertia, 0, 0, layout.base.inertia),
+    ];
     for (i, arm) in layout.arms.iter().enumerate() {
-        all.push((Quantity::MountX, i, 0, arm.mount[0]));
-        all.push((Quantity::MountY, i, 0, arm.mount[1]));
-        all.push((Quantity::MountAngle, i, 0, arm.mount_angle));
+        all.push((ParameterKind::MountX, i, 0, arm.mount[0]));
+        all.push((ParameterKind::MountY, i, 0, arm.mount[1]));
+        all.push((ParameterKind::MountAngle, i, 0, arm.mount_angle));
         for (k, link) in arm.links.iter().enumerate() {
-            all.push((Quantity::LinkLength, i, k, link.length));
-            all.push((Quantity::LinkMass, i, k, link.mass));
-            all.push((Quantity::LinkInertia, i, k, link.inertia));
-            all.push((Quantity::LinkComX, i, k, link.com[0]));
-            all.push((Quantity::LinkComY, i, k, link.com[1]));
+            all.push((ParameterKind::LinkLength, i, k, link.length));
+            all.push((ParameterKind::LinkMass, i, k, link.mass));
+            all.push((ParameterKind::LinkInertia, i, k, link.inertia));
+            all.push((ParameterKind::LinkComX, i, k, link.com[0]));
+            all.push((ParameterKind::LinkComY, i, k, link.com[1]));
         }
     }
     all

@@ -17,7 +17,7 @@ pub fn config() -> Config {
 
 /// Where the robot is, how it moves, what acts on it, and what it captures.
 #[derive(Clone)]
-pub struct Sample {
+pub struct RandomState {
     /// [yaw, x, y].
     pub base_pose: [f64; 3],
     /// Relative, rad.
@@ -36,7 +36,7 @@ pub struct Sample {
     pub targets: Vec<([f64; 4], [f64; 3])>,
 }
 
-impl Sample {
+impl RandomState {
     /// Where the robot is and how it moves.
     pub fn state(&self) -> State<'_, f64> {
         State {
@@ -48,7 +48,7 @@ impl Sample {
     }
 }
 
-impl fmt::Debug for Sample {
+impl fmt::Debug for RandomState {
     /// A state for `planar-capture eval LAYOUT STATES.json`, to be put between `[` and `]`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let targets: Vec<_> = self
@@ -72,7 +72,7 @@ fn three(x: f64, y: f64) -> impl Strategy<Value = [f64; 3]> {
 }
 
 /// States of a robot with so many arms and joints: any pose, moderate speeds and forces, light to heavy targets.
-pub fn sample(arms: usize, joints: usize) -> impl Strategy<Value = Sample> {
+pub fn sample(arms: usize, joints: usize) -> impl Strategy<Value = RandomState> {
     let target = (-2.0..2.0_f64, 0.05..2.0_f64, -0.6..0.6_f64, -0.6..0.6_f64).prop_map(|(log_mass, radius, rx, ry)| {
         let mass = 10.0 * 10.0_f64.powf(log_mass);
         [mass, 0.4 * mass * radius * radius, rx, ry]
@@ -83,15 +83,17 @@ pub fn sample(arms: usize, joints: usize) -> impl Strategy<Value = Sample> {
         vec((target, three(1.0, 1.0)), arms),
     )
         .prop_map(
-            |((base_pose, joint_angles, base_twist, joint_rates), (torques, base_wrench, wrenches), targets)| Sample {
-                base_pose,
-                joint_angles,
-                base_twist,
-                joint_rates,
-                joint_torques: torques,
-                base_wrench,
-                end_effector_wrenches: wrenches,
-                targets,
+            |((base_pose, joint_angles, base_twist, joint_rates), (torques, base_wrench, wrenches), targets)| {
+                RandomState {
+                    base_pose,
+                    joint_angles,
+                    base_twist,
+                    joint_rates,
+                    joint_torques: torques,
+                    base_wrench,
+                    end_effector_wrenches: wrenches,
+                    targets,
+                }
             },
         )
 }

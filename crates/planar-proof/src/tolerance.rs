@@ -43,10 +43,11 @@ pub const POLYNOMIAL: f64 = 1e-14;
 /// Identities of mechanics between generated functions, relative to the sum of the terms' magnitudes: rounding of some
 /// hundred operations, 1e-14 measured.
 pub const IDENTITY: f64 = 1e-12;
-/// The same where a system of equations was solved on the way: rounding times its condition, below 1e4 for these robots.
+/// The same where a system of equations was solved on the way: rounding times its condition, below 1e4 for these
+/// robots.
 pub const SOLVED_IDENTITY: f64 = 1e-10;
-/// Joint angles and rates that a law with inverse dynamics should give, rad, rad/s: the integration error of RK4 at 5 ms over
-/// 4 s of fast motion.
+/// Joint angles and rates that a law with inverse dynamics should give, rad, rad/s: the integration error of RK4 at 5
+/// ms over 4 s of fast motion.
 pub const CONTROLLED: f64 = 1e-8;
 /// What remains after the capture was stabilised for 50 s at 0.5 1/s, rad/s, N m s: exp(−25) of what was there.
 pub const SETTLED: f64 = 1e-10;
@@ -57,13 +58,13 @@ pub const HELD: f64 = 1e-3;
 pub const DECAY: f64 = 1e-6;
 /// Tip poses that the design of the final joint angles should reach, rad, m: it iterates to 1e-11 per unit.
 pub const REACHED: f64 = 1e-9;
-/// Tips on their paths and at their ends under resolved motion rate control, rad, m, rad/s, m/s: the integration error of RK4
-/// at 5 ms, which feedback pulls back; 3e-10 measured, near a singular pose.
+/// Tips on their paths and at their ends under resolved motion rate control, rad, m, rad/s, m/s: the integration error
+/// of RK4 at 5 ms, which feedback pulls back; 3e-10 measured, near a singular pose.
 pub const STEERED: f64 = 1e-8;
 /// The same with torques held for up to 40 ms, at the end: half a sample of delay in accelerations of some mm/s².
 pub const STEERED_SAMPLED: f64 = 1e-4;
-/// Accelerations of tips, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding times the
-/// condition of the generalized Jacobian.
+/// Accelerations of tips, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding
+/// times the condition of the generalized Jacobian.
 pub const STEERED_ACCELERATION: f64 = 1e-8;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
 /// error of RK4 at 5 ms, 4e-13 measured.
@@ -74,8 +75,8 @@ pub const INTEGRATED: f64 = 1e-8;
 pub const ENERGY_GRADIENT: f64 = 1e-8;
 /// Times of events, s, and how far values are then from zero: they are found to 1e-13.
 pub const EVENT_TIME: f64 = 1e-12;
-/// Time of an event that touches zero by a nanometre, s: there the value falls by 2e-5 m/s, and rounding of a path of 600 steps
-/// is 1e-12 m.
+/// Time of an event that touches zero by a nanometre, s: there the value falls by 2e-5 m/s, and rounding of a path of
+/// 600 steps is 1e-12 m.
 pub const GRAZING: f64 = 1e-7;
 /// The same steps to the same instant, the last of another length, rad, m and per second; 1e-11 by an interpolant.
 pub const SAME_STEPS: f64 = 1e-10;
@@ -128,8 +129,8 @@ impl Equivalence {
     }
 }
 
-/// Generated against generic, measured over all layouts and regimes: a bound for every quantity by how rounding gets into it,
-/// and for those that are better, their own.
+/// Generated against generic, measured over all layouts and regimes: a bound for every quantity by how rounding gets
+/// into it, and for those that are better, their own.
 pub fn equivalence(quantity: Quantity) -> Equivalence {
     match (quantity, quantity.row().rounding) {
         // parameters, handed through
@@ -165,8 +166,8 @@ pub const LAYOUTS: &[(&str, &str)] = &[
 pub const MASS_MATRIX_RATE: f64 = 1e-8;
 /// A study with generic dynamics against the same with generated code, relative: rounding over 4000 steps.
 pub const SAME_STUDY: f64 = 1e-9;
-/// Generated accelerations, relative, times ε arm/distance for a short inner link, or for first two mounts close to each
-/// other: joint torques are divided by that distance on the way. 0.1 measured.
+/// Generated accelerations, relative, times ε arm/distance for a short inner link, or for first two mounts close to
+/// each other: joint torques are divided by that distance on the way. 0.1 measured.
 pub const SHORT_DISTANCE: f64 = 1.0;
 
 /// Accelerations and constraint forces in maximal coordinates, relative to the largest, against the product and against
@@ -183,8 +184,9 @@ pub const MAXIMAL_MOTION: f64 = 1e-9;
 pub const MAXIMAL_DRIFT: f64 = 1e-11;
 /// The same ties once projected, rad, m: rounding at some metres.
 pub const MAXIMAL_TIE: f64 = 1e-13;
-/// The product's impacts of any contacts against those in maximal coordinates, relative to the largest, times the square of
-/// the reference's margin of dependence: the inverse inertia at the contacts is a product of constraints. 2e-13 measured.
+/// The product's impacts of any contacts against those in maximal coordinates, relative to the largest, times the
+/// square of the reference's margin of dependence: the inverse inertia at the contacts is a product of constraints.
+/// 2e-13 measured.
 pub const CONTACT_IMPACT: f64 = 2e-12;
 /// The same in single precision.
 pub const CONTACT_IMPACT_SINGLE: f64 = 2e-3;
@@ -192,8 +194,8 @@ pub const CONTACT_IMPACT_SINGLE: f64 = 2e-3;
 pub const SEEN_MARGIN: f64 = 0.05;
 /// Axes of the ellipse of stopping impulses, relative: the eigenvalues of a square of a matrix of condition below 1e3.
 pub const ELLIPSE: f64 = 1e-9;
-/// Some seconds of motion with holds, adaptively at 1e-12, against maximal coordinates, relative to the largest: both err by
-/// 1e-13 per step, and loops amplify that; 2e-12 measured.
+/// Some seconds of motion with holds, adaptively at 1e-12, against maximal coordinates, relative to the largest: both
+/// err by 1e-13 per step, and loops amplify that; 2e-12 measured.
 pub const HELD_MOTION: f64 = 2e-11;
 /// By how much a hold may be open at any step, rad or m, and rad/s or m/s: rounding at some metres. 4e-14 measured;
 /// 1e-10 is promised.
@@ -211,11 +213,14 @@ pub const HEAVY_BASE: f64 = 1e-12;
 /// Poses by a recording's chain of transforms against the model's: rounding of four turns at a few metres, and of
 /// 20 s of a target's flight. Below 1e-14 measured.
 pub const TRANSFORMS: f64 = 1e-13;
-/// By how much a hold is open after it was closed again, rad or m, and its rate: rounding at some metres, 2e-14 measured.
+/// By how much a hold is open after it was closed again, rad or m, and its rate: rounding at some metres, 2e-14
+/// measured.
 pub const HOLD: f64 = 1e-12;
-/// Momentum and energy of a closed loop in 2 s of steps of 5 ms at up to 0.9 rad/s: RK4, 3e-7 measured near a singular pose.
+/// Momentum and energy of a closed loop in 2 s of steps of 5 ms at up to 0.9 rad/s: RK4, 3e-7 measured near a singular
+/// pose.
 pub const HELD_DRIFT: f64 = 1e-5;
-/// A body held by constraint forces against the same merged with its link, 4 s later: RK4 at 5 ms on both, 2e-10 measured.
+/// A body held by constraint forces against the same merged with its link, 4 s later: RK4 at 5 ms on both, 2e-10
+/// measured.
 pub const MERGED_MOTION: f64 = 1e-9;
 /// Energy after an impact over that before, less 1: an elastic one gives all back but rounding, 2e-15 measured.
 pub const ENERGY_OF_AN_IMPACT: f64 = 1e-12;

@@ -1,4 +1,4 @@
-//! An approach by its tips: paths, wishes and working space of resolved motion rate control, from a scenario.
+//! An approach by its end effectors: paths, wishes and working space of resolved motion rate control, from a scenario.
 
 use crate::control::{EndEffectorWorkspace, ResolvedMotionRate};
 use crate::dynamics::Model;
@@ -6,13 +6,14 @@ use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
 use crate::simulate::PhaseError;
 use crate::trajectory::EndEffectorPath;
 
-/// Errors of the tips' poses count as no more: rad, m per m of reach. An arm that strains for a place out of reach then still
-/// leaves the other on its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s with the default gains.
+/// Errors of the end effectors' poses count as no more: rad, m per m of reach. An arm that strains for a place out of
+/// reach then still leaves the other on its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s
+/// with the default gains.
 const ERROR_LIMIT: f64 = 0.05;
 
 /// What the law borrows.
 #[derive(Clone, Debug)]
-pub struct Tips {
+pub struct EndEffectorFeedback {
     initial_poses: Vec<[f64; 3]>,
     initial_twists: Vec<[f64; 3]>,
     final_poses: Vec<[f64; 3]>,
@@ -32,9 +33,9 @@ pub struct Tips {
     joint_accelerations: Vec<f64>,
 }
 
-impl Tips {
-    /// Paths from where the tips are at the start, and as fast as they are there, to the wanted poses; yaws to the nearest
-    /// turn. Arms of which nothing is wanted hold still.
+impl EndEffectorFeedback {
+    /// Paths from where the end effectors are at the start, and as fast as they are there, to the wanted poses; yaws to
+    /// the nearest turn. Arms of which nothing is wanted hold still.
     ///
     /// # Errors
     /// What the model says of the initial state.

@@ -1,4 +1,4 @@
-//! Final joint angles of the approach, designed from the tip poses that are wanted at contact.
+//! Final joint angles of the approach, designed from the end effector poses that are wanted at contact.
 
 use crate::capture::approach::Approach;
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, generalized_jacobian, rates_for};
@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Rounds before giving up; each gains about a digit.
 const MOST_ROUNDS: usize = 80;
-/// Residual at which the tips are where they are wanted: rad, and m per m of reach.
+/// Residual at which the end effectors are where they are wanted: rad, and m per m of reach.
 const ENOUGH: f64 = 1e-11;
 /// Joints turn by at most this in one round, rad: the Jacobian is that of one pose.
 const LONGEST_STEP: f64 = 0.5;
@@ -20,7 +20,7 @@ const DAMPING: f64 = 1e-3;
 /// How often a step that makes things worse is halved.
 const MOST_HALVINGS: u32 = 12;
 
-/// Final joint angles whose exactly tracked approach ends with the tips at the wanted poses.
+/// Final joint angles whose exactly tracked approach ends with the end effectors at the wanted poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseKinematics {
     /// rad.
@@ -91,16 +91,17 @@ impl std::fmt::Display for History {
     }
 }
 
-/// Newton's method over whole approaches: track exactly → tip poses → step by the generalized Jacobian → track.
+/// Newton's method over whole approaches: track exactly → end effector poses → step by the generalized Jacobian →
+/// track.
 ///
-/// The base turns with the path (the robot is non-holonomic), so the Jacobian of the final pose over the final joint angles
-/// is the generalized one only nearly, and the method converges linearly. Steps are damped least squares, at most 0.5 rad,
-/// and halved where they do not bring the tips nearer. Every round takes the end rates from the one before; both settle
-/// together. The yaw of a tip is wanted up to whole turns.
+/// The base turns with the path (the robot is non-holonomic), so the Jacobian of the final pose over the final joint
+/// angles is the generalized one only nearly, and the method converges linearly. Steps are damped least squares, at
+/// most 0.5 rad, and halved where they do not bring the end effectors nearer. Every round takes the end rates from the
+/// one before; both settle together. The yaw of an end effector is wanted up to whole turns.
 ///
 /// # Errors
 /// [`InverseKinematicsError`], with the numbers.
-pub fn posture(
+pub fn inverse_kinematics(
     model: &dyn Model<f64>,
     scenario: &Scenario,
     goals: &[EndEffectorGoal],
@@ -161,7 +162,8 @@ struct Step {
 }
 
 impl Trial {
-    /// One approach; then the rates for the next one. Returns also the singularity margin and by how much the rates changed.
+    /// One approach; then the rates for the next one. Returns also the singularity margin and by how much the rates
+    /// changed.
     fn track(
         &mut self,
         model: &dyn Model<f64>,

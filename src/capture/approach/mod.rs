@@ -4,7 +4,7 @@ pub mod end_effector_paths;
 pub mod inverse_kinematics;
 pub mod terminal_rates;
 
-use crate::capture::approach::end_effector_paths::Tips;
+use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::owned::RobotState;
@@ -78,8 +78,8 @@ impl<'a> Approach<'a> {
                 generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
             }),
             Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
-                let mut tips = Tips::new(model, self.scenario)?;
-                let mut law = tips.law([*pose_gain, *rate_gain], *singularity_threshold);
+                let mut end_effectors = EndEffectorFeedback::new(model, self.scenario)?;
+                let mut law = end_effectors.law([*pose_gain, *rate_gain], *singularity_threshold);
                 let phase = drive(&mut law)?;
                 Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
             }

@@ -1,4 +1,4 @@
-//! End rates of the approach, designed from the tip twists that are wanted at contact.
+//! End rates of the approach, designed from the end effector twists that are wanted at contact.
 
 use crate::capture::approach::Approach;
 use crate::dynamics::Model;
@@ -65,7 +65,7 @@ pub enum TerminalRatesError {
     },
 }
 
-/// End rates θ̇(T) such that `J(q(T)) θ̇(T)` is the wanted tip twist, and what the design saw.
+/// End rates θ̇(T) such that `J(q(T)) θ̇(T)` is the wanted end effector twist, and what the design saw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TerminalRates {
     /// rad/s, to be put into the trajectory.
@@ -83,7 +83,7 @@ pub struct TerminalRates {
 ///
 /// # Errors
 /// [`TerminalRatesError`], with the numbers.
-pub fn end_rates(
+pub fn terminal_rates(
     model: &dyn Model<f64>,
     approach: &Approach<'_>,
     wanted: &[EndEffectorTwistGoal],

@@ -2,14 +2,14 @@
 
 use super::figure::{Figure, Mark, Panel, Series};
 use super::style::{Colour, Dash};
-use super::time::{base, joints, panel, tips};
+use super::time::{base, end_effectors, joints, panel};
 use crate::capture::Study;
 use crate::scenario::{FinalRates, Scenario};
 use crate::simulate::Phase;
 
 const TIME: &str = "Time [s]";
 
-/// Joints, base and tips over time.
+/// Joints, base and end effectors over time.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let (layout, phase) = (&scenario.layout, &study.approach);
     let angles = joints(layout, phase, |s| &s.state.joint_angles);
@@ -39,9 +39,9 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     ]
 }
 
-/// One component of the tips' twists, and what is wanted at the end.
+/// One component of the end effectors' twists, and what is wanted at the end.
 fn velocities(scenario: &Scenario, phase: &Phase, quantity: &str, component: usize) -> Panel {
-    let mut series = tips(&scenario.layout, phase, component, |s| &s.end_effector_twists);
+    let mut series = end_effectors(&scenario.layout, phase, component, |s| &s.end_effector_twists);
     if let FinalRates::EndEffectorTwists(wanted) = &scenario.approach.end {
         series.extend(wanted.iter().enumerate().filter_map(|(i, twist)| {
             let wanted = twist[component]?;

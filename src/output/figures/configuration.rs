@@ -145,15 +145,15 @@ fn held(captured: &CaptureResult, time: f64) -> Vec<ImpactContact> {
     contacts.map(|one| one.touching).filter(|touch| touch.law.kind().holds()).collect()
 }
 
-/// Each target where it is, with a line to each tip that touches it.
+/// Each target where it is, with a line to each end effector that touches it.
 fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample, touching: &[ImpactContact]) -> Vec<Vec<Series>> {
     let pairs = scenario.targets.iter().zip(targets).enumerate();
     pairs
         .map(|(i, (object, body))| {
-            let tip = |touch: &ImpactContact| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
+            let end_effector = |touch: &ImpactContact| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
             let own = || touching.iter().filter(|touch| touch.target == i);
-            let mut series = target(object, colour(scenario, i), body.pose, own().filter_map(tip));
-            series.extend(own().filter(|touch| touch.law.kind() == ContactKind::Pin).filter_map(tip).map(pin));
+            let mut series = target(object, colour(scenario, i), body.pose, own().filter_map(end_effector));
+            series.extend(own().filter(|touch| touch.law.kind() == ContactKind::Pin).filter_map(end_effector).map(pin));
             series
         })
         .collect()

@@ -107,11 +107,14 @@ fn panel(picture: Picture, frame: &Bounds) -> Panel {
 fn pointer(like: &Series, to: [f64; 2], frame: &Bounds) -> Option<Series> {
     let length = 0.08 * frame.side();
     let within = frame.widened([-0.02 * frame.side(); 2]);
-    let tip = [0, 1].map(|i| to[i].clamp(within.low[i], within.high[i]));
+    let end_effector = [0, 1].map(|i| to[i].clamp(within.low[i], within.high[i]));
     let middle = [0, 1].map(|i| f64::midpoint(frame.low[i], frame.high[i]));
     let way = [0, 1].map(|i| to[i] - middle[i]);
     let far = way[0].hypot(way[1]);
     let along = way.map(|part| length * part / far);
     let label = like.label.clone()?;
-    Some(Series { colour: like.colour, ..arrow(&label, [tip[0] - along[0], tip[1] - along[1]], along)? })
+    Some(Series {
+        colour: like.colour,
+        ..arrow(&label, [end_effector[0] - along[0], end_effector[1] - along[1]], along)?
+    })
 }

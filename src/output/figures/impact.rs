@@ -4,24 +4,25 @@ use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
 use super::style::{Colour, Shape};
 use super::time::LEAST;
 use crate::capture::contact_at_time::ImpactContact;
-use crate::capture::impact::Capture;
+use crate::capture::impact::ImpactSolution;
 use crate::capture::{CaseResult, Study};
 use crate::contact::ContactKind;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
 use crate::simulate::system::Body;
 
-/// One contact of one case: twists of the tip and of the target's contact point, before the impact and after it.
+/// One contact of one case: twists of the end effector and of the target's contact point, before the impact and after
+/// it.
 struct Contact {
     name: String,
-    /// Tip before, target before, target after, tip after.
+    /// End effector before, target before, target after, end effector after.
     twists: [[f64; 3]; 4],
     rigid: bool,
 }
 
 /// An impact with the samples on both sides of it.
 struct Instant<'a> {
-    impact: &'a Capture,
+    impact: &'a ImpactSolution,
     before: &'a Sample,
     after: &'a Sample,
     targets: &'a [Body],
@@ -98,7 +99,7 @@ fn contacts(scenario: &Scenario, result: &CaseResult, instant: &Instant<'_>) -> 
         let kind = law.kind();
         let (target, before) = (scenario.targets.get(i)?, instant.targets.get(i)?);
         let after = *instant.impact.target_twists.get(i)?;
-        let tip = |now: &Sample| now.end_effector_twists.get(arm).copied();
+        let end_effector = |now: &Sample| now.end_effector_twists.get(arm).copied();
         // v + ω × r
         let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];
         let mut name = match (target.touches.len(), scenario.layout.arms.get(arm)) {
@@ -113,7 +114,12 @@ fn contacts(scenario: &Scenario, result: &CaseResult, instant: &Instant<'_>) -> 
         }
         Some(Contact {
             name,
-            twists: [tip(instant.before)?, at_contact(before.twist), at_contact(after), tip(instant.after)?],
+            twists: [
+                end_effector(instant.before)?,
+                at_contact(before.twist),
+                at_contact(after),
+                end_effector(instant.after)?,
+            ],
             rigid: kind == ContactKind::Rigid,
         })
     });

@@ -2,18 +2,18 @@
 
 use super::configuration;
 use super::figure::Figure;
-use super::time::{base, joints, panel, tips};
+use super::time::{base, end_effectors, joints, panel};
 use crate::capture::CaptureResult;
 use crate::scenario::{Case, Scenario};
 
 const TIME: &str = "Time after the impact [s]";
 
-/// Joints, base and tips over time, and pictures of the robot with what it holds.
+/// Joints, base and end effectors over time, and pictures of the robot with what it holds.
 pub(super) fn figures(scenario: &Scenario, case: &Case, captured: &CaptureResult) -> Vec<Figure> {
     let (layout, phase, name) = (&scenario.layout, &captured.post_impact, &case.name);
     let angles = joints(layout, phase, |s| &s.state.joint_angles);
     let rates = joints(layout, phase, |s| &s.state.joint_rates);
-    let twists = |component| tips(layout, phase, component, |s| &s.end_effector_twists);
+    let twists = |component| end_effectors(layout, phase, component, |s| &s.end_effector_twists);
     let mut driven =
         vec![panel(phase, TIME, "Joint angle [rad]", angles), panel(phase, TIME, "Joint rate [rad/s]", rates)];
     if phase.samples.iter().any(|sample| sample.joint_torques.iter().any(|torque| *torque != 0.0)) {

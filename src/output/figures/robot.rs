@@ -33,15 +33,15 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
     series
 }
 
-/// A target's outline and a spoke to each tip at it, or along a disc's x axis: they show how it turns.
+/// A target's outline and a spoke to each end effector at it, or along a disc's x axis: they show how it turns.
 pub(super) fn target(
     target: &Target,
     colour: Colour,
     pose: [f64; 3],
-    tips: impl Iterator<Item = [f64; 2]>,
+    end_effectors: impl Iterator<Item = [f64; 2]>,
 ) -> Vec<Series> {
     let [_, x, y] = pose;
-    let mut spots: Vec<[f64; 2]> = tips.collect();
+    let mut spots: Vec<[f64; 2]> = end_effectors.collect();
     if let (Outline::Disc { radius }, true) = (&target.surface, spots.is_empty()) {
         spots.push(point(pose, [*radius, 0.0]));
     }
@@ -51,7 +51,7 @@ pub(super) fn target(
     series
 }
 
-/// Where a target turns freely about a tip.
+/// Where a target turns freely about an end effector.
 pub(super) fn pin([x, y]: [f64; 2]) -> Series {
     Series {
         label: Some("pin".to_owned()),

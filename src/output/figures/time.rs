@@ -36,8 +36,8 @@ pub(super) fn joints(layout: &Layout, phase: &Phase, value: impl Fn(&Sample) -> 
     series
 }
 
-/// A curve per arm of one component of a pose or twist of its tip.
-pub(super) fn tips(
+/// A curve per arm of one component of a pose or twist of its end effector.
+pub(super) fn end_effectors(
     layout: &Layout,
     phase: &Phase,
     component: usize,
@@ -45,7 +45,9 @@ pub(super) fn tips(
 ) -> Vec<Series> {
     let arms = layout.arms.iter().enumerate();
     arms.map(|(i, arm)| {
-        curve(phase, &arm.name, Colour::of(i), Dash::of(i), |s| value(s).get(i).map(|tip| tip[component]))
+        curve(phase, &arm.name, Colour::of(i), Dash::of(i), |s| {
+            value(s).get(i).map(|end_effector| end_effector[component])
+        })
     })
     .collect()
 }

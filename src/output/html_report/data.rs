@@ -98,7 +98,7 @@ fn columns_of(targets: usize, samples: &[Vec<Body>], of: impl Fn(&Body) -> [f64;
 fn phase(phase: &Phase) -> Value {
     let samples = &phase.samples;
     let joints = samples.first().map_or(0, |sample| sample.state.joint_angles.len());
-    let tips = samples.first().map_or(0, |sample| sample.end_effector_poses.len());
+    let end_effectors = samples.first().map_or(0, |sample| sample.end_effector_poses.len());
     let column = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(|sample| digits(of(sample))).collect::<Vec<_>>();
     let columns = |n: usize, of: &dyn Fn(&Sample, usize) -> Option<f64>| {
         (0..n).map(|i| column(&|sample| of(sample, i).unwrap_or_default())).collect::<Vec<_>>()
@@ -111,7 +111,7 @@ fn phase(phase: &Phase) -> Value {
         "joint_angles": columns(joints, &|sample, i| sample.state.joint_angles.get(i).copied()),
         "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates.get(i).copied()),
         "joint_torques": columns(joints, &|sample, i| sample.joint_torques.get(i).copied()),
-        "tips": (0..tips).map(|arm| {
+        "tips": (0..end_effectors).map(|arm| {
             columns(3, &|sample, i| sample.end_effector_poses.get(arm)?.get(i).copied())
         }).collect::<Vec<_>>(),
         "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum.get(i).copied()),

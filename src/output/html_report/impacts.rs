@@ -3,8 +3,8 @@
 use super::data::digits;
 use crate::capture::assembly::turned;
 use crate::capture::contact_at_time::ImpactContact;
-use crate::capture::contact_detection::gap;
-use crate::capture::impact::{Capture, ContactResult, ImpactResult};
+use crate::capture::contact_detection::signed_distance;
+use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::output::time_series::rows;
 use crate::scenario::{Case, Detection, Scenario};
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 /// The impacts of a case, in their order; one that touches nothing is none.
 pub(super) fn impacts(scenario: &Scenario, study: &Study, result: &CaseResult) -> Vec<Value> {
     let Some(captured) = &result.capture else { return Vec::new() };
-    let tips = |sample: usize| captured.post_impact.samples.get(sample).map(|now| &now.end_effector_poses[..]);
+    let end_effectors = |sample: usize| captured.post_impact.samples.get(sample).map(|now| &now.end_effector_poses[..]);
     let first = (0, result.approach(study).duration, &captured.impact);
     let later = captured
         .further
@@ -29,7 +29,7 @@ pub(super) fn impacts(scenario: &Scenario, study: &Study, result: &CaseResult) -
                 "exact": balance(&impact.exact),
                 "paper": impact.paper.as_ref().map(balance),
                 "contacts": impact.contacts.iter()
-                    .map(|one| contact(scenario, one, tips(sample).unwrap_or_default(), impact)).collect::<Vec<_>>(),
+                    .map(|one| contact(scenario, one, end_effectors(sample).unwrap_or_default(), impact)).collect::<Vec<_>>(),
             })
         })
         .collect()
@@ -48,7 +48,7 @@ fn balance(result: &ImpactResult) -> Value {
     })
 }
 
-fn contact(scenario: &Scenario, result: &ContactResult, tips: &[[f64; 3]], impact: &Capture) -> Value {
+fn contact(scenario: &Scenario, result: &ContactResult, end_effectors: &[[f64; 3]], impact: &ImpactSolution) -> Value {
     let ImpactContact { target, arm, law, miss, .. } = result.touching;
     let response = &result.response;
     let literal = impact.paper.as_ref().and_then(|paper| paper.impulses.get(arm).copied().flatten());
@@ -58,13 +58,13 @@ fn contact(scenario: &Scenario, result: &ContactResult, tips: &[[f64; 3]], impac
         "arm": arm,
         "kind": law.kind().name(),
         "restitution": law.bounce().map(|(_, restitution)| restitution),
-        "tip": tips.get(arm).map(|[_, x, y]| [x, y]),
+        "tip": end_effectors.get(arm).map(|[_, x, y]| [x, y]),
         "miss": miss,
         "impulse": result.impulse,
         "literal_impulse": literal,
         "mean_force": scenario.contact.duration.map(|duration| result.impulse.map(|part| part / duration)),
         "relative_twist": response.relative_twist,
-        // a tip closes in against the normal of what it bounces off
+        // an end effector closes in against the normal of what it bounces off
         "closing_speed": law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)),
         "effective_masses": response.effective_masses,
         "impulse_index": response.impulse_index,
@@ -84,8 +84,8 @@ pub(super) fn open(scenario: &Scenario, case: &Case) -> Vec<Value> {
     open.map(|(target, touch, _)| json!({"target": target, "arm": touch.arm})).collect()
 }
 
-/// Distances of tips from the targets that they are to meet, m, over approach and motion after it, where contacts are
-/// found by detection.
+/// Distances of end effectors from the targets that they are to meet, m, over approach and motion after it, where
+/// contacts are found by detection.
 pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult) -> Vec<Value> {
     if scenario.contact.detection == Detection::Time {
         return Vec::new();
@@ -94,8 +94,8 @@ pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result:
     let mut columns = Vec::new();
     for (i, (target, kinds)) in scenario.targets.iter().zip(&case.kinds).enumerate() {
         for (touch, _) in target.touches.iter().zip(kinds).filter(|(_, kind)| kind.is_some()) {
-            let distance = |targets: &[Body], tips: &[[f64; 3]]| {
-                Some(digits(gap(scenario, i, targets.get(i)?, tips.get(touch.arm)?).0))
+            let distance = |targets: &[Body], end_effectors: &[[f64; 3]]| {
+                Some(digits(signed_distance(scenario, i, targets.get(i)?, end_effectors.get(touch.arm)?).0))
             };
             let column = all.iter().map(|now| distance(&now.targets, &now.sample.end_effector_poses));
             columns.push(json!({"target": i, "arm": touch.arm, "distance": column.collect::<Vec<_>>()}));
@@ -104,8 +104,8 @@ pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result:
     columns
 }
 
-/// By how much each hold that is kept by a constraint is open, over the samples after the first impact: the larger of the
-/// distance of the contact points, m, and of the turn of one that is rigid, rad. `None` before it takes hold.
+/// By how much each hold that is kept by a constraint is open, over the samples after the first impact: the larger of
+/// the distance of the contact points, m, and of the turn of one that is rigid, rad. `None` before it takes hold.
 ///
 /// The first rigid hold of a target makes it part of the robot's link: there is nothing that could open.
 pub(super) fn holds(captured: &CaptureResult) -> Vec<Value> {
@@ -137,9 +137,9 @@ pub(super) fn holds(captured: &CaptureResult) -> Vec<Value> {
     holds
 }
 
-/// Pose of a tip in the frame of a target.
-fn relative(target: &Body, tip: &[f64; 3]) -> [f64; 3] {
+/// Pose of an end effector in the frame of a target.
+fn relative(target: &Body, end_effector: &[f64; 3]) -> [f64; 3] {
     let [yaw, x, y] = target.pose;
-    let [along, across] = turned([tip[1] - x, tip[2] - y], -yaw);
-    [tip[0] - yaw, along, across]
+    let [along, across] = turned([end_effector[1] - x, end_effector[2] - y], -yaw);
+    [end_effector[0] - yaw, along, across]
 }

@@ -1,6 +1,7 @@
 //! One HTML file with a replay of the study: opens from disk, without a network.
 //!
-//! Text, styles, programs and data are all in it. The plots are drawn by uPlot (MIT), whose text and licence it carries.
+//! Text, styles, programs and data are all in it. The plots are drawn by uPlot (MIT), whose text and licence it
+//! carries.
 
 mod data;
 mod impacts;

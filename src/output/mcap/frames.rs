@@ -2,13 +2,13 @@
 
 use super::channel::timestamp;
 use crate::output::scene::Frame;
-use crate::output::time_series::Row;
+use crate::output::time_series::TimeSeriesRow;
 use foxglove::messages::{FrameTransform, FrameTransforms, Quaternion, Vector3};
 
 pub(super) const WORLD: &str = "world";
 
 /// Every frame in its parent, at one instant.
-pub(super) fn transforms(frames: &[Frame], row: &Row<'_>) -> FrameTransforms {
+pub(super) fn transforms(frames: &[Frame], row: &TimeSeriesRow<'_>) -> FrameTransforms {
     let targets: Vec<[f64; 3]> = row.targets.iter().map(|target| target.pose).collect();
     // before there is a capture no target is anywhere
     let there = |frame: &&Frame| !matches!(frame.motion, crate::output::scene::Motion::Target(i) if i >= targets.len());

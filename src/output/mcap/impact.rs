@@ -41,28 +41,29 @@ impl<'a> Impacts<'a> {
         Ok(Self { arms, arrows, numbers: Scalars::new(recording, "impact", &fields)? })
     }
 
-    /// One impact, with the poses [yaw, x, y] of the tips then; an arm that touches nothing has an impulse of 0.
+    /// One impact, with the poses [yaw, x, y] of the end effectors then; an arm that touches nothing has an impulse of
+    /// 0.
     pub(super) fn log(
         &self,
         recording: &mut Recording,
         time: f64,
         impact: &ImpactResult,
-        tips: &[[f64; 3]],
+        end_effectors: &[[f64; 3]],
     ) -> io::Result<()> {
-        recording.log(self.arrows, time, &self.arrows(time, impact, tips))?;
+        recording.log(self.arrows, time, &self.arrows(time, impact, end_effectors))?;
         let impulses = impact.impulses.iter().flat_map(|impulse| impulse.unwrap_or_default());
         let energies = [impact.kinetic_energy_before, impact.kinetic_energy_after];
         self.numbers.log(recording, time, impulses.chain(impact.momentum_jump).chain(energies))
     }
 
     /// The impulse on the robot at each contact: as an arrow its force part, the longest as long as is easy to see.
-    fn arrows(&self, time: f64, impact: &ImpactResult, tips: &[[f64; 3]]) -> SceneUpdate {
+    fn arrows(&self, time: f64, impact: &ImpactResult, end_effectors: &[[f64; 3]]) -> SceneUpdate {
         let impulses = &impact.impulses;
         let magnitudes = impact.impulse_magnitudes();
         let largest = magnitudes.iter().flatten().copied().fold(0.0, f64::max);
         let reach = self.arms.iter().map(Arm::reach).fold(0.0, f64::max);
         let entity = |(i, arm): (usize, &Arm)| {
-            let [_, x, y] = *tips.get(i)?;
+            let [_, x, y] = *end_effectors.get(i)?;
             let ([_, fx, fy], size) = ((*impulses.get(i)?)?, (*magnitudes.get(i)?)?);
             let length = if largest > 0.0 { LONGEST * reach * size / largest } else { 0.0 };
             Some(SceneEntity {

@@ -6,7 +6,7 @@
 //! | `/scene` | `foxglove.SceneUpdate`: base, links, targets, each fixed in its frame | at 0 |
 //! | `/outlines/FRAME` | `foxglove.PointCloud`: the same as points, for viewers that draw no scenes (Rerun) | at 0 |
 //! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a while | at each impact |
-//! | `/state`, `/tips`, `/momentum`, `/energy` | the time series' columns, by [group](crate::output::time_series::Column::group) | every row |
+//! | `/state`, `/end effectors`, `/momentum`, `/energy` | the time series' columns, by [group](crate::output::time_series::Column::group) | every row |
 //! | `/impact` | what the exact impact did | at each impact |
 //! | `/log` | `foxglove.Log`: which phase begins | at its start |
 //!
@@ -24,7 +24,7 @@ mod scene;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaseResult, Study};
 use crate::output::scene::frames as scene_frames;
-use crate::output::time_series::{Column, Row, columns, provenance, rows};
+use crate::output::time_series::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::scenario::Scenario;
 use channel::Recording;
 use foxglove::messages::{Log, log::Level};
@@ -86,7 +86,7 @@ struct Series {
 }
 
 impl Series {
-    fn log(&mut self, recording: &mut Recording, row: &Row<'_>) -> io::Result<()> {
+    fn log(&mut self, recording: &mut Recording, row: &TimeSeriesRow<'_>) -> io::Result<()> {
         let values = self.columns.iter().map(|column| column.value(row));
         self.scalars.log(recording, row.time, values)
     }
@@ -107,7 +107,7 @@ fn series(recording: &mut Recording, scenario: &Scenario, result: &CaseResult) -
     groups.into_iter().map(open).collect()
 }
 
-fn begins(row: &Row<'_>) -> Log {
+fn begins(row: &TimeSeriesRow<'_>) -> Log {
     Log {
         timestamp: Some(channel::timestamp(row.time)),
         level: Level::Info.into(),

@@ -1,7 +1,7 @@
 //! Frames and outlines of robot and targets: the one forward kinematics of figures, recordings and the report's page.
 //!
-//! `base` is in the inertial frame, `arms/ARM/link1`, …, `arms/ARM/tip` are each in the one before, `targets/TARGET` is in the
-//! inertial frame, at the target's COM.
+//! `base` is in the inertial frame, `arms/ARM/link1`, …, `arms/ARM/end effector` are each in the one before,
+//! `targets/TARGET` is in the inertial frame, at the target's COM.
 
 mod body;
 

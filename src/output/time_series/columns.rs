@@ -1,6 +1,6 @@
 //! The columns of a time series, once for every kind of file.
 
-use super::Row;
+use super::TimeSeriesRow;
 use crate::capture::CaseResult;
 use crate::scenario::Scenario;
 use std::fmt;
@@ -16,7 +16,7 @@ pub struct Column {
     pub unit: &'static str,
     /// What it belongs to: `state`, `tips`, `momentum`, `energy` or `targets`.
     pub group: &'static str,
-    value: Box<dyn Fn(&Row<'_>) -> f64>,
+    value: Box<dyn Fn(&TimeSeriesRow<'_>) -> f64>,
 }
 
 impl Column {
@@ -28,7 +28,7 @@ impl Column {
 
     /// The quantity at one instant.
     #[must_use]
-    pub fn value(&self, row: &Row<'_>) -> f64 {
+    pub fn value(&self, row: &TimeSeriesRow<'_>) -> f64 {
         (self.value)(row)
     }
 }
@@ -41,8 +41,9 @@ impl fmt::Debug for Column {
 
 /// All columns of a case's time series but time and phase, in their order.
 ///
-/// Momentum and kinetic energy are of robot and targets together. Where a torque acts on the base, there are columns for it, its work and its impulse; the torque is 0 in phases without.
-/// Work and impulse are counted from the start of each phase.
+/// Momentum and kinetic energy are of robot and targets together. Where a torque acts on the base, there are columns
+/// for it, its work and its impulse; the torque is 0 in phases without. Work and impulse are counted from the start of
+/// each phase.
 #[must_use]
 pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     let arms = &scenario.layout.arms;
@@ -71,7 +72,7 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
     }
     // of the COM: no name of theirs can be that of a column of the robot
     for (i, target) in scenario.targets.iter().enumerate() {
-        let place = move |row: &Row<'_>| row.targets.get(i).copied();
+        let place = move |row: &TimeSeriesRow<'_>| row.targets.get(i).copied();
         list.vector("targets", &format!("{}_com", target.name), POSE, move |row| {
             place(row).map_or([0.0; 3], |t| t.pose)
         });
@@ -91,7 +92,13 @@ fn has_base_torque(case: &CaseResult) -> bool {
 struct List(Vec<Column>);
 
 impl List {
-    fn one(&mut self, group: &'static str, name: &str, unit: &'static str, value: impl Fn(&Row<'_>) -> f64 + 'static) {
+    fn one(
+        &mut self,
+        group: &'static str,
+        name: &str,
+        unit: &'static str,
+        value: impl Fn(&TimeSeriesRow<'_>) -> f64 + 'static,
+    ) {
         self.0.push(Column { name: name.to_owned(), unit, group, value: Box::new(value) });
     }
 
@@ -101,7 +108,7 @@ impl List {
         group: &'static str,
         owner: &str,
         parts: [(&str, &'static str); N],
-        value: impl Fn(&Row<'_>) -> [f64; N] + Copy + 'static,
+        value: impl Fn(&TimeSeriesRow<'_>) -> [f64; N] + Copy + 'static,
     ) {
         for (i, (part, unit)) in parts.into_iter().enumerate() {
             self.one(group, &format!("{owner}_{part}"), unit, move |row| value(row)[i]);
@@ -114,7 +121,7 @@ impl List {
         group: &'static str,
         owners: &[String],
         (part, unit): (&str, &'static str),
-        values: impl for<'a> Fn(&'a Row<'_>) -> &'a [f64] + Copy + 'static,
+        values: impl for<'a> Fn(&'a TimeSeriesRow<'_>) -> &'a [f64] + Copy + 'static,
     ) {
         for (i, owner) in owners.iter().enumerate() {
             self.one(group, &format!("{owner}_{part}"), unit, move |row| values(row)[i]);

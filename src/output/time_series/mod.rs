@@ -21,7 +21,7 @@ const APPROACH: &str = "approach";
 
 /// One instant of a case.
 #[derive(Clone, Debug)]
-pub struct Row<'a> {
+pub struct TimeSeriesRow<'a> {
     /// Since the start of the approach, s.
     pub time: f64,
     /// `approach` or `post_impact`.
@@ -32,7 +32,7 @@ pub struct Row<'a> {
     pub targets: Vec<Body>,
 }
 
-impl Row<'_> {
+impl TimeSeriesRow<'_> {
     /// Momentum and energy of robot and targets together.
     #[must_use]
     pub fn whole(&self) -> Momentum<f64> {
@@ -45,16 +45,16 @@ impl Row<'_> {
 /// The approach, then the motion after the impact, where there is one.
 ///
 /// At each impact there are two rows of the same time, before and after it.
-pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = Row<'a>> {
+pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = TimeSeriesRow<'a>> {
     let approach = case.approach(study);
-    let before = approach.samples.iter().map(move |sample| Row {
+    let before = approach.samples.iter().map(move |sample| TimeSeriesRow {
         time: sample.time,
         phase: APPROACH,
         sample,
         targets: case.targets_before(approach.duration - sample.time),
     });
     let after = case.capture.iter().flat_map(move |captured| {
-        captured.post_impact.samples.iter().zip(&captured.targets).map(move |(sample, targets)| Row {
+        captured.post_impact.samples.iter().zip(&captured.targets).map(move |(sample, targets)| TimeSeriesRow {
             time: approach.duration + sample.time,
             phase: "post_impact",
             sample,

@@ -1,6 +1,6 @@
 //! One Parquet file per case: the CSV's columns as binary numbers, with what they come from.
 
-use super::{Column, Row, columns, provenance, rows};
+use super::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::capture::{CaseResult, Study};
 use crate::scenario::Scenario;
 use arrow_array::types::Int8Type;
@@ -40,7 +40,7 @@ pub fn write_parquet(scenario: &Scenario, study: &Study, case: &CaseResult, to: 
         .set_key_value_metadata(Some(origin.into()))
         .build();
     let mut writer = ArrowWriter::try_new(to, Arc::clone(&schema), Some(properties)).map_err(failed)?;
-    let rows: Vec<Row<'_>> = rows(study, case).collect();
+    let rows: Vec<TimeSeriesRow<'_>> = rows(study, case).collect();
     for rows in rows.chunks(BATCH) {
         let batch = RecordBatch::try_new(Arc::clone(&schema), arrays(&columns, rows)).map_err(io::Error::other)?;
         writer.write(&batch).map_err(failed)?;
@@ -60,8 +60,8 @@ fn schema(columns: &[Column]) -> Schema {
 }
 
 /// In the order of the [`schema`].
-fn arrays(columns: &[Column], rows: &[Row<'_>]) -> Vec<ArrayRef> {
-    let numbers = |value: &dyn Fn(&Row<'_>) -> f64| -> ArrayRef {
+fn arrays(columns: &[Column], rows: &[TimeSeriesRow<'_>]) -> Vec<ArrayRef> {
+    let numbers = |value: &dyn Fn(&TimeSeriesRow<'_>) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
     };
     let phases: DictionaryArray<Int8Type> = rows.iter().map(|row| row.phase).collect();

@@ -8,7 +8,7 @@ mod semi_implicit_euler;
 use crate::control::Control;
 use crate::error::Error;
 use crate::simulate::equation::Equation;
-use crate::simulate::integration::{Coordinates, Integration, Scheme};
+use crate::simulate::integration::{Formulation, Integration, Scheme};
 use crate::simulate::system::System;
 
 /// What a scheme is and can.
@@ -103,9 +103,9 @@ impl<'a> Stepper<'a> {
         x: &[f64],
     ) -> Result<Self, Error> {
         let equation = match (integration.coordinates, integration.scheme.properties().is_canonical) {
-            (Coordinates::Reduced, _) => Equation::reduced(system, x)?,
-            (Coordinates::Full, true) => Equation::canonical(system, x)?,
-            (Coordinates::Full, false) => Equation::full(system),
+            (Formulation::Reduced, _) => Equation::reduced(system, x)?,
+            (Formulation::Full, true) => Equation::canonical(system, x)?,
+            (Formulation::Full, false) => Equation::full(system),
         };
         Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
     }

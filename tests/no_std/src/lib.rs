@@ -6,8 +6,8 @@
 
 use planar_capture::body::Body;
 use planar_capture::contact::{
-    self, ConstraintSolver, Contact, DelassusMatrix, ImpulseEllipse, InverseInertia, LoopConstraint,
-    Workspace as HoldWorkspace, workspace_length,
+    self, ConstraintSolver, ConstraintWorkspace, Contact, DelassusMatrix, ImpulseEllipse, InverseInertia,
+    LoopConstraint, workspace_length,
 };
 use planar_capture::control::{
     ComputedTorque, Control, EndEffectorWorkspace, InverseDynamics, Limited, ProportionalDerivative,
@@ -17,9 +17,9 @@ use planar_capture::dynamics::{Kinematics, Merge, Momentum, MomentumAndEnergy};
 use planar_capture::error::Error;
 use planar_capture::formulation::{Canonical, Reduced, derivative};
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
-use planar_capture::impact::{self, RigidImpactOutput, Workspace};
+use planar_capture::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
-use planar_capture::state::{Halves, HalvesMut, State, halves, halves_mut, vector_length};
+use planar_capture::state::{State, StateVector, StateVectorMut, split, split_mut, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::{Cycloidal, EndEffectorPath, Ends, Quartic, Quintic};
 
@@ -185,7 +185,7 @@ pub fn paper(
     targets: &[Option<Target<f32>>; ARMS],
     joint_rates: &mut [f32; JOINTS],
 ) -> Result<[f32; 3], Error> {
-    let mut workspace = Workspace {
+    let mut workspace = PaperImpactWorkspace {
         impact_matrix: &mut [0.0; JOINTS * JOINTS],
         impact_momentum: &mut [0.0; JOINTS],
         jacobian: &mut [0.0; 3 * ARMS * JOINTS],
@@ -242,18 +242,18 @@ pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> 
     let before = *x;
     let state = State::from_vector(&before, JOINTS)?;
     canonical.measure(model, &state.base_pose, state.joint_angles)?;
-    canonical.momenta(model, &state, halves_mut(x)?.rates)?;
+    canonical.momenta(model, &state, split_mut(x)?.rates)?;
     let mut workspace = [0.0; GaussLegendre::<f32>::WORKSPACE * LENGTH];
     let mut gauss = GaussLegendre::new(&mut workspace)?;
     let mut joint_rates = [0.0; JOINTS];
     gauss.step(time, 0.05, x, |_, x, rate| {
-        let Halves { rates: momenta, .. } = halves(x)?;
+        let StateVector { rates: momenta, .. } = split(x)?;
         let at = State::from_vector(x, JOINTS)?;
         let base_twist = canonical.velocities(model, at.base_pose, at.joint_angles, momenta, &mut joint_rates)?;
         let now = State { base_twist, joint_rates: &joint_rates, ..at };
         rate.fill(0.0);
         now.write(rate)?;
-        let HalvesMut { positions: velocities, rates: forces, .. } = halves_mut(rate)?;
+        let StateVectorMut { positions: velocities, rates: forces, .. } = split_mut(rate)?;
         velocities.copy_from_slice(forces);
         forces.fill(0.0);
         canonical.add_energy_gradient(model, &now, forces)
@@ -281,7 +281,8 @@ fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32;
 const ROWS: usize = 6;
 const NUMBERS: usize = workspace_length(JOINTS, ARMS, 1, ROWS);
 
-/// One body touched by both tips, in any way; returns the impulses on the robot, and x and the body hold the velocities after.
+/// One body touched by both tips, in any way; returns the impulses on the robot, and x and the body hold the velocities
+/// after.
 ///
 /// # Errors
 /// What the core says of the numbers.
@@ -325,12 +326,12 @@ pub fn held_step(
     let hold = ConstraintSolver { model, bodies: &bodies, constraints };
     let mut numbers = [0.0; NUMBERS];
     let mut forces = [0.0; ROWS];
-    let mut space = HoldWorkspace {
+    let mut space = ConstraintWorkspace {
         contacts: &mut [Contact::any(); ARMS],
         numbers: numbers.get_mut(..hold.workspace_length()).unwrap_or_default(),
         forces: forces.get_mut(..hold.rows()).unwrap_or_default(),
         jacobian: &mut [0.0; 3 * ARMS * SIZE],
-        tips: &mut [[0.0; 3]; ARMS],
+        end_effectors: &mut [[0.0; 3]; ARMS],
     };
     let mut workspace = [0.0; 3 * (LENGTH + 6)];
     let mut torques = [0.0; JOINTS];
@@ -352,6 +353,6 @@ pub fn impulse_ellipse(model: &Model<f32>, state: &State<'_, f32>, arm: usize) -
     let mut wrenches = [[0.0; 3]; ARMS];
     let mut scratch = [0.0; 2 * JOINTS];
     let angles = state.joint_angles;
-    let inertia = InverseInertia::of_tip(model, &state.base_pose, angles, arm, &mut wrenches, &mut scratch)?;
+    let inertia = InverseInertia::of_end_effector(model, &state.base_pose, angles, arm, &mut wrenches, &mut scratch)?;
     Ok(inertia.impulse_ellipse())
 }

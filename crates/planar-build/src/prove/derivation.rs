@@ -57,7 +57,8 @@ pub enum DerivationError {
     },
 }
 
-/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text). `say` gets what the derivation says of itself, line by line.
+/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text).
+/// `say` gets what the derivation says of itself, line by line.
 ///
 /// # Errors
 /// [`DerivationError`], with what to install where something is missing.

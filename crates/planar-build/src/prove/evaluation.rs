@@ -12,7 +12,7 @@ use planar_dynamics::with_quantities;
 
 /// Where the robot is, how it moves, what acts on it and what it is about to capture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Instant {
+pub struct EvaluationInput {
     /// Pose, angles, twist, rates.
     pub state: RobotState,
     /// N m.
@@ -25,7 +25,7 @@ pub struct Instant {
     pub targets: Vec<Option<Target<f64>>>,
 }
 
-impl Instant {
+impl EvaluationInput {
     fn forces(&self) -> Forces<'_, f64> {
         Forces {
             joint_torques: &self.joint_torques,
@@ -76,7 +76,7 @@ impl Values {
 ///
 /// # Errors
 /// What the model says of the state, and [`Error::NotFinite`] for a result that overflows.
-pub fn evaluate(model: &dyn Model<f64>, instant: &Instant) -> Result<Values, Error> {
+pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Values, Error> {
     let mut values = Values::new(model);
     let state = instant.state.view();
     let momentum = model.momentum(&state)?;
@@ -114,7 +114,7 @@ pub fn evaluate(model: &dyn Model<f64>, instant: &Instant) -> Result<Values, Err
 ///
 /// # Errors
 /// As [`evaluate`].
-pub fn evaluate_all(model: &dyn CloneModel, instant: &Instant) -> Result<Values, Error> {
+pub fn evaluate_all(model: &dyn CloneModel, instant: &EvaluationInput) -> Result<Values, Error> {
     let mut values = evaluate(model, instant)?;
     if instant.targets.iter().any(Option::is_some) {
         merged(model, instant, &mut values)?;
@@ -171,7 +171,7 @@ macro_rules! flat {
 
 with_quantities!(functions);
 
-fn reduced_impact(model: &dyn Model<f64>, instant: &Instant, values: &mut Values) -> Result<(), Error> {
+fn reduced_impact(model: &dyn Model<f64>, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
     let joints = values.joints;
     let (mut matrix, mut momentum, mut rates) = (vec![0.0; joints * joints], vec![0.0; joints], vec![0.0; joints]);
     model.reduced_impact(&instant.state.view(), &instant.targets, &mut matrix, &mut momentum, &mut rates)?;
@@ -181,7 +181,7 @@ fn reduced_impact(model: &dyn Model<f64>, instant: &Instant, values: &mut Values
     Ok(())
 }
 
-fn capture(model: &dyn Model<f64>, instant: &Instant, values: &mut Values) -> Result<(), Error> {
+fn capture(model: &dyn Model<f64>, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
     let mut joint_rates = vec![0.0; values.joints];
     let (mut target_twists, mut impulses) = (vec![[0.0; 3]; values.arms], vec![[0.0; 3]; values.arms]);
     let mut after =
@@ -197,7 +197,7 @@ fn capture(model: &dyn Model<f64>, instant: &Instant, values: &mut Values) -> Re
 }
 
 /// The robot that holds its targets; its mass matrix G, and H = G v after the capture.
-fn merged(model: &dyn CloneModel, instant: &Instant, values: &mut Values) -> Result<(), Error> {
+fn merged(model: &dyn CloneModel, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
     let (joints, state) = (values.joints, instant.state.view());
     let mut model = model.clone_box();
     model.merge(&state.base_pose, state.joint_angles, &instant.targets)?;

@@ -83,8 +83,8 @@ pub struct Proved {
     pub proof: Proof,
 }
 
-/// Proves the graph that was derived from a layout, and adds reference vectors to it: results of the generic implementation
-/// that a module made from it compares its own with.
+/// Proves the graph that was derived from a layout, and adds reference vectors to it: results of the generic
+/// implementation that a module made from it compares its own with.
 ///
 /// # Errors
 /// [`GenerateError`].
@@ -92,7 +92,7 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let vectors = (0..CARRIED).map(|index| {
-        let vectors = at(layout, Regime::SequenceState, index)?;
+        let vectors = at(layout, Regime::Moving, index)?;
         let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::from)?;
         Ok(vectors.to_json(&found))
     });
@@ -105,8 +105,8 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     Ok(Proved { graph, text, proof })
 }
 
-/// Compares a graph, computed as it stands, with the generic implementation: every result of every function at states of
-/// every regime that leaves the layout's numbers as they are.
+/// Compares a graph, computed as it stands, with the generic implementation: every result of every function at states
+/// of every regime that leaves the layout's numbers as they are.
 ///
 /// # Errors
 /// [`GenerateError`], with the first result that is off.

@@ -1,6 +1,6 @@
 //! Random states, regime by regime.
 
-use crate::prove::evaluation::Instant;
+use crate::prove::evaluation::EvaluationInput;
 use crate::prove::owned::RobotState;
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
     /// Everything moves, at about 1 rad/s.
-    SequenceState,
+    Moving,
     /// Nothing moves: accelerations come from forces alone.
     AtRest,
     /// 100 rad/s, 100 m/s: the bias dominates.
@@ -43,7 +43,7 @@ pub enum Regime {
 
 /// Every regime.
 pub const REGIMES: [Regime; 13] = [
-    Regime::SequenceState,
+    Regime::Moving,
     Regime::AtRest,
     Regime::Fast,
     Regime::Stretched,
@@ -60,11 +60,11 @@ pub const REGIMES: [Regime; 13] = [
 
 /// A robot and a state of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct RegimeSample {
     /// With the masses of the regime.
     pub layout: Layout,
     /// State, forces, targets.
-    pub instant: Instant,
+    pub instant: EvaluationInput,
 }
 
 impl Regime {
@@ -72,7 +72,7 @@ impl Regime {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::SequenceState => "moving",
+            Self::Moving => "moving",
             Self::AtRest => "at rest",
             Self::Fast => "fast",
             Self::Stretched => "stretched",
@@ -90,11 +90,11 @@ impl Regime {
 
     /// Sample `index` of the regime for a layout: any one alone, the same on every machine.
     #[must_use]
-    pub fn sample(self, layout: &Layout, seed: u64, index: u64) -> Sample {
+    pub fn sample(self, layout: &Layout, seed: u64, index: u64) -> RegimeSample {
         let mut random = Random::new(seed, self, index);
         let layout = self.layout(layout, &mut random);
         let instant = self.instant(&layout, &mut random);
-        Sample { layout, instant }
+        RegimeSample { layout, instant }
     }
 
     /// Whether its samples are of the layout as it is, and not of other numbers.
@@ -125,7 +125,7 @@ impl Regime {
         layout
     }
 
-    fn instant(self, layout: &Layout, random: &mut Random) -> Instant {
+    fn instant(self, layout: &Layout, random: &mut Random) -> EvaluationInput {
         let joints = layout.joints();
         let distance = if self == Self::Far { 1e6 } else { 2.0 };
         let turns = if self == Self::Far { 10.0 } else { 1.0 };
@@ -146,7 +146,7 @@ impl Regime {
             joint_rates: (0..joints).map(|_| random.within(speed)).collect(),
         };
         let arms = layout.arms.len();
-        Instant {
+        EvaluationInput {
             state,
             joint_torques: (0..joints).map(|_| random.within(10.0)).collect(),
             base_wrench: random.coin().then(|| random.vector(10.0)),

@@ -1,10 +1,10 @@
 //! Reference vectors: what the generic implementation says of a state, for every result of every generated function.
 
 use super::interpreter::Found;
-use crate::prove::evaluation::{Instant, evaluate_all};
+use crate::prove::evaluation::{EvaluationInput, evaluate_all};
 use crate::prove::generic::Generic;
 use crate::prove::quantities::{NaturalSize, natural_sizes};
-use crate::prove::sampling::{Regime, Sample};
+use crate::prove::sampling::{Regime, RegimeSample};
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
 use planar_dynamics::target::Target;
@@ -56,7 +56,7 @@ impl Expected {
 /// One state with all that has to come of it.
 #[derive(Clone, Debug)]
 pub struct Vectors {
-    instant: Instant,
+    instant: EvaluationInput,
     /// One per result of every function.
     pub expected: Vec<Expected>,
 }
@@ -68,7 +68,7 @@ impl Vectors {
     /// # Errors
     /// A state that the generic implementation has no answer for.
     pub fn new(layout: &Layout, regime: Regime, index: u64) -> Result<Self, Error> {
-        let Sample { instant, .. } = regime.sample(layout, 0, index);
+        let RegimeSample { instant, .. } = regime.sample(layout, 0, index);
         let mut instant = readable(instant);
         let arms = layout.arms.len();
         instant.base_wrench.get_or_insert([0.0; 3]);
@@ -78,8 +78,8 @@ impl Vectors {
         if let (Some(first), true) = (instant.targets.first_mut(), free) {
             *first = Some(Target { mass: 10.0, inertia: 0.5, contact: [0.25, -0.125], twist: [0.5, -0.25, 0.125] });
         }
-        let torques_alone = Instant { base_wrench: None, end_effector_wrenches: None, ..instant.clone() };
-        let base_wrench = Instant { end_effector_wrenches: None, ..instant.clone() };
+        let torques_alone = EvaluationInput { base_wrench: None, end_effector_wrenches: None, ..instant.clone() };
+        let base_wrench = EvaluationInput { end_effector_wrenches: None, ..instant.clone() };
         let [torques_alone, base_wrench, all] =
             [&torques_alone, &base_wrench, &instant].map(|instant| results(layout, instant));
         let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
@@ -109,7 +109,7 @@ impl Vectors {
     /// The inputs of all functions, row-major, by name.
     #[must_use]
     pub fn inputs(&self) -> [(&'static str, Vec<f64>); 11] {
-        let Instant { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
+        let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
         let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::none)).collect();
         [
             ("base_pose", state.base_pose.to_vec()),
@@ -126,8 +126,8 @@ impl Vectors {
         ]
     }
 
-    /// As a graph keeps them: the elements of each input and of each expected result, row-major, in the graph's order. Pivots,
-    /// which the generic implementation does not have, are those that were `found`.
+    /// As a graph keeps them: the elements of each input and of each expected result, row-major, in the graph's order.
+    /// Pivots, which the generic implementation does not have, are those that were `found`.
     #[must_use]
     pub fn to_json(&self, found: &[Found]) -> Value {
         let inputs: Vec<Value> =
@@ -158,8 +158,8 @@ struct Known {
 }
 
 /// Every quantity of one instant by the generic implementation.
-fn results(layout: &Layout, instant: &Instant) -> Result<Vec<Known>, Error> {
-    let sample = Sample { layout: layout.clone(), instant: instant.clone() };
+fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<Known>, Error> {
+    let sample = RegimeSample { layout: layout.clone(), instant: instant.clone() };
     let values = evaluate_all(&Generic::new(layout), instant)?;
     let sizes = natural_sizes(&sample, &values).into_iter();
     let each = sizes.filter_map(|(quantity, NaturalSize { sizes, condition })| {
@@ -174,9 +174,9 @@ fn results(layout: &Layout, instant: &Instant) -> Result<Vec<Known>, Error> {
 }
 
 /// Four digits of every number.
-fn readable(mut instant: Instant) -> Instant {
+fn readable(mut instant: EvaluationInput) -> EvaluationInput {
     let round = |x: &mut f64| *x = format!("{x:.3e}").parse().unwrap_or(*x);
-    let Instant { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &mut instant;
+    let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &mut instant;
     state.base_pose.iter_mut().chain(&mut state.base_twist).for_each(round);
     state.joint_angles.iter_mut().chain(&mut state.joint_rates).chain(joint_torques).for_each(round);
     base_wrench.iter_mut().chain(end_effector_wrenches.iter_mut().flatten()).flatten().for_each(round);

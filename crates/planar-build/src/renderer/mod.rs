@@ -40,8 +40,8 @@ pub struct Module<'a> {
 }
 
 impl Module<'_> {
-    /// The module's text, formatted, with its header, and with its own test where the graph has reference vectors. The same
-    /// graph and the same choices give the same bytes on every machine.
+    /// The module's text, formatted, with its header, and with its own test where the graph has reference vectors. The
+    /// same graph and the same choices give the same bytes on every machine.
     ///
     /// # Errors
     /// A graph that is not of the format, or a template that does not render: what and where.

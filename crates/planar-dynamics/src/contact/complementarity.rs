@@ -10,7 +10,8 @@ const MOST_EXCHANGES: u32 = 10_000;
 
 /// Finds impulses p with `u⁺ = W p + u`: for bilateral rows u⁺ = 0; for the others p ≥ 0, u⁺ ≥ 0 and p u⁺ = 0.
 ///
-/// Murty's least-index principal pivoting, which ends because W is positive definite. `factors` is working space of W's size.
+/// Murty's least-index principal pivoting, which ends because W is positive definite. `factors` is working space of W's
+/// size.
 ///
 /// # Errors
 /// [`Error::Singular`] where the rows that carry impulses depend on each other; [`Error::Exhausted`].
@@ -49,8 +50,8 @@ pub(super) fn solve_contacts<T: Real>(
     Err(Error::Exhausted { what: "the impulses of the contacts", rounds: MOST_EXCHANGES })
 }
 
-/// Solves `W x = b` for the rows and columns of a set; x is zero for the others. b becomes x, `factors` is working space of
-/// W's size.
+/// Solves `W x = b` for the rows and columns of a set; x is zero for the others. b becomes x, `factors` is working
+/// space of W's size.
 ///
 /// # Errors
 /// [`Error::Singular`] where rows depend on each other: to 1e-6 in double precision.

@@ -4,12 +4,12 @@ use super::{Contact, ContactLaw, ContactPartner};
 use crate::linear::dot;
 use crate::scalar::Real;
 
-/// A wrench direction between a tip and what it touches.
+/// A wrench direction between an end effector and what it touches.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row<T> {
+pub(super) struct ConstraintRow<T> {
     pub(super) arm: usize,
     pub(super) other: ContactPartner,
-    /// [n, fx, fy] on the robot at the tip.
+    /// [n, fx, fy] on the robot at the end effector.
     pub(super) wrench: [T; 3],
     /// The same about the origin of what is touched, on which it acts with the other sign.
     pub(super) at_other: [T; 3],
@@ -19,21 +19,22 @@ pub(super) struct Row<T> {
     pub(super) restitution: Option<T>,
 }
 
-impl<T: Real> Row<T> {
-    /// Its velocity u, or acceleration, for these of the tips and of the bodies: rad/s for a moment, m/s for a force.
-    pub(super) fn velocity_of(&self, tips: &[[T; 3]], bodies: &[[T; 3]]) -> T {
+impl<T: Real> ConstraintRow<T> {
+    /// Its velocity u, or acceleration, for these of the end effectors and of the bodies: rad/s for a moment, m/s for a
+    /// force.
+    pub(super) fn velocity_of(&self, end_effectors: &[[T; 3]], bodies: &[[T; 3]]) -> T {
         let other = match self.other {
             ContactPartner::Body(i) => bodies.get(i),
-            ContactPartner::EndEffector(arm) => tips.get(arm),
+            ContactPartner::EndEffector(arm) => end_effectors.get(arm),
         };
         let part = |wrench: &[T; 3], twist: Option<&[T; 3]>| twist.map_or(T::ZERO, |twist| dot(wrench, twist));
-        part(&self.wrench, tips.get(self.arm)) - part(&self.at_other, other)
+        part(&self.wrench, end_effectors.get(self.arm)) - part(&self.at_other, other)
     }
 }
 
 impl<T: Real> Contact<T> {
     /// Its rows: 3, 2 or 1.
-    pub(super) fn rows(&self) -> impl Iterator<Item = Row<T>> + use<T> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = ConstraintRow<T>> + use<T> {
         let (zero, one) = (T::ZERO, T::ONE);
         let (wrenches, count, restitution) = match self.law {
             ContactLaw::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3, None),
@@ -45,7 +46,7 @@ impl<T: Real> Contact<T> {
         let Self { arm, other, offset: [rx, ry], .. } = *self;
         wrenches.into_iter().take(count).map(move |wrench| {
             let [n, fx, fy] = wrench;
-            Row {
+            ConstraintRow {
                 arm,
                 other,
                 wrench,

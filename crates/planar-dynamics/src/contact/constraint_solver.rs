@@ -6,13 +6,13 @@ use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::state::{Coordinates, CoordinatesMut, Halves, HalvesMut, State, halves, halves_mut, vector_length};
+use crate::state::{Coordinates, CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut, vector_length};
 use crate::validate::length;
 
 /// The most corrections of positions after a step; one is enough but where a step was much too long.
 const MOST_CORRECTIONS: usize = 4;
 
-/// A robot, the bodies beside it and what the tips hold.
+/// A robot, the bodies beside it and what the end effectors hold.
 #[derive(Clone, Copy)]
 pub struct ConstraintSolver<'a, T> {
     /// The robot.
@@ -25,7 +25,7 @@ pub struct ConstraintSolver<'a, T> {
 
 /// Working space of a [`ConstraintSolver`]; any values.
 #[derive(Debug)]
-pub struct Workspace<'a, T> {
+pub struct ConstraintWorkspace<'a, T> {
     /// As many as closures.
     pub contacts: &'a mut [Contact<T>],
     /// [`ConstraintSolver::workspace_length`].
@@ -35,7 +35,7 @@ pub struct Workspace<'a, T> {
     /// 3 arms × (3 + joints).
     pub jacobian: &'a mut [T],
     /// One per arm.
-    pub tips: &'a mut [[T; 3]],
+    pub end_effectors: &'a mut [[T; 3]],
 }
 
 impl<T: Real> ConstraintSolver<'_, T> {
@@ -45,7 +45,7 @@ impl<T: Real> ConstraintSolver<'_, T> {
         self.constraints.iter().map(|constraint| if constraint.yaw.is_some() { 3 } else { 2 }).sum()
     }
 
-    /// Length of [`Workspace::numbers`].
+    /// Length of [`ConstraintWorkspace::numbers`].
     #[must_use]
     pub fn workspace_length(&self) -> usize {
         workspace_length(self.model.joints(), self.model.arms(), self.bodies.len(), self.rows())
@@ -56,56 +56,56 @@ impl<T: Real> ConstraintSolver<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`]; [`Error::Singular`] where holds depend on each other; what the model says.
-    pub fn constrain(&self, x: &[T], rate: &mut [T], workspace: &mut Workspace<'_, T>) -> Result<(), Error> {
+    pub fn constrain(&self, x: &[T], rate: &mut [T], workspace: &mut ConstraintWorkspace<'_, T>) -> Result<(), Error> {
         self.find_contacts(x, workspace)?;
-        let Workspace { contacts, numbers, forces, jacobian, tips } = workspace;
+        let ConstraintWorkspace { contacts, numbers, forces, jacobian, end_effectors } = workspace;
         let (state, _, twists) = self.parts(x)?;
         let mut rows =
             DelassusMatrix::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
-        let HalvesMut { rates: accelerations, .. } = halves_mut(rate)?;
+        let StateVectorMut { rates: accelerations, .. } = split_mut(rate)?;
         let CoordinatesMut { base, joints, bodies } = CoordinatesMut::new(accelerations, self.model.joints())?;
         let free = State { base_twist: *base, joint_rates: joints, ..state };
-        self.model.end_effector_twists(&free, rows.tips)?;
+        self.model.end_effector_twists(&free, rows.end_effectors)?;
         self.model.end_effector_jacobian(&state.base_pose, state.joint_angles, jacobian)?;
-        add_centripetal(&state, jacobian, rows.tips);
-        self.model.end_effector_twists(&state, tips)?;
+        add_centripetal(&state, jacobian, rows.end_effectors);
+        self.model.end_effector_twists(&state, end_effectors)?;
         for (force, row) in forces.iter_mut().zip(rows.rows()) {
             let spin = match row.other {
                 ContactPartner::Body(i) => twists.get(i),
-                ContactPartner::EndEffector(arm) => tips.get(arm),
+                ContactPartner::EndEffector(arm) => end_effectors.get(arm),
             };
             let omega = spin.map_or(T::ZERO, |[omega, ..]| *omega);
-            *force = -(row.velocity_of(rows.tips, bodies) + omega * omega * row.reach);
+            *force = -(row.velocity_of(rows.end_effectors, bodies) + omega * omega * row.reach);
         }
         rows.solve(forces)?;
         rows.add_responses(forces, base, joints, bodies.as_flattened_mut());
         Ok(())
     }
 
-    /// Closes what rounding and the step opened: positions by Newton's method with the least change that the masses allow,
-    /// `W μ = −g`, `δq = M⁻¹ Aᵀ μ`, then the velocities, `W μ = −A v`, `δv = M⁻¹ Aᵀ μ`. Both are what internal impulses
-    /// do, so that momentum stays.
+    /// Closes what rounding and the step opened: positions by Newton's method with the least change that the masses
+    /// allow, `W μ = −g`, `δq = M⁻¹ Aᵀ μ`, then the velocities, `W μ = −A v`, `δv = M⁻¹ Aᵀ μ`. Both are what internal
+    /// impulses do, so that momentum stays.
     ///
     /// # Errors
     /// As [`ConstraintSolver::constrain`].
-    pub fn restore(&self, x: &mut [T], workspace: &mut Workspace<'_, T>) -> Result<(), Error> {
+    pub fn restore(&self, x: &mut [T], workspace: &mut ConstraintWorkspace<'_, T>) -> Result<(), Error> {
         let mut rounds = 0;
         loop {
             let open = self.find_contacts(x, workspace)?;
-            let Workspace { contacts, numbers, forces, .. } = &mut *workspace;
+            let ConstraintWorkspace { contacts, numbers, forces, .. } = &mut *workspace;
             let (state, _, twists) = self.parts(x)?;
             let mut rows =
                 DelassusMatrix::new(self.model, &state.base_pose, state.joint_angles, self.bodies, contacts, numbers)?;
             let size = state.base_pose.iter().fold(T::ONE, |sum, value| sum + value.abs());
             let closed = open <= T::EPSILON * T::constant(16.0) * size || rounds == MOST_CORRECTIONS;
             if closed {
-                self.model.end_effector_twists(&state, rows.tips)?;
+                self.model.end_effector_twists(&state, rows.end_effectors)?;
                 for (force, row) in forces.iter_mut().zip(rows.rows()) {
-                    *force = -row.velocity_of(rows.tips, twists);
+                    *force = -row.velocity_of(rows.end_effectors, twists);
                 }
             }
             rows.solve(forces)?;
-            let HalvesMut { positions, rates, .. } = halves_mut(x)?;
+            let StateVectorMut { positions, rates, .. } = split_mut(x)?;
             let half = if closed { rates } else { positions };
             let CoordinatesMut { base, joints, bodies } = CoordinatesMut::new(half, self.model.joints())?;
             rows.add_responses(forces, base, joints, bodies.as_flattened_mut());
@@ -120,30 +120,30 @@ impl<T: Real> ConstraintSolver<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`]; what the model says.
-    pub fn errors(&self, x: &[T], workspace: &mut Workspace<'_, T>) -> Result<[T; 2], Error> {
+    pub fn errors(&self, x: &[T], workspace: &mut ConstraintWorkspace<'_, T>) -> Result<[T; 2], Error> {
         let open = self.find_contacts(x, workspace)?;
         let (state, _, twists) = self.parts(x)?;
-        self.model.end_effector_twists(&state, workspace.tips)?;
+        self.model.end_effector_twists(&state, workspace.end_effectors)?;
         let rows = workspace.contacts.iter().flat_map(Contact::rows);
-        let rates = rows.map(|row| row.velocity_of(workspace.tips, twists).abs());
+        let rates = rows.map(|row| row.velocity_of(workspace.end_effectors, twists).abs());
         Ok([open, rates.fold(T::ZERO, largest)])
     }
 
     /// The holds as contacts at `x`, with minus what they are open by as forces; returns the largest size of that.
-    fn find_contacts(&self, x: &[T], workspace: &mut Workspace<'_, T>) -> Result<T, Error> {
+    fn find_contacts(&self, x: &[T], workspace: &mut ConstraintWorkspace<'_, T>) -> Result<T, Error> {
         length("contacts", self.constraints.len(), workspace.contacts.len())?;
         length("constraint forces", self.rows(), workspace.forces.len())?;
         let (state, poses, _) = self.parts(x)?;
-        self.model.end_effector_poses(&state.base_pose, state.joint_angles, workspace.tips)?;
+        self.model.end_effector_poses(&state.base_pose, state.joint_angles, workspace.end_effectors)?;
         let mut forces = workspace.forces.iter_mut();
         let mut open = T::ZERO;
         for (place, constraint) in workspace.contacts.iter_mut().zip(self.constraints) {
             let held = match constraint.other {
                 ContactPartner::Body(i) => poses.get(i),
-                ContactPartner::EndEffector(arm) => workspace.tips.get(arm),
+                ContactPartner::EndEffector(arm) => workspace.end_effectors.get(arm),
             };
-            let count = workspace.tips.len();
-            let tip = workspace.tips.get(constraint.arm).ok_or(Error::Index {
+            let count = workspace.end_effectors.len();
+            let end_effector = workspace.end_effectors.get(constraint.arm).ok_or(Error::Index {
                 what: "arm that holds",
                 index: constraint.arm,
                 count,
@@ -151,7 +151,7 @@ impl<T: Real> ConstraintSolver<'_, T> {
             let held = held.ok_or(constraint.other.missing(count, poses.len()))?;
             *place = constraint.contact(held);
             // the errors first: where they end, no force is taken
-            for (error, force) in constraint.errors(tip, held).zip(&mut forces) {
+            for (error, force) in constraint.errors(end_effector, held).zip(&mut forces) {
                 *force = -error;
                 open = largest(open, error.abs());
             }
@@ -164,20 +164,21 @@ impl<T: Real> ConstraintSolver<'_, T> {
     fn parts<'x>(&self, x: &'x [T]) -> Result<(State<'x, T>, &'x [[T; 3]], &'x [[T; 3]]), Error> {
         let joints = self.model.joints();
         length("state vector", vector_length(joints) + 6 * self.bodies.len(), x.len())?;
-        let Halves { positions, rates, .. } = halves(x)?;
+        let StateVector { positions, rates, .. } = split(x)?;
         let bodies = |half| Coordinates::new(half, joints).map(|parts| parts.bodies);
         Ok((State::from_vector(x, joints)?, bodies(positions)?, bodies(rates)?))
     }
 }
 
-/// Adds `J̇ v` to the accelerations of the tips: `−Σ ω² d` over the segments d from the base COM to a tip, each turning
-/// with the sum ω of the rates before it. The columns of J are the lever arms from which the segments follow.
-fn add_centripetal<T: Real>(state: &State<'_, T>, jacobian: &[T], tips: &mut [[T; 3]]) {
+/// Adds `J̇ v` to the accelerations of the end effectors: `−Σ ω² d` over the segments d from the base COM to an end
+/// effector, each turning with the sum ω of the rates before it. The columns of J are the lever arms from which the
+/// segments follow.
+fn add_centripetal<T: Real>(state: &State<'_, T>, jacobian: &[T], end_effectors: &mut [[T; 3]]) {
     let width = 3 + state.joint_rates.len();
     let [base_rate, ..] = state.base_twist;
-    for ([_, ax, ay], rows) in tips.iter_mut().zip(jacobian.chunks_exact((3 * width).max(1))) {
+    for ([_, ax, ay], rows) in end_effectors.iter_mut().zip(jacobian.chunks_exact((3 * width).max(1))) {
         let entry = |row: usize, column: usize| rows.get(row * width + column).copied().unwrap_or(T::ZERO);
-        // from the axis of a column to the tip
+        // from the axis of a column to the end effector
         let lever = |column: usize| [entry(2, column), -entry(1, column)];
         let mut omega = base_rate;
         let mut last = lever(0);

@@ -1,7 +1,7 @@
 //! The rows of all contacts together: what unit impulses along them do.
 
 use super::complementarity::solve_rows;
-use super::constraint_row::{Row, Set};
+use super::constraint_row::{ConstraintRow, Set};
 use super::{Contact, ContactPartner};
 use crate::body::Body;
 use crate::dynamics::Model;
@@ -19,8 +19,8 @@ pub const fn workspace_length(joints: usize, arms: usize, bodies: usize, rows: u
     rows * (3 + joints + 3 * bodies + 2 * rows + 5) + 6 * arms + joints
 }
 
-/// W, the inverse inertia that the contacts see (the Delassus matrix): `W = A M⁻¹ Aᵀ` with the rows A and the mass matrix
-/// M of robot and bodies together; and `M⁻¹ Aᵀ`, the change of velocities per unit impulse along each row.
+/// W, the inverse inertia that the contacts see (the Delassus matrix): `W = A M⁻¹ Aᵀ` with the rows A and the mass
+/// matrix M of robot and bodies together; and `M⁻¹ Aᵀ`, the change of velocities per unit impulse along each row.
 #[derive(Debug)]
 pub struct DelassusMatrix<'a, T> {
     contacts: &'a [Contact<T>],
@@ -32,7 +32,7 @@ pub struct DelassusMatrix<'a, T> {
     pub(super) factors: &'a mut [T],
     /// Working space, five vectors of rows.
     pub(super) vectors: [&'a mut [T]; 5],
-    pub(super) tips: &'a mut [[T; 3]],
+    pub(super) end_effectors: &'a mut [[T; 3]],
     wrenches: &'a mut [[T; 3]],
     still: &'a mut [T],
     /// Rows that pull as well as they push.
@@ -49,8 +49,8 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
     /// At a configuration; `workspace` has [`workspace_length`] numbers.
     ///
     /// # Errors
-    /// [`Error::Length`] for another workspace or more than 64 rows; [`Error::Index`] for arms and bodies that there are not;
-    /// [`Error::NotFinite`]; what the model says.
+    /// [`Error::Length`] for another workspace or more than 64 rows; [`Error::Index`] for arms and bodies that there
+    /// are not; [`Error::NotFinite`]; what the model says.
     pub fn new(
         model: &dyn Model<T>,
         base_pose: &[T; 3],
@@ -76,19 +76,20 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         let (matrix, factors) = (part(count * count), part(count * count));
         let responses = part(count * (3 + joints + 3 * bodies.len()));
         let vectors = [part(count), part(count), part(count), part(count), part(count)];
-        let (tips, _) = part(3 * arms).as_chunks_mut::<3>();
+        let (end_effectors, _) = part(3 * arms).as_chunks_mut::<3>();
         let (wrenches, _) = part(3 * arms).as_chunks_mut::<3>();
         let still = part(joints);
         still.fill(T::ZERO);
         let kinds = contacts.iter().flat_map(Contact::rows).enumerate();
         let bilateral = kinds.fold(0, |set, (i, row)| set | Set::from(row.restitution.is_none()) << i);
-        let mut rows = Self { contacts, matrix, responses, factors, vectors, tips, wrenches, still, bilateral };
+        let mut rows =
+            Self { contacts, matrix, responses, factors, vectors, end_effectors, wrenches, still, bilateral };
         rows.respond(model, base_pose, joint_angles, bodies)?;
         Ok(rows)
     }
 
     /// All rows, in the contacts' order.
-    pub(super) fn rows(&self) -> impl Iterator<Item = Row<T>> + use<'a, T> {
+    pub(super) fn rows(&self) -> impl Iterator<Item = ConstraintRow<T>> + use<'a, T> {
         self.contacts.iter().flat_map(Contact::rows)
     }
 
@@ -101,7 +102,7 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         bodies: &[Body<T>],
     ) -> Result<(), Error> {
         let rows = self.rows();
-        let Self { contacts, matrix, responses, tips, wrenches, still, .. } = self;
+        let Self { contacts, matrix, responses, end_effectors, wrenches, still, .. } = self;
         let joints = still.len();
         let at_rest = State { base_pose: *base_pose, joint_angles, base_twist: [T::ZERO; 3], joint_rates: still };
         let size = 3 + joints + 3 * bodies.len();
@@ -117,7 +118,7 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
             let forces = Forces { end_effector_wrenches: Some(wrenches), ..Forces::torques(still) };
             let base_twist = model.forward_dynamics(&at_rest, &forces, joint_rates)?;
             *base = base_twist;
-            model.end_effector_twists(&State { base_twist, joint_rates, ..at_rest }, tips)?;
+            model.end_effector_twists(&State { base_twist, joint_rates, ..at_rest }, end_effectors)?;
             of_bodies.fill(T::ZERO);
             let (twists, _) = of_bodies.as_chunks_mut::<3>();
             if let ContactPartner::Body(i) = row.other
@@ -127,7 +128,7 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
                 *twist = [-(n / body.inertia), -(fx / body.mass), -(fy / body.mass)];
             }
             for (product, other) in products.iter_mut().zip(contacts.iter().flat_map(Contact::rows)) {
-                *product = other.velocity_of(tips, twists);
+                *product = other.velocity_of(end_effectors, twists);
             }
         }
         finite("inverse inertia at the contacts", matrix)
@@ -154,7 +155,7 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         }
     }
 
-    /// [n, fx, fy] on the robot at each contact's tip.
+    /// [n, fx, fy] on the robot at each contact's end effector.
     pub(super) fn wrenches_into(&self, impulses: &[T], wrenches: &mut [[T; 3]]) {
         let mut impulses = impulses.iter();
         for (sum, contact) in wrenches.iter_mut().zip(self.contacts) {

@@ -17,7 +17,7 @@ pub struct ImpactOutput<'a, T> {
     pub joint_rates: &'a mut [T],
     /// [ω, vx, vy] of each body's COM.
     pub body_twists: &'a mut [[T; 3]],
-    /// [n, fx, fy] on the robot at each contact's tip, inertial axes, N m s, N s.
+    /// [n, fx, fy] on the robot at each contact's end effector, inertial axes, N m s, N s.
     pub impulses: &'a mut [[T; 3]],
 }
 
@@ -34,12 +34,13 @@ pub struct ImpactOutput<'a, T> {
 /// | bounces | p ≥ 0, u⁺ ≥ 0, p u⁺ = 0 | p₂ ≥ e p, u⁺ ≥ 0, (p₂ − e p) u⁺ = 0 |
 ///
 /// Momentum of robot and bodies together is conserved to rounding. Energy never grows, whatever the restitutions: p₂
-/// minimises the energy `u·p₂ + ½ p₂ᵀ W p₂` gained over all p₂ ≥ e p, of which the compression's own p, which gives back just
-/// what that took, is one. A single bounce is Newton's law too: u⁺ = −e u. A bounce that separates takes no impulse.
+/// minimises the energy `u·p₂ + ½ p₂ᵀ W p₂` gained over all p₂ ≥ e p, of which the compression's own p, which gives
+/// back just what that took, is one. A single bounce is Newton's law too: u⁺ = −e u. A bounce that separates takes no
+/// impulse.
 ///
 /// # Errors
-/// [`Error::Length`], [`Error::NotFinite`]; [`Error::Singular`] where contacts depend on each other, as two rigid ones on
-/// arms that have too few joints for a loop.
+/// [`Error::Length`], [`Error::NotFinite`]; [`Error::Singular`] where contacts depend on each other, as two rigid ones
+/// on arms that have too few joints for a loop.
 pub fn impact<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
@@ -57,9 +58,9 @@ pub fn impact<T: Real>(
         *twist = body.twist;
     }
     let [before, compression, total, shifted, given] = core::mem::take(&mut rows.vectors);
-    model.end_effector_twists(state, rows.tips)?;
+    model.end_effector_twists(state, rows.end_effectors)?;
     for (velocity, row) in before.iter_mut().zip(rows.rows()) {
-        *velocity = row.velocity_of(rows.tips, after.body_twists);
+        *velocity = row.velocity_of(rows.end_effectors, after.body_twists);
     }
     solve_contacts(rows.matrix, before, rows.bilateral, rows.factors, compression)?;
     for ((given, impulse), row) in given.iter_mut().zip(compression.iter()).zip(rows.rows()) {

@@ -1,4 +1,4 @@
-//! How a tip answers impulses: the extended inverse inertia tensor and what follows from it.
+//! How an end effector answers impulses: the extended inverse inertia tensor and what follows from it.
 
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -7,9 +7,9 @@ use crate::scalar::{Real, Scalar};
 use crate::state::{Forces, State};
 use crate::validate::length;
 
-/// The change of a twist [ω, vx, vy] at a point per impulse [n, fx, fy] there: of a tip, the extended inverse inertia
-/// tensor `J_e M⁻¹ J_eᵀ` of Yoshida & Sashida (*Modeling of impact dynamics and impulse minimization for space robots*,
-/// IROS 1993), base and joints free; of a body, `J_t I_t⁻¹ J_tᵀ`; of both in contact, the sum.
+/// The change of a twist [ω, vx, vy] at a point per impulse [n, fx, fy] there: of an end effector, the extended inverse
+/// inertia tensor `J_e M⁻¹ J_eᵀ` of Yoshida & Sashida (*Modeling of impact dynamics and impulse minimization for space
+/// robots*, IROS 1993), base and joints free; of a body, `J_t I_t⁻¹ J_tᵀ`; of both in contact, the sum.
 ///
 /// Symmetric, rows of inertial axes; 1/(kg m²), 1/(kg m), 1/kg.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,12 +26,12 @@ pub struct ImpulseEllipse<T> {
 }
 
 impl<T: Real> InverseInertia<T> {
-    /// Of the tip of an arm.
+    /// Of the end effector of an arm.
     ///
     /// # Errors
-    /// [`Error::Index`] where there is no such arm, [`Error::Length`] where the slices do not fit the model: `wrenches` has one per arm,
-    /// `scratch` twice as many numbers as there are joints; what the model says.
-    pub fn of_tip(
+    /// [`Error::Index`] where there is no such arm, [`Error::Length`] where the slices do not fit the model: `wrenches`
+    /// has one per arm, `scratch` twice as many numbers as there are joints; what the model says.
+    pub fn of_end_effector(
         model: &dyn Model<T>,
         base_pose: &[T; 3],
         joint_angles: &[T],
@@ -87,8 +87,8 @@ impl<T: Real> InverseInertia<T> {
         dot(direction, self.change(direction)).recip()
     }
 
-    /// The impulse at a point contact, [fx, fy] on the first of the two, that ends their relative velocity [vx, vy] without
-    /// restitution: `F̄ = −G⁻¹ v`. Its size for a unit velocity is the impulse index of that direction.
+    /// The impulse at a point contact, [fx, fy] on the first of the two, that ends their relative velocity [vx, vy]
+    /// without restitution: `F̄ = −G⁻¹ v`. Its size for a unit velocity is the impulse index of that direction.
     #[must_use]
     pub fn stopping_impulse(&self, [vx, vy]: &[T; 2]) -> [T; 2] {
         let [_, [_, a, b], [_, _, c]] = self.0;

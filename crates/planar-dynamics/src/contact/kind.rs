@@ -55,8 +55,8 @@ pub enum ContactLaw<T> {
     Rigid,
     /// See [`ContactKind::Pin`].
     Pin,
-    /// Poisson's restitution along the normal. It is a law for contacts that do not hold; a holding contact with restitution
-    /// could create energy.
+    /// Poisson's restitution along the normal. It is a law for contacts that do not hold; a holding contact with
+    /// restitution could create energy.
     Bounce {
         /// Of the surface that the end effector touches, outwards, unit length, inertial axes.
         normal: [T; 2],

@@ -1,4 +1,4 @@
-//! What tips hold after an impact, and the forces that keep it so.
+//! What end effectors hold after an impact, and the forces that keep it so.
 
 use super::{Contact, ContactLaw, ContactPartner};
 use crate::scalar::{Real, Scalar};
@@ -6,28 +6,33 @@ use crate::scalar::{Real, Scalar};
 /// A hold that closes a loop, or that holds a body which is no part of the robot's tree: a contact that lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopConstraint<T> {
-    /// The arm whose tip holds.
+    /// The arm whose end effector holds.
     pub arm: usize,
     /// What it holds.
     pub other: ContactPartner,
-    /// From the COM of the body, or from the other tip, to the point that is held, in the frame of body or last link, m.
+    /// From the COM of the body, or from the other end effector, to the point that is held, in the frame of body or
+    /// last link, m.
     pub offset: [T; 2],
-    /// Yaw of the tip less that of what it holds, rad; `None` for a pin, which turns freely.
+    /// Yaw of the end effector less that of what it holds, rad; `None` for a pin, which turns freely.
     pub yaw: Option<T>,
 }
 
 impl<T: Real> LoopConstraint<T> {
-    /// The hold that a contact begins, from the poses of the tip and of what it touches at that instant; `None` for a
-    /// bounce. The point that is held is where the tip is.
+    /// The hold that a contact begins, from the poses of the end effector and of what it touches at that instant;
+    /// `None` for a bounce. The point that is held is where the end effector is.
     #[must_use]
-    pub fn new(contact: &Contact<T>, [tip_yaw, tip_x, tip_y]: &[T; 3], [yaw, x, y]: &[T; 3]) -> Option<Self> {
+    pub fn new(
+        contact: &Contact<T>,
+        [end_effector_yaw, end_effector_x, end_effector_y]: &[T; 3],
+        [yaw, x, y]: &[T; 3],
+    ) -> Option<Self> {
         let (sin, cos) = Scalar::sin_cos(*yaw);
-        let (dx, dy) = (*tip_x - *x, *tip_y - *y);
+        let (dx, dy) = (*end_effector_x - *x, *end_effector_y - *y);
         let kind = contact.law.kind();
         if !kind.holds() {
             return None;
         }
-        let yaw = kind.holds_yaw().then_some(*tip_yaw - *yaw);
+        let yaw = kind.holds_yaw().then_some(*end_effector_yaw - *yaw);
         Some(Self { arm: contact.arm, other: contact.other, offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw })
     }
 
@@ -41,10 +46,14 @@ impl<T: Real> LoopConstraint<T> {
     }
 
     /// By how much the hold is open, in the order of the contact's rows: yaw (rad, rigid ones alone), x and y (m).
-    pub(super) fn errors(&self, [tip_yaw, tip_x, tip_y]: &[T; 3], held: &[T; 3]) -> impl Iterator<Item = T> + use<T> {
+    pub(super) fn errors(
+        &self,
+        [end_effector_yaw, end_effector_x, end_effector_y]: &[T; 3],
+        held: &[T; 3],
+    ) -> impl Iterator<Item = T> + use<T> {
         let [yaw, x, y] = held;
         let [rx, ry] = self.contact(held).offset;
-        let turned = self.yaw.map(|between| *tip_yaw - *yaw - between);
-        turned.into_iter().chain([*tip_x - *x - rx, *tip_y - *y - ry])
+        let turned = self.yaw.map(|between| *end_effector_yaw - *yaw - between);
+        turned.into_iter().chain([*end_effector_x - *x - rx, *end_effector_y - *y - ry])
     }
 }

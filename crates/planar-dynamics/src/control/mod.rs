@@ -46,8 +46,8 @@ pub trait Control<T: Real> {
         Ok(())
     }
 
-    /// For how many steps from now on the torques are held, asked after [`Control::begin_step`]; `None` for a law that acts
-    /// continuously. An integrator with steps of its own starts anew where they change.
+    /// For how many steps from now on the torques are held, asked after [`Control::begin_step`]; `None` for a law that
+    /// acts continuously. An integrator with steps of its own starts anew where they change.
     fn held_steps(&self) -> Option<u32> {
         None
     }

@@ -1,4 +1,4 @@
-//! Tips on their paths, by feedback of where they are.
+//! End effectors on their paths, by feedback of where they are.
 
 use super::{Control, inverse_dynamics};
 use crate::dynamics::Model;
@@ -9,7 +9,7 @@ use crate::state::{Forces, State};
 use crate::trajectory::EndEffectorPath;
 use crate::validate::length;
 
-/// Resolved motion rate control with the generalized Jacobian J, in closed loop over the tips' poses x:
+/// Resolved motion rate control with the generalized Jacobian J, in closed loop over the end effectors' poses x:
 ///
 /// ```text
 /// θ̇_d = J⁺ (t_d + K e − b),                      e = x_d − x,  b = t − J θ̇
@@ -17,22 +17,23 @@ use crate::validate::length;
 /// τ   = I (θ̈_d + k (θ̇_d − θ̇)) + c
 /// ```
 ///
-/// all of the measured state. b is the part of the tips' twists t that the robot's momentum gives, `J_b I_b⁻¹ h`, zero for a
-/// robot that was at rest; a the tips' acceleration at constant joint rates, `J̇ θ̇ + ḃ`. Where J has full row rank and
-/// nothing is damped, every component of e obeys `ë + (K + k) ė + K k e = 0` on its own: it decays with exp(−K t) and
-/// exp(−k t), whatever the base does. (An error beyond the `error_limit` shrinks at the constant speed K times that.)
+/// all of the measured state. b is the part of the end effectors' twists t that the robot's momentum gives, `J_b I_b⁻¹
+/// h`, zero for a robot that was at rest; a the end effectors' acceleration at constant joint rates, `J̇ θ̇ + ḃ`. Where
+/// J has full row rank and nothing is damped, every component of e obeys `ë + (K + k) ė + K k e = 0` on its own: it
+/// decays with exp(−K t) and exp(−k t), whatever the base does. (An error beyond the `error_limit` shrinks at the
+/// constant speed K times that.)
 ///
-/// J⁺ is of all wanted rows together, for the arms couple through the base. It gives the shortest rates where joints are to
-/// spare; near a singular pose it is damped, in the singular directions alone, by the `singularity_threshold`: the tips then
-/// leave their paths and the joint rates stay bounded.
+/// J⁺ is of all wanted rows together, for the arms couple through the base. It gives the shortest rates where joints
+/// are to spare; near a singular pose it is damped, in the singular directions alone, by the `singularity_threshold`:
+/// the end effectors then leave their paths and the joint rates stay bounded.
 ///
-/// Y. Umetani, K. Yoshida: *Resolved motion rate control of space manipulators with generalized Jacobian matrix*, IEEE Trans.
-/// Robotics and Automation 5 (1989) 303–314, has the first line for a robot without momentum; with the other two the rates
-/// are those of torques. J. Y. S. Luh, M. W. Walker, R. P. C. Paul: *Resolved-acceleration control of mechanical
-/// manipulators* (1980), has them for a fixed base.
+/// Y. Umetani, K. Yoshida: *Resolved motion rate control of space manipulators with generalized Jacobian matrix*, IEEE
+/// Trans. Robotics and Automation 5 (1989) 303–314, has the first line for a robot without momentum; with the other two
+/// the rates are those of torques. J. Y. S. Luh, M. W. Walker, R. P. C. Paul: *Resolved-acceleration control of
+/// mechanical manipulators* (1980), has them for a fixed base.
 #[derive(Debug)]
 pub struct ResolvedMotionRate<'a, T> {
-    /// `x_d`, `t_d` and `ṫ_d` of every tip.
+    /// `x_d`, `t_d` and `ṫ_d` of every end effector.
     pub path: EndEffectorPath<'a, T>,
     /// Which of [yaw, x, y] follow the path, one per arm.
     pub wanted: &'a [[bool; 3]],
@@ -44,8 +45,8 @@ pub struct ResolvedMotionRate<'a, T> {
     pub pose_gain: T,
     /// k, 1/s.
     pub rate_gain: T,
-    /// Errors count as no more than this, so that a pose out of reach does not stiffen the law without bound: rad, and m per m of
-    /// reach.
+    /// Errors count as no more than this, so that a pose out of reach does not stiffen the law without bound: rad, and
+    /// m per m of reach.
     pub error_limit: T,
     /// The part of the largest singular value below which others are damped, 0 to 1; see the source of `least_squares`.
     pub singularity_threshold: T,
@@ -93,11 +94,11 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
         let jacobians = w.generalized_jacobian.chunks_exact((3 * joints).max(1));
         let full = w.end_effector_jacobian.chunks_exact((3 * (3 + joints)).max(1));
         let measured = w.end_effector_poses.iter().zip(w.end_effector_twists.iter());
-        let tips = jacobians.zip(full).zip(measured).zip(self.wanted.iter().zip(self.reach));
+        let end_effectors = jacobians.zip(full).zip(measured).zip(self.wanted.iter().zip(self.reach));
         let mut count = 0;
-        for (arm, (((jacobian, full), (pose, twist)), (wanted, reach))) in tips.enumerate() {
+        for (arm, (((jacobian, full), (pose, twist)), (wanted, reach))) in end_effectors.enumerate() {
             let missing = Error::Length { quantity: "tip path", expected: arms, found: arm };
-            let desired = self.path.tip(arm, time).ok_or(missing)?;
+            let desired = self.path.end_effector(arm, time).ok_or(missing)?;
             let drift = acceleration(full, state, base_acceleration);
             let targets = desired.pose.iter().zip(&desired.twist).zip(&desired.acceleration);
             let found = pose.iter().zip(twist).zip(&drift);
@@ -130,9 +131,10 @@ fn bounded<T: Real>(value: T, limit: T) -> T {
     }
 }
 
-/// Of a tip, from the three rows of `[J_be J_me]` (the velocity of a tip under a rate is that rate turned by 90° times the way
-/// from the axis to the tip), with joint rates as they are: `J_be a_b − Σ (ω_k² − ω_{k−1}²) r_k`, `ω_k` being the absolute rate
-/// of the body beyond axis k and `r_k` the way from there to the tip; axis 0 is the base COM.
+/// Of an end effector, from the three rows of `[J_be J_me]` (the velocity of an end effector under a rate is that rate
+/// turned by 90° times the way from the axis to the end effector), with joint rates as they are: `J_be a_b − Σ (ω_k² −
+/// ω_{k−1}²) r_k`, `ω_k` being the absolute rate of the body beyond axis k and `r_k` the way from there to the end
+/// effector; axis 0 is the base COM.
 fn acceleration<T: Real>(jacobian: &[T], state: &State<'_, T>, [alpha, x, y]: &[T; 3]) -> [T; 3] {
     let mut rows = jacobian.chunks_exact((jacobian.len() / 3).max(1));
     let (Some(spin), Some(right), Some(up)) = (rows.next(), rows.next(), rows.next()) else { return [T::ZERO; 3] };

@@ -11,8 +11,8 @@ use crate::validate::length;
 
 /// Joint rates to zero, and the base rate with them where an actuator can take the angular momentum.
 ///
-/// Wanted are `θ̈ = −k θ̇` for every joint and `ω̇ = −k_b ω` for the base. By joint torques alone the momentum stays: the
-/// robot ends as one rigid body that turns with ω = l/I about its COM. What takes the angular momentum l:
+/// Wanted are `θ̈ = −k θ̇` for every joint and `ω̇ = −k_b ω` for the base. By joint torques alone the momentum stays:
+/// the robot ends as one rigid body that turns with ω = l/I about its COM. What takes the angular momentum l:
 /// - A base torque gives the robot momentum from outside, within its limit.
 /// - Reaction wheels take what is left to do: they are not brought to rest but accelerated, all alike, so that the base
 ///   slows down as wanted. With a base torque too, they give back what they hold as far as that can take it.

@@ -6,8 +6,8 @@ use crate::scalar::{Real, Scalar};
 use crate::state::{Forces, State};
 use crate::validate::length;
 
-/// From rates to canonical momenta `p = M v` and back, and `ṗ = ∂T/∂q + f`, exactly, for any robot whose arms meet in the
-/// base.
+/// From rates to canonical momenta `p = M v` and back, and `ṗ = ∂T/∂q + f`, exactly, for any robot whose arms meet in
+/// the base.
 ///
 /// The momentum of a joint is the angular momentum of the bodies beyond it, about the joint; that of the base is the
 /// linear momentum, and the angular momentum about the base COM. With the velocity `v_k` of joint k and the linear
@@ -17,8 +17,8 @@ use crate::validate::length;
 ///
 /// for turning what is beyond a joint turns the velocities relative to it and changes no energy but by the joint's own
 /// velocity. The robot's momenta, `[l, px, py] = [p_yaw + x p_y − y p_x, p_x, p_y]`, are linear and bilinear in these
-/// variables: what integrators of Gauss's kind keep exactly. `M⁻¹ p` comes from the forward dynamics of a robot at rest, under
-/// p in the place of forces.
+/// variables: what integrators of Gauss's kind keep exactly. `M⁻¹ p` comes from the forward dynamics of a robot at
+/// rest, under p in the place of forces.
 ///
 /// All slices but the last are working space: one entry per body (joints + 1), or per joint.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ pub struct Canonical<'a, T> {
     pub rates: &'a mut [T],
 }
 
-/// What a sweep over the bodies from the tips to the base gathers: the momentum beyond a joint.
+/// What a sweep over the bodies from the end effectors to the base gathers: the momentum beyond a joint.
 #[derive(Clone, Copy)]
 struct Outboard<T> {
     /// About the base COM.
@@ -130,8 +130,8 @@ impl<T: Real> Canonical<'_, T> {
         })
     }
 
-    /// Calls `each` with the place of a joint's momentum (the base's yaw has the first), the joint's place seen from the
-    /// base COM, its velocity, and the momentum beyond it.
+    /// Calls `each` with the place of a joint's momentum (the base's yaw has the first), the joint's place seen from
+    /// the base COM, its velocity, and the momentum beyond it.
     fn sweep(
         &mut self,
         model: &dyn Model<T>,

@@ -1,4 +1,5 @@
-//! The differential equation of a controlled robot, with what its actuators do beside it: in full coordinates, in [`Reduced`] ones and in [`Canonical`] variables.
+//! The differential equation of a controlled robot, with what its actuators do beside it: in full coordinates, in
+//! [`Reduced`] ones and in [`Canonical`] variables.
 
 mod canonical;
 mod reduced;
@@ -11,19 +12,19 @@ use crate::dynamics::Model;
 use crate::error::Error;
 use crate::linear::{copy, dot};
 use crate::scalar::Real;
-use crate::state::{CoordinatesMut, Forces, Halves, HalvesMut, State, halves, halves_mut};
+use crate::state::{CoordinatesMut, Forces, State, StateVector, StateVectorMut, split, split_mut};
 use crate::validate::length;
 
-/// d/dt of `[base_pose, joint_angles, base_twist, joint_rates, joint_work, base_work, base_impulse]` under a control law:
-/// its joint torques and, where it has one, its base torque; no other forces. The last three are an
+/// d/dt of `[base_pose, joint_angles, base_twist, joint_rates, joint_work, base_work, base_impulse]` under a control
+/// law: its joint torques and, where it has one, its base torque; no other forces. The last three are an
 /// [`ActuatorWork`](crate::state::ActuatorWork).
 ///
 /// Free bodies beside the robot, see [`vector_length`](crate::state::vector_length), keep their twists.
 /// `torques` (joints) is left with the torques at this time.
 ///
 /// # Errors
-/// [`Error::Length`], [`Error::StateVector`] unless `x` and `rate` are vectors of the robot and bodies beside it, and what model
-/// and law say.
+/// [`Error::Length`], [`Error::StateVector`] unless `x` and `rate` are vectors of the robot and bodies beside it, and
+/// what model and law say.
 pub fn derivative<T: Real>(
     model: &dyn Model<T>,
     control: &mut dyn Control<T>,
@@ -36,8 +37,8 @@ pub fn derivative<T: Real>(
     length("state vector", x.len(), rate.len())?;
     let state = State::from_vector(x, joints)?;
     control.joint_torques(time, model, &state, torques)?;
-    let Halves { rates: twists, .. } = halves(x)?;
-    let HalvesMut { positions: velocities, rates: accelerations, work } = halves_mut(rate)?;
+    let StateVector { rates: twists, .. } = split(x)?;
+    let StateVectorMut { positions: velocities, rates: accelerations, work } = split_mut(rate)?;
     copy(twists, velocities);
     let accelerations = CoordinatesMut::new(accelerations, joints)?;
     accelerations.bodies.as_flattened_mut().fill(T::ZERO);

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::linear::{copy, dot, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
-use crate::state::{ActuatorWork, CoordinatesMut, HalvesMut, State, halves_mut, vector_length};
+use crate::state::{ActuatorWork, CoordinatesMut, State, StateVectorMut, split_mut, vector_length};
 use crate::validate::length;
 
 /// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
@@ -17,8 +17,8 @@ use crate::validate::length;
 /// whatever the integrator does. Joints accelerate by eq. (2), `I θ̈ + c = τ − I_bmᵀ I_b⁻¹ F_b`: the generalized bias c
 /// at the recovered twist has all that a momentum does.
 ///
-/// Vectors are those of [`vector_length`], of a robot alone; the entries of the base twist are not integrated but written by
-/// [`recover`](Self::recover) after every step. Everything but the momentum is working space.
+/// Vectors are those of [`vector_length`], of a robot alone; the entries of the base twist are not integrated but
+/// written by [`recover`](Self::recover) after every step. Everything but the momentum is working space.
 #[derive(Debug)]
 pub struct Reduced<'a, T> {
     /// [l, px, py] when the work was zero, about the inertial origin; N m s, N s.
@@ -34,8 +34,8 @@ pub struct Reduced<'a, T> {
 }
 
 impl<T: Real> Reduced<'_, T> {
-    /// As [`derivative`](super::derivative) does in full coordinates; `torques` (joints) is left with the torques at this
-    /// time.
+    /// As [`derivative`](super::derivative) does in full coordinates; `torques` (joints) is left with the torques at
+    /// this time.
     ///
     /// # Errors
     /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and what model and law say.
@@ -55,7 +55,7 @@ impl<T: Real> Reduced<'_, T> {
         model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
 
         length("state vector", x.len(), rate.len())?;
-        let HalvesMut { positions: velocities, rates: accelerations, work } = halves_mut(rate)?;
+        let StateVectorMut { positions: velocities, rates: accelerations, work } = split_mut(rate)?;
         let velocities = CoordinatesMut::new(velocities, torques.len())?;
         *velocities.base = state.base_twist;
         copy(state.joint_rates, velocities.joints);
@@ -80,7 +80,7 @@ impl<T: Real> Reduced<'_, T> {
     /// As [`Self::derivative`].
     pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
         let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
-        let HalvesMut { rates, .. } = halves_mut(x)?;
+        let StateVectorMut { rates, .. } = split_mut(x)?;
         *CoordinatesMut::new(rates, model.joints())?.base = base_twist;
         Ok(())
     }

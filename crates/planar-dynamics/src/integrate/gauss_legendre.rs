@@ -13,13 +13,14 @@ const MOST_ROUNDS: usize = 60;
 /// ẋ = f(t, x) by Gauss–Legendre steps of three stages (Kuntzmann, Butcher 1964); the global error is O(step⁶).
 ///
 /// Every invariant of f that is linear or quadratic in x is one of the steps, and where x are canonical variables the
-/// steps are symplectic, so that the energy error stays bounded over very long times: Hairer, Lubich, Wanner, *Geometric
-/// Numerical Integration*, theorems IV.2.1 and VI.4.2. The momenta of a robot are linear and bilinear in canonical
-/// variables, see [`Canonical`](crate::formulation::Canonical); in others, such as rates, this is just a method of order 6.
+/// steps are symplectic, so that the energy error stays bounded over very long times: Hairer, Lubich, Wanner,
+/// *Geometric Numerical Integration*, theorems IV.2.1 and VI.4.2. The momenta of a robot are linear and bilinear in
+/// canonical variables, see [`Canonical`](crate::formulation::Canonical); in others, such as rates, this is just a
+/// method of order 6.
 ///
 /// The stages are solved by iteration until they no longer change but by rounding: a looser stop would be an error of
-/// one sign, which grows with time. It contracts for steps that are short beside the fastest motion; that of a stiff control
-/// law counts. The result depends on nothing but `x`.
+/// one sign, which grows with time. It contracts for steps that are short beside the fastest motion; that of a stiff
+/// control law counts. The result depends on nothing but `x`.
 #[derive(Debug)]
 pub struct GaussLegendre<'a, T> {
     slopes: [&'a mut [T]; STAGES],
@@ -71,8 +72,8 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
     /// One step from `time` to `time + step`.
     ///
     /// # Errors
-    /// [`Error::Length`] where `x` is not as long as the integrator's vectors, [`Error::Unsettled`] where the iteration does
-    /// not contract, and what `derivative` says; `x` is then as it was.
+    /// [`Error::Length`] where `x` is not as long as the integrator's vectors, [`Error::Unsettled`] where the iteration
+    /// does not contract, and what `derivative` says; `x` is then as it was.
     pub fn step(
         &mut self,
         time: T,

@@ -2,15 +2,15 @@
 
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::state::{HalvesMut, halves, halves_mut};
+use crate::state::{StateVectorMut, split, split_mut};
 use crate::validate::length;
 
 /// Rates by their derivatives, then positions by the *new* rates; the global error is O(step).
 ///
 /// For vectors of positions, their rates and an [`ActuatorWork`](crate::state::ActuatorWork), see
-/// [`vector_length`](crate::state::vector_length). One evaluation per step. Where the mass matrix is constant the method is
-/// symplectic (symplectic Euler, the method of most game engines); the mass matrix of an arm is not, so that momentum and
-/// energy stray by O(step).
+/// [`vector_length`](crate::state::vector_length). One evaluation per step. Where the mass matrix is constant the
+/// method is symplectic (symplectic Euler, the method of most game engines); the mass matrix of an arm is not, so that
+/// momentum and energy stray by O(step).
 #[derive(Debug)]
 pub struct SemiImplicitEuler<'a, T> {
     slope: &'a mut [T],
@@ -50,7 +50,7 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
     ) -> Result<(), Error> {
         length("state vector", self.slope.len(), x.len())?;
         derivative(time, x, self.slope)?;
-        let positions = halves(x)?.positions.len();
+        let positions = split(x)?.positions.len();
         for (x, slope) in x.iter_mut().zip(self.slope.iter()).skip(positions) {
             *x += step * *slope;
         }
@@ -63,7 +63,7 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
 /// # Errors
 /// [`Error::StateVector`] where `x` is no state.
 pub fn drift<T: Real>(step: T, x: &mut [T]) -> Result<(), Error> {
-    let HalvesMut { positions, rates, .. } = halves_mut(x)?;
+    let StateVectorMut { positions, rates, .. } = split_mut(x)?;
     for (position, rate) in positions.iter_mut().zip(rates.iter()) {
         *position += step * *rate;
     }

@@ -4,13 +4,13 @@ use super::dot;
 use crate::error::Error;
 use crate::scalar::Real;
 
-/// The smallest pivot beside its own diagonal entry, in roundings: with less, a solution keeps fewer than three digits of
-/// what rounding leaves. Rows that depend on each other leave pivots of a few roundings, for the entries of most matrices
-/// here are solutions of other systems.
+/// The smallest pivot beside its own diagonal entry, in roundings: with less, a solution keeps fewer than three digits
+/// of what rounding leaves. Rows that depend on each other leave pivots of a few roundings, for the entries of most
+/// matrices here are solutions of other systems.
 const LEAST_PIVOT: f64 = 4096.0;
 
-/// Factors a symmetric matrix of `size` rows in place: D on the diagonal, L below it, and what was above it stays there.
-/// Entries above the diagonal are not read.
+/// Factors a symmetric matrix of `size` rows in place: D on the diagonal, L below it, and what was above it stays
+/// there. Entries above the diagonal are not read.
 ///
 /// # Errors
 /// [`Error::Singular`] where a pivot is not larger than 4096 ε times its diagonal entry, or that is not positive; the

@@ -6,20 +6,20 @@ use crate::scalar::{Real, Scalar};
 /// More than orthogonalisation ever takes: it converges quadratically, in six to ten sweeps.
 const MOST_SWEEPS: u32 = 30;
 
-/// Makes the rows of A (each `columns` long) orthogonal by rotations Q that are applied to b (`right`, one per row) too, so
-/// that `Q A = Σ Vᵀ`; then fills `solution` (columns) with the damped least-squares solution of `A x = b`,
+/// Makes the rows of A (each `columns` long) orthogonal by rotations Q that are applied to b (`right`, one per row)
+/// too, so that `Q A = Σ Vᵀ`; then fills `solution` (columns) with the damped least-squares solution of `A x = b`,
 ///
 /// ```text
 /// x = Σᵢ vᵢ (Q b)ᵢ σᵢ / (σᵢ² + λᵢ²),   λᵢ² = (threshold σ_max)² − σᵢ² where that is positive, otherwise 0
 /// ```
 ///
-/// which is the shortest solution where no singular value is below `threshold` (0 to 1) times the largest, and at most |b|
-/// over that bound in any case. Returns the smallest singular value over the largest; 0 where A is.
+/// which is the shortest solution where no singular value is below `threshold` (0 to 1) times the largest, and at most
+/// |b| over that bound in any case. Returns the smallest singular value over the largest; 0 where A is.
 ///
-/// One-sided Jacobi rotations (M. R. Hestenes, *Inversion of matrices by biorthogonalization and related results*, 1958): no
-/// squares of the matrix are formed, so that small singular values keep their digits in `f32` too. The damping that begins
-/// at a threshold is Y. Nakamura's and H. Hanafusa's (*Inverse kinematic solutions with singularity robustness*, 1986), for
-/// each singular direction alone.
+/// One-sided Jacobi rotations (M. R. Hestenes, *Inversion of matrices by biorthogonalization and related results*,
+/// 1958): no squares of the matrix are formed, so that small singular values keep their digits in `f32` too. The
+/// damping that begins at a threshold is Y. Nakamura's and H. Hanafusa's (*Inverse kinematic solutions with singularity
+/// robustness*, 1986), for each singular direction alone.
 pub(crate) fn least_squares<T: Real>(
     rows: &mut [T],
     right: &mut [T],
@@ -117,7 +117,8 @@ mod tests {
         let (mut a, mut b, mut x) = ([1.0, 0.0, 1.0, small], [1.0, 1.0 + small], [0.0_f64; 2]);
         let margin = least_squares(&mut a, &mut b, 2, 0.1, &mut x);
         assert!((margin - small / 2.0).abs() < 1e-8, "{margin}");
-        // undamped it is (1, 1): along the small singular vector, (0, 1) nearly, σ²/(0.1 σ_max)² = 0.0025² of it is left
+        // undamped it is (1, 1): along the small singular vector, (0, 1) nearly, σ²/(0.1 σ_max)² = 0.0025² of it is
+        // left
         assert!((x[0] - 1.0).abs() < 1e-4 && x[1].abs() < 1e-4, "{x:?}");
         assert!(least_squares(&mut [0.0; 4], &mut [1.0; 2], 2, 0.1, &mut x) <= 0.0);
         assert!(x.iter().all(|x| x.abs() <= 0.0), "{x:?}");

@@ -1,4 +1,5 @@
-//! Sine and cosine together, with `core` alone: the same bits on every target, and no call for the optimiser to stop at.
+//! Sine and cosine together, with `core` alone: the same bits on every target, and no call for the optimiser to stop
+//! at.
 //!
 //! The angle is brought to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products
 //! with the multiple are exact; two polynomials follow, in which no branch depends on the quadrant.

@@ -1,9 +1,9 @@
-//! Where the tips should be on their way.
+//! Where the end effectors should be on their way.
 
 use super::{part, quintic};
 use crate::scalar::Real;
 
-/// What one tip should do at one time, inertial axes.
+/// What one end effector should do at one time, inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DesiredEndEffector<T> {
     /// [yaw, x, y]; rad, m.
@@ -14,12 +14,12 @@ pub struct DesiredEndEffector<T> {
     pub acceleration: [T; 3],
 }
 
-/// Yaw, x and y of every tip as the polynomial of [`Quintic`](super::Quintic), from pose and twist at the start to pose and
-/// twist at the end, without acceleration at either: a straight line in the inertial frame where both velocities are along
-/// it, or zero.
+/// Yaw, x and y of every end effector as the polynomial of [`Quintic`](super::Quintic), from pose and twist at the
+/// start to pose and twist at the end, without acceleration at either: a straight line in the inertial frame where both
+/// velocities are along it, or zero.
 ///
-/// The yaw goes from the one number to the other, by more than a turn where they differ by more. Before the start and after
-/// the end it is as at the nearer of them.
+/// The yaw goes from the one number to the other, by more than a turn where they differ by more. Before the start and
+/// after the end it is as at the nearer of them.
 #[derive(Clone, Copy, Debug)]
 pub struct EndEffectorPath<'a, T> {
     /// At time 0, one per arm; rad, m.
@@ -35,8 +35,8 @@ pub struct EndEffectorPath<'a, T> {
 }
 
 impl<T: Real> EndEffectorPath<'_, T> {
-    /// What the tip of `arm` should do at `time` (s); `None` for an arm that the path does not have.
-    pub fn tip(&self, arm: usize, time: T) -> Option<DesiredEndEffector<T>> {
+    /// What the end effector of `arm` should do at `time` (s); `None` for an arm that the path does not have.
+    pub fn end_effector(&self, arm: usize, time: T) -> Option<DesiredEndEffector<T>> {
         let tau = part(time, self.duration);
         let [x0, y0, z0] = *self.initial_poses.get(arm)?;
         let [x1, y1, z1] = *self.final_poses.get(arm)?;

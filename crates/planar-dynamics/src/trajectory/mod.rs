@@ -1,4 +1,4 @@
-//! Joint trajectories of the approach, from the initial angles to the final ones, and paths of the tips.
+//! Joint trajectories of the approach, from the initial angles to the final ones, and paths of the end effectors.
 //!
 //! Outside 0 ≤ t ≤ duration a trajectory stays at the nearer end.
 

@@ -11,8 +11,8 @@ use crate::scalar::Real;
 /// θ̇(t) = (Δθ/T)(30τ² − 60τ³ + 30τ⁴) + θ̇(T)(−12τ² + 28τ³ − 15τ⁴),  τ = t/T
 /// ```
 ///
-/// the same polynomial, defined for Δθ = 0 too. Rate and acceleration are zero at the start, the acceleration is zero and the
-/// rate θ̇(T) at the end: six conditions, so that the angle is the [`quintic()`] that starts at rest.
+/// the same polynomial, defined for Δθ = 0 too. Rate and acceleration are zero at the start, the acceleration is zero
+/// and the rate θ̇(T) at the end: six conditions, so that the angle is the [`quintic()`] that starts at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct Quartic<'a, T> {
     /// Angles and duration.

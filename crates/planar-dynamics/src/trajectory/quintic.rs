@@ -38,8 +38,8 @@ impl<'a, T: Real> JointTrajectory<'a, T> for Quintic<'a, T> {
     }
 }
 
-/// The polynomial of [`Quintic`], for one joint and any scalar: angles (rad) and rates (rad/s) at the start and the end,
-/// the duration (s), and the part τ of it that has passed, not cut to 0..=1.
+/// The polynomial of [`Quintic`], for one joint and any scalar: angles (rad) and rates (rad/s) at the start and the
+/// end, the duration (s), and the part τ of it that has passed, not cut to 0..=1.
 pub fn quintic<T: Scalar>([from, to]: [T; 2], [start, end]: [T; 2], duration: T, tau: T) -> Desired<T> {
     let n = T::constant;
     let (tau2, tau3) = (tau * tau, tau * tau * tau);

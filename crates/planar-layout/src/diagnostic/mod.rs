@@ -1,8 +1,8 @@
 //! Problems in input files, shown the way a compiler shows them.
 //!
-//! [`read_text`] reads a file, [`read_document`] parses it and hands its root [`Table`] to a
-//! reader. Readers note every problem they meet and carry on, so that one [`Report`] shows all.
-//! What can be read but is odd, somebody else finds in the content; [`report_warnings`] shows it at its place in the file.
+//! [`read_text`] reads a file, [`read_document`] parses it and hands its root [`Table`] to a reader. Readers note every
+//! problem they meet and carry on, so that one [`Report`] shows all. What can be read but is odd, somebody else finds
+//! in the content; [`report_warnings`] shows it at its place in the file.
 
 mod document;
 mod file;
@@ -21,7 +21,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 pub use document::read_document;
 pub use file::read_text;
-pub use quantity::Quantity;
+pub use quantity::NumberRule;
 pub use table::{Table, every};
 pub use value::Value;
 pub use warning::{Warning, report_warnings};
@@ -84,7 +84,8 @@ fn first_line(text: &str, span: &Range<usize>) -> Range<usize> {
     span.start..length.map_or(span.end, |length| span.start + length)
 }
 
-/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see [`report_warnings`].
+/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see
+/// [`report_warnings`].
 ///
 /// `Display` is [`render`](Self::render) without colour: for each problem (the first eight; the
 /// rest are counted) what is wrong, the file, line and column, the line itself, and a hint.

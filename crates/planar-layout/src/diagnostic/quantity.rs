@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 ///
 /// Shown as "a mass in kg greater than 0".
 #[derive(Clone, Copy, Debug)]
-pub struct Quantity {
+pub struct NumberRule {
     what: &'static str,
     unit: &'static str,
     least: Least,
@@ -29,7 +29,7 @@ struct Suspect {
     factor: f64,
 }
 
-impl Quantity {
+impl NumberRule {
     /// Any finite number; `what` is the name with its article, "a mass", and `unit` empty for a number without one.
     #[must_use]
     pub const fn any(what: &'static str, unit: &'static str) -> Self {
@@ -85,7 +85,7 @@ impl Quantity {
     }
 }
 
-impl Display for Quantity {
+impl Display for NumberRule {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let range = match self.least {
             Least::None => "",
@@ -98,7 +98,7 @@ impl Display for Quantity {
 }
 
 /// The form of a vector: "[yaw, x, y] in rad, m, m".
-pub(super) fn form(components: &[Quantity]) -> String {
+pub(super) fn form(components: &[NumberRule]) -> String {
     let names: Vec<_> = components.iter().map(|component| component.what).collect();
     let mut units: Vec<_> = components.iter().map(|component| component.unit).collect();
     if units.windows(2).all(|pair| pair.first() == pair.last()) {

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 use super::document::Document;
 use super::quantity::form;
 use super::value::{Value, did_you_mean};
-use super::{Quantity, listing, nearest};
+use super::{NumberRule, listing, nearest};
 
 /// A table in a document, with the keys it may hold.
 #[derive(Clone, Debug)]
@@ -54,13 +54,13 @@ impl<'a> Table<'a> {
 
     /// A number that must be given.
     #[must_use]
-    pub fn number(&self, key: &str, quantity: &Quantity) -> Option<f64> {
+    pub fn number(&self, key: &str, quantity: &NumberRule) -> Option<f64> {
         self.require(key, &quantity.to_string())?.number(quantity)
     }
 
     /// A number, or the default where the key is not given.
     #[must_use]
-    pub fn number_or(&self, key: &str, quantity: &Quantity, default: f64) -> Option<f64> {
+    pub fn number_or(&self, key: &str, quantity: &NumberRule, default: f64) -> Option<f64> {
         self.get(key).map_or(Some(default), |value| value.number(quantity))
     }
 
@@ -72,7 +72,7 @@ impl<'a> Table<'a> {
 
     /// A vector that must be given.
     #[must_use]
-    pub fn vector<const N: usize>(&self, key: &str, components: &[Quantity; N]) -> Option<[f64; N]> {
+    pub fn vector<const N: usize>(&self, key: &str, components: &[NumberRule; N]) -> Option<[f64; N]> {
         self.require(key, &form(components))?.vector(components)
     }
 
@@ -81,7 +81,7 @@ impl<'a> Table<'a> {
     pub fn vector_or<const N: usize>(
         &self,
         key: &str,
-        components: &[Quantity; N],
+        components: &[NumberRule; N],
         default: [f64; N],
     ) -> Option<[f64; N]> {
         self.get(key).map_or(Some(default), |value| value.vector(components))

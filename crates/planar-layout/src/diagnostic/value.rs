@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::document::Document;
 use super::quantity::form;
 use super::table::{Table, every, table_of};
-use super::{Quantity, Report, excerpt, listing, nearest};
+use super::{NumberRule, Report, excerpt, listing, nearest};
 
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ impl<'a> Value<'a> {
 
     /// A number, integer or not, that makes sense as this quantity.
     #[must_use]
-    pub fn number(&self, quantity: &Quantity) -> Option<f64> {
+    pub fn number(&self, quantity: &NumberRule) -> Option<f64> {
         let number = match self.tree {
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
@@ -113,7 +113,7 @@ impl<'a> Value<'a> {
 
     /// An array with one number for each component, `[x, y]`; notes the first that is wrong.
     #[must_use]
-    pub fn vector<const N: usize>(&self, components: &[Quantity; N]) -> Option<[f64; N]> {
+    pub fn vector<const N: usize>(&self, components: &[NumberRule; N]) -> Option<[f64; N]> {
         let items = self.items(&form(components))?;
         if items.len() != N {
             self.expected(&form(components), None);

@@ -10,10 +10,10 @@ const DEPENDENT: f64 = 1e-10;
 /// [M −Aᵀ; A 0] [x; λ] = [f; g], decomposed for one set of ties at one position.
 ///
 /// With B = D A M^(−½), D giving rows of length one, it is w − Bᵀλ' = M^(−½) f and B w = D g in w = M^½ x, λ' = D⁻¹ λ.
-/// B = L Q, with orthonormal rows in Q and L lower triangular, says it all, without ever forming A M⁻¹ Aᵀ, whose condition
-/// is the square. Rows are made orthogonal to those before them twice, which is enough (Kahan; Parlett), and quick where
-/// they are so already, as most joints' are. (nalgebra's `svd` was the first choice: now and then its U Σ Vᵀ is another
-/// matrix, where the wheel's zeros are in it.)
+/// B = L Q, with orthonormal rows in Q and L lower triangular, says it all, without ever forming A M⁻¹ Aᵀ, whose
+/// condition is the square. Rows are made orthogonal to those before them twice, which is enough (Kahan; Parlett), and
+/// quick where they are so already, as most joints' are. (nalgebra's `svd` was the first choice: now and then its U Σ
+/// Vᵀ is another matrix, where the wheel's zeros are in it.)
 pub struct Constrained {
     /// M^½, a diagonal.
     root: DVector<f64>,
@@ -25,7 +25,8 @@ pub struct Constrained {
     l: Vec<Row>,
     /// Some rows depend on others. Those that come last then get no multiplier.
     pub redundant: bool,
-    /// The least that is left of a row of length one without what the rows before it say, of those that say something new.
+    /// The least that is left of a row of length one without what the rows before it say, of those that say something
+    /// new.
     pub margin: f64,
 }
 
@@ -103,7 +104,8 @@ impl Constrained {
         (DVector::from_vec(w).component_div(&self.root), multipliers)
     }
 
-    /// The twists nearest to the given ones, by kinetic energy, that satisfy the constraints, and the impulses it takes.
+    /// The twists nearest to the given ones, by kinetic energy, that satisfy the constraints, and the impulses it
+    /// takes.
     pub fn close(&self, twists: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let momentum = twists.component_mul(&self.root).component_mul(&self.root);
         self.solve(&momentum, &DVector::zeros(self.scale.len()))

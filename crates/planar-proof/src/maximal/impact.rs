@@ -3,7 +3,7 @@
 use super::complementarity::{complementary, is_definite};
 use super::constrained::Constrained;
 use super::system::System;
-use super::tie::{Place, Tie, wrenches};
+use super::tie::{BodyPoint, Tie, wrenches};
 use crate::{assert_close, close};
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -27,9 +27,9 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Where the impulse acts.
-    pub robot: Place,
+    pub robot: BodyPoint,
     /// Where the opposite impulse acts.
-    pub target: Place,
+    pub target: BodyPoint,
     /// What it does.
     pub kind: Kind,
 }
@@ -43,7 +43,7 @@ impl Contact {
 
     /// What holds afterwards; `None` of a bounce.
     pub fn tie(&self, all: &System) -> Option<Tie> {
-        let yaw = |place: &Place| all.bodies[place.body].pose[0];
+        let yaw = |place: &BodyPoint| all.bodies[place.body].pose[0];
         let angle = match self.kind {
             Kind::Rigid => Some(yaw(&self.robot) - yaw(&self.target)),
             Kind::Pin => None,
@@ -183,7 +183,8 @@ pub struct Left {
 }
 
 impl Left {
-    /// Fails where the reference has other velocities or impulses, which may be rounding beside the momentum that there is.
+    /// Fails where the reference has other velocities or impulses, which may be rounding beside the momentum that there
+    /// is.
     #[track_caller]
     pub fn assert_is(&self, after: &System, impulses: &[[f64; 3]], bound: f64) {
         close("velocities", &self.velocities, &after.velocities(), bound);

@@ -4,8 +4,8 @@
 //! captures are constraints between two of them, all alike. Of the product it reads the layout and nothing else: no
 //! reduced coordinates, no Jacobian of an arm, no recursion, no pivoting scheme, no Runge–Kutta method.
 //!
-//! [`body`] · [`system`] and back to joint angles · [`tie`] constraints · [`constrained`] the KKT system · [`complementarity`] by
-//! enumeration · [`impact`] · [`motion`] · [`random`] contacts
+//! [`body`] · [`system`] and back to joint angles · [`tie`] constraints · [`constrained`] the KKT system ·
+//! [`complementarity`] by enumeration · [`impact`] · [`motion`] · [`random`] contacts
 
 pub mod body;
 pub mod complementarity;

@@ -19,13 +19,15 @@ pub struct Monitor {
     pub constraint: f64,
     /// The same afterwards.
     pub projected: f64,
-    /// The smallest [`Constrained::margin`]: how near a loop came to a configuration where its ties depend on each other.
+    /// The smallest [`Constrained::margin`]: how near a loop came to a configuration where its ties depend on each
+    /// other.
     pub margin: f64,
     /// Work of the joint torques, J.
     pub work: f64,
 }
 
-/// [α, ax, ay] of every body: M a = f + Aᵀλ, A a = −Ȧ v. A joint's torque acts on its child, the opposite on its parent.
+/// [α, ax, ay] of every body: M a = f + Aᵀλ, A a = −Ȧ v. A joint's torque acts on its child, the opposite on its
+/// parent.
 pub fn accelerations(all: &System, torques: &[f64]) -> DVector<f64> {
     let ties: Vec<Tie> = all.ties().copied().collect();
     let mut forces = DVector::zeros(3 * all.bodies.len());

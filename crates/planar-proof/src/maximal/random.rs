@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::impact::{Contact, Kind};
 use super::system::System;
-use crate::sample::{Sample, sample};
+use crate::sample::{RandomState, sample};
 use planar_layout::layout::Layout;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -38,7 +38,7 @@ pub struct PlannedContact {
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The robot's state, and torques.
-    pub state: Sample,
+    pub state: RandomState,
     /// What is touched.
     pub targets: Vec<Object>,
     /// At most one per arm, in arm order.
@@ -105,7 +105,7 @@ pub fn random_contacts(layout: Layout) -> impl Strategy<Value = Scene> {
         .prop_map(move |(state, draws, yaws)| scene(&layout, state, &draws, &yaws))
 }
 
-fn scene(layout: &Layout, state: Sample, draws: &[Draw], yaws: &[f64]) -> Scene {
+fn scene(layout: &Layout, state: RandomState, draws: &[Draw], yaws: &[f64]) -> Scene {
     let mut scene = Scene { state, targets: vec![], touches: vec![] };
     let robot = scene.system(layout);
     for (arm, draw) in draws.iter().enumerate().filter(|(_, draw)| draw.touches) {

@@ -1,7 +1,7 @@
 //! A robot and its targets as free bodies, and the way back to joint angles.
 
 use super::body::Body;
-use super::tie::{Place, Tie};
+use super::tie::{BodyPoint, Tie};
 use nalgebra::{DVector, Rotation2, Vector2};
 use planar_layout::layout::Layout;
 
@@ -22,7 +22,7 @@ pub struct System {
     /// Arm by arm.
     pub joints: Vec<Joint>,
     /// The tip of each arm.
-    pub tips: Vec<Place>,
+    pub tips: Vec<BodyPoint>,
     /// Captures that hold.
     pub held: Vec<Tie>,
 }
@@ -34,7 +34,7 @@ impl System {
         let mut all = Self { bodies: vec![base], joints: vec![], tips: vec![], held: vec![] };
         let mut moved = angles.iter().zip(rates);
         for arm in &layout.arms {
-            let (mut seat, mut zero) = (Place { body: 0, at: Vector2::from(arm.mount) }, arm.mount_angle);
+            let (mut seat, mut zero) = (BodyPoint { body: 0, at: Vector2::from(arm.mount) }, arm.mount_angle);
             for link in &arm.links {
                 let (angle, rate) = moved.next().expect("an angle and a rate per joint");
                 let parent = all.bodies[seat.body];
@@ -52,9 +52,9 @@ impl System {
                 child.pose = [child.pose[0], joint.x + arrow.x, joint.y + arrow.y];
                 child.twist = [child.twist[0], velocity.x, velocity.y];
                 let body = all.add(child);
-                let root = Place { body, at: -Vector2::from(link.com) };
+                let root = BodyPoint { body, at: -Vector2::from(link.com) };
                 all.joints.push(Joint { tie: Tie { a: root, b: seat, angle: None }, zero });
-                seat = Place { body, at: Vector2::new(link.length, 0.0) - Vector2::from(link.com) };
+                seat = BodyPoint { body, at: Vector2::new(link.length, 0.0) - Vector2::from(link.com) };
                 zero = 0.0;
             }
             all.tips.push(seat);
@@ -70,21 +70,21 @@ impl System {
     }
 
     /// Where a place is, inertial frame.
-    pub fn position(&self, place: &Place) -> Vector2<f64> {
+    pub fn position(&self, place: &BodyPoint) -> Vector2<f64> {
         let body = &self.bodies[place.body];
         body.com() + body.turned(place.at)
     }
 
     /// How a place moves.
-    pub fn velocity(&self, place: &Place) -> Vector2<f64> {
+    pub fn velocity(&self, place: &BodyPoint) -> Vector2<f64> {
         let body = &self.bodies[place.body];
         body.velocity(body.turned(place.at))
     }
 
     /// The place of a body that is now at `point`, inertial frame.
-    pub fn place(&self, body: usize, point: Vector2<f64>) -> Place {
+    pub fn place(&self, body: usize, point: Vector2<f64>) -> BodyPoint {
         let at = Rotation2::new(-self.bodies[body].pose[0]) * (point - self.bodies[body].com());
-        Place { body, at }
+        BodyPoint { body, at }
     }
 
     /// Every constraint: joints, then what is held.

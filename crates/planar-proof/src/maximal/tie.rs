@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 
 /// A point that is fixed to a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct BodyPoint {
     /// Which.
     pub body: usize,
     /// From its COM, body axes, m.
@@ -16,9 +16,9 @@ pub struct Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tie {
     /// Where the force acts.
-    pub a: Place,
+    pub a: BodyPoint,
     /// Where the opposite force acts.
-    pub b: Place,
+    pub b: BodyPoint,
     /// `None` for a pin, which transmits no moment.
     pub angle: Option<f64>,
 }
@@ -38,7 +38,7 @@ impl Tie {
 
     /// d/dt of its rows times the twists: the centripetal accelerations of the two places, −ω² r.
     fn centripetal(&self, all: &System) -> Vec<f64> {
-        let inwards = |place: &Place| {
+        let inwards = |place: &BodyPoint| {
             let body = &all.bodies[place.body];
             -body.twist[0] * body.twist[0] * body.turned(place.at)
         };

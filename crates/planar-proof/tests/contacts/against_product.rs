@@ -13,7 +13,7 @@ use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::impact;
 use planar_proof::maximal::motion::{accelerations, joint_accelerations, run};
 use planar_proof::maximal::system::System;
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{close, layout, tolerance};
 use proptest::prelude::*;
 
@@ -23,7 +23,7 @@ fn model(layout: &Layout) -> Box<dyn CloneModel> {
 }
 
 /// Bodies' poses and twists, and the way back to joints.
-fn check_kinematics(layout: &Layout, s: &Sample) {
+fn check_kinematics(layout: &Layout, s: &RandomState) {
     let all = robot(layout, s);
     let (mut poses, mut twists) = (vec![[0.0; 3]; all.bodies.len()], vec![[0.0; 3]; all.bodies.len()]);
     let model = model(layout);
@@ -41,7 +41,7 @@ fn check_kinematics(layout: &Layout, s: &Sample) {
 }
 
 /// Accelerations under joint torques.
-fn check_forward_dynamics(layout: &Layout, s: &Sample) {
+fn check_forward_dynamics(layout: &Layout, s: &RandomState) {
     let mut joints = vec![0.0; layout.joints()];
     let forces = Forces::torques(&s.joint_torques);
     let base = model(layout).forward_dynamics(&s.state(), &forces, &mut joints).expect("accelerations");
@@ -52,7 +52,7 @@ fn check_forward_dynamics(layout: &Layout, s: &Sample) {
 }
 
 /// Exact capture of one target per arm; the bodies afterwards, and the merged model with its motion.
-fn check_capture(layout: &Layout, s: &Sample) -> (System, Box<dyn CloneModel>, RobotState) {
+fn check_capture(layout: &Layout, s: &RandomState) -> (System, Box<dyn CloneModel>, RobotState) {
     let mut model = model(layout);
     let (arms, joints) = (layout.arms.len(), layout.joints());
     let (mut joint_rates, mut target_twists, mut impulses) =
@@ -97,7 +97,7 @@ impl Control<f64> for Shaken {
 }
 
 /// Motion after the capture against that of the merged robot.
-fn check_motion(layout: &Layout, s: &Sample, duration: f64, controlled: bool) {
+fn check_motion(layout: &Layout, s: &RandomState, duration: f64, controlled: bool) {
     let (mut all, merged, motion) = check_capture(layout, s);
     let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut ZeroTorque };
     let end = simulated(&*merged, control, &motion, duration);
@@ -135,7 +135,7 @@ fn every_shipped_layout_is_here() {
 }
 
 /// As the sample, but slower: ten seconds are some turns of every joint, not hundreds.
-fn slowly(mut s: Sample) -> Sample {
+fn slowly(mut s: RandomState) -> RandomState {
     let slow = |twist: &mut [f64]| twist.iter_mut().for_each(|value| *value *= 0.3);
     slow(&mut s.base_twist);
     slow(&mut s.joint_rates);

@@ -10,13 +10,13 @@ use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::{Integration, Scheme};
-use planar_capture::simulate::{Phase, Sample as Instant, Timing, simulate};
+use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::state::State;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::motion::run;
 use planar_proof::maximal::system::System;
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 
@@ -28,7 +28,7 @@ struct Held {
     target: planar_capture::body::Body<f64>,
 }
 
-fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
+fn held(layout: &Layout, s: &RandomState, holding: &[(usize, Kind)]) -> Held {
     let mut all = robot(layout, s);
     let ([mass, inertia, rx, ry], twist) = s.targets[0];
     let tip = all.position(&all.tips[holding[0].0]);
@@ -56,13 +56,13 @@ impl Held {
         simulate(&self.assembly.system(), control, &self.state, timing, &mut NoEvents, &mut || ()).expect("a motion")
     }
 
-    fn target_at(&self, now: &Instant) -> planar_capture::body::Body<f64> {
+    fn target_at(&self, now: &Sample) -> planar_capture::body::Body<f64> {
         let (tips, twists) = (&now.end_effector_poses, &now.end_effector_twists);
         self.assembly.targets(&[self.target], tips, twists, &now.bodies)[0]
     }
 
     /// Where the tips that hold are in the target's frame, [x, y] of each, and their yaws of the rigid ones.
-    fn relative_tips(&self, now: &Instant, holding: &[(usize, Kind)]) -> Vec<f64> {
+    fn relative_tips(&self, now: &Sample, holding: &[(usize, Kind)]) -> Vec<f64> {
         let [yaw, x, y] = self.target_at(now).pose;
         let (sin, cos) = yaw.sin_cos();
         let of = |(arm, kind): &(usize, Kind)| {
@@ -84,7 +84,7 @@ const MIXTURES: [&[(usize, Kind)]; 5] = [
 ];
 
 /// Slower by a factor.
-fn slowly(mut s: Sample) -> Sample {
+fn slowly(mut s: RandomState) -> RandomState {
     s.base_twist = s.base_twist.map(|value| 0.2 * value);
     s.joint_rates.iter_mut().for_each(|value| *value *= 0.2);
     s.targets.iter_mut().for_each(|(_, twist)| *twist = twist.map(|value| 0.2 * value));
@@ -92,7 +92,7 @@ fn slowly(mut s: Sample) -> Sample {
 }
 
 /// The end of a motion, and of the reference's; `false` where a loop came near a configuration that locks it.
-fn check(layout: &Layout, s: &Sample, holding: &[(usize, Kind)], controlled: bool, duration: f64) -> bool {
+fn check(layout: &Layout, s: &RandomState, holding: &[(usize, Kind)], controlled: bool, duration: f64) -> bool {
     let mut held = held(layout, s, holding);
     let none = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
     let seen = run(&mut held.all, duration, 0.25, if controlled { &shaken } else { &none });
@@ -141,8 +141,8 @@ proptest! {
 }
 
 /// One start for long and repeated runs: elbows out, the tips at two sides of a target.
-fn start() -> Sample {
-    Sample {
+fn start() -> RandomState {
+    RandomState {
         base_pose: [0.3, 0.0, 0.0],
         joint_angles: vec![1.1, 1.0, -1.2, 2.04, -1.0, 1.2],
         base_twist: [0.02, 0.01, -0.01],
@@ -220,8 +220,8 @@ fn whole(held: &Held, x: &[f64]) -> ([f64; 2], [f64; 3]) {
     (moments.map(|moment| moment / masses), momentum)
 }
 
-/// What opened is closed by the least that the masses allow: as by internal forces, without moving the centre of mass or
-/// changing the momentum.
+/// What opened is closed by the least that the masses allow: as by internal forces, without moving the centre of mass
+/// or changing the momentum.
 #[test]
 fn closing_keeps_centre_and_momentum() {
     for holding in MIXTURES {

@@ -4,7 +4,7 @@ use crate::product::{Outcome, both_models, described, law, strike};
 use crate::robot;
 use planar_capture::capture::assembly::{Assembly, Attachment};
 use planar_capture::capture::contact_at_time::ImpactContact;
-use planar_capture::capture::impact::{Capture, ImpactResult, capture};
+use planar_capture::capture::impact::{ImpactResult, ImpactSolution, solve_impact};
 use planar_capture::contact::{self, ContactKind, ContactPartner};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
@@ -15,7 +15,7 @@ use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, Left, impact};
 use planar_proof::maximal::random::{PlannedContact, Scene, random_contacts};
 use planar_proof::maximal::system::System;
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{close, layout, tolerance};
 use proptest::prelude::*;
 
@@ -143,7 +143,7 @@ proptest! {
 /// [`strike`] with everything rounded.
 #[allow(clippy::cast_possible_truncation, reason = "that is the test")]
 fn strike_singly(
-    s: &Sample,
+    s: &RandomState,
     bodies: &[planar_capture::body::Body<f64>],
     contacts: &[contact::Contact<f64>],
 ) -> Result<Outcome<f32>, Error> {
@@ -181,7 +181,7 @@ fn strike_singly(
 
 /// Any kind, of a contact in this direction.
 /// What a study's impact left.
-fn left(found: &Capture) -> Left {
+fn left(found: &ImpactSolution) -> Left {
     let ImpactResult { base_twist_after, joint_rates_after, .. } = &found.exact;
     let velocities = base_twist_after.iter().chain(joint_rates_after).chain(found.target_twists.as_flattened());
     let impulses = found.contacts.iter().map(|contact| contact.impulse).collect();
@@ -204,7 +204,7 @@ struct Held {
     hold: Vec<Contact>,
 }
 
-fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
+fn held(layout: &Layout, s: &RandomState, holding: &[(usize, Kind)]) -> Held {
     let mut before = robot(layout, s);
     let bodies = [0, 1].map(|i| {
         let ([mass, inertia, rx, ry], twist) = s.targets[i];
@@ -217,7 +217,7 @@ fn held(layout: &Layout, s: &Sample, holding: &[(usize, Kind)]) -> Held {
 }
 
 impl Held {
-    fn motion(&self, s: &Sample) -> RobotState {
+    fn motion(&self, s: &RandomState) -> RobotState {
         let (base_twist, joint_rates) = (self.before.bodies[0].twist, self.before.joint_rates());
         RobotState { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates }
     }
@@ -292,7 +292,7 @@ proptest! {
         let touching = [ImpactContact { target, arm: 2, law: law(what), offset: offset.into(), miss: 0.0 }];
         for model in both_models(&layout) {
             let assembly = Assembly::new(model, &motion, &held.targets(), &grips).expect("an assembly");
-            let found = capture(&assembly, &motion, &held.targets(), &touching).expect("an impact");
+            let found = solve_impact(&assembly, &motion, &held.targets(), &touching).expect("an impact");
             let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
             left(&found).assert_is(&after, &wanted.impulses, bound);
         }

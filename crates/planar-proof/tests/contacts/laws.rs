@@ -7,7 +7,7 @@ use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, impact};
 use planar_proof::maximal::random::{Scene, random_contacts};
 use planar_proof::maximal::system::System;
-use planar_proof::sample::{Sample, config};
+use planar_proof::sample::{RandomState, config};
 use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
@@ -107,7 +107,7 @@ fn check_targets(contacts: &[Contact], found: &Impact, before: &System, after: &
 }
 
 /// M Δv = `J_eᵀ` F̄ with the product's M and J: joints transmit no moment, and the impulses are those on the tips.
-fn check_robot(layout: &Layout, sample: &Sample, impulses: &[(usize, [f64; 3])], before: &System, after: &System) {
+fn check_robot(layout: &Layout, sample: &RandomState, impulses: &[(usize, [f64; 3])], before: &System, after: &System) {
     let model = registry::generic(layout);
     let (size, arms) = (3 + layout.joints(), layout.arms.len());
     let (mut mass, mut jacobian) = (vec![0.0; size * size], vec![0.0; 3 * arms * size]);
@@ -227,7 +227,7 @@ proptest! {
         // what holds closes again, and its impulses are those on targets and arms
         check_contacts(&all, &together, &before, &after);
         check_targets(&all, &together, &before, &after);
-        let sample = Sample { joint_rates: before.joint_rates(), base_twist: before.bodies[0].twist, ..scene.state };
+        let sample = RandomState { joint_rates: before.joint_rates(), base_twist: before.bodies[0].twist, ..scene.state };
         let impulses: Vec<_> = [2, 0, 1].into_iter().zip(together.impulses).collect();
         check_robot(&layout, &sample, &impulses, &before, &after);
     }

@@ -12,12 +12,12 @@ use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::motion::{accelerations, project, run};
 use planar_proof::maximal::system::System;
 use planar_proof::maximal::tie::{Tie, centripetal, residual, rows};
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 
 /// The robot, its first two arms with hold of one target by these kinds, after the impact that made it so.
-fn looped(layout: &Layout, s: &Sample, kinds: [Kind; 2]) -> System {
+fn looped(layout: &Layout, s: &RandomState, kinds: [Kind; 2]) -> System {
     let mut all = robot(layout, s);
     let ([mass, inertia, rx, ry], twist) = s.targets[0];
     let tip = all.position(&all.tips[0]);
@@ -92,7 +92,7 @@ proptest! {
 }
 
 /// Slower by a factor.
-fn slowly(mut s: Sample) -> Sample {
+fn slowly(mut s: RandomState) -> RandomState {
     s.base_twist = s.base_twist.map(|value| 0.3 * value);
     s.joint_rates.iter_mut().for_each(|value| *value *= 0.3);
     s.targets.iter_mut().for_each(|(_, twist)| *twist = twist.map(|value| 0.3 * value));

@@ -22,14 +22,14 @@ use planar_capture::target::Target;
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind};
 use planar_proof::maximal::system::System;
-use planar_proof::sample::Sample;
+use planar_proof::sample::RandomState;
 
-fn robot(layout: &Layout, s: &Sample) -> System {
+fn robot(layout: &Layout, s: &RandomState) -> System {
     System::new(layout, s.base_pose, &s.joint_angles, s.base_twist, &s.joint_rates)
 }
 
 /// The sample's targets, one per arm, held so by the tips: contacts in arm order.
-fn rigid_targets(all: &mut System, s: &Sample) -> Vec<Contact> {
+fn rigid_targets(all: &mut System, s: &RandomState) -> Vec<Contact> {
     let hold = |(arm, ([mass, inertia, rx, ry], twist)): (usize, &([f64; 4], [f64; 3]))| {
         let com = all.position(&all.tips[arm]) - Vector2::new(*rx, *ry);
         let body = all.add(Body { mass: *mass, inertia: *inertia, pose: [0.3, com.x, com.y], twist: *twist });
@@ -38,7 +38,7 @@ fn rigid_targets(all: &mut System, s: &Sample) -> Vec<Contact> {
     s.targets.iter().enumerate().map(hold).collect()
 }
 
-fn targets(s: &Sample) -> Vec<Option<Target<f64>>> {
+fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
     let target = |([mass, inertia, rx, ry], twist): &([f64; 4], [f64; 3])| {
         Some(Target { mass: *mass, inertia: *inertia, contact: [*rx, *ry], twist: *twist })
     };

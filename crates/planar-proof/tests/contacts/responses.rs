@@ -9,18 +9,18 @@ use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::target::Target;
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-fn of_tip(model: &dyn Model<f64>, s: &Sample, arm: usize) -> Result<InverseInertia<f64>, Error> {
+fn of_end_effector(model: &dyn Model<f64>, s: &RandomState, arm: usize) -> Result<InverseInertia<f64>, Error> {
     let (mut wrenches, mut scratch) = (vec![[f64::NAN; 3]; model.arms()], vec![f64::NAN; 2 * model.joints()]);
-    InverseInertia::of_tip(model, &s.base_pose, &s.joint_angles, arm, &mut wrenches, &mut scratch)
+    InverseInertia::of_end_effector(model, &s.base_pose, &s.joint_angles, arm, &mut wrenches, &mut scratch)
 }
 
 /// J M⁻¹ Jᵀ of one arm, from the generic M and J.
-fn dense(layout: &Layout, s: &Sample, arm: usize) -> DMatrix<f64> {
+fn dense(layout: &Layout, s: &RandomState, arm: usize) -> DMatrix<f64> {
     let model = registry::generic(layout);
     let size = 3 + layout.joints();
     let (mut mass, mut jacobian) = (vec![0.0; size * size], vec![0.0; 3 * layout.arms.len() * size]);
@@ -31,14 +31,14 @@ fn dense(layout: &Layout, s: &Sample, arm: usize) -> DMatrix<f64> {
     &jacobian * mass.cholesky().expect("positive definite").solve(&jacobian.transpose())
 }
 
-fn check_tips(layout: &Layout, s: &Sample) {
+fn check_tips(layout: &Layout, s: &RandomState) {
     for arm in 0..layout.arms.len() {
         let wanted = dense(layout, s, arm);
         for model in both_models(layout) {
-            let found = of_tip(&*model, s, arm).expect("an inverse inertia");
+            let found = of_end_effector(&*model, s, arm).expect("an inverse inertia");
             // symmetric: columns are rows
             close("J M⁻¹ Jᵀ", found.0.as_flattened(), wanted.as_slice(), tolerance::SAME_IMPACT);
-            let missing = of_tip(&*model, s, layout.arms.len());
+            let missing = of_end_effector(&*model, s, layout.arms.len());
             assert!(matches!(missing, Err(Error::Index { what: "arm", .. })), "{missing:?}");
         }
     }
@@ -102,13 +102,13 @@ proptest! {
         let layout = layout("dual_arm_3r");
         let model = registry::generated(&layout).expect("generated code");
         let ([mass, inertia, rx, ry], [_, vx, vy]) = s.targets[0];
-        let of_tip = of_tip(&*model, &s, 0).expect("an inverse inertia");
+        let of_end_effector = of_end_effector(&*model, &s, 0).expect("an inverse inertia");
         let of_body = InverseInertia::of_body(mass, inertia, [rx, ry]);
-        let both = of_tip.plus(&of_body);
-        let sum = SMatrix::<f64, 3, 3>::from_row_slice(of_tip.0.as_flattened())
+        let both = of_end_effector.plus(&of_body);
+        let sum = SMatrix::<f64, 3, 3>::from_row_slice(of_end_effector.0.as_flattened())
             + SMatrix::<f64, 3, 3>::from_row_slice(of_body.0.as_flattened());
         close("sum", both.0.as_flattened(), sum.as_slice(), tolerance::POLYNOMIAL);
-        for inertia in [of_tip, of_body, both] {
+        for inertia in [of_end_effector, of_body, both] {
             let g = force_part(&inertia);
             let stopped = Vector2::new(vx, vy) + g * Vector2::from(inertia.stopping_impulse(&[vx, vy]));
             let size = g.norm() * Vector2::from(inertia.stopping_impulse(&[vx, vy])).norm();
@@ -131,7 +131,7 @@ proptest! {
         model.end_effector_twists(&s.state(), &mut tips).expect("twists");
         let closing = [tips[1][1] - (vx - omega * ry), tips[1][2] - (vy + omega * rx)];
         let speed = Vector2::from(closing);
-        let both = of_tip(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
+        let both = of_end_effector(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
         let hit = |law| {
             let contact = Contact { arm: 1, other: ContactPartner::Body(0), offset: [rx, ry], law };
             strike(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]

@@ -5,7 +5,7 @@ use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::system::System;
-use planar_proof::maximal::tie::Place;
+use planar_proof::maximal::tie::BodyPoint;
 use planar_proof::{assert_close, layout, tolerance};
 
 /// Discs in a row along x with these masses and speeds, in contact with their neighbours; n = x throughout.
@@ -131,7 +131,7 @@ fn the_same_contact_twice() {
     let hold = [Contact::new(&all, 0, body, Kind::Rigid)];
     let caught = impact(&all, &hold);
     all.apply(&hold, &caught);
-    let place = Place { body, at: Vector2::new(0.1, 0.2) };
+    let place = BodyPoint { body, at: Vector2::new(0.1, 0.2) };
     let robot = all.place(all.tips[0].body, all.position(&place));
     let kind = Kind::Bounce { normal: [0.0, 1.0], restitution: 1.0 };
     let idle = impact(&all, &[Contact { robot, target: place, kind }]);

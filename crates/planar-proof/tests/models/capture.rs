@@ -2,7 +2,7 @@
 
 use planar_capture::dynamics::{EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge, MomentumAndEnergy};
 use planar_capture::generated::dual_arm_3r::Model;
-use planar_capture::impact::{self, RigidImpactOutput, Workspace};
+use planar_capture::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::Target;
 use planar_proof::{assert_close, tolerance};
@@ -111,7 +111,7 @@ fn the_papers_base_twist_keeps_the_robots_momentum() {
     let state = state();
     let model = Model::<f64>::default();
     let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; 6], [[0.0; 3]; 2], [[0.0; 3]; 2]);
-    let mut workspace = Workspace {
+    let mut workspace = PaperImpactWorkspace {
         impact_matrix: &mut [0.0; 36],
         impact_momentum: &mut [0.0; 6],
         jacobian: &mut [0.0; 36],

@@ -7,11 +7,11 @@ use planar_capture::formulation::{Canonical, Reduced, derivative};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::state::{State, vector_length};
-use planar_proof::sample::{Sample, config, sample};
+use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::tolerance;
 use proptest::prelude::*;
 
-fn for_every_layout(check: impl Fn(&dyn Model<f64>, &Sample)) {
+fn for_every_layout(check: impl Fn(&dyn Model<f64>, &RandomState)) {
     for (name, text) in registry::SHIPPED {
         let layout = Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"));
         let model = registry::generated(&layout).expect("generated code");
@@ -72,7 +72,11 @@ fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
     });
 }
 
-fn with_canonical(model: &dyn Model<f64>, s: &Sample, work: impl FnOnce(&mut Canonical<'_, f64>) -> Result<(), Error>) {
+fn with_canonical(
+    model: &dyn Model<f64>,
+    s: &RandomState,
+    work: impl FnOnce(&mut Canonical<'_, f64>) -> Result<(), Error>,
+) {
     let joints = model.joints();
     let mut canonical = Canonical {
         inertias: &mut vec![[0.0; 2]; joints + 1],

@@ -7,7 +7,7 @@ use planar_capture::owned::CloneModel;
 use planar_capture::quantities::differences;
 use planar_capture::quantity::Quantity;
 use planar_capture::registry::{GENERATED, SHIPPED, generated, generic};
-use planar_capture::sampling::{REGIMES, Regime, Sample};
+use planar_capture::sampling::{REGIMES, Regime, RegimeSample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
 use planar_proof::layout;
@@ -19,7 +19,7 @@ const SAMPLES: u64 = 40;
 const SEED: u64 = 20_261_121;
 
 /// What to run to see it again.
-fn replay(regime: Regime, index: u64, sample: &Sample) -> String {
+fn replay(regime: Regime, index: u64, sample: &RegimeSample) -> String {
     format!(
         "seed {SEED}, regime `{}`, state {index}; replay with `planar-capture eval`:\n{}\n{}",
         regime.name(),
@@ -145,7 +145,7 @@ macro_rules! inherent {
             let (model, layout) = (Model::<f64>::default(), layout($feature));
             let reference = generic(&layout);
             for index in 0..SAMPLES {
-                let sample = Regime::SequenceState.sample(&layout, SEED, index);
+                let sample = Regime::Moving.sample(&layout, SEED, index);
                 let instant = &sample.instant;
                 let state = instant.state.view();
                 let angles: &[f64; JOINTS] = state.joint_angles.try_into().expect("joints");
@@ -258,7 +258,7 @@ fn a_change_of_a_millionth_is_seen() {
         let layout = layout(name);
         let mut changed = layout.clone();
         changed.arms[0].links[0].mass *= 1.0 + 1e-6;
-        let sample = Regime::SequenceState.sample(&layout, SEED, 0);
+        let sample = Regime::Moving.sample(&layout, SEED, 0);
         let all = differences(&*generated(&changed).expect("generated code"), &*generic(&layout), &sample);
         let seen: Vec<_> =
             all.expect("answers").iter().filter(|d| d.ratio() > 1.0).map(|d| d.quantity.row().name).collect();
@@ -298,7 +298,7 @@ fn short_distances_cost_generated_accelerations_no_more_than_their_share() {
         close.arms[1].mount = [close.arms[0].mount[0] - ratio, 0.0];
         for layout in [short, close] {
             for index in 0..SAMPLES {
-                let sample = Regime::SequenceState.sample(&layout, SEED, index);
+                let sample = Regime::Moving.sample(&layout, SEED, index);
                 let (model, reference) = (generated(&layout).expect("generated code"), generic(&layout));
                 let all = differences(&*model, &*reference, &sample).expect("answers");
                 let bound = (SHORT_DISTANCE * f64::EPSILON / ratio).max(1e-13);

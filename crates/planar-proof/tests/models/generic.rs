@@ -4,7 +4,7 @@ use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::owned::CloneModel;
 use planar_capture::registry::generic;
-use planar_capture::sampling::{Regime, Sample};
+use planar_capture::sampling::{Regime, RegimeSample};
 use planar_capture::target::Target;
 use planar_proof::{assert_close, tolerance};
 
@@ -42,7 +42,7 @@ fn layout() -> Layout {
     }
 }
 
-fn samples() -> impl Iterator<Item = (Box<dyn CloneModel>, Sample)> {
+fn samples() -> impl Iterator<Item = (Box<dyn CloneModel>, RegimeSample)> {
     let layout = layout();
     (0..50).map(move |index| {
         let sample = Regime::MixedMasses.sample(&layout, SEED, index);
@@ -117,7 +117,7 @@ fn the_bias_does_no_work_beyond_the_change_of_the_mass_matrix() {
 fn a_mount_angle_is_an_offset_of_the_first_joint() {
     let turned = layout();
     let mut straight = turned.clone();
-    let sample = Regime::SequenceState.sample(&turned, SEED, 0);
+    let sample = Regime::Moving.sample(&turned, SEED, 0);
     let mut angles = sample.instant.state.joint_angles.clone();
     let mut first = 0;
     for arm in &mut straight.arms {

@@ -1,8 +1,8 @@
 //! A tip link of mass and inertia ε, without torque, changes the rest by O(ε): a robot of one link less is its limit.
 
 use planar_capture::generated::{dual_arm_2r, dual_arm_3r, single_arm_2r, single_arm_3r};
-use planar_capture::manifest::{Manifest, Quantity};
-use planar_proof::sample::{Sample, config, sample};
+use planar_capture::manifest::{Manifest, ParameterKind};
+use planar_proof::sample::{RandomState, config, sample};
 use proptest::prelude::*;
 
 /// Parameters of the longer robot: the shorter one's, and a last link of every arm of mass and inertia ε.
@@ -13,14 +13,14 @@ fn lengthened(longer: &Manifest, shorter: &Manifest, epsilon: f64) -> Vec<f64> {
     let value = |quantity, arm, link| {
         let is_tip = link == shorter.links[arm];
         match quantity {
-            Quantity::LinkLength if is_tip => 0.6,
-            Quantity::LinkComX if is_tip => 0.3,
-            Quantity::LinkMass | Quantity::LinkInertia if is_tip => epsilon,
-            Quantity::LinkComY if is_tip => 0.0,
+            ParameterKind::LinkLength if is_tip => 0.6,
+            ParameterKind::LinkComX if is_tip => 0.3,
+            ParameterKind::LinkMass | ParameterKind::LinkInertia if is_tip => epsilon,
+            ParameterKind::LinkComY if is_tip => 0.0,
             _ => default(quantity, arm, link),
         }
     };
-    longer.parameters.iter().map(|p| value(p.quantity, p.arm, p.link)).collect()
+    longer.parameters.iter().map(|p| value(p.kind, p.arm, p.link)).collect()
 }
 
 /// The shorter robot's values among the longer one's, arm by arm.
@@ -40,7 +40,7 @@ macro_rules! light_tip {
 
             #[test]
             fn $test(s in sample($longer::ARMS, $longer::JOINTS)) {
-                let Sample { base_pose, joint_angles, base_twist, joint_rates, joint_torques, .. } = &s;
+                let RandomState { base_pose, joint_angles, base_twist, joint_rates, joint_torques, .. } = &s;
                 let links = $shorter::MANIFEST.links;
                 let short = |values: &[f64]| -> [f64; $shorter::JOINTS] {
                     inner(values, links).collect::<Vec<_>>().try_into().expect("as many")

@@ -1,4 +1,5 @@
-//! Every quantity of layouts of different shape against states that Pinocchio and MuJoCo computed: see `README.md` here.
+//! Every quantity of layouts of different shape against states that Pinocchio and MuJoCo computed: see `README.md`
+//! here.
 
 use planar_capture::dynamics::Model;
 use planar_capture::impact::{RigidImpactOutput, exact};

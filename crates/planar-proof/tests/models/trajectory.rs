@@ -152,7 +152,7 @@ fn tips_go_along_quintics() {
     };
     for i in -1..=21 {
         let time = f64::from(i);
-        let found = path.tip(1, time).expect("a tip");
+        let found = path.end_effector(1, time).expect("a tip");
         for part in 0..3 {
             let tau = (time / DURATION).clamp(0.0, 1.0);
             let wanted = quintic([FROM[part], TO[part]], [start[1][part], twists[1][part]], DURATION, tau);
@@ -160,5 +160,5 @@ fn tips_go_along_quintics() {
             assert_close("tip", &found, &[wanted.angle, wanted.rate, wanted.acceleration], 0.0);
         }
     }
-    assert_eq!(path.tip(2, 0.0), None);
+    assert_eq!(path.end_effector(2, 0.0), None);
 }

@@ -1,6 +1,6 @@
 //! Magnitudes of the body Jacobians, from lengths alone.
 
-use crate::prove::sampling::Sample;
+use crate::prove::sampling::RegimeSample;
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 use planar_dynamics::target::Target;
 
@@ -27,7 +27,7 @@ pub struct Magnitudes {
 }
 
 impl Magnitudes {
-    pub fn new(Sample { layout, instant }: &Sample) -> Self {
+    pub fn new(RegimeSample { layout, instant }: &RegimeSample) -> Self {
         let size = 3 + layout.joints();
         let point = |mass: f64, inertia: f64, levers: &[(usize, f64)], angle: f64| {
             let mut jacobian = DMatrix::zeros(3, size);

@@ -8,7 +8,7 @@ pub use natural_sizes::{NaturalSize, natural_sizes};
 
 use crate::prove::evaluation::evaluate_all;
 use crate::prove::owned::CloneModel;
-use crate::prove::sampling::Sample;
+use crate::prove::sampling::RegimeSample;
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
 
@@ -47,7 +47,7 @@ impl Difference {
 pub fn differences(
     model: &dyn CloneModel,
     reference: &dyn CloneModel,
-    sample: &Sample,
+    sample: &RegimeSample,
 ) -> Result<Vec<Difference>, [Option<Error>; 2]> {
     let (found, expected) = match (evaluate_all(model, &sample.instant), evaluate_all(reference, &sample.instant)) {
         (Ok(found), Ok(expected)) => (found, expected),

@@ -7,7 +7,7 @@
 use super::magnitudes::{Magnitudes, Point, captured, convective, inertia};
 use super::system::System;
 use crate::prove::evaluation::Values;
-use crate::prove::sampling::Sample;
+use crate::prove::sampling::RegimeSample;
 use nalgebra::{DMatrix, DVector, Vector3};
 use planar_dynamics::quantity::Quantity;
 use planar_dynamics::with_quantities;
@@ -30,7 +30,7 @@ impl NaturalSize {
 
 /// Of every quantity that a sample has, in the table's order; `values` is what the reference says of it.
 #[must_use]
-pub fn natural_sizes(sample: &Sample, values: &Values) -> Vec<(Quantity, NaturalSize)> {
+pub fn natural_sizes(sample: &RegimeSample, values: &Values) -> Vec<(Quantity, NaturalSize)> {
     let at = SizesAt::new(sample, values);
     let mut all = at.functions();
     all.extend(at.momentum());
@@ -46,7 +46,7 @@ pub fn natural_sizes(sample: &Sample, values: &Values) -> Vec<(Quantity, Natural
 
 /// Magnitudes of everything at one state; hats are left out of the names.
 struct SizesAt<'a> {
-    sample: &'a Sample,
+    sample: &'a RegimeSample,
     magnitudes: Magnitudes,
     mass_matrix: DMatrix<f64>,
     end_effector_jacobian: DMatrix<f64>,
@@ -102,7 +102,7 @@ impl SizesAt<'_> {
 }
 
 impl<'a> SizesAt<'a> {
-    fn new(sample: &'a Sample, values: &'a Values) -> Self {
+    fn new(sample: &'a RegimeSample, values: &'a Values) -> Self {
         let magnitudes = Magnitudes::new(sample);
         let state = &sample.instant.state;
         let size = 3 + sample.layout.joints();
@@ -305,7 +305,7 @@ impl<'a> SizesAt<'a> {
     fn merged_inertias(&self) -> Vec<f64> {
         let mut bodies = self.magnitudes.bodies.iter().map(|body| [body.mass, body.inertia]);
         let mut inertias: Vec<_> = bodies.next().into_iter().collect();
-        let Sample { layout, instant } = self.sample;
+        let RegimeSample { layout, instant } = self.sample;
         for ((arm, target), [length, com]) in layout.arms.iter().zip(&instant.targets).zip(&self.magnitudes.last) {
             inertias.extend(bodies.by_ref().take(arm.links.len()));
             if let (Some(target), Some([mass, inertia])) = (target, inertias.last_mut()) {

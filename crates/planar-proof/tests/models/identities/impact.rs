@@ -9,13 +9,14 @@ macro_rules! impact {
             use nalgebra::{DMatrix, DVector};
             use planar_capture::dynamics::Merge;
             use planar_capture::generated::$layout::{ARMS, JOINTS, MANIFEST, Model, Parameters, SIZE};
-            use planar_capture::manifest::Quantity;
+            use planar_capture::manifest::ParameterKind;
             use proptest::prelude::*;
 
             proptest! {
                 #![proptest_config(config())]
 
-                /// A rigid capture conserves momentum, loses energy, and its impulses are the momentum changes of both sides.
+                /// A rigid capture conserves momentum, loses energy, and its impulses are the momentum changes of both
+                /// sides.
                 #[test]
                 fn exact_impact_is_an_inelastic_one(s in sample(ARMS, JOINTS)) {
                     let (pose, angles, twist, rates) = inputs::<JOINTS>(&s);
@@ -95,17 +96,17 @@ macro_rules! impact {
                         let at = |quantity| MANIFEST.position(quantity, arm, link).expect("a parameter");
                         // both COMs in the inertial frame, from the tip
                         let (sin, cos) = poses[arm][0].sin_cos();
-                        let (cx, cy) = (values[at(Quantity::LinkComX)] - values[at(Quantity::LinkLength)], values[at(Quantity::LinkComY)]);
+                        let (cx, cy) = (values[at(ParameterKind::LinkComX)] - values[at(ParameterKind::LinkLength)], values[at(ParameterKind::LinkComY)]);
                         let own = [cos * cx - sin * cy, sin * cx + cos * cy];
                         let other = [-target.contact[0], -target.contact[1]];
-                        let mass = values[at(Quantity::LinkMass)];
+                        let mass = values[at(ParameterKind::LinkMass)];
                         let total = mass + target.mass;
                         let com = [0, 1].map(|i: usize| (mass * own[i] + target.mass * other[i]) / total);
                         let squared = |c: [f64; 2]| (c[0] - com[0]).powi(2) + (c[1] - com[1]).powi(2);
-                        values[at(Quantity::LinkInertia)] += target.inertia + mass * squared(own) + target.mass * squared(other);
-                        values[at(Quantity::LinkMass)] = total;
-                        values[at(Quantity::LinkComX)] = values[at(Quantity::LinkLength)] + cos * com[0] + sin * com[1];
-                        values[at(Quantity::LinkComY)] = cos * com[1] - sin * com[0];
+                        values[at(ParameterKind::LinkInertia)] += target.inertia + mass * squared(own) + target.mass * squared(other);
+                        values[at(ParameterKind::LinkMass)] = total;
+                        values[at(ParameterKind::LinkComX)] = values[at(ParameterKind::LinkLength)] + cos * com[0] + sin * com[1];
+                        values[at(ParameterKind::LinkComY)] = cos * com[1] - sin * com[0];
                     }
                     Merge::merge(&mut merged, &pose, &angles, &given).expect("a merged robot");
                     let built = Model::new(Parameters::from_array(values));

@@ -4,7 +4,7 @@
 
 use planar_capture::target::Target;
 use planar_proof::dual::Dual;
-use planar_proof::sample::Sample;
+use planar_proof::sample::RandomState;
 
 /// Every shipped layout; the test below says when one is missing.
 macro_rules! for_every_layout {
@@ -49,25 +49,25 @@ fn close(what: &str, found: f64, wanted: f64, scale: f64, tolerance: f64) {
 /// Base pose, joint angles, base twist, joint rates.
 type Inputs<const J: usize> = ([f64; 3], [f64; J], [f64; 3], [f64; J]);
 
-fn inputs<const J: usize>(s: &Sample) -> Inputs<J> {
+fn inputs<const J: usize>(s: &RandomState) -> Inputs<J> {
     let array = |v: &[f64]| -> [f64; J] { v.try_into().expect("as many as joints") };
     (s.base_pose, array(&s.joint_angles), s.base_twist, array(&s.joint_rates))
 }
 
 /// v, with the base twist first.
-fn velocity<const N: usize>(s: &Sample) -> [f64; N] {
+fn velocity<const N: usize>(s: &RandomState) -> [f64; N] {
     let all: Vec<f64> = s.base_twist.iter().chain(&s.joint_rates).copied().collect();
     all.try_into().expect("as many as coordinates")
 }
 
 /// The configuration moving with v: values and rates as dual numbers.
-fn moving<const J: usize>(s: &Sample, v: &[f64]) -> ([Dual; 3], [Dual; J]) {
+fn moving<const J: usize>(s: &RandomState, v: &[f64]) -> ([Dual; 3], [Dual; J]) {
     let (pose, angles, ..) = inputs::<J>(s);
     (std::array::from_fn(|i| Dual(pose[i], v[i])), std::array::from_fn(|i| Dual(angles[i], v[3 + i])))
 }
 
 /// One target per arm.
-fn targets<const A: usize>(s: &Sample) -> [Target<f64>; A] {
+fn targets<const A: usize>(s: &RandomState) -> [Target<f64>; A] {
     std::array::from_fn(|arm| {
         let ([mass, inertia, rx, ry], twist) = s.targets[arm];
         Target { mass, inertia, contact: [rx, ry], twist }

@@ -5,7 +5,7 @@ use planar_capture::dynamics::Model;
 use planar_capture::formulation::derivative;
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
-use planar_proof::sample::Sample;
+use planar_proof::sample::RandomState;
 
 /// Free motion for `steps` of `step` seconds; the state is `[pose, angles, twist, rates, work]`.
 fn integrate_to_contact(model: &dyn Model<f64>, x: &mut [f64], step: f64, steps: u32) {
@@ -20,7 +20,7 @@ fn integrate_to_contact(model: &dyn Model<f64>, x: &mut [f64], step: f64, steps:
 }
 
 /// The sample's state as an integrated vector.
-fn vector(sample: &Sample) -> Vec<f64> {
+fn vector(sample: &RandomState) -> Vec<f64> {
     let mut x = vec![0.0; vector_length(sample.joint_angles.len())];
     State {
         base_pose: sample.base_pose,

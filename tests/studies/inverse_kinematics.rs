@@ -1,7 +1,9 @@
 //! Wanted tip poses are reached by the exactly tracked approach, or it is said why not.
 
 use crate::{Silent, run, scenario};
-use planar_capture::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, posture};
+use planar_capture::capture::approach::inverse_kinematics::{
+    InverseKinematics, InverseKinematicsError, inverse_kinematics,
+};
 use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::registry;
 use planar_capture::scenario::{EndEffectorGoal, FinalRates, Scenario, Tracking};
@@ -20,8 +22,8 @@ fn tips(study: &Study) -> Vec<[f64; 3]> {
     study.approach.end().expect("an end").end_effector_poses.clone()
 }
 
-/// What another approach reached is reached again, with the same angles and rates from a first guess near them (from the
-/// initial angles it may be with other elbows).
+/// What another approach reached is reached again, with the same angles and rates from a first guess near them (from
+/// the initial angles it may be with other elbows).
 #[test]
 fn the_papers_final_pose_is_found_from_its_tips() {
     let mut original = scenario("raina_shah_2017_exact_tracking");
@@ -40,9 +42,10 @@ fn the_papers_final_pose_is_found_from_its_tips() {
     for (found, wanted) in tips(&found).iter().zip(tips(&study)) {
         assert_close("tip", found, &wanted, tolerance::REACHED);
     }
-    let InverseKinematics { joint_angles, rounds, spare_joints, .. } = found.posture.as_ref().expect("a posture");
+    let InverseKinematics { joint_angles, rounds, spare_joints, .. } =
+        found.inverse_kinematics.as_ref().expect("a posture");
     assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
-    let rates = |study: &Study| study.design.as_ref().expect("rates").joint_rates.clone();
+    let rates = |study: &Study| study.terminal_rates.as_ref().expect("rates").joint_rates.clone();
     assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
     assert_eq!(*spare_joints, 0);
     assert!(*rounds < 40, "{rounds} rounds");
@@ -51,7 +54,8 @@ fn the_papers_final_pose_is_found_from_its_tips() {
     }
 }
 
-/// A tip's velocity alone, at any turning rate: two numbers for three joints, or for two; and an arm of which nothing is wanted.
+/// A tip's velocity alone, at any turning rate: two numbers for three joints, or for two; and an arm of which nothing
+/// is wanted.
 #[test]
 fn velocities_alone_are_designed() {
     let mut free = scenario("raina_shah_2017_exact_tracking");
@@ -94,13 +98,13 @@ fn positions_alone_are_reached_with_joints_to_spare() {
     for (tip, wanted) in tips(&study).iter().zip(places) {
         assert_close("tip", &tip[1..], &wanted, tolerance::REACHED);
     }
-    assert_eq!(study.posture.as_ref().expect("a posture").spare_joints, 2);
+    assert_eq!(study.inverse_kinematics.as_ref().expect("a posture").spare_joints, 2);
 
     let mut alone = wanting("raina_shah_2017_exact_tracking", &[goals[0], EndEffectorGoal::Any]);
     alone.approach.end = FinalRates::JointRates(vec![0.01; 6]);
     let study = run(&alone);
     assert_close("tip", &tips(&study)[0][1..], &places[0], tolerance::REACHED);
-    assert_eq!(study.posture.expect("a posture").spare_joints, 4);
+    assert_eq!(study.inverse_kinematics.expect("a posture").spare_joints, 4);
 }
 
 /// Yaws are wanted up to whole turns.
@@ -140,7 +144,7 @@ fn the_report_is_of_the_approach() {
     let model = registry::generated(&scenario.layout).expect("generated code");
     let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
     let mut ticks = 0_usize;
-    let found = posture(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a posture");
+    let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a posture");
     assert_eq!(ticks, found.rounds * 1000, "every round tracks one approach of 1000 steps");
     assert!(found.residual <= 1e-11 && (0.01..1.0).contains(&found.rates.singularity_margin), "{found:?}");
 }
