@@ -1,9 +1,9 @@
 """Makes deliberate faults, one at a time, and prints which test catches each: the break table of tests/README.md.
 
-``python3 tests/break_table.py [--jobs N] [--only NAME ...]`` works on copies of the tracked files in a temporary
-folder, so that the repository itself stays as it is. A fault in the derivation is derived again there: its graphs are
-fresh, and it is left to the numbers to give it away. Exits 1 where a fault is not caught, or where its text is not
-there exactly once.
+``python3 tests/break_table.py [--jobs N] [--only NAME ...] [--check]`` works on copies of the tracked files in a
+temporary folder, so that the repository itself stays as it is. A fault in the derivation is derived again there: its
+graphs are fresh, and it is left to the numbers to give it away. Exits 1 where a fault is not caught, or where its text
+is not there exactly once; ``--check`` looks for the texts alone.
 """
 
 import argparse
@@ -95,19 +95,19 @@ FAULTS = [
     # renderer and template
     Fault(
         "operands of a difference exchanged",
-        "codegen/operands.rs",
+        "crates/planar-build/src/renderer/operands.rs",
         'format!("{a} - {b}")',
         'format!("{b} - {a}")',
     ),
     Fault(
         "sine and cosine exchanged",
-        "codegen/operands.rs",
+        "crates/planar-build/src/renderer/operands.rs",
         "let bound = pair.iter().map(bound)",
         "let bound = pair.iter().rev().map(bound)",
     ),
     Fault(
         "a nonzero dropped: [5][0] of 6 × 6 results",
-        "codegen/operands.rs",
+        "crates/planar-build/src/renderer/operands.rs",
         'let elements = list(&output["elements"])?.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;',
         'let items = list(&output["elements"])?;\n'
         "        let mut elements = items.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;\n"
@@ -115,7 +115,7 @@ FAULTS = [
     ),
     Fault(
         "constants from the defaults, not the values",
-        "codegen/templates/model.rs.tera",
+        "crates/planar-build/templates/model.rs.tera",
         """\
         {% for s in constants.statements %}
         {{ s }}
@@ -136,13 +136,13 @@ FAULTS = [
     # runtime
     Fault(
         "structural zero ignored",
-        "src/structure.rs",
+        "crates/planar-layout/src/structure.rs",
         'None => differ("an exact zero, which costs no operations"),',
         "None => {}",
     ),
     Fault(
         "layout hash without the COM's y",
-        "src/layout.rs",
+        "crates/planar-layout/src/layout.rs",
         """\
                     ("com[1]", link.com[1]),
 """,
@@ -150,50 +150,50 @@ FAULTS = [
     ),
     Fault(
         "link of one arm merged at the angle of another",
-        "src/generated.rs",
+        "crates/planar-dynamics/src/implement.rs",
         "targets.iter().zip(&tips).zip(MANIFEST.links)",
         "targets.iter().zip(tips.iter().rev()).zip(MANIFEST.links)",
     ),
     Fault(
         "merged inertia without the parallel axis term",
-        "src/target.rs",
+        "crates/planar-dynamics/src/target.rs",
         "link.inertia + self.inertia + reduced * (offset[0] * offset[0] + offset[1] * offset[1])",
         "link.inertia + self.inertia",
     ),
     Fault(
         "R for −R in the contact Jacobian",
-        "src/target.rs",
+        "crates/planar-dynamics/src/target.rs",
         "[[one, zero, zero], [-ry, one, zero], [rx, zero, one]]",
         "[[one, zero, zero], [ry, one, zero], [-rx, zero, one]]",
     ),
     Fault(
         "sign of the impulse's moment",
-        "src/target.rs",
+        "crates/planar-dynamics/src/target.rs",
         "[spin + ry * fx - rx * fy, fx, fy]",
         "[spin - ry * fx + rx * fy, fx, fy]",
     ),
     Fault(
         "momentum of eq. (17) about the origin, not the base",
-        "src/impact.rs",
-        "let about_base = before.angular_momentum - (x * py - y * px);",
-        "let about_base = before.angular_momentum - T::ZERO * (x * py - y * px);",
+        "crates/planar-dynamics/src/momentum_equation.rs",
+        "[l - (x * py - y * px), px, py]",
+        "[l - T::ZERO * (x * py - y * px), px, py]",
     ),
     Fault(
         "eq. (7) without the factor T",
-        "src/trajectory/mod.rs",
+        "crates/planar-dynamics/src/trajectory/mod.rs",
         "Some(quartic(initial, change, *self.final_rates.get(joint)?, self.ends.duration, tau))",
         "let rate = *self.final_rates.get(joint)? / self.ends.duration;\n"
         "        Some(quartic(initial, change, rate, self.ends.duration, tau))",
     ),
     Fault(
         "gains of the controller exchanged",
-        "src/control/proportional_derivative.rs",
+        "crates/planar-dynamics/src/control/proportional_derivative.rs",
         "*torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);",
         "*torque = *kv * (desired.angle - *angle) + *kp * (desired.rate - *rate);",
     ),
     Fault(
         "weights of the Runge–Kutta stages",
-        "src/integrate/rk4.rs",
+        "crates/planar-dynamics/src/integrate/rk4.rs",
         "[(half, two), (half, two), (step, T::ONE)]",
         "[(half, two), (half, T::ONE), (step, two)]",
     ),
@@ -217,7 +217,7 @@ FAULTS = [
     ),
     Fault(
         "sign in the angular scale of the audit",
-        "src/simulate/audit.rs",
+        "src/simulate/bodies.rs",
         "mass * (x * vy - y * vx).abs()",
         "mass * (x * vy + y * vx).abs()",
     ),
@@ -230,8 +230,8 @@ FAULTS = [
     Fault(
         "columns of the time series exchanged",
         "src/record/columns.rs",
-        "&row.sample.motion.joint_angles",
-        "&row.sample.motion.joint_rates",
+        "&row.sample.state.joint_angles",
+        "&row.sample.state.joint_rates",
     ),
     Fault(
         "audit without an exit code",
@@ -241,71 +241,71 @@ FAULTS = [
     ),
     Fault(
         "centripetal term of the base in the generic implementation",
-        "src/generic/configuration.rs",
+        "crates/planar-build/src/prove/generic/configuration.rs",
         "let mut linear = velocity[0] * quarter_turn(&com);",
         "let mut linear = -velocity[0] * quarter_turn(&com);",
     ),
     # contacts
     Fault(
         "sign of the moment arm of a contact",
-        "src/contact/row.rs",
+        "crates/planar-dynamics/src/contact/row.rs",
         "n + (rx * fy - ry * fx)",
         "n - (rx * fy - ry * fx)",
     ),
     Fault(
         "holds without the centripetal acceleration of the arms",
-        "src/contact/hold.rs",
+        "crates/planar-dynamics/src/contact/hold.rs",
         "        add_centripetal(&state, jacobian, rows.tips);\n",
         "",
     ),
     Fault(
         "holds without the centripetal acceleration of what is held",
-        "src/contact/hold.rs",
+        "crates/planar-dynamics/src/contact/hold.rs",
         "accelerations) + omega * omega * row.reach)",
         "accelerations) + T::ZERO * omega * row.reach)",
     ),
     Fault(
         "offset of a hold turned the wrong way",
-        "src/contact/closure.rs",
+        "crates/planar-dynamics/src/contact/closure.rs",
         "offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw",
         "offset: [cos * dx - sin * dy, cos * dy + sin * dx], yaw",
     ),
     Fault(
         "restitution ignored",
-        "src/contact/impact.rs",
+        "crates/planar-dynamics/src/contact/impact.rs",
         "|e| e * *impulse",
         "|e| T::ZERO * e * *impulse",
     ),
     # modules for other crates
     Fault(
         "last part of π/2 forgotten",
-        "src/scalar/sine.rs",
+        "crates/planar-dynamics/src/scalar/sine.rs",
         "const C: f64 = 2.022_266_248_795_950_6e-21;",
         "const C: f64 = 0.0;",
     ),
     Fault(
         "a graph proved by nothing",
-        "src/generate/mod.rs",
+        "crates/planar-build/src/prove/mod.rs",
         "if error > 1.0 {",
         "if error > f64::MAX {",
     ),
     Fault(
         "a module's own test that always passes",
-        "codegen/templates/self_test.rs.tera",
+        "crates/planar-build/templates/self_test.rs.tera",
         "let within = difference <= bound;",
         "let within = difference <= bound || bound > 0.0;",
     ),
     Fault(
         "a stale graph rendered",
-        "codegen/stage.rs",
-        "if found == wanted {",
-        "if found.len() == wanted.len() {",
+        "crates/planar-build/src/graph.rs",
+        "if found != wanted {",
+        "if found.len() != wanted.len() {",
     ),
     Fault(
         "an edited module verified",
-        "src/build.rs",
-        "if hash == render::sha256(body) =>",
-        "if hash.len() == render::sha256(body).len() =>",
+        "crates/planar-build/src/layouts.rs",
+        "if hash == renderer::sha256(body) =>",
+        "if hash.len() == renderer::sha256(body).len() =>",
     ),
     Fault(
         "sign of a URDF's axis",
@@ -393,8 +393,8 @@ def test(place: Place, with_derivation: bool) -> Outcome:
         elif found := re.match(r"FAILED codegen/tests/(\S+)", line):
             derivation.append(found[1])
     if rust or derivation or code == 0:
-        # the two tests of this binary run the derivation's own, which are counted one by one
-        rust = [name for name in rust if not name.startswith("derivation::")]
+        # the two tests of this module run the derivation's own, which are counted one by one
+        rust = [name for name in rust if not name.startswith("commands::derivation::")]
         # cargo goes by the binaries' names, and in a binary the fastest test is reported first: the name decides
         return Outcome(sorted(rust), list(dict.fromkeys(derivation)))
     if "failed to run custom build command" in text:
@@ -403,12 +403,32 @@ def test(place: Place, with_derivation: bool) -> Outcome:
     raise Broken("the faulty code does not compile:\n" + text[-4000:])
 
 
+def right(fault: Fault, tree: Path) -> str:
+    """The file that a fault is to be made in, which has its text exactly once."""
+    path = tree / fault.file
+    text = path.read_text(encoding="utf-8") if path.exists() else ""
+    if text.count(fault.old) != 1:
+        raise Broken(f"{fault.file} has the text {text.count(fault.old)} times, not once:\n{fault.old}")
+    return text
+
+
+def check(faults: list[Fault]) -> int:
+    """Exit code 1 where a fault cannot be made."""
+    bad = 0
+    for fault in faults:
+        try:
+            right(fault, ROOT)
+        except Broken as problem:
+            bad += 1
+            print(f"{fault.name}: {problem}", file=sys.stderr)
+    print(f"{len(faults)} faults, {bad} of them cannot be made")
+    return 1 if bad else 0
+
+
 def attempt(fault: Fault, place: Place) -> Outcome:
     """Makes a fault in the copy, tests, and mends it."""
     path = place.tree / fault.file
-    text = path.read_text(encoding="utf-8")
-    if text.count(fault.old) != 1:
-        raise Broken(f"{fault.file} has the text {text.count(fault.old)} times, not once:\n{fault.old}")
+    text = right(fault, place.tree)
     graphs = {graph: graph.read_bytes() for graph in (place.tree / "codegen" / "graphs").iterdir()}
     try:
         path.write_text(text.replace(fault.old, fault.new), encoding="utf-8")
@@ -437,6 +457,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", action="append", metavar="NAME", help="this fault alone; may be given again")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="faults at a time, a copy each (1)")
+    parser.add_argument("--check", action="store_true", help="only whether each fault's text is there exactly once")
     options = parser.parse_args()
     only = options.only or []
     unknown = sorted(set(only) - {fault.name for fault in FAULTS})
@@ -444,6 +465,8 @@ def main() -> int:
         print(f"no fault {', '.join(unknown)}; there are: {', '.join(f.name for f in FAULTS)}", file=sys.stderr)
         return 2
     chosen = [fault for fault in FAULTS if not only or fault.name in only]
+    if options.check:
+        return check(chosen)
     start, bad = time.monotonic(), []
     with tempfile.TemporaryDirectory(prefix="break-table-") as folder, ThreadPoolExecutor(options.jobs) as pool:
         places: queue.SimpleQueue[Place] = queue.SimpleQueue()
