@@ -1,6 +1,9 @@
 //! What a user types and sees: the commands from a layout to its code, what they print, and what is said of wrong
 //! input.
 
+#[cfg(not(feature = "all_layouts"))]
+compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
+
 mod check;
 mod compare;
 mod derivation;

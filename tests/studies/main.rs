@@ -1,5 +1,8 @@
 //! From a scenario to its results: approach, capture, the motion after it, and what is written of them.
 
+#[cfg(not(feature = "all_layouts"))]
+compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
+
 mod audit;
 mod control;
 mod convergence;

@@ -2,6 +2,7 @@
 //! numbers are compared. Every bound of a comparison stands in [`tolerance`], with its reason.
 //!
 //! It never contains: the product, which its own tests and those of the root package bring along.
+#![cfg(feature = "fixtures")]
 #![allow(
     clippy::must_use_candidate,
     clippy::missing_panics_doc,
