@@ -62,7 +62,7 @@ class Product:
         return result.stdout
 
     def evaluate(self, layout: Path, states: list[dict]) -> list[dict]:
-        """By the implementation that knows any layout; tests/equivalence.rs holds the generated code to it."""
+        """By the implementation that knows any layout; the test of equivalence holds the generated code to it."""
         return json.loads(self.run("eval", str(layout), "-", "--dynamics", "generic", text=json.dumps(states)))
 
 
