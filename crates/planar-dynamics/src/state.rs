@@ -122,7 +122,7 @@ pub fn split<T>(vector: &[T]) -> Result<StateVector<'_, T>, Error> {
 /// The parts of an integrated vector, to be changed.
 ///
 /// # Errors
-/// As [`halves`].
+/// As [`split`].
 pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVectorMut<'_, T>, Error> {
     let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
     let (state, work) = vector.split_last_chunk_mut::<3>().ok_or(wrong)?;
