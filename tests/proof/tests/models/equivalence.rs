@@ -63,8 +63,8 @@ fn every_layout_has_an_entry() {
     let sorted = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect::<BTreeSet<_>>();
     let names: Vec<_> = LAYOUTS.iter().map(|(name, _)| *name).collect();
     let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
-    assert_eq!(sorted(&names), sorted(&shipped), "crates/planar-proof/src/tolerance.rs: LAYOUTS");
-    assert!(sorted(GENERATED).is_subset(&sorted(&names)), "crates/planar-proof/src/tolerance.rs: LAYOUTS");
+    assert_eq!(sorted(&names), sorted(&shipped), "tests/proof/src/tolerance.rs: LAYOUTS");
+    assert!(sorted(GENERATED).is_subset(&sorted(&names)), "tests/proof/src/tolerance.rs: LAYOUTS");
 }
 
 /// Names, units and shapes: what a graph says of its results, and what the table does.
