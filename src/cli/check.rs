@@ -1,6 +1,6 @@
 //! `planar-capture check FILE.toml`.
 
-use super::{Problem, color, layout};
+use super::{CommandError, color, layout};
 use planar_capture::check::inspect;
 use planar_capture::registry::SHIPPED;
 use std::io::Write;
@@ -18,8 +18,8 @@ pub struct Arguments {
     file: String,
 }
 
-/// Reads, looks, prints.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+/// Prints the description and the warnings.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let (text, file) = layout::source(&arguments.file)?;
     let folder = Path::new(&arguments.file).parent().unwrap_or(Path::new(""));
     let inspection = inspect(&text, &file, folder, SHIPPED)?;
@@ -29,7 +29,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     match warnings.count() {
         0 => writeln!(out, "nothing odd")?,
         count => {
-            // so that on a terminal they stand below what they speak of
+            // on a terminal the warnings follow the description
             out.flush()?;
             let noun = if count == 1 { "warning" } else { "warnings" };
             eprintln!("{}\n\n{count} {noun}", warnings.render(color()));

@@ -1,8 +1,9 @@
 //! `planar-capture compare LAYOUT.toml`.
 
-use super::{Problem, layout};
-use planar_capture::compare::{Comparison, Worst, compare, states_text};
-use planar_capture::output::atomic_file::{make_folder, write_whole};
+use super::{CommandError, file_error, layout};
+use planar_capture::compare::{Comparison, LargestError, compare};
+use planar_capture::eval::to_json;
+use planar_capture::output::atomic_file::{create_folder, write_text};
 use planar_capture::quantity::Quantity;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -27,21 +28,16 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Compares, prints, writes.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+/// Compares the implementations, writes the worst states and prints a table.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
-    let file = arguments.layout.clone();
-    let comparison = compare(&layout, arguments.samples, arguments.seed)
-        .map_err(|source| Problem::Model { file, source: Box::new(source) })?;
-    make_folder(&folder)?;
-    for worst in &comparison.worst {
-        let name = file_name(worst.difference.quantity.row().name);
-        let write = |extension: &str, text: String| {
-            write_whole(&folder.join(format!("{name}.{extension}")), |to| to.write_all(text.as_bytes()))
-        };
-        write("toml", worst.sample.layout.to_toml())?;
-        write("json", states_text(&worst.sample))?;
+    let comparison = compare(&layout, arguments.samples, arguments.seed).map_err(file_error(&arguments.layout))?;
+    create_folder(&folder)?;
+    for LargestError { difference, sample, .. } in &comparison.largest_errors {
+        let name = difference.quantity.row().name.replace([' ', '.'], "_");
+        write_text(&folder.join(format!("{name}.toml")), &sample.layout.to_toml())?;
+        write_text(&folder.join(format!("{name}.json")), &format!("[{}]\n", to_json(&sample.instant)))?;
     }
     let mut out = std::io::stdout().lock();
     print(&comparison, &layout.name, arguments, &mut out)?;
@@ -50,16 +46,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
         "Worst states in {0}; replay: planar-capture eval {0}/QUANTITY.toml {0}/QUANTITY.json",
         folder.display()
     )?;
-    for refusal in comparison.refusals.iter().filter(|r| r.generated.is_none() || r.generic.is_none()) {
-        let (who, error) = match (&refusal.generated, &refusal.generic) {
-            (Some(error), _) => ("generated", error),
+    for refusal in &comparison.refusals {
+        let (implementation, error) = match (&refusal.generated, &refusal.generic) {
+            (Some(error), None) => ("generated", error),
             (None, Some(error)) => ("generic", error),
-            (None, None) => continue,
+            _ => continue,
         };
-        eprintln!("compare: {}, state {}: only {who} says: {error}", refusal.regime.name(), refusal.index);
+        let (regime, index) = (refusal.regime.name(), refusal.index);
+        eprintln!("compare: {regime}, state {index}: only {implementation} says: {error}");
     }
     for quantity in Quantity::ALL {
-        if !comparison.worst.iter().any(|worst| worst.difference.quantity == *quantity) {
+        if !comparison.largest_errors.iter().any(|largest| largest.difference.quantity == *quantity) {
             eprintln!("compare: {} was never compared", quantity.row().name);
         }
     }
@@ -71,18 +68,14 @@ fn print(comparison: &Comparison, name: &str, arguments: &Arguments, out: &mut i
     let (states, samples, seed) = (comparison.states, arguments.samples, arguments.seed);
     writeln!(out, "{name}: generated against generic at {states} states, {samples} of each regime, seed {seed}\n")?;
     writeln!(out, "{:<28} {:>9} {:>9}  {:<14} {:>6}", "quantity", "error", "bound", "regime", "state")?;
-    for Worst { difference, regime, index, .. } in &comparison.worst {
+    for LargestError { difference, regime, index, .. } in &comparison.largest_errors {
         let (quantity, error, bound) = (difference.quantity.row().name, difference.error, difference.bound());
         let over = if difference.ratio() <= 1.0 { "" } else { "  over its bound" };
         writeln!(out, "{quantity:<28} {error:>9.1e} {bound:>9.1e}  {:<14} {index:>6}{over}", regime.name())?;
     }
     let both = comparison.refusals.iter().filter(|r| r.generated.is_some() && r.generic.is_some()).count();
     if both > 0 {
-        writeln!(out, "\n{both} states have no answer by either.")?;
+        writeln!(out, "\n{both} states have no result by either implementation.")?;
     }
     writeln!(out)
-}
-
-fn file_name(quantity: &str) -> String {
-    quantity.replace([' ', '.'], "_")
 }

@@ -1,6 +1,6 @@
 //! `planar-capture export LAYOUT.toml`.
 
-use super::{Problem, layout, text};
+use super::{CommandError, layout, write_new};
 use planar_capture::urdf;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -15,9 +15,9 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Reads, writes.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+/// Converts the layout.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
-    text::write(arguments.out.as_deref(), &urdf::export(&layout))?;
+    write_new(arguments.out.as_deref(), &urdf::export(&layout))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,18 +1,18 @@
 //! `planar-capture generate LAYOUT.toml --out FILE.rs`.
 
-use super::{Problem, layout};
-use indicatif::{ProgressBar, ProgressStyle};
+use super::progress::spinner;
+use super::{CommandError, file_error, layout};
+use indicatif::ProgressBar;
 use planar_capture::build::graph::GraphError;
 use planar_capture::build::{Module, command};
-use planar_capture::generate::{self, Proved};
+use planar_capture::generate::{self, GenerateError, Proved};
 use planar_capture::layout::Layout;
-use planar_capture::output::atomic_file::write_whole;
+use planar_capture::output::atomic_file::write_text;
 use planar_capture::python_package::PYTHON_PACKAGE;
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
 
 /// Derive the equations of a layout and write them as a Rust module for your own crate or firmware.
 ///
@@ -24,7 +24,7 @@ pub struct Arguments {
     layout: String,
     /// What to write: FILE.rs for the module, FILE.json for the expression graph that build scripts render.
     #[arg(long, value_name = "FILE", value_parser = output)]
-    out: Output,
+    out: PathBuf,
     /// A module that depends on nothing, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
@@ -33,63 +33,66 @@ pub struct Arguments {
     check: bool,
 }
 
-/// A file to be written, by its extension.
-#[derive(Clone, Debug)]
-enum Output {
-    Code(PathBuf),
-    Graph(PathBuf),
-}
-
-fn output(text: &str) -> Result<Output, String> {
+fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("rs") => Ok(Output::Code(path)),
-        Some("json") => Ok(Output::Graph(path)),
-        _ => Err("a file that ends in `.rs` (the module) or `.json` (the graph) is wanted".to_owned()),
+    if has_extension(&path, "rs") || has_extension(&path, "json") {
+        Ok(path)
+    } else {
+        Err("expected a file that ends in `.rs` (the module) or `.json` (the graph)".to_owned())
     }
 }
 
-/// Derives, proves, writes.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|found| found == extension)
+}
+
+/// Derives the graph, proves it, and writes it or its module.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
-    let (Output::Code(path) | Output::Graph(path)) = &arguments.out;
-    if arguments.standalone && matches!(arguments.out, Output::Graph(_)) {
-        return Err(Problem::Usage("--standalone is for a module: name FILE.rs, or leave it out for a graph"));
+    let (path, is_graph) = (&arguments.out, has_extension(&arguments.out, "json"));
+    if is_graph && arguments.standalone {
+        let message = "--standalone is for a module: name FILE.rs, or leave it out for a graph";
+        return Err(CommandError::Usage(message.to_owned()));
     }
-    let own_name = path.file_stem().is_some_and(|stem| stem.to_str() == Some(layout.name.as_str()));
-    if matches!(arguments.out, Output::Graph(_)) && !own_name {
-        return Err(Problem::GraphName { file: path.display().to_string(), name: layout.name });
+    if is_graph && path.file_stem().is_none_or(|stem| stem != layout.name.as_str()) {
+        return Err(CommandError::Usage(format!(
+            "{}: build scripts look for the graph of layout `{name}` in {name}.json: use that name",
+            path.display(),
+            name = layout.name
+        )));
     }
     if !arguments.check {
-        refuse_to_overwrite(path)?;
+        check_overwrite(path)?;
     }
-    let file = || arguments.layout.clone();
-    let progress = spinner();
+    let progress = spinner("starting Python");
     let graph_text = generate::derive(&layout, PYTHON_PACKAGE, &mut |line| show(&progress, line))
-        .map_err(|source| Problem::Derivation { file: file(), source })?;
+        .map_err(file_error(&arguments.layout))?;
     progress.set_message("comparing with the generic implementation");
-    let failed = |source| Problem::Generate { file: file(), source };
-    let Proved { graph, text, proof } = generate::complete(&graph_text, &layout).map_err(failed)?;
-    let text = match &arguments.out {
-        Output::Graph(_) => text,
-        Output::Code(_) => {
-            progress.set_message("rendering");
-            let (source, command) = recipe(arguments, &layout, path);
-            let module = Module { standalone: arguments.standalone, item: false, source: &source, command: &command };
-            module.render(&graph).map_err(|problem| failed(GraphError::Format(problem).into()))?
-        }
+    let Proved { graph, text, proof } = generate::complete(&graph_text, &layout).map_err(|source| {
+        let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
+        CommandError::File { file: arguments.layout.clone(), source: source.into(), exit_code }
+    })?;
+    let text = if is_graph {
+        text
+    } else {
+        progress.set_message("rendering");
+        let (source, command) = origin(arguments, &layout);
+        let module = Module { standalone: arguments.standalone, item: false, source: &source, command: &command };
+        module
+            .render(&graph)
+            .map_err(|problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem))))?
     };
     progress.finish_and_clear();
     if arguments.check {
-        return check(path, &text, arguments);
+        return check(&text, arguments);
     }
-    write_whole(path, |to| to.write_all(text.as_bytes()))?;
+    write_text(path, &text)?;
     let mut out = std::io::stdout().lock();
     let (lines, shown) = (text.lines().count(), path.display());
     writeln!(
         out,
         "{shown}: {}, {} degrees of freedom, {lines} lines\n\
-         {} results agree with the generic implementation at {} states (worst {:.0e} of what rounding may do)",
+         {} results agree with the generic implementation at {} states (largest difference {:.0e} of the rounding bound)",
         layout.name,
         layout.joints() + 3,
         proof.results,
@@ -99,22 +102,22 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Names of source and command for the header: without folders, so that the same layout gives the same bytes anywhere.
-fn recipe(arguments: &Arguments, layout: &Layout, path: &Path) -> (String, String) {
+/// Source and command for the header of the module: without folders, so that the same layout gives the same bytes
+/// everywhere.
+fn origin(arguments: &Arguments, layout: &Layout) -> (String, String) {
     let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let source = if Layout::is_path(&arguments.layout) {
-        name(Path::new(&arguments.layout))
+    let (source, argument) = if Layout::is_path(&arguments.layout) {
+        let file = name(Path::new(&arguments.layout));
+        (file.clone(), file)
     } else {
-        format!("the layout {}", layout.name)
+        (format!("the layout {}", layout.name), layout.name.clone())
     };
-    let from = if Layout::is_path(&arguments.layout) { &source } else { &layout.name };
-    let command = command(from, &name(path), arguments.standalone);
-    (source, command)
+    (source, command(&argument, &name(&arguments.out), arguments.standalone))
 }
 
-/// Whether the file is what it should be.
-fn check(path: &Path, text: &str, arguments: &Arguments) -> Result<ExitCode, Problem> {
-    let shown = path.display();
+/// Compares the file with what the layout gives.
+fn check(text: &str, arguments: &Arguments) -> Result<ExitCode, CommandError> {
+    let (path, shown) = (&arguments.out, arguments.out.display());
     if fs::read(path).is_ok_and(|found| found == text.as_bytes()) {
         writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
         return Ok(ExitCode::SUCCESS);
@@ -125,39 +128,33 @@ fn check(path: &Path, text: &str, arguments: &Arguments) -> Result<ExitCode, Pro
     Ok(ExitCode::from(1))
 }
 
-/// Somebody's own file must not be lost to a slip in a name.
-fn refuse_to_overwrite(path: &Path) -> Result<(), Problem> {
-    let file = || path.display().to_string();
+/// Refuses to overwrite a file that was not generated.
+fn check_overwrite(path: &Path) -> Result<(), CommandError> {
+    let file = path.display();
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
-        return Err(Problem::NoFolder { file: file(), folder: folder.display().to_string() });
+        let folder = folder.display();
+        let message = format!("cannot write {file}: there is no folder {folder}; make it first");
+        return Err(CommandError::Usage(message));
     }
     let Ok(found) = fs::metadata(path) else { return Ok(()) };
     let mut start = Vec::new();
     if found.is_file() {
-        // the first bytes tell; a device or a pipe would never end
+        // only the first bytes: a device or a pipe has no end
         let _ = fs::File::open(path).map(|file| file.take(64).read_to_end(&mut start));
     }
-    let ours = start.starts_with(b"// @generated from ") || start.starts_with(b"{\n \"format\": ");
-    if ours || (found.is_file() && found.len() == 0) { Ok(()) } else { Err(Problem::NotGenerated { file: file() }) }
+    let generated = start.starts_with(b"// @generated from ") || start.starts_with(b"{\n \"format\": ");
+    if generated || (found.is_file() && found.len() == 0) {
+        return Ok(());
+    }
+    let message = format!("{file} is there already and was not generated: name another file, or move it away first");
+    Err(CommandError::Usage(message))
 }
 
-/// What the derivation says; on a terminal the last line with a spinner, else the lines that take their time.
+/// Shows a line of the derivation's output; without a terminal only those about the environment, which takes minutes.
 fn show(progress: &ProgressBar, line: &str) {
-    if progress.is_hidden() {
-        if line.contains("environment") {
-            eprintln!("{line}");
-        }
-    } else {
+    if !progress.is_hidden() {
         progress.set_message(line.to_owned());
+    } else if line.contains("environment") {
+        eprintln!("{line}");
     }
-}
-
-fn spinner() -> ProgressBar {
-    let progress = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
-        progress.set_style(style);
-    }
-    progress.set_message("starting Python");
-    progress.enable_steady_tick(Duration::from_millis(100));
-    progress
 }

@@ -1,34 +1,30 @@
-//! Arguments, exit codes and what is printed where: results to stdout, problems and progress to stderr.
+//! The command line: results on the standard output, errors and progress on the standard error, exit codes.
 
 mod check;
 mod compare;
 mod dynamics;
 mod eval;
 mod export;
-mod extra;
 mod generate;
 mod import;
 mod layout;
+mod optional_outputs;
 mod progress;
 mod reproduce;
 mod run;
-mod text;
 
 use clap::{Parser, Subcommand};
-use planar_capture::capture::StudyError;
 use planar_capture::diagnostic::Report;
-use planar_capture::eval::StateError;
-use planar_capture::generate::{DerivationError, GenerateError};
-use planar_capture::output::atomic_file::OutputError;
-use planar_capture::registry::NoModel;
-use planar_capture::urdf::UrdfError;
-use std::io::IsTerminal;
+use planar_capture::output::atomic_file::{OutputError, write_text};
+use std::error::Error;
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Planar dynamics of free-floating multi-arm space robots: approach, impact, post-impact.
 #[derive(Debug, Parser)]
 #[command(version, arg_required_else_help = true)]
-struct Arguments {
+struct CommandLine {
     #[command(subcommand)]
     command: Command,
 }
@@ -46,94 +42,67 @@ enum Command {
     Reproduce(reproduce::Arguments),
 }
 
-/// Why there is no result.
+/// Why a command has no result.
 #[derive(Debug, thiserror::Error)]
-enum Problem {
-    /// An input file is wrong.
+enum CommandError {
+    /// An input file is invalid.
     #[error("{}", .0.render(color()))]
     Input(#[from] Report),
-    /// No generated code fits.
-    #[error("error: {file}: {source}")]
-    Model { file: String, source: Box<NoModel> },
-    /// An argument names no layout.
-    #[error(
-        "error: there is no shipped layout `{name}`; {meant}shipped: {shipped}; a path ends in `.toml` or contains a `/`"
-    )]
-    NoLayout { name: String, meant: String, shipped: String },
-    /// The states cannot be read.
-    #[error("error: {file}: {source}")]
-    States { file: String, source: StateError },
-    /// A state has no answer.
-    #[error("error: {file}: state {index}: {source}")]
-    Evaluation { file: String, index: usize, source: planar_capture::error::Error },
-    /// Arguments that do not go together.
+    /// The arguments, or the files that they name, do not permit the command.
     #[error("error: {0}")]
-    Usage(&'static str),
-    /// This build lacks what is asked for.
-    #[error("error: {0}")]
-    Lacking(extra::Lacking),
-    /// A file in the way that nobody generated.
-    #[error("error: {file} is there already and was not generated: name another file, or move it away first")]
-    NotGenerated { file: String },
-    /// A result has no folder to go to.
-    #[error("error: cannot write {file}: there is no folder {folder}; make it first")]
-    NoFolder { file: String, folder: String },
-    /// A file in the way that would be lost.
-    #[error("error: {file} is there already: name another file, or move it away first")]
-    Exists { file: String },
-    /// A graph has to have its layout's name.
-    #[error("error: {file}: build scripts look for the graph of layout `{name}` in {name}.json: use that name")]
-    GraphName { file: String, name: String },
-    /// No equations were derived.
+    Usage(String),
+    /// The content of an input file has no result.
     #[error("error: {file}: {source}")]
-    Derivation { file: String, source: DerivationError },
-    /// What was derived is not code.
-    #[error("error: {file}: {source}")]
-    Generate { file: String, source: GenerateError },
-    /// A robot that no layout can describe.
-    #[error("error: {file}: {source}")]
-    Urdf { file: String, source: UrdfError },
-    /// A computation has no answer.
-    #[error("error: {file}: {source}")]
-    Study { file: String, source: StudyError },
-    /// A figure cannot be drawn.
+    File { file: String, source: Box<dyn Error>, exit_code: u8 },
+    /// A figure or the reproduction report failed.
     #[cfg(feature = "figures")]
     #[error("error: {0}")]
-    Draw(#[from] planar_capture::output::figures::draw::DrawError),
-    /// The paper's study came to nothing.
-    #[cfg(feature = "figures")]
-    #[error("error: {0}")]
-    Reproduction(#[from] planar_capture::reproduction::ReproductionError),
+    Figures(Box<dyn Error>),
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
-    /// The standard output is gone.
+    /// The standard output cannot be written.
     #[error("error: cannot write to standard output: {0}")]
     Print(#[from] std::io::Error),
 }
 
-impl Problem {
-    /// 2 for input that cannot be worked with, 1 where the physics came to nothing on the way or a check failed.
+/// Converts an error about an input file, with exit code 2.
+fn file_error<E: Error + 'static>(file: &str) -> impl FnOnce(E) -> CommandError {
+    move |source| CommandError::File { file: file.to_owned(), source: source.into(), exit_code: 2 }
+}
+
+impl CommandError {
+    /// 2 for unsuitable input, 1 if a computation broke down or a check failed.
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Study {
-                source: StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. },
-                ..
-            } if !stopped.is_misuse() => 1,
-            Self::Generate { source: GenerateError::Disagreement { .. }, .. } => 1,
+            Self::File { exit_code, .. } => *exit_code,
             _ => 2,
         }
     }
 }
 
-/// Whether problems are shown in colour.
+/// Whether messages on the standard error are coloured.
 fn color() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
+/// Writes a text to a new file, or to the standard output without a path.
+fn write_new(path: Option<&Path>, text: &str) -> Result<(), CommandError> {
+    match path {
+        Some(path) if path.exists() => {
+            let file = path.display();
+            let message = format!("{file} is there already: name another file, or move it away first");
+            return Err(CommandError::Usage(message));
+        }
+        Some(path) => write_text(path, text)?,
+        None => std::io::stdout().lock().write_all(text.as_bytes())?,
+    }
+    Ok(())
+}
+
 /// Runs the command line.
 pub fn main() -> ExitCode {
-    let result = match Arguments::parse().command {
+    let result = match CommandLine::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
@@ -145,11 +114,11 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(code) => code,
-        // whoever reads has read enough: `| head`
-        Err(Problem::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(problem) => {
-            eprintln!("{problem}");
-            ExitCode::from(problem.exit_code())
+        // the reader closed the pipe, for example `| head`
+        Err(CommandError::Print(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::from(error.exit_code())
         }
     }
 }

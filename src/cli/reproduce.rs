@@ -1,6 +1,6 @@
 //! `planar-capture reproduce --out FOLDER`.
 
-use super::Problem;
+use super::CommandError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -17,25 +17,26 @@ pub struct Arguments {
     check: bool,
 }
 
-/// Says how to build what can draw.
+/// Names the missing feature.
 #[cfg(not(feature = "figures"))]
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
+    use super::optional_outputs::{FIGURES, require};
     let Arguments { out: _, check: _ } = arguments;
-    super::extra::require(&[super::extra::Extra::Figures]).map(|()| ExitCode::SUCCESS)
+    require(&[FIGURES]).map(|()| ExitCode::SUCCESS)
 }
 
-/// Computes, then writes or compares.
+/// Computes the report, then writes it or compares it with the files.
 #[cfg(feature = "figures")]
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use super::progress::Progress;
-    use planar_capture::output::atomic_file::{Staged, make_folder};
+    use planar_capture::output::atomic_file::{StagedFile, create_folder};
     use planar_capture::reproduction::reproduce;
     use std::io::Write;
 
     let mut progress = Progress::new();
     let result = reproduce(&mut progress);
     progress.finish();
-    let files = result?.files;
+    let files = result.map_err(|error| CommandError::Figures(error.into()))?.files;
     let (out, shown) = (&arguments.out, arguments.out.display());
     if arguments.check {
         let stale =
@@ -54,11 +55,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
     for (path, text) in &files {
         let path = out.join(path);
         if let Some(folder) = path.parent() {
-            make_folder(folder)?;
+            create_folder(folder)?;
         }
-        staged.push(Staged::new(&path, |to| to.write_all(text.as_bytes()))?);
+        staged.push(StagedFile::new(&path, |to| to.write_all(text.as_bytes()))?);
     }
-    staged.into_iter().try_for_each(Staged::commit)?;
+    staged.into_iter().try_for_each(StagedFile::commit)?;
     writeln!(std::io::stdout().lock(), "{}: {} figures", out.join("reproduction.md").display(), files.len() - 1)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,4 +1,4 @@
-//! Files that are whole or not there: written under a temporary name beside their place, then renamed.
+//! Result files that are complete or absent: written under a temporary name in the same folder, then renamed.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -8,33 +8,33 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {path}: {source}; nothing half-written was left there", path = path.display())]
 pub struct OutputError {
-    /// Where it should have gone.
+    /// The file or folder.
     pub path: PathBuf,
-    /// Why not.
+    /// The reason.
     #[source]
     pub source: io::Error,
 }
 
-/// Makes a folder for results, with the folders above it.
+/// Creates a folder for results and its parents.
 ///
 /// # Errors
 /// [`OutputError`] with the reason.
-pub fn make_folder(path: &Path) -> Result<(), OutputError> {
+pub fn create_folder(path: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(path).map_err(|source| OutputError { path: path.to_owned(), source })
 }
 
-/// A file that is written but does not stand in its place yet; dropped, it is gone.
+/// A complete file under a temporary name. [`commit`](Self::commit) gives it its own; dropping deletes it.
 #[derive(Debug)]
-pub struct Staged {
+pub struct StagedFile {
     path: PathBuf,
     file: tempfile::NamedTempFile,
 }
 
-impl Staged {
-    /// Writes what is to stand at `path`, under a temporary name beside it.
+impl StagedFile {
+    /// Writes the content of `path` to a temporary file in the same folder.
     ///
     /// # Errors
-    /// [`OutputError`] with the reason: no permission, a full disk, a folder in that place.
+    /// [`OutputError`] with the reason: no permission, a full disk, a folder at `path`.
     pub fn new(path: &Path, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> Result<Self, OutputError> {
         let attempt = || -> io::Result<tempfile::NamedTempFile> {
             if path.is_dir() {
@@ -53,27 +53,24 @@ impl Staged {
             file.as_file().sync_all()?;
             Ok(file)
         };
-        let failed = |source| OutputError { path: path.to_owned(), source };
-        Ok(Self { path: path.to_owned(), file: attempt().map_err(failed)? })
+        let file = attempt().map_err(|source| OutputError { path: path.to_owned(), source })?;
+        Ok(Self { path: path.to_owned(), file })
     }
 
-    /// Puts it in its place.
+    /// Renames the temporary file to `path`.
     ///
     /// # Errors
-    /// [`OutputError`] with the reason; what was there is then as it was.
+    /// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
     pub fn commit(self) -> Result<(), OutputError> {
         let Self { path, file } = self;
         file.persist(&path).map(drop).map_err(|e| OutputError { path, source: e.error })
     }
 }
 
-/// Writes `path` whole, or leaves what is there as it is.
+/// Writes `text` to `path`, completely or not at all.
 ///
 /// # Errors
-/// [`OutputError`] with the reason.
-pub fn write_whole(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
-) -> Result<(), OutputError> {
-    Staged::new(path, write)?.commit()
+/// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
+pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    StagedFile::new(path, |to| to.write_all(text.as_bytes()))?.commit()
 }

@@ -1,17 +1,18 @@
-//! The table that a run prints: what happened in each case, on one screen.
+//! The table that `run` prints: approach, impulses, balances and residual motion of every case.
 
+use super::impacts::impacts;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
-use crate::scenario::{Detection, PostCaptureControl, Scenario, Tracking};
+use crate::scenario::{Case, Detection, PostCaptureControl, Scenario, Tracking};
 use crate::simulate::Phase;
 use crate::simulate::conservation::ConservationErrors;
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
-/// An end effector this far from where it is to touch its target is told of, m.
-const APART: f64 = 1e-4;
+/// Distance of an end effector from its wanted contact point above which it is reported, m.
+const REPORTED_MISS: f64 = 1e-4;
 
-/// The numbers of a study in words and columns.
+/// The results of a study in words and columns.
 #[must_use]
 pub fn table(scenario: &Scenario, study: &Study) -> String {
     let mut text = String::new();
@@ -20,87 +21,74 @@ pub fn table(scenario: &Scenario, study: &Study) -> String {
     text
 }
 
-fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
     approach(out, scenario, study)?;
     if study.cases.iter().any(|case| case.capture.is_some()) {
         impulses(out, scenario, study)?;
-        balances(out, scenario, study)?;
-        remainders(out, study)?;
+        balances(out, study)?;
+        post_impact(out, scenario, study)?;
+        residual_motion(out, study)?;
     }
-    missed(out, scenario, study)
+    closest_approaches(out, scenario, study)
 }
 
-fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
     let phase = &study.approach;
     let Some(end) = phase.end() else { return Ok(()) };
     writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
-    if let Some(inverse_kinematics) = &study.inverse_kinematics {
+    if let Some(found) = &study.inverse_kinematics {
         writeln!(
             out,
-            "  final joint angles designed in {} rounds [rad]: {}\n  (tips missed by {:.1e}; {})",
-            inverse_kinematics.rounds,
-            list(&inverse_kinematics.joint_angles, 6),
-            inverse_kinematics.residual,
-            spare(inverse_kinematics.spare_joints)
+            "  final joint angles found in {} iterations [rad]: {}\n  (end effectors miss by {:.1e}; {})",
+            found.rounds,
+            list(&found.joint_angles, 6),
+            found.residual,
+            redundancy(found.spare_joints)
         )?;
     }
-    if let Some(terminal_rates) = &study.terminal_rates {
+    if let Some(found) = &study.terminal_rates {
         writeln!(
             out,
-            "  end rates designed in {} rounds [rad/s]: {}\n  (generalized Jacobian at the final pose: smallest/largest singular value {:.3})",
-            terminal_rates.iterations,
-            list(&terminal_rates.joint_rates, 6),
-            terminal_rates.singularity_margin
+            "  final joint rates found in {} iterations [rad/s]: {}\n  (generalized Jacobian at the final pose: smallest/largest singular value {:.3})",
+            found.iterations,
+            list(&found.joint_rates, 6),
+            found.singularity_margin
         )?;
     }
     let [yaw, x, y] = end.state.base_pose;
-    let meanwhile = match scenario.contact.detection {
+    let condition = match scenario.contact.detection {
         Detection::Time => "",
-        Detection::Event => ", had there been no contact",
+        Detection::Event => ", if there were no contact",
     };
-    writeln!(out, "\nAfter the approach of {} s{meanwhile}", phase.duration)?;
+    writeln!(out, "\nAfter the approach of {} s{condition}", phase.duration)?;
     writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
-    for (i, (arm, (pose, twist))) in
-        scenario.layout.arms.iter().zip(end.end_effector_poses.iter().zip(&end.end_effector_twists)).enumerate()
-    {
-        write!(
-            out,
-            "  tip of {}: ({:.4}, {:.4}) m, {:.4} rad/s, ({:.4}, {:.4}) m/s",
-            arm.name, pose[1], pose[2], twist[0], twist[1], twist[2]
-        )?;
-        let contact_at_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
-        let mut touches = contact_at_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
-        let touch = touches.find(|(_, touch)| touch.arm == i);
-        if let Some((target, touch, [x, y])) = touch.and_then(|(target, touch)| Some((target, touch, target.position?)))
-        {
-            let miss = (pose[1] - touch.contact[0] - x).hypot(pose[2] - touch.contact[1] - y);
-            write!(out, "; misses the contact point of {} by {miss:.4} m", target.name)?;
+    let end_effectors = end.end_effector_poses.iter().zip(&end.end_effector_twists);
+    for (i, (arm, ([_, x, y], [omega, vx, vy]))) in scenario.layout.arms.iter().zip(end_effectors).enumerate() {
+        let name = &arm.name;
+        write!(out, "  end effector of {name}: ({x:.4}, {y:.4}) m, {omega:.4} rad/s, ({vx:.4}, {vy:.4}) m/s")?;
+        if let Some((target, [wanted_x, wanted_y])) = wanted_contact(scenario, i) {
+            let miss = (x - wanted_x).hypot(y - wanted_y);
+            write!(out, "; misses the contact point of {target} by {miss:.4} m")?;
         }
         writeln!(out)?;
-        if let Some(miss) = study.terminal_errors.get(i).and_then(Option::as_ref) {
+        if let Some(error) = study.terminal_errors.get(i).and_then(Option::as_ref) {
             let head =
-                if miss.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
-            writeln!(out, "    {head} {miss}")?;
+                if error.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
+            writeln!(out, "    {head} {error}")?;
         }
     }
     if let Some(margin) = phase.singularity_margin {
-        let damped = match scenario.approach.tracking {
-            Tracking::ResolvedMotionRate { singularity_threshold, .. } if margin < singularity_threshold => {
-                format!(
-                    "\n  (below {singularity_threshold} it was damped: the way is through a singular pose, or to one out of reach)"
-                )
-            }
-            _ => String::new(),
-        };
-        writeln!(
-            out,
-            "  generalized Jacobian on the way: smallest/largest singular value {margin:.4} at the least{damped}"
-        )?;
+        writeln!(out, "  generalized Jacobian in the approach: least smallest/largest singular value {margin:.4}")?;
+        if let Tracking::ResolvedMotionRate { singularity_threshold, .. } = scenario.approach.tracking
+            && margin < singularity_threshold
+        {
+            writeln!(
+                out,
+                "  (damped below {singularity_threshold}: the path passes a singular pose or leads to a pose out of reach)"
+            )?;
+        }
     }
-    if !phase.saturation.joints.is_empty() {
-        writeln!(out, "  joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
-    }
-    limit_violations(out, "  ", phase)?;
+    limits(out, "  ", phase)?;
     let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
     writeln!(
         out,
@@ -108,26 +96,39 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
     )
 }
 
-/// How the joints kept their limits, where they have any.
-fn limit_violations(out: &mut String, indent: &str, phase: &Phase) -> std::fmt::Result {
-    let Some(limit_violations) = &phase.limit_violations else { return Ok(()) };
-    let sentences = limit_violations.sentences();
+/// The target that an arm is to touch at the end of the approach, and the expected place of its contact point [x, y],
+/// m.
+fn wanted_contact(scenario: &Scenario, arm: usize) -> Option<(&str, [f64; 2])> {
+    let at_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
+    let mut touches = at_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+    let (target, touch) = touches.find(|(_, touch)| touch.arm == arm)?;
+    let [x, y] = target.position?;
+    Some((&target.name, [x + touch.contact[0], y + touch.contact[1]]))
+}
+
+/// Times at the torque limits, and violations of the joint limits, of a phase that has such limits.
+fn limits(out: &mut String, indent: &str, phase: &Phase) -> fmt::Result {
+    if !phase.saturation.joints.is_empty() {
+        writeln!(out, "{indent}joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
+    }
+    let Some(violations) = &phase.limit_violations else { return Ok(()) };
+    let sentences = violations.sentences();
     if sentences.is_empty() {
         return writeln!(out, "{indent}all joints within their limits");
     }
     sentences.iter().try_for_each(|sentence| writeln!(out, "{indent}{sentence}"))
 }
 
-/// What there is to choose beside the wanted poses.
-fn spare(joints: isize) -> String {
-    match joints {
-        0 => "as many joints as wanted numbers".to_owned(),
-        1.. => format!("{joints} more joints than wanted numbers: steps of least size from the first guess"),
-        _ => format!("{} wanted numbers more than joints, which happen to agree", -joints),
+/// Compares the number of joints with the number of prescribed coordinates.
+fn redundancy(spare_joints: isize) -> String {
+    match spare_joints {
+        0 => "as many joints as prescribed coordinates".to_owned(),
+        1.. => format!("{spare_joints} more joints than prescribed coordinates: smallest steps from the first guess"),
+        _ => format!("{} more prescribed coordinates than joints, which happen to agree", -spare_joints),
     }
 }
 
-fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
     writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
     let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
     let detected = scenario.contact.detection == Detection::Event;
@@ -136,74 +137,83 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         (false, true) => "as printed",
         (false, false) => "",
     };
-    let duration = scenario.contact.duration;
-    let force = if duration.is_some() { "mean force [N]" } else { "" };
+    let force = if scenario.contact.duration.is_some() { "mean force [N]" } else { "" };
     let head = format!(
         "  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11} {force:>14}",
         "case", "arm", "kind", "exact", "paper eqs."
     );
     writeln!(out, "{}", head.trim_end())?;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
-        let Some(captured) = &result.capture else { continue };
-        let first = result.approach(study).duration;
-        let later = captured.further.iter().map(|one| (first + one.time, &one.impact));
-        for (time, impact) in std::iter::once((first, &captured.impact)).chain(later) {
-            for contact in &impact.contacts {
-                let ImpactContact { target, arm, law, .. } = contact.touching;
-                let Some(of) = scenario.layout.arms.get(arm) else { continue };
-                let literal = impact.paper.as_ref().and_then(|paper| *paper.impulse_magnitudes().get(arm)?);
-                let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
-                let printed = case.printed_impulses.get(target).copied().flatten();
-                let last = match (detected, printed) {
-                    (true, _) => format!("{time:.4}"),
-                    (false, Some(value)) => format!("{value:.4}"),
-                    (false, None) => String::new(),
-                };
-                let [_, fx, fy] = contact.impulse;
-                let (exact, kind) = (fx.hypot(fy), law.kind().name());
-                let force = duration.map_or_else(String::new, |duration| format!("{:.3}", exact / duration));
-                let row = format!(
-                    "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {force:>14}",
-                    case.name, of.name
-                );
-                writeln!(out, "{}", row.trim_end())?;
-            }
-        }
-        if captured.impact.contacts.is_empty() {
+        let Some(capture) = &result.capture else { continue };
+        impulses_of_case(out, scenario, study, (case, result))?;
+        if capture.impact.contacts.is_empty() {
             writeln!(out, "  {:<16} no contact", case.name)?;
         }
-        // of one arm, the target is where the end effector puts it
-        let apart = captured.impact.contacts.iter().filter(|contact| contact.touching.miss > APART);
-        for ImpactContact { target, arm, miss, .. } in apart.map(|contact| contact.touching) {
-            let (of, target) = (scenario.layout.arms.get(arm), scenario.targets.get(target));
-            let (Some(of), Some(target)) = (of, target) else { continue };
-            let (of, target) = (&of.name, &target.name);
-            writeln!(out, "  {:<16} the tip of {of} is {miss:.4} m from its contact point on {target}", case.name)?;
+        // a target that one arm touches is where the end effector puts it
+        let missed = capture.impact.contacts.iter().filter(|contact| contact.touching.miss > REPORTED_MISS);
+        for ImpactContact { target, arm, miss, .. } in missed.map(|contact| contact.touching) {
+            let (arm, target) = (&scenario.layout.arms[arm].name, &scenario.targets[target].name);
+            writeln!(
+                out,
+                "  {:<16} the end effector of {arm} is {miss:.4} m from its contact point on {target}",
+                case.name
+            )?;
         }
     }
     if printed && !detected {
-        writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; README says more)")?;
+        writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; see README)")?;
     }
     Ok(())
 }
 
-/// End effectors and targets that were to meet and did not.
-fn missed(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+fn impulses_of_case(
+    out: &mut String,
+    scenario: &Scenario,
+    study: &Study,
+    (case, result): (&Case, &CaseResult),
+) -> fmt::Result {
+    for event in impacts(study, result) {
+        let literal = event.solution.paper.as_ref().map(ImpactResult::impulse_magnitudes);
+        for contact in &event.solution.contacts {
+            let ImpactContact { target, arm, law, .. } = contact.touching;
+            let literal = literal.as_ref().and_then(|arms| arms[arm]);
+            let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
+            let last = match (scenario.contact.detection, case.printed_impulses[target]) {
+                (Detection::Event, _) => format!("{:.4}", event.time),
+                (Detection::Time, Some(printed)) => format!("{printed:.4}"),
+                (Detection::Time, None) => String::new(),
+            };
+            let [_, fx, fy] = contact.impulse;
+            let (exact, kind) = (fx.hypot(fy), law.kind().name());
+            let force = scenario.contact.duration.map(|duration| format!("{:.3}", exact / duration));
+            let row = format!(
+                "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {:>14}",
+                case.name,
+                scenario.layout.arms[arm].name,
+                force.unwrap_or_default()
+            );
+            writeln!(out, "{}", row.trim_end())?;
+        }
+    }
+    Ok(())
+}
+
+/// End effectors that did not meet their targets, where contacts are found by detection.
+fn closest_approaches(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
     for case in &study.cases {
         for pair in &case.closest {
-            let arm = scenario.layout.arms.get(pair.arm).map_or("", |arm| arm.name.as_str());
-            let target = scenario.targets.get(pair.target).map_or("", |target| target.name.as_str());
+            let (arm, target) = (&scenario.layout.arms[pair.arm].name, &scenario.targets[pair.target].name);
             writeln!(
                 out,
-                "\n{}: the tip of {arm} never meets {target}; at {:.2} s it is {:.4} m from it",
-                case.name, pair.time, pair.distance
+                "\n{}: the end effector of {arm} never meets {target}; the smallest distance is {:.4} m, at {:.2} s",
+                case.name, pair.distance, pair.time
             )?;
         }
     }
     Ok(())
 }
 
-fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::Result {
+fn balances(out: &mut String, study: &Study) -> fmt::Result {
     writeln!(out, "\nRobot and targets together, before and after the impact")?;
     writeln!(
         out,
@@ -211,20 +221,31 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         "case", "model", "energy before", "energy after", "momentum jump [l, px, py]"
     )?;
     for case in &study.cases {
-        let Some(captured) = &case.capture else { continue };
-        let later = captured.further.iter().map(|one| &one.impact);
-        for impact in std::iter::once(&captured.impact).chain(later) {
-            balance(out, case, "exact", &impact.exact)?;
-            if let Some(literal) = &impact.paper {
+        for event in impacts(study, case) {
+            balance(out, case, "exact", &event.solution.exact)?;
+            if let Some(literal) = &event.solution.paper {
                 balance(out, case, "paper", literal)?;
             }
         }
     }
-    let torques = match scenario.post_impact.as_ref().map(|after| &after.control) {
+    writeln!(out, "  (J; N m s, N s)")
+}
+
+fn balance(out: &mut String, case: &CaseResult, model: &str, result: &ImpactResult) -> fmt::Result {
+    let [l, px, py] = result.momentum_jump;
+    writeln!(
+        out,
+        "  {:<16} {:<6} {:>14.6} {:>14.6}   {:>9.1e} {:>9.1e} {:>9.1e}",
+        case.name, model, result.kinetic_energy_before, result.kinetic_energy_after, l, px, py
+    )
+}
+
+fn post_impact(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
+    let control = match scenario.post_impact.as_ref().map(|after| &after.control) {
         None | Some(PostCaptureControl::None) => "no torques".to_owned(),
         Some(control) => format!("control `{}`", control.name()),
     };
-    writeln!(out, "  (J; N m s, N s)\n\nAfter the impact, {torques}")?;
+    writeln!(out, "\nAfter the impact, {control}")?;
     let [momentum, energy, motion] = ["momentum drift", "energy error", "COM drift"];
     writeln!(out, "  {:<16} {:>10} {momentum:>15} {energy:>13} {motion:>10}", "case", "time [s]")?;
     for case in &study.cases {
@@ -237,60 +258,44 @@ fn balances(out: &mut String, scenario: &Scenario, study: &Study) -> std::fmt::R
         )?;
         let [open, opening] = post_impact.constraint_errors;
         if open > 0.0 {
-            writeln!(out, "    what is held is open by {open:.1e} (rad, m) at most, and opens by {opening:.1e} 1/s")?;
+            writeln!(out, "    constraints open by {open:.1e} (rad, m) at most, at a rate of {opening:.1e} 1/s")?;
         }
-        limit_violations(out, "    ", post_impact)?;
+        limits(out, "    ", post_impact)?;
     }
     Ok(())
 }
 
-fn remainders(out: &mut String, study: &Study) -> std::fmt::Result {
+fn residual_motion(out: &mut String, study: &Study) -> fmt::Result {
     let each = study.cases.iter().filter_map(|case| {
-        let captured = case.capture.as_ref()?;
-        Some((case, &captured.post_impact, captured.remainder.as_ref()?))
+        let capture = case.capture.as_ref()?;
+        Some((case, &capture.post_impact, capture.remainder.as_ref()?))
     });
     let each: Vec<_> = each.collect();
     if each.is_empty() {
         return Ok(());
     }
-    writeln!(
-        out,
-        "\nWhat remains of the motion then: rates [rad/s], momentum about the COM of the whole [N m s, N s]"
-    )?;
-    let head = ["case", "base rate", "l/I", "joint rates", "l", "px", "py"];
-    let [case, base, rigid, joints, l, px, py] = head;
+    writeln!(out, "\nResidual motion: rates [rad/s], momentum about the common COM of robot and targets [N m s, N s]")?;
+    let [case, base, rigid, joints, l, px, py] = ["case", "base rate", "l/I", "joint rates", "l", "px", "py"];
     writeln!(out, "  {case:<16} {base:>10} {rigid:>10} {joints:>11} {l:>10} {px:>10} {py:>10}")?;
-    for (case, phase, left) in each {
-        let [l, px, py] = left.momentum;
+    for (case, phase, residual) in each {
+        let [l, px, py] = residual.momentum;
         writeln!(
             out,
             "  {:<16} {:>10.6} {:>10.6} {:>11.1e} {l:>10.6} {px:>10.6} {py:>10.6}",
-            case.name, left.base_rate, left.rigid_rate, left.largest_joint_rate
+            case.name, residual.base_rate, residual.rigid_rate, residual.largest_joint_rate
         )?;
-        if !left.wheel_rates.is_empty() {
-            writeln!(out, "    wheels turn at {} rad/s", list(&left.wheel_rates, 6))?;
+        if !residual.wheel_rates.is_empty() {
+            writeln!(out, "    wheels turn at {} rad/s", list(&residual.wheel_rates, 6))?;
         }
         if let Some(end) = phase.end().filter(|end| end.base_torque.is_some()) {
             writeln!(
                 out,
-                "    the base torque took {:.6} N m s and did {:.6} J; {:.3} s at its limit",
+                "    base torque: {:.6} N m s taken, {:.6} J of work, {:.3} s at its limit",
                 -end.work.base_impulse, end.work.base_work, phase.saturation.base
             )?;
         }
-        if !phase.saturation.joints.is_empty() {
-            writeln!(out, "    joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
-        }
     }
     Ok(())
-}
-
-fn balance(out: &mut String, case: &CaseResult, model: &str, result: &ImpactResult) -> std::fmt::Result {
-    let [l, px, py] = result.momentum_jump;
-    writeln!(
-        out,
-        "  {:<16} {:<6} {:>14.6} {:>14.6}   {:>9.1e} {:>9.1e} {:>9.1e}",
-        case.name, model, result.kinetic_energy_before, result.kinetic_energy_after, l, px, py
-    )
 }
 
 fn list(values: &[f64], digits: usize) -> String {

@@ -1,4 +1,4 @@
-//! `summary.json`: the numbers of a study, by the contract in README.md.
+//! `summary.json`: the results of a study under the keys that README.md documents.
 
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
@@ -10,7 +10,7 @@ use crate::simulate::Phase;
 use crate::simulate::limits::{LimitViolation, LimitViolations};
 use serde_json::{Value, json};
 
-/// The whole summary; every number is finite and reads back as the same number.
+/// The summary of a study; `dynamics` names the implementation. Numbers read back exactly.
 #[must_use]
 pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
     let layout = &scenario.layout;
@@ -24,52 +24,52 @@ pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
 
 fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
     let mut value = json!({"name": case.name, "approach": phase(case.approach(study), true)});
-    if let Some(inverse_kinematics) = &study.inverse_kinematics {
+    if let Some(found) = &study.inverse_kinematics {
         value["approach"]["designed"] = json!({
-            "final_joint_angles": inverse_kinematics.joint_angles,
-            "residual": inverse_kinematics.residual,
-            "rounds": inverse_kinematics.rounds,
-            "singularity_margin": inverse_kinematics.rates.singularity_margin,
-            "spare_joints": inverse_kinematics.spare_joints,
+            "final_joint_angles": found.joint_angles,
+            "residual": found.residual,
+            "rounds": found.rounds,
+            "singularity_margin": found.rates.singularity_margin,
+            "spare_joints": found.spare_joints,
         });
     }
     if !study.terminal_errors.is_empty() {
-        let parts = |miss: &Option<TerminalError>| json!(miss.as_ref().map(|miss| &miss.parts));
+        let parts = |error: &Option<TerminalError>| json!(error.as_ref().map(|error| &error.parts));
         value["approach"]["missed"] = study.terminal_errors.iter().map(parts).collect();
     }
     if !case.closest.is_empty() {
         let closest = case.closest.iter().map(|pair| {
             json!({
-                "target": scenario.targets.get(pair.target).map(|target| &target.name),
-                "arm": scenario.layout.arms.get(pair.arm).map(|arm| &arm.name),
+                "target": scenario.targets[pair.target].name,
+                "arm": scenario.layout.arms[pair.arm].name,
                 "distance": pair.distance,
                 "time": pair.time,
             })
         });
-        value["closest"] = json!(closest.collect::<Vec<_>>());
+        value["closest"] = closest.collect();
     }
     if let Some(captured) = &case.capture {
-        value["impact"] = capture(scenario, &captured.impact);
+        value["impact"] = impact(scenario, &captured.impact);
         value["post_impact"] = phase(&captured.post_impact, false);
         if !captured.further.is_empty() {
-            let further = captured.further.iter().map(|one| {
-                let mut value = capture(scenario, &one.impact);
-                value["time"] = json!(one.time);
+            let further = captured.further.iter().map(|further| {
+                let mut value = impact(scenario, &further.impact);
+                value["time"] = json!(further.time);
                 value
             });
-            value["post_impact"]["impacts"] = json!(further.collect::<Vec<_>>());
+            value["post_impact"]["impacts"] = further.collect();
         }
         if captured.penetration > 0.0 {
             value["post_impact"]["penetration"] = json!(captured.penetration);
         }
-        if let Some(left) = &captured.remainder {
-            value["post_impact"]["remainder"] = remainder(left);
+        if let Some(residual) = &captured.remainder {
+            value["post_impact"]["remainder"] = residual_motion(residual);
         }
     }
     value
 }
 
-fn capture(scenario: &Scenario, impact: &ImpactSolution) -> Value {
+fn impact(scenario: &Scenario, impact: &ImpactSolution) -> Value {
     json!({
         "exact": result(&impact.exact),
         "paper": impact.paper.as_ref().map(result),
@@ -77,7 +77,7 @@ fn capture(scenario: &Scenario, impact: &ImpactSolution) -> Value {
     })
 }
 
-/// The end of a phase and its audit.
+/// The state at the end of a phase, and its audit.
 fn phase(phase: &Phase, end_effectors: bool) -> Value {
     let Some(end) = phase.end() else { return Value::Null };
     let mut value = json!({
@@ -101,8 +101,7 @@ fn phase(phase: &Phase, end_effectors: bool) -> Value {
         value["singularity_margin"] = json!(margin);
     }
     if let Some(LimitViolations { joint_angle, joint_rate }) = &phase.limit_violations {
-        value["limits"] =
-            json!({"joint_angle": joint_angle.as_ref().map(excess), "joint_rate": joint_rate.as_ref().map(excess)});
+        value["limits"] = json!({"joint_angle": joint_angle.as_ref().map(violation), "joint_rate": joint_rate.as_ref().map(violation)});
     }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);
@@ -115,17 +114,18 @@ fn phase(phase: &Phase, end_effectors: bool) -> Value {
     value
 }
 
-fn excess(excess: &LimitViolation) -> Value {
-    json!({"joint": excess.joint, "time": excess.time, "value": excess.value, "limit": excess.limit})
+fn violation(violation: &LimitViolation) -> Value {
+    let LimitViolation { joint, time, value, limit } = violation;
+    json!({"joint": joint, "time": time, "value": value, "limit": limit})
 }
 
-/// One contact, with names for numbers.
+/// One contact, with target and arm by name.
 fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
     let ImpactContact { target, arm, law, offset, miss } = result.touching;
     let response = &result.response;
     let mut value = json!({
-        "target": scenario.targets.get(target).map(|target| &target.name),
-        "arm": scenario.layout.arms.get(arm).map(|arm| &arm.name),
+        "target": scenario.targets[target].name,
+        "arm": scenario.layout.arms[arm].name,
         "kind": law.kind().name(),
         "offset": offset,
         "miss": miss,
@@ -146,16 +146,16 @@ fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
     value
 }
 
-fn remainder(left: &ResidualMotion) -> Value {
+fn residual_motion(residual: &ResidualMotion) -> Value {
     json!({
-        "control": left.control,
-        "momentum": left.momentum,
-        "velocity": left.velocity,
-        "inertia": left.inertia,
-        "rigid_rate": left.rigid_rate,
-        "base_rate": left.base_rate,
-        "largest_joint_rate": left.largest_joint_rate,
-        "wheel_rates": left.wheel_rates,
+        "control": residual.control,
+        "momentum": residual.momentum,
+        "velocity": residual.velocity,
+        "inertia": residual.inertia,
+        "rigid_rate": residual.rigid_rate,
+        "base_rate": residual.base_rate,
+        "largest_joint_rate": residual.largest_joint_rate,
+        "wheel_rates": residual.wheel_rates,
     })
 }
 

@@ -1,7 +1,7 @@
 //! `planar-capture compare`: what it prints, and that the states it leaves can be computed again.
 
 use crate::said;
-use planar_capture::compare::{Comparison, Worst};
+use planar_capture::compare::{Comparison, LargestError};
 use planar_capture::layout::Layout;
 use planar_capture::quantities::Difference;
 use planar_capture::quantity::Quantity;
@@ -61,9 +61,9 @@ fn an_error_over_its_bound_is_no_agreement() {
     let sample = REGIMES[0].sample(&Layout::parse(text, "shipped").expect("good"), 1, 0);
     let comparison = |error: f64| Comparison {
         states: 1,
-        worst: Quantity::ALL
+        largest_errors: Quantity::ALL
             .iter()
-            .map(|&quantity| Worst {
+            .map(|&quantity| LargestError {
                 difference: Difference { quantity, error, condition: 1.0 },
                 regime: REGIMES[0],
                 index: 0,

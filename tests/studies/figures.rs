@@ -26,7 +26,7 @@ mod drawn {
     use super::*;
     use crate::{run, scenario};
     use planar_capture::contact::ContactLaw;
-    use planar_capture::output::figures::{Axis, Colour, Dash, Figure, Mark, Panel, Series, Span, draw, figures};
+    use planar_capture::output::figures::{Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, draw, figures};
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
     use std::fs;
@@ -60,7 +60,7 @@ mod drawn {
         let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;");
         for panel in &figure.panels {
             for axis in [&panel.x, &panel.y] {
-                let named = matches!(axis.span, Span::Names(_));
+                let named = matches!(axis.range, AxisRange::Categories(_));
                 assert!(axis.label.ends_with(']') || named, "{}: `{}` has no unit", figure.name, axis.label);
                 assert!(svg.contains(&escaped(&axis.label)), "{}: no `{}`", figure.name, axis.label);
             }
@@ -158,7 +158,7 @@ mod drawn {
     /// All that is drawn in a picture of the plane is inside of its frame, far targets or not.
     fn assert_inside(figure: &Figure) {
         for panel in figure.panels.iter().filter(|panel| panel.equal_scale) {
-            let (Span::Between(left, right), Span::Between(low, high)) = (&panel.x.span, &panel.y.span) else {
+            let (AxisRange::Fixed(left, right), AxisRange::Fixed(low, high)) = (&panel.x.range, &panel.y.range) else {
                 panic!("{}: a picture without a frame", figure.name)
             };
             for (x, y) in panel.series.iter().flat_map(|series| &series.points) {
@@ -264,7 +264,7 @@ mod drawn {
             assert!(((ax - bx) * ny - (ay - by) * nx).abs() > 1e-3, "{i}: without friction it slides");
         }
         let shown = panels(&loops, &of_loops);
-        let Span::Names(names) = &shown[0].y.span else { panic!("names") };
+        let AxisRange::Categories(names) = &shown[0].y.range else { panic!("names") };
         assert_eq!(names.len(), 6);
         for (i, name) in names.iter().enumerate() {
             let [x, y, turn] = relative(&shown, "after", i);
@@ -281,7 +281,7 @@ mod drawn {
         let all = figures(&scenario, &study);
         let figure = all.iter().find(|figure| figure.name == "post_impact_motion_too_late").expect("the figure");
         let panel = figure.panels.last().expect("pictures");
-        let Span::Between(left, right) = panel.x.span else { panic!("a frame") };
+        let AxisRange::Fixed(left, right) = panel.x.range else { panic!("a frame") };
         let end = study.cases[2].capture.as_ref().and_then(|captured| captured.targets.last()).expect("targets");
         let [_, x, y] = end[1].pose;
         assert!(x < left && right - left < 12.0, "the box at {x} m is outside of {left} to {right} m");
@@ -340,7 +340,7 @@ mod drawn {
         let height = |joints: usize| -> f64 {
             let panel =
                 Panel::new(Axis::time("t [s]", 1.0), Axis::new("θ [rad]", 0.1), (0..joints).map(series).collect());
-            let svg = draw::svg(&Figure::column("many", "", vec![panel]));
+            let svg = draw::svg(&Figure::column("many", vec![panel]));
             let (_, rest) = svg.split_once(" height=\"").expect("a height");
             rest[..rest.find('"').expect("its end")].parse().expect("a number")
         };

@@ -2,7 +2,7 @@
 
 use crate::long_time::{DURATION, LongTime, Run};
 use crate::work::{Work, logarithms};
-use planar_capture::output::figures::{Axis, Dash, Figure, Mark, Panel, Series, Span};
+use planar_capture::output::figures::{Axis, AxisRange, Dash, Figure, Mark, Panel, Series};
 
 const WIDTH: f64 = 1.4;
 /// How many maxima a curve over time is made of.
@@ -17,12 +17,11 @@ pub fn work_precision(works: &[Work]) -> Figure {
             [(Some(line.method.label()), Mark::Line(dash, WIDTH)), (None, Mark::Points(shape))]
                 .map(|(label, mark)| Series { label, colour, mark, points: points.clone() })
         });
-        let x = Axis { label: "Evaluations of the derivative".to_owned(), span: Span::Powers(2, 6) };
-        let y = Axis { label: "Error [rad, m, rad/s, m/s]".to_owned(), span: Span::Powers(-16, 0) };
+        let x = Axis { label: "Evaluations of the derivative".to_owned(), range: AxisRange::PowersOfTen(2, 6) };
+        let y = Axis { label: "Error [rad, m, rad/s, m/s]".to_owned(), range: AxisRange::PowersOfTen(-16, 0) };
         Panel { title: Some(work.title.to_owned()), ..Panel::new(x, y, series.collect()) }
     });
-    let caption = "Error at the end of two motions over the evaluations that it took.";
-    Figure::column("work_precision", caption, panels.collect())
+    Figure::column("work_precision", panels.collect())
 }
 
 /// Energy and momentum errors over a thousand seconds, two panels per motion.
@@ -39,13 +38,13 @@ pub fn long_time(motions: &[LongTime]) -> Figure {
             Series { label, colour, mark: Mark::Line(dash, WIDTH), points: maxima(values(run)) }
         });
         let x = Axis::time("Time [s]", DURATION);
-        let y = Axis { label: format!("{quantity} error, relative"), span: Span::Powers(-16, 0) };
+        let y = Axis { label: format!("{quantity} error, relative"), range: AxisRange::PowersOfTen(-16, 0) };
         Panel { title: Some(motion.title.to_owned()), ..Panel::new(x, y, series.collect()) }
     };
     let panels = motions.iter().flat_map(|motion| {
         [panel(motion, "Energy", |run| &run.energy), panel(motion, "Momentum", |run| &run.momentum)]
     });
-    Figure::column("long_time", "Errors of kinetic energy and momentum of a free robot.", panels.collect())
+    Figure::column("long_time", panels.collect())
 }
 
 /// Logarithms of the largest value in each of as many parts of the time.

@@ -1,6 +1,6 @@
 //! The schemes that are compared, and how they are named and drawn.
 
-use planar_capture::output::figures::{Colour, Dash, Shape};
+use planar_capture::output::figures::{Colour, Dash, Symbol};
 use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 
 /// A scheme in one of the coordinates.
@@ -53,7 +53,7 @@ impl Method {
     }
 
     /// Every scheme has a colour, every kind of coordinates a dash and a symbol.
-    pub fn style(self) -> (Colour, Dash, Shape) {
+    pub fn style(self) -> (Colour, Dash, Symbol) {
         let colour = match self.integration.scheme {
             Scheme::GaussLegendre => Colour::Blue,
             Scheme::RungeKutta4 => Colour::Vermillion,
@@ -61,8 +61,8 @@ impl Method {
             Scheme::SemiImplicitEuler => Colour::Purple,
         };
         match self.integration.coordinates {
-            Formulation::Full => (colour, Dash::Solid, Shape::Circle),
-            Formulation::Reduced => (colour, Dash::Dashed, Shape::Cross),
+            Formulation::Full => (colour, Dash::Solid, Symbol::Circle),
+            Formulation::Reduced => (colour, Dash::Dashed, Symbol::Cross),
         }
     }
 

@@ -1,170 +1,156 @@
-//! Pictures of the robot: at the start, at each impact, and while it moves with what it holds.
+//! Snapshots of robot and targets: at the start, at each impact, and during the post-impact motion.
 
 use super::figure::{Figure, Series};
-use super::frame::{self, Picture};
-use super::robot::{arrow, expected, pin, robot, target};
+use super::robot::{arrow, expected_target, pin, robot, target};
+use super::snapshot::{FreeTarget, Snapshot, panels};
 use super::style::Colour;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::contact::ContactKind;
+use crate::layout::Arm;
+use crate::output::impacts::{ImpactEvent, impacts};
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
 use crate::simulate::system::Body;
 
-/// Number of pictures of the motion after an impact.
-const PICTURES: usize = 6;
+/// Number of snapshots of a post-impact motion.
+const SNAPSHOTS: usize = 6;
 
-/// The most impacts of one case that are shown.
-const IMPACTS: usize = 6;
+/// Largest number of impacts of one case that are shown.
+const MAX_IMPACTS: usize = 6;
 
-/// Length of the largest impulse's arrow, as part of the longest arm.
+/// Length of the arrow of the largest impulse over the length of the longest arm.
 const ARROW: f64 = 0.3;
 
-/// At the start and at the end of the approach; where contacts are found by detection, at each impact of each case.
+/// The configuration at the start and at the end of the approach; with contact detection instead of the latter, at each
+/// impact of each case.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
-    let (Some(start), Some(end)) = (study.approach.samples.first(), study.approach.end()) else { return Vec::new() };
-    let mut before = robot(&scenario.layout, &start.state);
-    let one = |name: &str, caption: &str, series| Figure {
-        name: name.to_owned(),
-        caption: caption.to_owned(),
-        columns: 1,
-        panels: frame::panels(vec![Picture { series, ..Picture::default() }]),
-    };
+    let samples = &study.approach.samples;
+    let (start, end) = (&samples[0], &samples[samples.len() - 1]);
+    let at_start = robot(&scenario.layout, &start.state);
+    let single = |name: &str, series| Figure::column(name, panels(vec![Snapshot { series, ..Snapshot::default() }]));
     if scenario.contact.detection == Detection::Event {
-        before.extend(scenario.targets.iter().enumerate().flat_map(|(i, object)| {
-            let pose = object.position.map_or([0.0; 3], |[x, y]| [object.yaw, x, y]);
-            target(object, colour(scenario, i), pose, std::iter::empty())
-        }));
-        let mut figures = vec![one("initial_configuration", "Robot and targets at the start of the approach.", before)];
-        figures.extend(study.cases.iter().filter_map(|case| impacts(scenario, study, case)));
+        let targets = scenario.targets.iter().enumerate().flat_map(|(i, object)| {
+            let [x, y] = object.position.expect("contact detection requires the position of every target");
+            target(object, target_colour(scenario, i), [object.yaw, x, y], &[])
+        });
+        let series = at_start.into_iter().chain(targets).collect();
+        let mut figures = vec![single("initial_configuration", series)];
+        figures.extend(study.cases.iter().map(|case| impacts_of_case(scenario, study, case)));
         return figures;
     }
-    let mut at_start = expected_targets(scenario, "expected targets");
-    at_start.extend(before);
-    let mut at_impact = expected_targets(scenario, "expected targets");
-    at_impact.extend(robot(&scenario.layout, &end.state));
+    let expected = || expected_targets(scenario, "expected targets");
+    let mut at_end = [expected(), robot(&scenario.layout, &end.state)].concat();
     if let Some(case) = study.cases.first() {
-        let touching = case.capture.iter().flat_map(|captured| &captured.impact.contacts).map(|one| one.touching);
-        at_impact.extend(drawn_targets(scenario, &case.targets, end, &touching.collect::<Vec<_>>()).concat());
+        let contacts = case.capture.iter().flat_map(|capture| &capture.impact.contacts).map(|one| one.touching);
+        at_end.extend(targets(scenario, &case.targets, end, &contacts.collect::<Vec<_>>()).concat());
     }
-    let (name, caption) = if scenario.targets.is_empty() {
-        ("final_configuration", "The robot at the end of the approach.")
-    } else {
-        ("impact_configuration", "Robot and targets at the impact; dashed: where the targets were expected.")
-    };
-    vec![
-        one("initial_configuration", "The robot at the start of the approach.", at_start),
-        one(name, caption, at_impact),
-    ]
+    let end_name = if scenario.targets.is_empty() { "final_configuration" } else { "impact_configuration" };
+    vec![single("initial_configuration", [expected(), at_start].concat()), single(end_name, at_end)]
 }
 
-/// The impacts of a case that were found by detection, or the end of an approach that met nothing.
-fn impacts(scenario: &Scenario, study: &Study, case: &CaseResult) -> Option<Figure> {
-    let approach = case.approach(study);
-    let mut pictures = Vec::new();
-    let picture = |title: String, now: &Sample, targets: &[Body], impulses: Vec<Series>, touching: &[ImpactContact]| {
+/// The impacts of a case that were found by detection, or the end of an approach without contact.
+fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
+    let snapshot = |title: String, now: &Sample, bodies: &[Body], contacts: &[ImpactContact]| {
         let mut series = expected_targets(scenario, "targets at the start");
         series.extend(robot(&scenario.layout, &now.state));
-        series.extend(drawn_targets(scenario, targets, now, touching).concat());
-        series.extend(impulses);
-        Picture { title: Some(title), series, ..Picture::default() }
+        series.extend(targets(scenario, bodies, now, contacts).concat());
+        Snapshot { title: Some(title), series, ..Snapshot::default() }
     };
-    let at_contact = approach.end()?;
-    if let Some(captured) = &case.capture {
-        let all = || std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
-        let sizes = all().flat_map(|impact| &impact.contacts).map(|one| one.impulse[1].hypot(one.impulse[2]));
-        let largest = sizes.fold(0.0, f64::max);
-        let reach = scenario.layout.arms.iter().map(crate::layout::Arm::reach).fold(0.0, f64::max);
-        let per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };
-        let first = (approach.duration, at_contact, &case.targets);
-        let later = captured.further.iter().filter_map(|one| {
-            let i = captured.post_impact.samples.iter().position(|sample| sample.time >= one.time)?;
-            Some((approach.duration + one.time, captured.post_impact.samples.get(i)?, captured.targets.get(i)?))
-        });
-        for ((time, now, targets), impact) in std::iter::once(first).chain(later).zip(all()).take(IMPACTS) {
-            let arrows = impact.contacts.iter().filter_map(|one| {
-                let [_, x, y] = *now.end_effector_poses.get(one.touching.arm)?;
-                let [_, fx, fy] = one.impulse.map(|part| part * per_impulse);
-                arrow("impulse on the robot", [x, y], [fx, fy])
-            });
-            let touching: Vec<_> = impact.contacts.iter().map(|one| one.touching).collect();
-            pictures.push(picture(format!("Impact at {time:.3} s"), now, targets, arrows.collect(), &touching));
-        }
-    } else {
-        let title = format!("No contact by {} s", approach.duration);
-        pictures.push(picture(title, at_contact, &case.targets, Vec::new(), &[]));
+    let events = impacts(study, case);
+    let magnitudes = events.iter().flat_map(|event| &event.solution.contacts).map(|c| c.impulse[1].hypot(c.impulse[2]));
+    let largest = magnitudes.fold(0.0, f64::max);
+    let reach = scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max);
+    let length_per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };
+    let at_impact = |event: &ImpactEvent<'_>| {
+        let contacts = &event.solution.contacts;
+        let touching: Vec<_> = contacts.iter().map(|contact| contact.touching).collect();
+        let title = format!("Impact at {:.3} s", event.time);
+        let mut snapshot = snapshot(title, event.before, event.targets, &touching);
+        snapshot.series.extend(contacts.iter().filter_map(|contact| {
+            let [_, x, y] = event.before.end_effector_poses[contact.touching.arm];
+            let [_, fx, fy] = contact.impulse.map(|part| part * length_per_impulse);
+            arrow("impulse on the robot", [x, y], [fx, fy])
+        }));
+        snapshot
+    };
+    let mut snapshots: Vec<Snapshot> = events.iter().take(MAX_IMPACTS).map(at_impact).collect();
+    if snapshots.is_empty() {
+        let approach = case.approach(study);
+        let end = &approach.samples[approach.samples.len() - 1];
+        snapshots.push(snapshot(format!("No contact by {} s", approach.duration), end, &case.targets, &[]));
     }
-    Some(Figure {
-        name: format!("impact_configuration_{}", case.name),
-        caption: format!("Robot and targets at each impact, {}; dashed: where the targets started.", case.name),
-        columns: 2,
-        panels: frame::panels(pictures),
-    })
+    Figure { name: format!("impact_configuration_{}", case.name), columns: 2, panels: panels(snapshots) }
 }
 
-/// At equal times from the impact to the end.
-pub(super) fn after_impact(scenario: &Scenario, case: &str, captured: &CaptureResult) -> Option<Figure> {
-    let phase = &captured.post_impact;
-    let last = phase.samples.len().checked_sub(1)?;
-    let places = (0..PICTURES).map(|k| last * k / (PICTURES - 1));
-    let shown = places.filter_map(|i| Some((phase.samples.get(i)?, captured.targets.get(i)?)));
-    let since = if captured.impact.contacts.is_empty() { "approach" } else { "impact" };
-    let pictures = shown.map(|(sample, targets)| {
-        let held = held(captured, sample.time);
-        let mut picture = Picture {
+/// The post-impact motion at equal intervals.
+pub(super) fn post_impact_motion(
+    scenario: &Scenario,
+    study: &Study,
+    case: &CaseResult,
+    capture: &CaptureResult,
+) -> Figure {
+    let samples = &capture.post_impact.samples;
+    let since = if capture.impact.contacts.is_empty() { "approach" } else { "impact" };
+    let events = impacts(study, case);
+    let contacts_until = |i: usize| {
+        let past = events.iter().filter(move |event| event.after <= i);
+        past.flat_map(|event| &event.solution.contacts).map(|contact| contact.touching)
+    };
+    let snapshots = (0..SNAPSHOTS).map(|k| {
+        let i = (samples.len() - 1) * k / (SNAPSHOTS - 1);
+        let (sample, bodies) = (&samples[i], &capture.targets[i]);
+        let held: Vec<_> = contacts_until(i).filter(|contact| contact.law.kind().holds()).collect();
+        let mut snapshot = Snapshot {
             title: Some(format!("{} s after the {since}", (sample.time * 1e3).round() / 1e3)),
             series: robot(&scenario.layout, &sample.state),
-            ..Picture::default()
+            ..Snapshot::default()
         };
-        let drawn = drawn_targets(scenario, targets, sample, &held).into_iter().zip(targets).enumerate();
-        for (i, (series, body)) in drawn {
-            if held.iter().any(|touch| touch.target == i) {
-                picture.series.extend(series);
-            } else if let Some(object) = scenario.targets.get(i) {
-                let [_, x, y] = body.pose;
-                let touched = sample.time <= 0.0 && captured.impact.contacts.iter().any(|one| one.touching.target == i);
-                picture.free.push(frame::Free { series, middle: [x, y], radius: object.surface.reach(), touched });
+        for (target, series) in targets(scenario, bodies, sample, &held).into_iter().enumerate() {
+            if held.iter().any(|contact| contact.target == target) {
+                snapshot.series.extend(series);
+                continue;
             }
+            let [_, x, y] = bodies[target].pose;
+            snapshot.free.push(FreeTarget {
+                series,
+                centre: [x, y],
+                radius: scenario.targets[target].surface.reach(),
+                in_contact: i == 0 && contacts_until(0).any(|contact| contact.target == target),
+            });
         }
-        picture
+        snapshot
     });
-    Some(Figure {
-        name: format!("post_impact_motion_{case}"),
-        caption: format!(
-            "Robot and targets after the {since}, {case}; an arrow at the edge points to a target that is outside."
-        ),
-        columns: 3,
-        panels: frame::panels(pictures.collect()),
-    })
+    Figure { name: format!("post_impact_motion_{}", case.name), columns: 3, panels: panels(snapshots.collect()) }
 }
 
-/// What is held at a time since the first impact.
-fn held(captured: &CaptureResult, time: f64) -> Vec<ImpactContact> {
-    let later = captured.further.iter().filter(|one| one.time <= time).map(|one| &one.impact);
-    let contacts = std::iter::once(&captured.impact).chain(later).flat_map(|impact| &impact.contacts);
-    contacts.map(|one| one.touching).filter(|touch| touch.law.kind().holds()).collect()
-}
-
-/// Each target where it is, with a line to each end effector that touches it.
-fn drawn_targets(scenario: &Scenario, targets: &[Body], now: &Sample, touching: &[ImpactContact]) -> Vec<Vec<Series>> {
-    let pairs = scenario.targets.iter().zip(targets).enumerate();
+/// The series of each target, with a line to each end effector in contact with it.
+fn targets(scenario: &Scenario, bodies: &[Body], now: &Sample, contacts: &[ImpactContact]) -> Vec<Vec<Series>> {
+    let pairs = scenario.targets.iter().zip(bodies).enumerate();
     pairs
         .map(|(i, (object, body))| {
-            let end_effector = |touch: &ImpactContact| now.end_effector_poses.get(touch.arm).map(|[_, x, y]| [*x, *y]);
-            let own = || touching.iter().filter(|touch| touch.target == i);
-            let mut series = target(object, colour(scenario, i), body.pose, own().filter_map(end_effector));
-            series.extend(own().filter(|touch| touch.law.kind() == ContactKind::Pin).filter_map(end_effector).map(pin));
+            let own = contacts.iter().filter(|contact| contact.target == i);
+            let (mut points, mut pins) = (Vec::new(), Vec::new());
+            for contact in own {
+                let [_, x, y] = now.end_effector_poses[contact.arm];
+                points.push([x, y]);
+                if contact.law.kind() == ContactKind::Pin {
+                    pins.push(pin([x, y]));
+                }
+            }
+            let mut series = target(object, target_colour(scenario, i), body.pose, &points);
+            series.extend(pins);
             series
         })
         .collect()
 }
 
-/// A target's, after those of the arms.
-fn colour(scenario: &Scenario, target: usize) -> Colour {
+/// The colours of the targets follow those of the arms.
+fn target_colour(scenario: &Scenario, target: usize) -> Colour {
     Colour::of(scenario.layout.arms.len() + target)
 }
 
 fn expected_targets(scenario: &Scenario, label: &str) -> Vec<Series> {
     let placed = scenario.targets.iter().filter_map(|target| Some((target, target.position?)));
-    placed.map(|(target, position)| expected(label, target, position)).collect()
+    placed.map(|(target, position)| expected_target(label, target, position)).collect()
 }

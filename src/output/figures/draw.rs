@@ -1,13 +1,13 @@
-//! Draws figures with kuva: nothing of that library is known outside this file and its neighbour `panel`.
+//! Figures as SVG and PNG by the library kuva, which only this module and `panel` use.
 
 use super::figure::Figure;
-use super::panel::{self, Medium, Size};
+use super::panel::{self, Backend, Size};
 use kuva::backend::svg::SvgBackend;
 use kuva::render::figure::{Figure as Grid, FigureLegendPosition};
 use kuva::render::render::Scene;
 
-/// Pixels of the PNG per point of the figure: 300 per inch and more at a page's width.
-const PIXELS: f32 = 3.0;
+/// Pixels of the PNG per point of the figure: at least 300 per inch at the width of a page.
+const PIXELS_PER_POINT: f32 = 3.0;
 
 /// A figure that could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -15,15 +15,14 @@ const PIXELS: f32 = 3.0;
 pub struct DrawError {
     /// The figure's name.
     pub name: String,
-    /// What the library says.
+    /// The library's message.
     pub reason: String,
 }
 
-/// The figure as SVG with text; the same figure gives the same bytes.
+/// The figure as SVG; equal figures give equal bytes.
 #[must_use]
 pub fn svg(figure: &Figure) -> String {
-    let text = SvgBackend::new().with_pretty(true).render_scene(&scene(figure, Medium::Vector));
-    number_clips(&text)
+    renumber_clip_paths(&SvgBackend::new().with_pretty(true).render_scene(&scene(figure, Backend::Vector)))
 }
 
 /// The figure as PNG.
@@ -31,30 +30,30 @@ pub fn svg(figure: &Figure) -> String {
 /// # Errors
 /// [`DrawError`] with the library's reason.
 pub fn png(figure: &Figure) -> Result<Vec<u8>, DrawError> {
-    let scene = scene(figure, Medium::Raster { scale: f64::from(PIXELS) });
-    let image = kuva::PngBackend::new().with_scale(PIXELS).render_scene(&scene);
+    let scene = scene(figure, Backend::Raster { scale: f64::from(PIXELS_PER_POINT) });
+    let image = kuva::PngBackend::new().with_scale(PIXELS_PER_POINT).render_scene(&scene);
     image.map_err(|reason| DrawError { name: figure.name.clone(), reason })
 }
 
-fn scene(figure: &Figure, medium: Medium) -> Scene {
+fn scene(figure: &Figure, backend: Backend) -> Scene {
     let columns = figure.columns.max(1);
     let rows = figure.panels.len().div_ceil(columns).max(1);
     let size = Size::of(figure);
     let mut grid = Grid::new(rows, columns)
-        .with_plots(figure.panels.iter().map(|panel| panel::plots(panel, &size, medium)).collect())
-        .with_layouts(figure.panels.iter().map(|panel| panel::layout(panel, &size, medium)).collect())
+        .with_plots(figure.panels.iter().map(|panel| panel::plots(panel, &size, backend)).collect())
+        .with_layouts(figure.panels.iter().map(|panel| panel::layout(panel, &size, backend)).collect())
         .with_cell_size(size.width(), size.height())
         .with_spacing(8.0)
         .with_padding(6.0);
     if size.shared_legend {
-        let entries = figure.panels.first().map(|panel| panel::entries(panel, medium)).unwrap_or_default();
+        let entries = figure.panels.first().map(|panel| panel::legend_entries(panel, backend)).unwrap_or_default();
         grid = grid.with_shared_legend_position(FigureLegendPosition::RightMiddle).with_shared_legend_entries(entries);
     }
     grid.render()
 }
 
-/// Numbers the clip paths from 0: the library counts them on from one figure to the next.
-fn number_clips(text: &str) -> String {
+/// Numbers the clip paths from 0; the library's numbers continue from one figure to the next.
+fn renumber_clip_paths(text: &str) -> String {
     const PREFIX: &str = "kuva-clip-";
     let mut parts = text.split(PREFIX);
     let mut numbered = parts.next().unwrap_or_default().to_owned();

@@ -1,39 +1,32 @@
-//! The kinetic energy of robot and targets together, and what of it the work of the joints does not explain.
+//! The kinetic energy of robot and targets together, and the part of it that the work of the actuators does not explain.
 
 use super::figure::{Axis, Figure, Mark, Panel, Series};
 use super::style::{Colour, Dash};
-use super::time::{CURVE, LEAST};
+use super::time_curves::{CURVE_WIDTH, MINIMUM_SPAN};
 use crate::capture::{CaseResult, Study};
+use crate::output::time_series::rows;
 
-/// Over the whole case: the second curve changes only at impacts, by what they cost.
-pub(super) fn figure(study: &Study, result: &CaseResult) -> Figure {
-    let approach = result.approach(study);
-    let of_targets: f64 = result.targets.iter().map(|target| target.momentum().1).sum();
-    let done = approach.end().map_or(0.0, |end| end.work.total());
-    let before = approach.samples.iter().map(|now| {
-        let energy = now.momentum.kinetic_energy + of_targets;
-        (now.time, [energy, energy - now.work.total()])
-    });
-    let samples = result.capture.iter().flat_map(|captured| &captured.post_impact.samples);
-    let after = samples.map(|now| {
-        let energy = now.momentum.kinetic_energy;
-        (approach.duration + now.time, [energy, energy - done - now.work.total()])
-    });
-    let all: Vec<(f64, [f64; 2])> = before.chain(after).collect();
-    let curve = |label: &str, i: usize, colour: Colour, dash: Dash| Series {
+/// Over the whole case: the second curve changes only at impacts, by the energy that they dissipate.
+pub(super) fn figure(study: &Study, case: &CaseResult) -> Figure {
+    let approach = &case.approach(study).samples;
+    let mut points: [Vec<(f64, f64)>; 2] = Default::default();
+    for (i, row) in rows(study, case).enumerate() {
+        let earlier_work = if i < approach.len() { 0.0 } else { approach[approach.len() - 1].work.total() };
+        let energy = row.total_momentum().kinetic_energy;
+        points[0].push((row.time, energy));
+        points[1].push((row.time, energy - earlier_work - row.sample.work.total()));
+    }
+    let end = points[0][points[0].len() - 1].0;
+    let styles =
+        [("kinetic energy", Colour::Blue, Dash::Solid), ("less the work done", Colour::Vermillion, Dash::Dashed)];
+    let series = styles.into_iter().zip(points).map(|((label, colour, dash), points)| Series {
         label: Some(label.to_owned()),
         colour,
-        mark: Mark::Line(dash, CURVE),
-        points: all.iter().map(|(time, values)| (*time, values[i])).collect(),
-    };
-    let series = vec![
-        curve("kinetic energy", 0, Colour::Blue, Dash::Solid),
-        curve("less the work done", 1, Colour::Vermillion, Dash::Dashed),
-    ];
-    let end = all.last().map_or(approach.duration, |(time, _)| *time);
+        mark: Mark::Line(dash, CURVE_WIDTH),
+        points,
+    });
     Figure::column(
-        &format!("energy_{}", result.name),
-        &format!("Kinetic energy of robot and targets together, and less the work of the actuators, {}.", result.name),
-        vec![Panel::new(Axis::time("Time [s]", end), Axis::new("Energy [J]", LEAST), series)],
+        &format!("energy_{}", case.name),
+        vec![Panel::new(Axis::time("Time [s]", end), Axis::new("Energy [J]", MINIMUM_SPAN), series.collect())],
     )
 }

@@ -1,21 +1,19 @@
-//! What a figure shows, independent of the library that draws it.
+//! The content of a figure, independent of the library that draws it.
 
-use super::style::{Colour, Dash, Shape};
+use super::style::{Colour, Dash, Symbol};
 
-/// Panels with a name.
+/// Panels of axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Usable as a file name.
     pub name: String,
-    /// What it shows, in one sentence.
-    pub caption: String,
-    /// Panels side by side; with more than one they share a legend.
+    /// Number of panels side by side; with more than one they share a legend.
     pub columns: usize,
     /// Row by row.
     pub panels: Vec<Panel>,
 }
 
-/// One pair of axes and what is drawn between them.
+/// One pair of axes with its curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
     /// Above the panel.
@@ -24,7 +22,7 @@ pub struct Panel {
     pub x: Axis,
     /// Vertical.
     pub y: Axis,
-    /// A metre to the right is as long as a metre up.
+    /// Whether both axes have the same scale, m.
     pub equal_scale: bool,
     /// In the order of drawing.
     pub series: Vec<Series>,
@@ -35,33 +33,33 @@ pub struct Panel {
 pub struct Axis {
     /// Quantity and unit.
     pub label: String,
-    /// From where to where.
-    pub span: Span,
+    /// Its ends.
+    pub range: AxisRange,
 }
 
-/// From where to where an axis goes.
+/// The ends of an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Span {
-    /// As far as the data, and at least so much: noise about zero stays a line.
+pub enum AxisRange {
+    /// Those of the data, at least this far apart, so that rounding errors about a constant appear as a line.
     Data(f64),
-    /// The same, and zero is on it: parts of the whole are seen as such.
+    /// The same, including zero.
     DataAndZero(f64),
     /// From the first number to the second.
-    Between(f64, f64),
-    /// From ten to the first exponent to ten to the second; the data are logarithms to base 10.
-    Powers(i16, i16),
-    /// One place for each name, at 1, 2, … from the lower or left end.
-    Names(Vec<String>),
+    Fixed(f64, f64),
+    /// From 10^first to 10^second; the data are logarithms to base 10.
+    PowersOfTen(i16, i16),
+    /// One position for each name, at 1, 2, … from the lower or left end.
+    Categories(Vec<String>),
 }
 
 /// A line, or points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// In the legend; series of the same label are one there.
+    /// In the legend; series of equal label share an entry.
     pub label: Option<String>,
-    /// Told apart by colour …
+    /// Of line or symbols.
     pub colour: Colour,
-    /// … and by what does not need colour.
+    /// Line or symbols.
     pub mark: Mark,
     /// (x, y).
     pub points: Vec<(f64, f64)>,
@@ -70,28 +68,28 @@ pub struct Series {
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mark {
-    /// A line through the points; its width in points of the figure.
+    /// A line through the points with its width, points.
     Line(Dash, f64),
     /// A symbol at each point.
-    Points(Shape),
+    Points(Symbol),
 }
 
 impl Axis {
-    /// Fits the data, showing at least `least` of the quantity.
+    /// An axis over the range of the data, at least `minimum_span` long.
     #[must_use]
-    pub fn new(label: &str, least: f64) -> Self {
-        Self { label: label.to_owned(), span: Span::Data(least) }
+    pub fn new(label: &str, minimum_span: f64) -> Self {
+        Self { label: label.to_owned(), range: AxisRange::Data(minimum_span) }
     }
 
-    /// Time, exactly as long as `duration`, in s.
+    /// An axis of time from 0 to `duration`, s.
     #[must_use]
     pub fn time(label: &str, duration: f64) -> Self {
-        Self { label: label.to_owned(), span: Span::Between(0.0, duration) }
+        Self { label: label.to_owned(), range: AxisRange::Fixed(0.0, duration) }
     }
 }
 
 impl Panel {
-    /// A panel without title and with axes of their own scales.
+    /// A panel without title, with independent scales of its axes.
     #[must_use]
     pub fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self { title: None, x, y, equal_scale: false, series }
@@ -101,7 +99,7 @@ impl Panel {
 impl Figure {
     /// Panels below each other.
     #[must_use]
-    pub fn column(name: &str, caption: &str, panels: Vec<Panel>) -> Self {
-        Self { name: name.to_owned(), caption: caption.to_owned(), columns: 1, panels }
+    pub fn column(name: &str, panels: Vec<Panel>) -> Self {
+        Self { name: name.to_owned(), columns: 1, panels }
     }
 }

@@ -1,44 +1,45 @@
-//! Turns a panel into what kuva draws.
+//! A panel as layout and plots of kuva.
 
 use super::dash::strokes;
-use super::figure::{Axis, Figure, Mark, Panel, Series, Span};
+use super::figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
 use super::scale::{Scale, scale};
-use super::style::{Dash, Shape};
+use super::style::{Dash, Symbol};
 use kuva::plot::line::LineStyle;
 use kuva::plot::{LegendEntry, LegendPosition, LegendShape, LinePlot, MarkerShape, ScatterPlot};
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use std::sync::Arc;
 
-/// Verdana is as wide as `DejaVu` Sans, so that labels fit where either is installed. Embedded, the font would add a
-/// megabyte to every file; the PNG files have it drawn in.
+/// Verdana and `DejaVu` Sans have the same widths, so that labels fit with either. An embedded font would add a megabyte
+/// to every SVG file.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
-/// Dashes of the legend's samples, which are short, against those of the curves.
-const SAMPLE: f64 = 0.5;
+/// Lengths of strokes and gaps in the legend over those of the curves.
+const LEGEND_DASH: f64 = 0.5;
 
-/// What is drawn on.
+/// The kind of image.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Medium {
-    /// Knows dashes.
+pub(super) enum Backend {
+    /// SVG, which has dash patterns.
     Vector,
-    /// The library starts a dash anew at each point of a line, and does not scale it: lines are cut here instead.
+    /// PNG. The library restarts the dash pattern at each point of a line and does not scale it; [`strokes`] cuts the
+    /// lines instead.
     Raster {
         /// Pixels per point.
         scale: f64,
     },
 }
 
-/// Sizes of a panel, in points of the figure.
+/// Sizes of a panel, points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Size {
-    /// Of the axes' frame.
+    /// Width and height between the axes.
     frame: [f64; 2],
     left: f64,
     right: f64,
     top: f64,
     bottom: f64,
-    /// One legend for all panels, beside them.
+    /// Whether there is one legend for all panels.
     pub(super) shared_legend: bool,
 }
 
@@ -46,20 +47,20 @@ impl Size {
     /// The same for all panels of a figure.
     pub(super) fn of(figure: &Figure) -> Self {
         let shared_legend = figure.columns > 1;
-        let pictures = figure.panels.iter().any(|panel| panel.equal_scale);
+        let equal_scale = figure.panels.iter().any(|panel| panel.equal_scale);
         let labels = figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|series| series.label.as_ref());
-        let names = figure.panels.iter().filter_map(|panel| match &panel.y.span {
-            Span::Names(names) => Some(names),
+        let names = figure.panels.iter().filter_map(|panel| match &panel.y.range {
+            AxisRange::Categories(names) => Some(names),
             _ => None,
         });
-        let frame = match (pictures, shared_legend) {
+        let frame = match (equal_scale, shared_legend) {
             (true, true) => [230.0; 2],
             (true, false) => [360.0; 2],
-            (false, _) => [470.0, figure.panels.iter().map(lines).fold(190.0, f64::max)],
+            (false, _) => [470.0, figure.panels.iter().map(height_of_lines).fold(190.0, f64::max)],
         };
         Self {
             frame,
-            left: (34.0 + longest(names.flatten())).max(if pictures { 60.0 } else { 86.0 }),
+            left: (34.0 + longest(names.flatten())).max(if equal_scale { 60.0 } else { 86.0 }),
             right: if shared_legend { 12.0 } else { 60.0 + longest(labels) },
             top: if figure.panels.iter().any(|panel| panel.title.is_some()) { 32.0 } else { 12.0 },
             bottom: 48.0,
@@ -76,10 +77,10 @@ impl Size {
     }
 }
 
-/// Height of what stands line by line: the legend, and names along the axis.
-fn lines(panel: &Panel) -> f64 {
-    let names = if let Span::Names(names) = &panel.y.span { names.len() } else { 0 };
-    let count = entries(panel, Medium::Vector).len().max(names);
+/// Height of the legend or of the categories, whichever has more lines.
+fn height_of_lines(panel: &Panel) -> f64 {
+    let names = if let AxisRange::Categories(names) = &panel.y.range { names.len() } else { 0 };
+    let count = legend_entries(panel, Backend::Vector).len().max(names);
     18.0 * u32::try_from(count).map_or(0.0, f64::from)
 }
 
@@ -89,7 +90,7 @@ fn longest<'a>(texts: impl Iterator<Item = &'a String>) -> f64 {
 }
 
 /// Axes, grid and legend.
-pub(super) fn layout(panel: &Panel, size: &Size, medium: Medium) -> Layout {
+pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
     let [x, y] = scales(panel);
     let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
         .with_x_axis_min(x.low)
@@ -117,7 +118,7 @@ pub(super) fn layout(panel: &Panel, size: &Size, medium: Medium) -> Layout {
     }
     if !size.shared_legend {
         layout = layout
-            .with_legend_entries(entries(panel, medium))
+            .with_legend_entries(legend_entries(panel, backend))
             .with_legend_position(LegendPosition::OutsideRightTop)
             .with_legend_box(false);
     }
@@ -126,13 +127,13 @@ pub(super) fn layout(panel: &Panel, size: &Size, medium: Medium) -> Layout {
 
 fn scales(panel: &Panel) -> [Scale; 2] {
     let points = || panel.series.iter().flat_map(|series| &series.points);
-    [scale(&panel.x.span, points().map(|p| p.0)), scale(&panel.y.span, points().map(|p| p.1))]
+    [scale(&panel.x.range, points().map(|p| p.0)), scale(&panel.y.range, points().map(|p| p.1))]
 }
 
 fn ticks(axis: &Axis, scale: Scale) -> TickFormat {
-    let names = match &axis.span {
-        Span::Names(names) => names.clone(),
-        Span::Powers(..) => return TickFormat::Custom(Arc::new(|exponent| power_of_ten(exponent.round()))),
+    let names = match &axis.range {
+        AxisRange::Categories(names) => names.clone(),
+        AxisRange::PowersOfTen(..) => return TickFormat::Custom(Arc::new(|exponent| power_of_ten(exponent.round()))),
         _ => return TickFormat::Custom(Arc::new(move |value| scale.label(value))),
     };
     TickFormat::Custom(Arc::new(move |value| {
@@ -157,18 +158,18 @@ fn power_of_ten(exponent: f64) -> String {
 }
 
 /// Each label once, in the order of drawing.
-pub(super) fn entries(panel: &Panel, medium: Medium) -> Vec<LegendEntry> {
+pub(super) fn legend_entries(panel: &Panel, backend: Backend) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
     for series in &panel.series {
         let Some(label) = &series.label else { continue };
-        // the library's samples of dashed lines reach up to the text
+        // the library draws dashed lines up to the text
         let label = format!("\u{2002}{label}");
         if entries.iter().any(|entry| entry.label == label) {
             continue;
         }
         let (shape, dasharray) = match series.mark {
-            Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, SAMPLE, medium)),
-            Mark::Points(shape) => (LegendShape::Marker(marker(shape)), None),
+            Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, LEGEND_DASH, backend)),
+            Mark::Points(symbol) => (LegendShape::Marker(marker(symbol)), None),
         };
         let color = series.colour.hexadecimal().to_owned();
         entries.push(LegendEntry { label, color, shape, dasharray });
@@ -176,49 +177,49 @@ pub(super) fn entries(panel: &Panel, medium: Medium) -> Vec<LegendEntry> {
     entries
 }
 
-/// Strokes and gaps, `size` times as long as in the figure.
-fn lengths(dash: Dash, size: f64, medium: Medium) -> Option<String> {
-    let scale = match medium {
-        Medium::Vector => size,
-        Medium::Raster { scale } => size * scale,
+/// Lengths of strokes and gaps, `size` times those of the figure; `None` for a solid line.
+fn lengths(dash: Dash, size: f64, backend: Backend) -> Option<String> {
+    let scale = match backend {
+        Backend::Vector => size,
+        Backend::Raster { scale } => size * scale,
     };
     let lengths: Vec<String> = dash.lengths().iter().map(|length| (length * scale).to_string()).collect();
-    if lengths.is_empty() { None } else { Some(lengths.join(" ")) }
+    (!lengths.is_empty()).then(|| lengths.join(" "))
 }
 
 /// Lines and points.
-pub(super) fn plots(panel: &Panel, size: &Size, medium: Medium) -> Vec<Plot> {
+pub(super) fn plots(panel: &Panel, size: &Size, backend: Backend) -> Vec<Plot> {
     let [x, y] = scales(panel);
     let points_per_unit = [size.frame[0] / (x.high - x.low), size.frame[1] / (y.high - y.low)];
-    panel.series.iter().flat_map(|series| plot(series, points_per_unit, medium)).collect()
+    panel.series.iter().flat_map(|series| plot(series, points_per_unit, backend)).collect()
 }
 
-fn plot(series: &Series, points_per_unit: [f64; 2], medium: Medium) -> Vec<Plot> {
+fn plot(series: &Series, points_per_unit: [f64; 2], backend: Backend) -> Vec<Plot> {
     let colour = series.colour.hexadecimal();
     let points = series.points.iter().copied();
     let line =
         |points: Vec<(f64, f64)>, width| LinePlot::new().with_data(points).with_color(colour).with_stroke_width(width);
-    match (series.mark, medium) {
-        (Mark::Points(shape), _) => {
-            let symbols = ScatterPlot::new().with_data(points).with_color(colour).with_size(4.5);
-            vec![Plot::Scatter(symbols.with_marker(marker(shape)))]
+    match (series.mark, backend) {
+        (Mark::Points(symbol), _) => {
+            let scatter = ScatterPlot::new().with_data(points).with_color(colour).with_size(4.5);
+            vec![Plot::Scatter(scatter.with_marker(marker(symbol)))]
         }
-        (Mark::Line(dash, width), Medium::Raster { .. }) => {
-            let cut = strokes(&series.points, points_per_unit, dash);
-            cut.into_iter().map(|stroke| Plot::Line(line(stroke, width))).collect()
+        (Mark::Line(dash, width), Backend::Raster { .. }) => {
+            let strokes = strokes(&series.points, points_per_unit, dash);
+            strokes.into_iter().map(|stroke| Plot::Line(line(stroke, width))).collect()
         }
-        (Mark::Line(dash, width), Medium::Vector) => {
-            let style = lengths(dash, 1.0, medium).map_or(LineStyle::Solid, LineStyle::Custom);
+        (Mark::Line(dash, width), Backend::Vector) => {
+            let style = lengths(dash, 1.0, backend).map_or(LineStyle::Solid, LineStyle::Custom);
             vec![Plot::Line(line(points.collect(), width).with_line_style(style))]
         }
     }
 }
 
-fn marker(shape: Shape) -> MarkerShape {
-    match shape {
-        Shape::Circle => MarkerShape::Circle,
-        Shape::Square => MarkerShape::Square,
-        Shape::Cross => MarkerShape::Cross,
-        Shape::Plus => MarkerShape::Plus,
+fn marker(symbol: Symbol) -> MarkerShape {
+    match symbol {
+        Symbol::Circle => MarkerShape::Circle,
+        Symbol::Square => MarkerShape::Square,
+        Symbol::Cross => MarkerShape::Cross,
+        Symbol::Plus => MarkerShape::Plus,
     }
 }

@@ -1,7 +1,7 @@
-//! Colours, dashes and symbols that everybody can tell apart.
+//! Colours, dash patterns and symbols.
 
-/// Of the palette of Okabe and Ito, which people with any colour vision can tell apart; without its yellow, which is
-/// lost on white paper.
+/// The palette of Okabe and Ito, distinguishable with any colour vision, without its yellow, which has too little contrast
+/// on white.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
     /// The first of a family of curves.
@@ -16,13 +16,13 @@ pub enum Colour {
     Orange,
     /// The sixth.
     Sky,
-    /// The seventh, and what is wanted or printed.
+    /// The seventh.
     Black,
-    /// What is only there to be seen against.
+    /// Outside of the family: background.
     Grey,
 }
 
-/// How a line is broken.
+/// The dash pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
     /// The first of a family of curves.
@@ -35,9 +35,9 @@ pub enum Dash {
     DashDot,
 }
 
-/// A symbol.
+/// The symbol of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Symbol {
     /// ●
     Circle,
     /// ■
@@ -49,7 +49,7 @@ pub enum Shape {
 }
 
 impl Colour {
-    /// The colour of a family's member; the eighth has the first one's.
+    /// The colour of a family's member; from the eighth on they repeat.
     #[must_use]
     pub fn of(index: usize) -> Self {
         const ALL: [Colour; 7] = [
@@ -64,7 +64,7 @@ impl Colour {
         ALL[index % ALL.len()]
     }
 
-    /// As in SVG.
+    /// `#rrggbb`.
     #[must_use]
     pub fn hexadecimal(self) -> &'static str {
         match self {
@@ -81,14 +81,14 @@ impl Colour {
 }
 
 impl Dash {
-    /// The dash of a family's member; the fifth has the first one's.
+    /// The dash pattern of a family's member; from the fifth on they repeat.
     #[must_use]
     pub fn of(index: usize) -> Self {
         const ALL: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::DashDot];
         ALL[index % ALL.len()]
     }
 
-    /// Lengths of strokes and gaps in turn, in points of the figure; none for a line without gaps.
+    /// Lengths of strokes and gaps in turn, points; empty for a solid line.
     #[must_use]
     pub fn lengths(self) -> &'static [f64] {
         match self {

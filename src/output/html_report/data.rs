@@ -1,7 +1,7 @@
-//! What the page shows, as JSON: bodies, motion, targets, momentum and energy over time.
+//! The data of the HTML report as JSON: layout, motion, targets, impacts, momentum and energy over time.
 
-use super::impacts::{distances, holds, impacts, open};
-use crate::capture::{CaseResult, Study};
+use super::contacts::{closing_failures, constraint_openings, distances, impacts_of_case};
+use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::layout::Layout;
 use crate::outline::Outline;
 use crate::output::scene::{Motion, base_size, robot_frames};
@@ -10,8 +10,8 @@ use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use serde_json::{Value, json};
 
-/// Everything that the page needs of a study.
-pub fn data(scenario: &Scenario, study: &Study) -> Value {
+/// The data that the programs of the page read.
+pub(super) fn data(scenario: &Scenario, study: &Study) -> Value {
     let cases = scenario.cases.iter().zip(&study.cases);
     let mut value = json!({
         "scenario": scenario.name,
@@ -27,7 +27,7 @@ pub fn data(scenario: &Scenario, study: &Study) -> Value {
         "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
         "objections": study.objections(),
     });
-    // where every case has an approach of its own, this one went on without contacts and is nobody's
+    // with an approach of its own in every case, the study's approach is that without contacts
     if study.cases.iter().any(|case| case.approach.is_none()) {
         value["approach"] = phase(&study.approach);
     }
@@ -66,55 +66,54 @@ fn one_case(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult
         "name": result.name,
         "targets": bodies.collect::<Vec<_>>(),
         "targets_alone": {"momentum": momentum, "kinetic_energy": energy},
-        "impacts": impacts(scenario, study, result),
+        "impacts": impacts_of_case(scenario, study, result),
         "closest": result.closest.iter().map(|pair| json!({
             "target": pair.target, "arm": pair.arm, "distance": pair.distance, "time": pair.time,
         })).collect::<Vec<_>>(),
-        "open": open(scenario, case),
+        "open": closing_failures(scenario, case),
         "distances": distances(scenario, study, case, result),
     });
     if let Some(own) = &result.approach {
         value["approach"] = phase(own);
     }
-    if let Some(captured) = &result.capture {
-        value["post_impact"] = phase(&captured.post_impact);
-        value["post_impact"]["targets"] = columns_of(result.targets.len(), &captured.targets, |body| body.pose);
-        value["post_impact"]["target_twists"] = columns_of(result.targets.len(), &captured.targets, |body| body.twist);
-        value["post_impact"]["holds"] = json!(holds(captured));
+    if let Some(capture) = &result.capture {
+        value["post_impact"] = phase(&capture.post_impact);
+        value["post_impact"]["targets"] = target_columns(capture, |body| body.pose);
+        value["post_impact"]["target_twists"] = target_columns(capture, |body| body.twist);
+        value["post_impact"]["holds"] = json!(constraint_openings(study, result, capture));
     }
     value
 }
 
-/// Per target three columns over the samples.
-fn columns_of(targets: usize, samples: &[Vec<Body>], of: impl Fn(&Body) -> [f64; 3]) -> Value {
-    let column = |i: usize, part: usize| {
-        let value = |bodies: &Vec<Body>| bodies.get(i).map_or(0.0, |body| of(body)[part]);
-        samples.iter().map(|bodies| digits(value(bodies))).collect::<Vec<_>>()
+/// Per target three columns over the samples of the post-impact motion.
+fn target_columns(capture: &CaptureResult, vector: impl Fn(&Body) -> [f64; 3]) -> Value {
+    let column = |target: usize, part: usize| {
+        capture.targets.iter().map(|bodies| digits(vector(&bodies[target])[part])).collect::<Vec<_>>()
     };
-    json!((0..targets).map(|i| [0, 1, 2].map(|part| column(i, part))).collect::<Vec<_>>())
+    let count = capture.targets[0].len();
+    (0..count).map(|target| [0, 1, 2].map(|part| column(target, part))).collect::<Vec<_>>().into()
 }
 
-/// Columns over time; what the bodies' poses follow from, and what is plotted.
+/// Columns over the time of a phase.
 fn phase(phase: &Phase) -> Value {
     let samples = &phase.samples;
-    let joints = samples.first().map_or(0, |sample| sample.state.joint_angles.len());
-    let end_effectors = samples.first().map_or(0, |sample| sample.end_effector_poses.len());
-    let column = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(|sample| digits(of(sample))).collect::<Vec<_>>();
-    let columns = |n: usize, of: &dyn Fn(&Sample, usize) -> Option<f64>| {
-        (0..n).map(|i| column(&|sample| of(sample, i).unwrap_or_default())).collect::<Vec<_>>()
+    let (joints, arms) = (samples[0].state.joint_angles.len(), samples[0].end_effector_poses.len());
+    let column =
+        |value: &dyn Fn(&Sample) -> f64| samples.iter().map(|sample| digits(value(sample))).collect::<Vec<_>>();
+    let columns = |count: usize, value: &dyn Fn(&Sample, usize) -> f64| {
+        (0..count).map(|i| column(&|sample| value(sample, i))).collect::<Vec<_>>()
     };
+    let end_effectors = (0..arms).map(|arm| columns(3, &|sample, i| sample.end_effector_poses[arm][i]));
     json!({
         "duration": phase.duration,
         "time": samples.iter().map(|sample| sample.time).collect::<Vec<_>>(),
-        "base_pose": columns(3, &|sample, i| sample.state.base_pose.get(i).copied()),
-        "base_twist": columns(3, &|sample, i| sample.state.base_twist.get(i).copied()),
-        "joint_angles": columns(joints, &|sample, i| sample.state.joint_angles.get(i).copied()),
-        "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates.get(i).copied()),
-        "joint_torques": columns(joints, &|sample, i| sample.joint_torques.get(i).copied()),
-        "tips": (0..end_effectors).map(|arm| {
-            columns(3, &|sample, i| sample.end_effector_poses.get(arm)?.get(i).copied())
-        }).collect::<Vec<_>>(),
-        "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum.get(i).copied()),
+        "base_pose": columns(3, &|sample, i| sample.state.base_pose[i]),
+        "base_twist": columns(3, &|sample, i| sample.state.base_twist[i]),
+        "joint_angles": columns(joints, &|sample, i| sample.state.joint_angles[i]),
+        "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates[i]),
+        "joint_torques": columns(joints, &|sample, i| sample.joint_torques[i]),
+        "tips": end_effectors.collect::<Vec<_>>(),
+        "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum[i]),
         "angular_momentum": column(&|sample| sample.momentum.angular_momentum),
         "kinetic_energy": column(&|sample| sample.momentum.kinetic_energy),
         "work": column(&|sample| sample.work.total()),
@@ -125,7 +124,7 @@ fn phase(phase: &Phase) -> Value {
     })
 }
 
-/// Six digits, more than a screen shows; the CSV has them all.
+/// Rounded to six digits, more than the page shows.
 pub(super) fn digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }

@@ -1,10 +1,10 @@
-//! One HTML file with a replay of the study: opens from disk, without a network.
+//! One HTML file with an animation and plots of a study. It contains its styles, programs and data and opens without a
+//! network.
 //!
-//! Text, styles, programs and data are all in it. The plots are drawn by uPlot (MIT), whose text and licence it
-//! carries.
+//! uPlot (MIT) draws the plots; the file contains its text and licence.
 
+mod contacts;
 mod data;
-mod impacts;
 
 use crate::capture::Study;
 use crate::scenario::Scenario;
@@ -12,7 +12,7 @@ use std::io::{self, Write};
 
 const PAGE: &str = include_str!("page.html");
 
-/// What takes the place of each mark in the page.
+/// (placeholder in the page, text that replaces it).
 const PARTS: [(&str, &str); 11] = [
     ("/*uplot.css*/", include_str!("uPlot.min.css")),
     ("/*page.css*/", include_str!("page.css")),
@@ -30,18 +30,15 @@ const PARTS: [(&str, &str); 11] = [
 /// Writes the page.
 ///
 /// # Errors
-/// What the writer says.
+/// Those of the writer.
 pub fn write_report(scenario: &Scenario, study: &Study, mut to: impl Write) -> io::Result<()> {
     let mut page = PAGE.replace("<!--title-->", &escaped(&scenario.name));
-    for (mark, text) in PARTS {
-        page = page.replace(mark, text.trim_end());
+    for (placeholder, text) in PARTS {
+        page = page.replace(placeholder, text.trim_end());
     }
-    // last, so that no mark in it is looked for; `</` would end the element that holds it
+    // `</` would end the script element
     let data = serde_json::to_string(&data::data(scenario, study))?.replace("</", "<\\/");
-    let (before, after) = page.split_once("/*data*/").unwrap_or((&page, ""));
-    to.write_all(before.as_bytes())?;
-    to.write_all(data.as_bytes())?;
-    to.write_all(after.as_bytes())
+    to.write_all(page.replacen("/*data*/", &data, 1).as_bytes())
 }
 
 fn escaped(text: &str) -> String {

@@ -1,115 +1,97 @@
-//! A case as an MCAP file, which Foxglove and Rerun open: what moves, and the numbers beside it.
+//! A case as an MCAP file for Foxglove and Rerun.
 //!
-//! | topic | schema | when |
+//! | topic | schema | messages |
 //! |---|---|---|
-//! | `/tf` | `foxglove.FrameTransforms` | every row of the time series |
-//! | `/scene` | `foxglove.SceneUpdate`: base, links, targets, each fixed in its frame | at 0 |
+//! | `/tf` | `foxglove.FrameTransforms`: all frames of the [scene](crate::output::scene) | every row of the time series |
+//! | `/scene` | `foxglove.SceneUpdate`: base, links and targets, each fixed in its frame | at 0 |
 //! | `/outlines/FRAME` | `foxglove.PointCloud`: the same as points, for viewers that draw no scenes (Rerun) | at 0 |
-//! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a while | at each impact |
-//! | `/state`, `/end effectors`, `/momentum`, `/energy` | the time series' columns, by [group](crate::output::time_series::Column::group) | every row |
-//! | `/impact` | what the exact impact did | at each impact |
-//! | `/log` | `foxglove.Log`: which phase begins | at its start |
+//! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a few seconds | every impact |
+//! | `/state`, `/tips`, `/momentum`, `/energy`, `/targets` | the columns of the time series, by [group](crate::output::time_series::Column::group) | every row |
+//! | `/impact` | impulses, momentum jump and kinetic energies of the exact impact | every impact |
+//! | `/log` | `foxglove.Log`: the phase that begins | start of each phase |
 //!
-//! Everything is protobuf. The metadata of a channel of numbers gives the unit of each field; a record `planar_capture`
-//! says what the file comes from. Time is `log_time`, from 0 at the start of the approach, to the nearest nanosecond;
-//! the two rows at an impact have the same.
+//! Messages are protobuf. The metadata of a channel of numbers has the unit of each field; a metadata record
+//! `planar_capture` has the origin of the file. `log_time` counts from 0 at the start of the approach, in nanoseconds;
+//! the rows before and after an impact have the same.
 
-mod channel;
-mod frames;
-mod impact;
-mod points;
-mod scalars;
-mod scene;
+mod impacts;
+mod point_cloud;
+mod recording;
+mod scalar_channel;
+mod scene_entities;
+mod transforms;
 
-use crate::capture::impact::ImpactResult;
 use crate::capture::{CaseResult, Study};
-use crate::output::scene::frames as scene_frames;
+use crate::output::scene::{frames, visuals};
 use crate::output::time_series::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::scenario::Scenario;
-use channel::Recording;
 use foxglove::messages::{Log, log::Level};
-use impact::Impacts;
-use scalars::Scalars;
+use impacts::ImpactChannels;
+use recording::Recording;
+use scalar_channel::ScalarChannel;
 use std::io::{self, Write};
 
 /// Writes one case as MCAP.
 ///
 /// # Errors
-/// What the writer says.
-pub fn write_mcap(scenario: &Scenario, study: &Study, result: &CaseResult, mut to: impl Write) -> io::Result<()> {
+/// Those of the writer.
+pub fn write_mcap(scenario: &Scenario, study: &Study, case: &CaseResult, mut to: impl Write) -> io::Result<()> {
     let mut recording = Recording::new()?;
-    recording.metadata("planar_capture", provenance(scenario, result))?;
-    let (frames, bodies) = (scene_frames(scenario), crate::output::scene::bodies(scenario));
+    recording.metadata("planar_capture", provenance(scenario, case))?;
+    let (frames, visuals) = (frames(scenario), visuals(scenario));
     let scene = recording.channel("/scene")?;
-    recording.log(scene, 0.0, &scene::solids(&bodies))?;
-    for body in &bodies {
-        let outline = recording.channel(&format!("/outlines/{}", body.frame))?;
-        recording.log(outline, 0.0, &points::outline(body))?;
+    recording.log(&scene, 0.0, &scene_entities::solids(&visuals))?;
+    for visual in &visuals {
+        let outline = recording.channel(&format!("/outlines/{}", visual.frame))?;
+        recording.log(&outline, 0.0, &point_cloud::outline(visual))?;
     }
-    let (log, transforms) = (recording.channel("/log")?, recording.channel("/tf")?);
-    let mut series = series(&mut recording, scenario, result)?;
+    let (log, tf) = (recording.channel("/log")?, recording.channel("/tf")?);
+    let groups = column_groups(&mut recording, scenario, case)?;
     let arms = &scenario.layout.arms;
-    let impacts = result.capture.as_ref().map(|_| Impacts::new(&mut recording, arms)).transpose()?;
-    let mut ahead = impacts_of(study, result).peekable();
+    let impacts = case.capture.as_ref().map(|_| ImpactChannels::new(&mut recording, arms)).transpose()?;
+    let mut events = crate::output::impacts::impacts(study, case).into_iter().peekable();
     let mut phase = "";
-    for row in rows(study, result) {
+    for row in rows(study, case) {
         if row.phase != phase {
             phase = row.phase;
-            recording.log(log, row.time, &begins(&row))?;
+            recording.log(&log, row.time, &phase_begins(&row))?;
         }
         if let (Some(impacts), "post_impact") = (&impacts, phase) {
-            while let Some((time, impact)) = ahead.next_if(|(time, _)| *time <= row.time) {
-                impacts.log(&mut recording, time, impact, &row.sample.end_effector_poses)?;
+            while let Some(event) = events.next_if(|event| event.time <= row.time) {
+                impacts.log(&mut recording, &event)?;
             }
         }
-        recording.log(transforms, row.time, &frames::transforms(&frames, &row))?;
-        for series in &mut series {
-            series.log(&mut recording, &row)?;
+        recording.log(&tf, row.time, &transforms::transforms(&frames, &row))?;
+        for (channel, columns) in &groups {
+            channel.log(&mut recording, row.time, columns.iter().map(|column| column.value(&row)))?;
         }
     }
     to.write_all(&recording.finish()?)
 }
 
-/// The exact impacts of a case, each with its time since the start of the approach, s.
-fn impacts_of<'a>(study: &Study, result: &'a CaseResult) -> impl Iterator<Item = (f64, &'a ImpactResult)> {
-    let start = result.approach(study).duration;
-    result.capture.iter().flat_map(move |captured| {
-        let further = captured.further.iter().map(move |one| (start + one.time, &one.impact.exact));
-        std::iter::once((start, &captured.impact.exact)).chain(further)
-    })
-}
-
-/// The columns of one group, as a channel.
-struct Series {
-    scalars: Scalars,
-    columns: Vec<Column>,
-}
-
-impl Series {
-    fn log(&mut self, recording: &mut Recording, row: &TimeSeriesRow<'_>) -> io::Result<()> {
-        let values = self.columns.iter().map(|column| column.value(row));
-        self.scalars.log(recording, row.time, values)
-    }
-}
-
-fn series(recording: &mut Recording, scenario: &Scenario, result: &CaseResult) -> io::Result<Vec<Series>> {
+/// A channel for each group of columns.
+fn column_groups(
+    recording: &mut Recording,
+    scenario: &Scenario,
+    case: &CaseResult,
+) -> io::Result<Vec<(ScalarChannel, Vec<Column>)>> {
     let mut groups: Vec<(&str, Vec<_>)> = Vec::new();
-    for column in columns(scenario, result) {
+    for column in columns(scenario, case) {
         match groups.iter_mut().find(|(group, _)| *group == column.group) {
             Some((_, members)) => members.push(column),
             None => groups.push((column.group, vec![column])),
         }
     }
-    let open = |(group, columns): (&str, Vec<Column>)| {
+    let channel = |(group, columns): (&str, Vec<Column>)| {
         let fields: Vec<_> = columns.iter().map(|column| (column.name.as_str(), column.unit)).collect();
-        Ok(Series { scalars: Scalars::new(recording, group, &fields)?, columns })
+        Ok((ScalarChannel::new(recording, group, &fields)?, columns))
     };
-    groups.into_iter().map(open).collect()
+    groups.into_iter().map(channel).collect()
 }
 
-fn begins(row: &TimeSeriesRow<'_>) -> Log {
+fn phase_begins(row: &TimeSeriesRow<'_>) -> Log {
     Log {
-        timestamp: Some(channel::timestamp(row.time)),
+        timestamp: Some(recording::timestamp(row.time)),
         level: Level::Info.into(),
         message: format!("{} begins", row.phase),
         name: "planar-capture".to_owned(),

@@ -1,43 +1,43 @@
-//! Frames and outlines of robot and targets: the one forward kinematics of figures, recordings and the report's page.
+//! Forward kinematics of robot and targets and their shapes, shared by figures, MCAP and HTML report.
 //!
-//! `base` is in the inertial frame, `arms/ARM/link1`, …, `arms/ARM/end effector` are each in the one before,
-//! `targets/TARGET` is in the inertial frame, at the target's COM.
+//! The frames form a tree: `base` and `targets/TARGET` (at the target's COM) in the inertial frame, `arms/ARM/link1` in
+//! `base`, `arms/ARM/link2` in `arms/ARM/link1` and so on to `arms/ARM/tip`.
 
-mod body;
+mod visual;
 
-pub use body::{Body, Shape, base_size, bodies};
+pub use visual::{Shape, Visual, base_size, visuals};
 #[cfg(feature = "figures")]
-pub(crate) use body::{base, outline};
+pub(crate) use visual::{base_shape, outline_shape};
 
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::scenario::Scenario;
 
-/// A frame of the tree. Its pose in its parent is fixed, but for a joint's angle, or the measured pose of a free body.
+/// A coordinate frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// As in recordings.
+    /// As in MCAP.
     pub name: String,
     /// Index of the parent; `None` for the inertial frame.
     pub parent: Option<usize>,
-    /// [angle, x, y] in the parent, rad, m; zeros for a free body.
+    /// [angle, x, y] in the parent with the joint angle 0, rad, m; zeros for a free body.
     pub pose: [f64; 3],
-    /// What moves it.
+    /// What determines its motion.
     pub motion: Motion,
-    /// The arm that it belongs to.
+    /// Index of its arm.
     pub arm: Option<usize>,
 }
 
-/// What moves a frame in its parent.
+/// What determines the motion of a frame in its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Nothing.
+    /// It is fixed.
     Fixed,
-    /// The angle of a joint, by its index.
+    /// The angle of the joint of this index.
     Joint(usize),
-    /// The base is free.
+    /// The pose of the free base.
     Base,
-    /// A target is free, by its index.
+    /// The pose of the free target of this index.
     Target(usize),
 }
 
@@ -55,7 +55,7 @@ pub fn frames(scenario: &Scenario) -> Vec<Frame> {
     frames
 }
 
-/// The frames of a robot: the base first, then each arm's links and its end effector.
+/// The frames of a robot: the base, then the links and the end effector of each arm; parents come before their children.
 #[must_use]
 pub fn robot_frames(layout: &Layout) -> Vec<Frame> {
     let free = Frame { name: "base".to_owned(), parent: None, pose: [0.0; 3], motion: Motion::Base, arm: None };
@@ -81,7 +81,7 @@ pub fn robot_frames(layout: &Layout) -> Vec<Frame> {
 }
 
 impl Frame {
-    /// [angle, x, y] in the parent; `targets` holds the poses of the targets.
+    /// [angle, x, y] in the parent, rad, m; `targets` are the poses of the targets.
     #[must_use]
     pub fn pose_in_parent(&self, state: &RobotState, targets: &[[f64; 3]]) -> [f64; 3] {
         let [angle, x, y] = self.pose;
@@ -94,7 +94,7 @@ impl Frame {
     }
 }
 
-/// [yaw, x, y] of every frame in the inertial frame.
+/// [yaw, x, y] of every frame in the inertial frame, rad, m.
 #[must_use]
 pub fn poses(frames: &[Frame], state: &RobotState, targets: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let mut poses: Vec<[f64; 3]> = Vec::with_capacity(frames.len());
@@ -111,7 +111,7 @@ pub fn poses(frames: &[Frame], state: &RobotState, targets: &[[f64; 3]]) -> Vec<
     poses
 }
 
-/// A point given in a frame with this pose.
+/// Inertial coordinates of the point [along, across] of a frame with this pose.
 #[must_use]
 pub fn point([yaw, x, y]: [f64; 3], [along, across]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = yaw.sin_cos();

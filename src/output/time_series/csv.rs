@@ -1,15 +1,14 @@
-//! One CSV time series per case: the approach, then the motion after the impact.
+//! The time series of a case as CSV.
 
 use super::{Column, columns, rows};
 use crate::capture::{CaseResult, Study};
 use crate::scenario::Scenario;
 use std::io::{self, Write};
 
-/// Writes the time series of one case: a header row with units, one row per sample: time, phase, and the
-/// [`columns`].
+/// Writes a header row with units, then one row per sample: time, phase and the [`columns`].
 ///
 /// # Errors
-/// What the writer says.
+/// Those of the writer.
 pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write) -> io::Result<()> {
     let columns = columns(scenario, case);
     let mut csv = csv::Writer::from_writer(to);
@@ -22,7 +21,7 @@ pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl
     csv.flush()
 }
 
-/// The shortest text that reads back as the same number.
+/// The shortest text that reads back exactly.
 fn number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -1,4 +1,4 @@
-//! The time series of a case: its rows, its columns, and the files that hold them.
+//! The time series of a case: rows, columns, and their files.
 
 mod columns;
 mod csv;
@@ -19,32 +19,31 @@ use crate::simulate::system::Body;
 
 const APPROACH: &str = "approach";
 
-/// One instant of a case.
+/// Robot and targets at one instant of a case.
 #[derive(Clone, Debug)]
 pub struct TimeSeriesRow<'a> {
     /// Since the start of the approach, s.
     pub time: f64,
     /// `approach` or `post_impact`.
     pub phase: &'static str,
-    /// What is known of the robot; its own time runs from the start of the phase.
+    /// The robot; its time counts from the start of the phase.
     pub sample: &'a Sample,
-    /// The targets, in the scenario's order; empty where nothing is captured.
+    /// The targets, in the scenario's order.
     pub targets: Vec<Body>,
 }
 
 impl TimeSeriesRow<'_> {
-    /// Momentum and energy of robot and targets together.
+    /// Momentum about the inertial origin and kinetic energy of robot and targets together.
     #[must_use]
-    pub fn whole(&self) -> Momentum<f64> {
-        // after the impact the targets are counted in already
-        let alone = if self.phase == APPROACH { &self.targets[..] } else { &[] };
-        with_bodies(self.sample.momentum, alone)
+    pub fn total_momentum(&self) -> Momentum<f64> {
+        // samples of the post-impact motion include the targets
+        let separate = if self.phase == APPROACH { &self.targets[..] } else { &[] };
+        with_bodies(self.sample.momentum, separate)
     }
 }
 
-/// The approach, then the motion after the impact, where there is one.
-///
-/// At each impact there are two rows of the same time, before and after it.
+/// The rows of a case: the approach, then the post-impact motion. Each impact has two rows of the same time, before and
+/// after it.
 pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = TimeSeriesRow<'a>> {
     let approach = case.approach(study);
     let before = approach.samples.iter().map(move |sample| TimeSeriesRow {
@@ -64,7 +63,7 @@ pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = 
     before.chain(after)
 }
 
-/// Where a time series comes from, as keys and values: what a file says about itself.
+/// The metadata of a time series' file, as keys and values.
 #[must_use]
 pub fn provenance(scenario: &Scenario, case: &CaseResult) -> [(&'static str, String); 5] {
     [

@@ -1,4 +1,4 @@
-//! One Parquet file per case: the CSV's columns as binary numbers, with what they come from.
+//! The time series of a case as Parquet.
 
 use super::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::capture::{CaseResult, Study};
@@ -15,24 +15,21 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Rows that are turned into arrays at a time; bounds the memory that writing takes.
+/// Rows that are converted to arrays at a time; bounds the memory that writing takes.
 const BATCH: usize = 1 << 16;
 
-/// Writes the time series of one case as Parquet.
-///
-/// The same columns as the CSV, under the same names, with the same values: f64, the phase a dictionary of text; all
-/// compressed by zstd. Each number's field has its unit as metadata too (`unit`), and the file's metadata says what it
-/// comes from (see [`provenance`]).
+/// Writes the columns of the CSV under the same names with the same values: f64, the phase a dictionary of text,
+/// compressed by zstd. The metadata of a numeric field has its `unit`, that of the file the [`provenance`].
 ///
 /// # Errors
-/// What the writer says.
+/// Those of the writer.
 pub fn write_parquet(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write + Send) -> io::Result<()> {
     let columns = columns(scenario, case);
     let schema = Arc::new(schema(&columns));
     let origin = provenance(scenario, case).map(|(key, value)| KeyValue::new(key.into(), value));
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
-        // few values of a motion repeat, and their exponents compress by themselves
+        // few values repeat, but exponents compress well when bytes are split into streams
         .set_dictionary_enabled(false)
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)
         .set_column_dictionary_enabled("phase".into(), true)
@@ -59,7 +56,7 @@ fn schema(columns: &[Column]) -> Schema {
     Schema::new(fields)
 }
 
-/// In the order of the [`schema`].
+/// One array per field of the [`schema`].
 fn arrays(columns: &[Column], rows: &[TimeSeriesRow<'_>]) -> Vec<ArrayRef> {
     let numbers = |value: &dyn Fn(&TimeSeriesRow<'_>) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values(rows.iter().map(value)))
@@ -70,7 +67,7 @@ fn arrays(columns: &[Column], rows: &[TimeSeriesRow<'_>]) -> Vec<ArrayRef> {
     arrays
 }
 
-/// The operating system's word, where it is one: "no space left on device".
+/// Unwraps an error of the operating system, such as "no space left on device".
 fn failed(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(source) => match source.downcast::<io::Error>() {

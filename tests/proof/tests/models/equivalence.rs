@@ -1,8 +1,8 @@
 //! Generated code against the generic implementation: every layout of this build × quantity × regime.
 
-use planar_capture::compare::states_text;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
+use planar_capture::eval::to_json;
 use planar_capture::owned::CloneModel;
 use planar_capture::quantities::differences;
 use planar_capture::quantity::Quantity;
@@ -21,10 +21,10 @@ const SEED: u64 = 20_261_121;
 /// What to run to see it again.
 fn replay(regime: Regime, index: u64, sample: &RegimeSample) -> String {
     format!(
-        "seed {SEED}, regime `{}`, state {index}; replay with `planar-capture eval`:\n{}\n{}",
+        "seed {SEED}, regime `{}`, state {index}; replay with `planar-capture eval`:\n{}\n[{}]",
         regime.name(),
         sample.layout.to_toml(),
-        states_text(sample)
+        to_json(&sample.instant)
     )
 }
 

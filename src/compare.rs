@@ -1,8 +1,5 @@
-//! Generated code against the generic implementation: random states by regime, every quantity, errors in natural units.
-
-mod replay;
-
-pub use replay::states_text;
+//! Compares generated code with the generic implementation: every quantity at random states of every regime, errors
+//! relative to the natural size of each entry.
 
 use crate::error::Error;
 use crate::layout::Layout;
@@ -11,70 +8,71 @@ use crate::quantity::Quantity;
 use crate::registry::{NoModel, generated, generic};
 use crate::sampling::{REGIMES, Regime, RegimeSample};
 
-/// The worst that was found in one quantity.
+/// The largest error of one quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Worst {
-    /// How far, compared with its bound.
+pub struct LargestError {
+    /// Error and bound.
     pub difference: Difference,
-    /// In which regime.
+    /// The regime of the state.
     pub regime: Regime,
-    /// Which of its samples.
+    /// Its number in the regime.
     pub index: u64,
     /// Layout and state.
     pub sample: RegimeSample,
 }
 
-/// A state that one implementation has no answer for.
+/// A state without result from at least one implementation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// In which regime.
+    /// The regime of the state.
     pub regime: Regime,
-    /// Which of its samples.
+    /// Its number in the regime.
     pub index: u64,
-    /// What the generated code says.
+    /// The error of the generated code.
     pub generated: Option<Error>,
-    /// What the generic implementation says.
+    /// The error of the generic implementation.
     pub generic: Option<Error>,
 }
 
-/// The outcome for one layout.
+/// The comparison for one layout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
     /// Number of states compared.
     pub states: u64,
     /// One per quantity, in the order of [`Quantity::ALL`], by the ratio of error and bound.
-    pub worst: Vec<Worst>,
-    /// States without an answer from one or both.
+    pub largest_errors: Vec<LargestError>,
+    /// States without result from one or both implementations.
     pub refusals: Vec<Refusal>,
 }
 
 impl Comparison {
-    /// Whether every error is within its bound, and both implementations have answers for the same states.
+    /// Whether every quantity was compared, every error is within its bound, and both implementations refuse the same
+    /// states.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.worst.len() == Quantity::ALL.len()
-            && self.worst.iter().all(|worst| worst.difference.ratio() <= 1.0)
+        self.largest_errors.len() == Quantity::ALL.len()
+            && self.largest_errors.iter().all(|largest| largest.difference.ratio() <= 1.0)
             && self.refusals.iter().all(|refusal| refusal.generated.is_some() && refusal.generic.is_some())
     }
 
-    fn record(&mut self, worst: Worst) {
-        match self.worst.binary_search_by_key(&worst.difference.quantity, |old| old.difference.quantity) {
-            Err(place) => self.worst.insert(place, worst),
+    fn record(&mut self, new: LargestError) {
+        let errors = &mut self.largest_errors;
+        match errors.binary_search_by_key(&new.difference.quantity, |old| old.difference.quantity) {
+            Err(place) => errors.insert(place, new),
             Ok(place) => {
-                let Some(old) = self.worst.get_mut(place) else { return };
-                let (ratio, beaten) = (worst.difference.ratio(), old.difference.ratio());
-                if ratio > beaten || ratio.is_nan() {
-                    *old = worst;
+                let ratio = new.difference.ratio();
+                if ratio > errors[place].difference.ratio() || ratio.is_nan() {
+                    errors[place] = new;
                 }
             }
         }
     }
 }
 
-/// Compares the implementations for a layout at `samples` states of every regime; the same seed, the same states.
+/// Compares the implementations for a layout at `samples` states of every regime; equal seeds give equal states.
 ///
 /// # Errors
-/// [`NoModel`] where no generated code has the layout's structure.
+/// [`NoModel`] if no generated code has the layout's structure.
 pub fn compare(layout: &Layout, samples: u64, seed: u64) -> Result<Comparison, NoModel> {
     let mut comparison = Comparison::default();
     for regime in REGIMES {
@@ -85,7 +83,7 @@ pub fn compare(layout: &Layout, samples: u64, seed: u64) -> Result<Comparison, N
             match differences(&*model, &*reference, &sample) {
                 Ok(differences) => {
                     for difference in differences {
-                        comparison.record(Worst { difference, regime, index, sample: sample.clone() });
+                        comparison.record(LargestError { difference, regime, index, sample: sample.clone() });
                     }
                 }
                 Err([generated, generic]) => {

@@ -1,4 +1,4 @@
-//! What bodies look like, each in a frame of its own.
+//! Shapes and colours of base, links and targets, each in its own frame.
 
 use super::{Motion, frames};
 use crate::layout::{Layout, Link};
@@ -6,42 +6,42 @@ use crate::outline::Outline;
 use crate::scenario::Scenario;
 use std::f64::consts::TAU;
 
-/// A body's frame, in which it does not move, and its look.
+/// The visual representation of a rigid body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
-    /// The frame's name.
+pub struct Visual {
+    /// Name of the frame fixed to the body.
     pub frame: String,
-    /// In the frame.
+    /// In that frame.
     pub shape: Shape,
     /// Red, green, blue, opacity; 0 to 1.
     pub colour: [f64; 4],
-    /// Extent across the plane, m.
+    /// Extent normal to the plane, m.
     pub thickness: f64,
 }
 
-/// A body seen along the plane's normal; m.
+/// The projection of a body on the plane; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// Parallel to the frame's axes.
+    /// Sides parallel to the frame's axes.
     Rectangle {
-        /// [x, y].
+        /// [x, y] in the frame.
         centre: [f64; 2],
-        /// Along x and y.
+        /// Side lengths along x and y.
         size: [f64; 2],
     },
-    /// About the frame's origin.
+    /// Centre at the frame's origin.
     Disc {
         /// The radius.
         radius: f64,
     },
-    /// Anticlockwise.
+    /// Closed by the edge from its last corner to its first.
     Polygon {
-        /// [x, y] each.
+        /// [x, y] in the frame, anticlockwise.
         corners: Vec<[f64; 2]>,
     },
 }
 
-/// Okabe and Ito's, which colour-blind readers tell apart; the same as in the report.
+/// The colour-blind safe palette of Okabe and Ito; the HTML report has the same.
 const ARMS: [[u8; 3]; 6] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
@@ -52,31 +52,33 @@ const ARMS: [[u8; 3]; 6] = [
 ];
 const BASE: [u8; 3] = [0xb4, 0xbf, 0xca];
 const TARGET: [u8; 3] = [0x6d, 0x6d, 0x6d];
-/// Width of a link over the mean length of links.
+/// Width of a link over the mean length of all links.
 const SLENDERNESS: f64 = 0.08;
 
-/// Base, links and targets.
+/// The visuals of base, links and targets, in the order of their [`frames`].
 #[must_use]
-pub fn bodies(scenario: &Scenario) -> Vec<Body> {
+pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
     let layout = &scenario.layout;
     let width = link_width(layout);
     let links: Vec<&Link> = layout.arms.iter().flat_map(|arm| &arm.links).collect();
     let each = frames(scenario).into_iter().filter_map(|frame| {
         let (shape, colour, thickness) = match frame.motion {
-            Motion::Base => (base(layout), colour(BASE, 1.0), 2.0 * width),
-            Motion::Joint(joint) => (shape(links[joint], width), colour(ARMS[frame.arm? % ARMS.len()], 1.0), width),
-            Motion::Target(target) => (outline(&scenario.targets[target].surface), colour(TARGET, 0.5), width),
+            Motion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
+            Motion::Joint(joint) => {
+                (link_shape(links[joint], width), colour(ARMS[frame.arm? % ARMS.len()], 1.0), width)
+            }
+            Motion::Target(target) => (outline_shape(&scenario.targets[target].surface), colour(TARGET, 0.5), width),
             // an end effector is a point
             Motion::Fixed => return None,
         };
-        Some(Body { frame: frame.name, shape, colour, thickness })
+        Some(Visual { frame: frame.name, shape, colour, thickness })
     });
     each.collect()
 }
 
-/// Of a target.
-pub(crate) fn outline(surface: &Outline) -> Shape {
-    match surface {
+/// The shape of a target's outline.
+pub(crate) fn outline_shape(outline: &Outline) -> Shape {
+    match outline {
         Outline::Disc { radius } => Shape::Disc { radius: *radius },
         Outline::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
     }
@@ -88,26 +90,26 @@ fn colour(rgb: [u8; 3], opacity: f64) -> [f64; 4] {
 }
 
 fn link_width(layout: &Layout) -> f64 {
-    let lengths =
-        || layout.arms.iter().flat_map(|arm| &arm.links).map(|link| link.length).filter(|length| *length > 0.0);
-    let (sum, count) = lengths().fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
+    let lengths = layout.arms.iter().flat_map(|arm| &arm.links).map(|link| link.length).filter(|length| *length > 0.0);
+    let (sum, count) = lengths.fold((0.0, 0.0), |(sum, count), length| (sum + length, count + 1.0));
     SLENDERNESS * if count > 0.0 { sum / count } else { layout.base.radius_of_gyration() }
 }
 
-/// It reaches to its mounts, and is a uniform square of its mass and inertia else.
-pub(crate) fn base(layout: &Layout) -> Shape {
+/// A rectangle about the base's COM with sides [`base_size`].
+pub(crate) fn base_shape(layout: &Layout) -> Shape {
     Shape::Rectangle { centre: [0.0; 2], size: base_size(layout) }
 }
 
-/// Sides of the base, m.
+/// Sides of the drawn base along x and y, m: those of a uniform square of its mass and inertia, or larger to contain the
+/// mounts.
 #[must_use]
 pub fn base_size(layout: &Layout) -> [f64; 2] {
     let half = layout.base.radius_of_gyration() * 1.5_f64.sqrt();
     [0, 1].map(|i| 2.0 * layout.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max))
 }
 
-/// A wheel is as large as its inertia makes it.
-fn shape(link: &Link, width: f64) -> Shape {
+/// A bar along the link; for a reaction wheel the uniform disc of its mass and inertia.
+fn link_shape(link: &Link, width: f64) -> Shape {
     if link.length > 0.0 {
         Shape::Rectangle { centre: [link.length / 2.0, 0.0], size: [link.length, width] }
     } else {
@@ -116,23 +118,23 @@ fn shape(link: &Link, width: f64) -> Shape {
 }
 
 impl Shape {
-    /// Lines that show place and direction: the edge, and a spoke from the frame's origin along its x axis.
+    /// The closed outline, and a line from the frame's origin along its x axis to the outline, which shows the orientation.
     #[must_use]
     pub fn lines(&self) -> [Vec<[f64; 2]>; 2] {
         match self {
             Self::Rectangle { centre: [x, y], size: [length, width] } => {
                 let corner = |a: f64, b: f64| [x + a * length / 2.0, y + b * width / 2.0];
-                let edge = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
-                [edge.map(|(a, b)| corner(a, b)).to_vec(), vec![[0.0; 2], [x + length / 2.0, 0.0]]]
+                let outline = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
+                [outline.map(|(a, b)| corner(a, b)).to_vec(), vec![[0.0; 2], [x + length / 2.0, 0.0]]]
             }
             Self::Disc { radius } => {
                 let at = |angle: f64| [radius * angle.cos(), radius * angle.sin()];
                 [(0..=48).map(|i| at(TAU * f64::from(i) / 48.0)).collect(), vec![[0.0; 2], [*radius, 0.0]]]
             }
             Self::Polygon { corners } => {
-                let reach = corners.iter().fold(0.0, |most: f64, [x, _]| most.max(*x));
-                let edge = corners.iter().chain(corners.first()).copied();
-                [edge.collect(), vec![[0.0; 2], [reach, 0.0]]]
+                let reach = corners.iter().map(|[x, _]| *x).fold(0.0, f64::max);
+                let outline = corners.iter().chain(corners.first()).copied();
+                [outline.collect(), vec![[0.0; 2], [reach, 0.0]]]
             }
         }
     }

@@ -1,6 +1,6 @@
-//! Messages of numbers, with a schema made for them.
+//! Channels of messages of `double` fields, with their schemas.
 
-use super::channel::Recording;
+use super::recording::Recording;
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet};
@@ -10,14 +10,13 @@ use std::io;
 const PACKAGE: &str = "planar_capture";
 
 /// A channel of messages whose fields are all `double`.
-pub(super) struct Scalars {
-    channel: u16,
+pub(super) struct ScalarChannel {
+    id: u16,
 }
 
-impl Scalars {
-    /// Messages `planar_capture.Name` on `/name`, a field for each name and unit.
-    ///
-    /// The channel's metadata has the unit of each field.
+impl ScalarChannel {
+    /// Adds the channel `/name` of messages `planar_capture.Name`. `fields` are names and units; the channel's metadata
+    /// has the unit of each field.
     pub(super) fn new(recording: &mut Recording, name: &str, fields: &[(&str, &str)]) -> io::Result<Self> {
         let names = identifiers(fields.iter().map(|(name, _)| *name));
         let mut letters = name.chars();
@@ -25,11 +24,11 @@ impl Scalars {
         let schema = schema(name, &message, &names).encode_to_vec();
         let units: BTreeMap<_, _> =
             names.into_iter().zip(fields).map(|(name, (_, unit))| (name, (*unit).to_owned())).collect();
-        let channel = recording.raw_channel(&format!("/{name}"), &format!("{PACKAGE}.{message}"), &schema, &units)?;
-        Ok(Self { channel })
+        let id = recording.raw_channel(&format!("/{name}"), &format!("{PACKAGE}.{message}"), &schema, &units)?;
+        Ok(Self { id })
     }
 
-    /// One message, its values in the order of the fields.
+    /// Adds a message with values in the order of the fields.
     pub(super) fn log(
         &self,
         recording: &mut Recording,
@@ -40,7 +39,7 @@ impl Scalars {
         for (number, value) in (1..).zip(values) {
             prost::encoding::double::encode(number, &value, &mut bytes);
         }
-        recording.log_raw(self.channel, time, &bytes)
+        recording.log_raw(self.id, time, &bytes)
     }
 }
 
@@ -67,10 +66,10 @@ fn schema(name: &str, message: &str, fields: &[String]) -> FileDescriptorSet {
     FileDescriptorSet { file: vec![file] }
 }
 
-/// Names that protobuf takes, unique as it compares them: arms may be called anything.
+/// Unique protobuf identifiers for names that contain arbitrary characters, such as those of arms.
 ///
-/// What is no letter, digit or underscore becomes `_`, and what is then there already gets a number. Two names also
-/// clash where they differ in underscores and capitals alone, since both would have the same name in JSON.
+/// A character other than a letter, digit or underscore becomes `_`; a name that is then taken gets a number. Names that
+/// differ only in underscores and capitals clash too, since protobuf gives them the same name in JSON.
 fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut taken = HashSet::new();
     let key = |name: &str| name.replace('_', "").to_ascii_lowercase();
@@ -79,7 +78,7 @@ fn identifiers<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
         let start = if plain.starts_with(|c: char| c.is_ascii_alphabetic()) { plain } else { format!("the_{plain}") };
         let numbered = (2_u32..).map(|number| format!("{start}_no{number}"));
         let free = std::iter::once(start.clone()).chain(numbered).find(|name| taken.insert(key(name)));
-        free.unwrap_or(start) // there are more numbers than names
+        free.expect("fewer names than numbers")
     };
     names.map(unique).collect()
 }

@@ -1,0 +1,139 @@
+//! Files of `run` that only a build with the cargo feature of the same name can write.
+
+use super::CommandError;
+use planar_capture::capture::Study;
+use planar_capture::output::atomic_file::StagedFile;
+use planar_capture::scenario::Scenario;
+use std::path::Path;
+#[cfg(any(feature = "parquet", feature = "mcap"))]
+use {
+    planar_capture::capture::CaseResult,
+    std::fs::File,
+    std::io::{self, BufWriter},
+};
+
+/// A kind of output.
+#[derive(Clone, Copy)]
+pub struct OptionalOutput {
+    /// The cargo feature that it needs.
+    feature: &'static str,
+    /// What a build without the feature does not do.
+    absence: &'static str,
+    /// Writes its files for a study to a folder; `None` in a build without the feature.
+    stage: Option<Stage>,
+}
+
+type Stage = fn(&Path, &Scenario, &Study) -> Result<Vec<StagedFile>, CommandError>;
+
+pub const FIGURES: OptionalOutput = OptionalOutput {
+    feature: "figures",
+    absence: "draws no figures",
+    #[cfg(feature = "figures")]
+    stage: Some(figures),
+    #[cfg(not(feature = "figures"))]
+    stage: None,
+};
+const PARQUET: OptionalOutput = OptionalOutput {
+    feature: "parquet",
+    absence: "writes no Parquet",
+    #[cfg(feature = "parquet")]
+    stage: Some(parquet),
+    #[cfg(not(feature = "parquet"))]
+    stage: None,
+};
+const MCAP: OptionalOutput = OptionalOutput {
+    feature: "mcap",
+    absence: "writes no MCAP",
+    #[cfg(feature = "mcap")]
+    stage: Some(mcap),
+    #[cfg(not(feature = "mcap"))]
+    stage: None,
+};
+
+/// The flags of `run` that request them.
+#[derive(Debug, clap::Args)]
+pub struct Flags {
+    /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
+    #[arg(long)]
+    figures: bool,
+    /// Write DIR/CASE.parquet too: the time series in binary; needs a build with the feature `parquet`.
+    #[arg(long)]
+    parquet: bool,
+    /// Write DIR/CASE.mcap too, for Foxglove and Rerun; needs a build with the feature `mcap`.
+    #[arg(long)]
+    mcap: bool,
+}
+
+impl Flags {
+    /// The outputs that are requested.
+    pub fn requested(&self) -> Vec<OptionalOutput> {
+        let flags = [(self.figures, FIGURES), (self.parquet, PARQUET), (self.mcap, MCAP)];
+        flags.into_iter().filter_map(|(requested, output)| requested.then_some(output)).collect()
+    }
+}
+
+/// An error that names the missing features if this build cannot write all of these outputs.
+pub fn require(outputs: &[OptionalOutput]) -> Result<(), CommandError> {
+    let missing: Vec<_> = outputs.iter().filter(|output| output.stage.is_none()).map(|output| output.absence).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let features = outputs.iter().map(|output| output.feature).collect::<Vec<_>>().join(",");
+    Err(CommandError::Usage(format!(
+        "this build {}; one that does: cargo run --release --features {features} -- …, \
+         or cargo install --path . --features {features}",
+        missing.join(" and ")
+    )))
+}
+
+impl OptionalOutput {
+    /// Its files for a study, to be committed; none in a build that lacks the feature, see [`require`].
+    pub fn stage(self, folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+        self.stage.map_or_else(|| Ok(Vec::new()), |stage| stage(folder, scenario, study))
+    }
+}
+
+#[cfg(feature = "parquet")]
+fn parquet(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+    use planar_capture::output::time_series::write_parquet;
+    file_per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, to))
+}
+
+#[cfg(feature = "mcap")]
+fn mcap(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+    use planar_capture::output::mcap::write_mcap;
+    file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, to))
+}
+
+#[cfg(any(feature = "parquet", feature = "mcap"))]
+fn file_per_case(
+    folder: &Path,
+    study: &Study,
+    extension: &str,
+    write: impl Fn(&CaseResult, &mut BufWriter<&File>) -> io::Result<()>,
+) -> Result<Vec<StagedFile>, CommandError> {
+    let stage = |case: &CaseResult| {
+        let path = folder.join(format!("{}.{extension}", case.name));
+        Ok(StagedFile::new(&path, |to| write(case, to))?)
+    };
+    study.cases.iter().map(stage).collect()
+}
+
+#[cfg(feature = "figures")]
+fn figures(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+    use planar_capture::output::atomic_file::create_folder;
+    use planar_capture::output::figures::{draw, figures};
+    use std::io::Write;
+
+    let folder = folder.join("figures");
+    create_folder(&folder)?;
+    let mut files = Vec::new();
+    for figure in figures(scenario, study) {
+        let png = draw::png(&figure).map_err(|error| CommandError::Figures(error.into()))?;
+        for (extension, bytes) in [("svg", draw::svg(&figure).as_bytes()), ("png", &png)] {
+            let path = folder.join(format!("{}.{extension}", figure.name));
+            files.push(StagedFile::new(&path, |to| to.write_all(bytes))?);
+        }
+    }
+    Ok(files)
+}

@@ -1,0 +1,91 @@
+//! The twists of end effector and target at each contact, before and after the impact.
+
+use super::figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
+use super::style::{Colour, Symbol};
+use super::time_curves::{MINIMUM_SPAN, TWIST_COMPONENTS};
+use crate::capture::contact_at_time::ImpactContact;
+use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::contact::ContactKind;
+use crate::output::impacts::{ImpactEvent, impacts};
+use crate::scenario::Scenario;
+
+/// The twists of one contact, at the contact point.
+struct ContactTwists {
+    name: String,
+    /// End effector before, target before, target after, end effector after.
+    twists: [[f64; 3]; 4],
+    rigid: bool,
+}
+
+/// One panel per component; `None` if there are no contacts.
+pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
+    let mut contacts = Vec::new();
+    for case in &study.cases {
+        let Some(capture) = &case.capture else { continue };
+        let events = impacts(study, case).into_iter().enumerate();
+        contacts.extend(events.flat_map(|(i, event)| contact_twists(scenario, case, capture, i, &event)));
+    }
+    if contacts.is_empty() {
+        return None;
+    }
+    contacts.reverse(); // the first at the top
+    // after a rigid contact both twists are the same
+    let kinds = if contacts.iter().all(|contact| contact.rigid) {
+        vec![
+            ("tip, before", Colour::Blue, Symbol::Circle),
+            ("target, before", Colour::Vermillion, Symbol::Square),
+            ("both, after", Colour::Black, Symbol::Cross),
+        ]
+    } else {
+        vec![
+            ("tip, before", Colour::Blue, Symbol::Circle),
+            ("target, before", Colour::Vermillion, Symbol::Square),
+            ("target, after", Colour::Green, Symbol::Plus),
+            ("tip, after", Colour::Black, Symbol::Cross),
+        ]
+    };
+    let panel = |(label, component): (&str, usize)| {
+        let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol))| Series {
+            label: Some((*label).to_owned()),
+            colour: *colour,
+            mark: Mark::Points(*symbol),
+            points: (1_u32..).zip(&contacts).map(|(i, c)| (c.twists[kind][component], f64::from(i))).collect(),
+        });
+        let names = contacts.iter().map(|contact| contact.name.clone()).collect();
+        let y = Axis { label: String::new(), range: AxisRange::Categories(names) };
+        Panel::new(Axis::new(label, MINIMUM_SPAN), y, series.collect())
+    };
+    Some(Figure::column("impact_velocities", TWIST_COMPONENTS.map(panel).to_vec()))
+}
+
+/// The contacts of the impact of index `i` of a case.
+fn contact_twists(
+    scenario: &Scenario,
+    case: &CaseResult,
+    capture: &CaptureResult,
+    i: usize,
+    event: &ImpactEvent<'_>,
+) -> Vec<ContactTwists> {
+    let after = &capture.post_impact.samples[event.after];
+    let each = event.solution.contacts.iter().map(|contact| {
+        let ImpactContact { target, arm, law, offset: [rx, ry], .. } = contact.touching;
+        let (kind, body) = (law.kind(), &scenario.targets[target]);
+        // v + ω × r
+        let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];
+        let arm_name = (body.touches.len() > 1).then(|| format!(" at {}", scenario.layout.arms[arm].name));
+        let time = (i > 0).then(|| format!(", {:.1} s", event.time));
+        let kind_name = (kind != ContactKind::Rigid).then(|| format!(" ({})", kind.name()));
+        let additions: String = [arm_name, time, kind_name].into_iter().flatten().collect();
+        ContactTwists {
+            name: format!("{}, {}{additions}", case.name, body.name),
+            twists: [
+                event.before.end_effector_twists[arm],
+                at_contact(event.targets[target].twist),
+                at_contact(event.solution.target_twists[target]),
+                after.end_effector_twists[arm],
+            ],
+            rigid: kind == ContactKind::Rigid,
+        }
+    });
+    each.collect()
+}

@@ -1,0 +1,138 @@
+//! The contacts of a case as JSON: impacts, failed grasps, distances, and openings of the constraints.
+
+use super::data::digits;
+use crate::capture::assembly::turned;
+use crate::capture::contact_at_time::ImpactContact;
+use crate::capture::contact_detection::signed_distance;
+use crate::capture::impact::{ContactResult, ImpactResult};
+use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::contact::ContactKind;
+use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::time_series::rows;
+use crate::scenario::{Case, Detection, Scenario};
+use crate::simulate::system::Body;
+use serde_json::{Value, json};
+
+/// The impacts that have contacts, in order of time; `sample` is the index of the first sample after each.
+pub(super) fn impacts_of_case(scenario: &Scenario, study: &Study, result: &CaseResult) -> Vec<Value> {
+    let with_contacts = impacts(study, result).into_iter().filter(|event| !event.solution.contacts.is_empty());
+    let value = |event: ImpactEvent<'_>| {
+        json!({
+            "sample": event.after,
+            "time": event.time,
+            "exact": balance(&event.solution.exact),
+            "paper": event.solution.paper.as_ref().map(balance),
+            "contacts": event.solution.contacts.iter().map(|one| contact(scenario, &event, one)).collect::<Vec<_>>(),
+        })
+    };
+    with_contacts.map(value).collect()
+}
+
+fn balance(result: &ImpactResult) -> Value {
+    json!({
+        "momentum_jump": result.momentum_jump,
+        "kinetic_energy_before": result.kinetic_energy_before,
+        "kinetic_energy_after": result.kinetic_energy_after,
+    })
+}
+
+fn contact(scenario: &Scenario, event: &ImpactEvent<'_>, result: &ContactResult) -> Value {
+    let ImpactContact { target, arm, law, miss, .. } = result.touching;
+    let response = &result.response;
+    let [_, x, y] = event.before.end_effector_poses[arm];
+    let [_, vx, vy] = response.relative_twist;
+    json!({
+        "target": target,
+        "arm": arm,
+        "kind": law.kind().name(),
+        "restitution": law.bounce().map(|(_, restitution)| restitution),
+        "tip": [x, y],
+        "miss": miss,
+        "impulse": result.impulse,
+        "literal_impulse": event.solution.paper.as_ref().and_then(|paper| paper.impulses[arm]),
+        "mean_force": scenario.contact.duration.map(|duration| result.impulse.map(|part| part / duration)),
+        "relative_twist": response.relative_twist,
+        // along the inward normal of a bounce
+        "closing_speed": law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)),
+        "effective_masses": response.effective_masses,
+        "impulse_index": response.impulse_index,
+        "impulse_ellipse": {
+            "semi_axes": response.impulse_ellipse.semi_axes,
+            "direction": response.impulse_ellipse.direction,
+        },
+    })
+}
+
+/// (target, arm, kind) of the contacts that a case plans; the kind is `None` where the grasp fails to close.
+fn planned_contacts<'a>(
+    scenario: &'a Scenario,
+    case: &'a Case,
+) -> impl Iterator<Item = (usize, usize, Option<ContactKind>)> + 'a {
+    let targets = scenario.targets.iter().zip(&case.kinds).enumerate();
+    targets.flat_map(|(i, (target, kinds))| {
+        target.touches.iter().zip(kinds).map(move |(touch, kind)| (i, touch.arm, *kind))
+    })
+}
+
+/// The grasps that do not close in this case.
+pub(super) fn closing_failures(scenario: &Scenario, case: &Case) -> Vec<Value> {
+    let open = planned_contacts(scenario, case).filter(|(.., kind)| kind.is_none());
+    open.map(|(target, arm, _)| json!({"target": target, "arm": arm})).collect()
+}
+
+/// Distances of end effectors from the targets that they are to meet over the rows of the time series, m, where
+/// contacts are found by detection.
+pub(super) fn distances(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult) -> Vec<Value> {
+    if scenario.contact.detection == Detection::Time {
+        return Vec::new();
+    }
+    let rows: Vec<_> = rows(study, result).collect();
+    let closing = planned_contacts(scenario, case).filter(|(.., kind)| kind.is_some());
+    closing
+        .map(|(target, arm, _)| {
+            let distances = rows.iter().map(|row| {
+                let end_effector = &row.sample.end_effector_poses[arm];
+                digits(signed_distance(scenario, target, &row.targets[target], end_effector).0)
+            });
+            json!({"target": target, "arm": arm, "distance": distances.collect::<Vec<_>>()})
+        })
+        .collect()
+}
+
+/// The opening of each contact that is kept closed by a constraint, over the samples of the post-impact motion: the
+/// larger of the distance of the contact points, m, and, for a rigid contact, the relative rotation, rad. `null` before
+/// the contact exists.
+///
+/// The first rigid contact of a target merges it with the last link; no constraint belongs to it.
+pub(super) fn constraint_openings(study: &Study, result: &CaseResult, capture: &CaptureResult) -> Vec<Value> {
+    let mut openings = Vec::new();
+    let mut merged = Vec::new();
+    for event in impacts(study, result) {
+        let contacts = event.solution.contacts.iter().map(|contact| contact.touching);
+        for ImpactContact { target, arm, law, .. } in contacts.filter(|contact| contact.law.kind().holds()) {
+            let rigid = law.kind().holds_yaw();
+            if rigid && !merged.contains(&target) {
+                merged.push(target);
+                continue;
+            }
+            let samples = &capture.post_impact.samples;
+            let pose = |i: usize| relative_pose(&capture.targets[i][target], &samples[i].end_effector_poses[arm]);
+            let [yaw, x, y] = pose(event.after);
+            let opening = |i: usize| {
+                let [now_yaw, now_x, now_y] = pose(i);
+                let rotation = if rigid { (now_yaw - yaw).abs() } else { 0.0 };
+                (i >= event.after).then(|| digits((now_x - x).hypot(now_y - y).max(rotation)))
+            };
+            let column = (0..samples.len()).map(opening);
+            openings.push(json!({"target": target, "arm": arm, "open": column.collect::<Vec<_>>()}));
+        }
+    }
+    openings
+}
+
+/// Pose of an end effector in the frame of a target.
+fn relative_pose(target: &Body, end_effector: &[f64; 3]) -> [f64; 3] {
+    let [yaw, x, y] = target.pose;
+    let [along, across] = turned([end_effector[1] - x, end_effector[2] - y], -yaw);
+    [end_effector[0] - yaw, along, across]
+}
