@@ -1,8 +1,8 @@
 //! `planar-capture import ROBOT.urdf`.
 
-use super::{Problem, text};
+use super::{CommandError, file_error, write_new};
 use planar_capture::diagnostic::read_text;
-use planar_capture::urdf::{self, Options};
+use planar_capture::urdf::{self, ImportOptions};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -25,17 +25,16 @@ pub struct Arguments {
     name: Option<String>,
 }
 
-/// Reads, converts, remarks, writes.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, Problem> {
+/// Converts the URDF and prints the remarks.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let file = arguments.urdf.display().to_string();
-    let options = Options { name: arguments.name.clone(), tips: arguments.tips.clone() };
-    let import = urdf::import(&read_text(&arguments.urdf, "URDF")?, &options)
-        .map_err(|source| Problem::Urdf { file: file.clone(), source })?;
-    text::write(arguments.out.as_deref(), &import.to_toml(&file))?;
-    for joint in import.joints.iter().filter(|joint| !joint.is_plain()) {
+    let options = ImportOptions { name: arguments.name.clone(), tips: arguments.tips.clone() };
+    let imported = urdf::import(&read_text(&arguments.urdf, "URDF")?, &options).map_err(file_error(&file))?;
+    write_new(arguments.out.as_deref(), &imported.to_toml(&file))?;
+    for joint in imported.joints.iter().filter(|joint| !joint.is_same_angle()) {
         eprintln!("import: note: {joint}");
     }
-    for remark in &import.remarks {
+    for remark in &imported.remarks {
         eprintln!("import: {remark}");
     }
     Ok(ExitCode::SUCCESS)

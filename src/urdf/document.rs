@@ -1,6 +1,6 @@
 //! An imported layout as a file for people.
 
-use super::{Import, import::Joint};
+use super::{ImportedLayout, import::ImportedJoint};
 use crate::diagnostic::{listing, printable};
 use std::fmt::{self, Display, Formatter};
 
@@ -29,16 +29,16 @@ impl Display for Remark {
     }
 }
 
-impl Joint {
+impl ImportedJoint {
     /// Whether the angle is the URDF's own.
     #[must_use]
-    pub fn is_plain(&self) -> bool {
+    pub fn is_same_angle(&self) -> bool {
         self.sign > 0.0 && self.offset == 0.0
     }
 }
 
 /// The layout's angle in terms of the URDF's: `` arm `left`, joint 2 = -`elbow` + 0.5 ``.
-impl Display for Joint {
+impl Display for ImportedJoint {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let minus = if self.sign < 0.0 { "-" } else { "" };
         write!(f, "arm `{}`, joint {} = {minus}`{}`", printable(&self.arm), self.number, printable(&self.name))?;
@@ -50,7 +50,7 @@ impl Display for Joint {
     }
 }
 
-impl Import {
+impl ImportedLayout {
     /// The layout as TOML, headed by what became what; `source` is the name of the URDF file.
     #[must_use]
     pub fn to_toml(&self, source: &str) -> String {

@@ -16,7 +16,7 @@ use urdf_rs::JointType;
 
 /// What the file alone does not say.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Options {
+pub struct ImportOptions {
     /// The name of the layout; default: from the robot's.
     pub name: Option<String>,
     /// Links whose frames are the tips of their arms, at most one for each arm.
@@ -25,7 +25,7 @@ pub struct Options {
 
 /// A layout, and what of the URDF became what of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Import {
+pub struct ImportedLayout {
     /// The layout.
     pub layout: Layout,
     /// The links that make the base; its frame is that of the first, moved to the common centre of mass.
@@ -35,7 +35,7 @@ pub struct Import {
     /// The plane's x axis, which is the layout's, in the frame of the base link; y is normal × x.
     pub x_axis: [f64; 3],
     /// The joints in the order of the layout.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<ImportedJoint>,
     /// For each arm the link whose frame is its tip, if it is one.
     pub tips: Vec<Option<String>>,
     /// What was chosen or left out.
@@ -44,7 +44,7 @@ pub struct Import {
 
 /// A joint of the layout: its angle is `sign` times the URDF's plus `offset`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct ImportedJoint {
     /// The arm.
     pub arm: String,
     /// Counted from 1 at the base.
@@ -71,7 +71,7 @@ pub struct Joint {
 ///
 /// # Errors
 /// [`UrdfError`]: the first link or joint that a layout cannot hold.
-pub fn import(text: &str, options: &Options) -> Result<Import, UrdfError> {
+pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, UrdfError> {
     let tree = Tree::new(reader::read(text)?)?;
     let name = layout_name(tree.name(), options.name.as_deref())?;
     let (base_link, passed) = tree.base()?;
@@ -108,7 +108,7 @@ pub fn import(text: &str, options: &Options) -> Result<Import, UrdfError> {
     let moving = steps.iter().flatten().map(|step| tree.joint(step.joint));
     remarks.extend(omissions(moving, &reader::joints_without_axis(text)));
     let base_body = Base { mass: base_body.mass, inertia: base_body.inertia };
-    let result = Import {
+    let result = ImportedLayout {
         layout: Layout { name, base: base_body, arms },
         base: owned(&base.names(&tree)),
         normal: plane.normal.into_inner().into(),
@@ -128,7 +128,7 @@ fn arm(
     name: &str,
     (steps, end): (&[Step], &Tip),
     planar_bodies: &mut Vec<PlanarBody>,
-) -> Result<(Arm, Vec<Joint>), UrdfError> {
+) -> Result<(Arm, Vec<ImportedJoint>), UrdfError> {
     let (mut links, mut joints) = (Vec::new(), Vec::new());
     let (mut mount, mut mount_angle) = ([0.0; 2], 0.0);
     let mut before = 0.0; // direction of the link before this one in its URDF frame
@@ -153,7 +153,7 @@ fn arm(
             inertia: planar_body.inertia,
             com: snapped(com, length.max(com[0].hypot(com[1]))),
         });
-        joints.push(Joint {
+        joints.push(ImportedJoint {
             arm: name.to_owned(),
             number: k + 1,
             name: tree.joint(step.joint).name.clone(),

@@ -23,4 +23,4 @@ mod tree;
 pub use document::Remark;
 pub use error::UrdfError;
 pub use export::export;
-pub use import::{Import, Joint, Options, import};
+pub use import::{ImportOptions, ImportedJoint, ImportedLayout, import};

@@ -5,7 +5,7 @@
 use crate::said;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::registry;
-use planar_capture::urdf::{Import, Options, export, import};
+use planar_capture::urdf::{ImportOptions, ImportedLayout, export, import};
 use planar_proof::{assert_close, file, sample, tolerance};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -54,25 +54,25 @@ fn changed(from: &str, to: &str) -> String {
     text.replace(from, to)
 }
 
-fn imported(text: &str) -> Import {
+fn imported(text: &str) -> ImportedLayout {
     imported_with(text, &[])
 }
 
-fn imported_with(text: &str, tips: &[&str]) -> Import {
-    let options = Options { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
+fn imported_with(text: &str, tips: &[&str]) -> ImportedLayout {
+    let options = ImportOptions { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
     let import = import(text, &options).unwrap_or_else(|problem| panic!("{problem}\n{text}"));
     let read = Layout::parse(&import.to_toml("robot.urdf"), "layout.toml").unwrap_or_else(|report| panic!("{report}"));
     assert_eq!(read, import.layout, "the file is the layout");
     import
 }
 
-fn remarks(import: &Import) -> String {
+fn remarks(import: &ImportedLayout) -> String {
     import.remarks.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// [length, mass, inertia, com x, com y] of each link of an arm.
 #[track_caller]
-fn assert_links(import: &Import, arm: usize, wanted: &[[f64; 5]]) {
+fn assert_links(import: &ImportedLayout, arm: usize, wanted: &[[f64; 5]]) {
     let numbers = |l: &Link| [l.length, l.mass, l.inertia, l.com[0], l.com[1]];
     let found: Vec<[f64; 5]> = import.layout.arms[arm].links.iter().map(numbers).collect();
     assert_close("links", found.as_flattened(), wanted.as_flattened(), tolerance::URDF);
@@ -80,7 +80,7 @@ fn assert_links(import: &Import, arm: usize, wanted: &[[f64; 5]]) {
 
 /// [sign, offset] of each joint.
 #[track_caller]
-fn assert_angles(import: &Import, wanted: &[[f64; 2]]) {
+fn assert_angles(import: &ImportedLayout, wanted: &[[f64; 2]]) {
     let found: Vec<[f64; 2]> = import.joints.iter().map(|joint| [joint.sign, joint.offset]).collect();
     assert_close("angles", found.as_flattened(), wanted.as_flattened(), tolerance::URDF);
 }
@@ -294,7 +294,8 @@ fn losses_limits_and_missing_axes_are_reported() {
 
 #[test]
 fn names_become_names() {
-    let named = |name: &str| import(&robot(&arm()).replace("\"bot\"", &format!("\"{name}\"")), &Options::default());
+    let named =
+        |name: &str| import(&robot(&arm()).replace("\"bot\"", &format!("\"{name}\"")), &ImportOptions::default());
     for (robot, layout) in
         [("Big-Arm 2.0", "big_arm_2_0"), ("2r", "robot_2r"), ("loop", "loop_robot"), ("a&amp;b", "a_b")]
     {
@@ -455,7 +456,7 @@ fn refused_trees() -> Vec<Refused> {
 #[test]
 fn what_a_layout_cannot_hold_is_refused_by_name() {
     for (what, text, hints) in [refused_joints(), refused_bodies(), refused_trees()].concat() {
-        let problem = match import(&text, &Options::default()) {
+        let problem = match import(&text, &ImportOptions::default()) {
             Ok(import) => panic!("{what}: {import:?}"),
             Err(problem) => problem.to_string(),
         };
@@ -468,7 +469,7 @@ fn what_a_layout_cannot_hold_is_refused_by_name() {
         (&["upper"], &["`upper`", "not at the end"]),
         (&["tip", "lower"], &["`lower`", "`shoulder` has the tip `tip` already"]),
     ] {
-        let options = Options { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
+        let options = ImportOptions { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
         let problem = import(&robot(&arm()), &options).expect_err("no tip").to_string();
         for hint in hints {
             assert!(problem.contains(hint), "{tips:?}: no `{hint}` in\n{problem}");
