@@ -11,7 +11,7 @@ mod motion;
 mod report;
 mod work;
 
-use planar_capture::output::atomic_file::{make_folder, write_whole};
+use planar_capture::output::atomic_file::{create_folder, write_text};
 use planar_capture::output::figures::draw::svg;
 use std::io::Write;
 use std::path::Path;
@@ -47,8 +47,8 @@ fn compute() -> Result<Vec<(&'static str, String)>, Problem> {
 fn write(files: &[(&str, String)]) -> Result<(), Problem> {
     for (path, text) in files {
         let path = documents().join(path);
-        make_folder(path.parent().ok_or("no folder")?)?;
-        write_whole(&path, |to| to.write_all(text.as_bytes()))?;
+        create_folder(path.parent().ok_or("no folder")?)?;
+        write_text(&path, text)?;
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use compilation::{Compilation, compile};
 use derivation::Derivation;
 use evaluation::{Evaluation, evaluate};
 use fit::Fit;
-use planar_capture::output::atomic_file::write_whole;
+use planar_capture::output::atomic_file::write_text;
 use shape::Shape;
 use std::io::Write;
 use std::path::Path;
@@ -82,9 +82,9 @@ fn measure() -> Result<(), Problem> {
     let counts: Vec<_> = rows.iter().map(|row| (row.shape, row.derivation.flops("forward_dynamics"))).collect();
     let fit = Fit::of(&counts).ok_or("too few robots for a fit")?;
     let report = report::write(&rows)?;
-    write_whole(&documents.join("scaling.md"), |to| to.write_all(report.as_bytes()))?;
+    write_text(&documents.join("scaling.md"), &report)?;
     let drawing = figure::draw(&rows, fit);
-    write_whole(&documents.join("scaling.svg"), |to| to.write_all(drawing.as_bytes()))?;
+    write_text(&documents.join("scaling.svg"), &drawing)?;
     print!("{report}");
     Ok(())
 }
