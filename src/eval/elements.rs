@@ -1,10 +1,10 @@
-//! The elements of a JSON array as text, one at a time.
+//! Splits the text of a JSON array into its elements, one at a time.
 
 use super::StateError;
 use std::io::{self, BufRead};
 
-/// No state comes near this size, in bytes.
-const LARGEST: usize = 1 << 24;
+/// Largest size of an element, bytes.
+const MAX_BYTES: usize = 1 << 24;
 
 /// One element.
 pub struct Element<'a> {
@@ -12,23 +12,23 @@ pub struct Element<'a> {
     pub index: usize,
     /// The line that it starts on, counted from 1.
     pub line: usize,
-    /// Without the space around it; whether it is JSON is not known yet.
+    /// Without the space around it; not checked to be JSON.
     pub text: &'a [u8],
 }
 
-/// Splits a text `[element, element, …]`.
+/// The elements of a text `[element, element, …]`.
 pub struct Elements<R> {
     input: R,
     line: usize,
-    /// Number of elements met so far.
-    count: usize,
-    place: Place,
+    /// Index of the next element.
+    index: usize,
+    state: ParserState,
     text: Vec<u8>,
 }
 
-/// What comes next.
+/// The expected next token.
 #[derive(Clone, Copy, PartialEq)]
-enum Place {
+enum ParserState {
     /// `[`.
     Start,
     /// An element or `]`.
@@ -39,53 +39,53 @@ enum Place {
 }
 
 impl<R: BufRead> Elements<R> {
-    /// Nothing is read yet.
+    /// Reads nothing.
     pub fn new(input: R) -> Self {
-        Self { input, line: 1, count: 0, place: Place::Start, text: Vec::new() }
+        Self { input, line: 1, index: 0, state: ParserState::Start, text: Vec::new() }
     }
 
-    /// The next element; `None` after the closing bracket and nothing but space.
+    /// The next element; `None` at the end of the text, which must follow the closing bracket.
     pub fn next_element(&mut self) -> Result<Option<Element<'_>>, StateError> {
-        if self.place == Place::Start {
+        if self.state == ParserState::Start {
             match self.skip_space()? {
                 Some(b'[') => self.input.consume(1),
-                found => return Err(self.wrong("an array of states, `[{…}, …]`", found)),
+                found => return Err(self.syntax_error("an array of states, `[{…}, …]`", found)),
             }
-            self.place = Place::First;
+            self.state = ParserState::First;
         }
-        match (self.place, self.skip_space()?) {
-            (Place::First | Place::After, Some(b']')) => {
+        match (self.state, self.skip_space()?) {
+            (ParserState::First | ParserState::After, Some(b']')) => {
                 self.input.consume(1);
-                self.place = Place::End;
+                self.state = ParserState::End;
             }
-            (Place::After, Some(b',')) => self.input.consume(1),
-            (Place::After, found) => return Err(self.wrong("`,` or `]`", found)),
+            (ParserState::After, Some(b',')) => self.input.consume(1),
+            (ParserState::After, found) => return Err(self.syntax_error("`,` or `]`", found)),
             _ => {}
         }
         let found = self.skip_space()?;
-        if self.place == Place::End {
+        if self.state == ParserState::End {
             return match found {
                 None => Ok(None),
-                found => Err(self.wrong("nothing after the array", found)),
+                found => Err(self.syntax_error("nothing after the array", found)),
             };
         }
         if matches!(found, None | Some(b',' | b']' | b'}')) {
-            return Err(self.wrong("a state, `{…}`", found));
+            return Err(self.syntax_error("a state, `{…}`", found));
         }
         let line = self.line;
         self.read_text()?;
-        self.place = Place::After;
-        self.count += 1;
-        Ok(Some(Element { index: self.count - 1, line, text: self.text.trim_ascii_end() }))
+        self.state = ParserState::After;
+        self.index += 1;
+        Ok(Some(Element { index: self.index - 1, line, text: self.text.trim_ascii_end() }))
     }
 
-    /// Takes the text up to the comma or bracket that ends it.
+    /// Reads the text of an element up to the comma or bracket that ends it.
     fn read_text(&mut self) -> Result<(), StateError> {
         self.text.clear();
         let (mut depth, mut quoted, mut escaped) = (0_usize, false, false);
         loop {
             let Some(byte) = self.peek()? else {
-                return Err(self.wrong("the end of this state, then `,` or `]`", None));
+                return Err(self.syntax_error("the end of this state, then `,` or `]`", None));
             };
             match byte {
                 _ if escaped => escaped = false,
@@ -97,8 +97,8 @@ impl<R: BufRead> Elements<R> {
                 b']' | b'}' => depth = depth.saturating_sub(1),
                 _ => {}
             }
-            if self.text.len() == LARGEST {
-                return Err(self.wrong("a state of at most 16 MiB", Some(byte)));
+            if self.text.len() == MAX_BYTES {
+                return Err(self.syntax_error("a state of at most 16 MiB", Some(byte)));
             }
             self.text.push(byte);
             self.take(byte);
@@ -129,15 +129,15 @@ impl<R: BufRead> Elements<R> {
         }
     }
 
-    fn wrong(&self, wanted: &str, found: Option<u8>) -> StateError {
+    fn syntax_error(&self, wanted: &str, found: Option<u8>) -> StateError {
         let found = match found {
             None => "the text ends".to_owned(),
             Some(byte) if byte.is_ascii_graphic() => format!("found `{}`", char::from(byte)),
             Some(byte) => format!("found byte 0x{byte:02x}"),
         };
-        let state = match self.place {
-            Place::Start | Place::End => String::new(),
-            Place::First | Place::After => format!("state {}: ", self.count),
+        let state = match self.state {
+            ParserState::Start | ParserState::End => String::new(),
+            ParserState::First | ParserState::After => format!("state {}: ", self.index),
         };
         StateError::Text { line: self.line, message: format!("{state}expected {wanted}, but {found}") }
     }

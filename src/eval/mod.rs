@@ -1,10 +1,10 @@
-//! States in JSON: an array of any length, read one at a time.
+//! Reads states from a JSON array of any length, one at a time, and writes states and values as JSON.
 //!
 //! `[{base_pose, joint_angles, base_twist, joint_rates, joint_torques?, base_wrench?, end_effector_wrenches?,
-//! targets?}, …]`; what may be left out may also be `null`.
+//! targets?}, …]`; an optional entry may be `null`.
 
 mod elements;
-mod places;
+mod offsets;
 mod reader;
 mod result;
 mod write;
@@ -19,7 +19,7 @@ pub use write::to_json;
 /// Why a state cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum StateError {
-    /// The file breaks off.
+    /// The file cannot be read.
     #[error("cannot be read: {0}")]
     Unreadable(#[from] io::Error),
     /// The text is not an array of states.
@@ -27,22 +27,22 @@ pub enum StateError {
     Text {
         /// Counted from 1.
         line: usize,
-        /// What is wrong.
+        /// Expected and found text.
         message: String,
     },
-    /// One state is wrong; those before it are good.
+    /// One state is invalid; those before it are valid.
     #[error("line {line}: state {index}: {message}")]
     State {
-        /// Where the wrong value stands, counted from 1.
+        /// Line of the invalid value, counted from 1.
         line: usize,
         /// Counted from 0.
         index: usize,
-        /// Key, value and what would be right.
+        /// Key, value and what is expected.
         message: String,
     },
 }
 
-/// The states of a JSON text, one after the other: memory for one of them, however many there are.
+/// The states of a JSON text; holds one state in memory at a time.
 pub struct States<R> {
     elements: Elements<R>,
     joints: usize,
@@ -58,7 +58,7 @@ impl<R: BufRead> States<R> {
     /// The next state; `None` after the last.
     ///
     /// # Errors
-    /// [`StateError`]; there is no going on after it.
+    /// [`StateError`]; the states after it cannot be read.
     pub fn next_state(&mut self) -> Result<Option<EvaluationInput>, StateError> {
         let Some(element) = self.elements.next_element()? else { return Ok(None) };
         let read = reader::read(element.text, self.joints, self.arms);

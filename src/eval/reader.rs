@@ -1,6 +1,6 @@
-//! One state from its JSON text.
+//! Reads one state from its JSON text.
 
-use super::places::places;
+use super::offsets::offsets;
 use crate::diagnostic::{NumberRule, excerpt, listing, nearest};
 use crate::evaluation::EvaluationInput;
 use crate::owned::RobotState;
@@ -25,32 +25,33 @@ const WRENCH: &str = "[n, fx, fy] in N m, N, N";
 const MASS: NumberRule = NumberRule::positive("a mass", "kg");
 const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
 
-/// What is wrong, and the path of the value.
-struct Wrong {
+/// An invalid value: its path and the message.
+struct InvalidValue {
     path: String,
     message: String,
 }
 
-type Read<T> = Result<T, Wrong>;
+type Read<T> = Result<T, InvalidValue>;
 
 /// Reads a state of a robot.
 ///
 /// # Errors
-/// Lines from the start of the text to what is wrong, and a message with key, value and what would be right.
+/// The number of lines before the invalid value, and a message with key, value and what is expected.
 pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, (usize, String)> {
     let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
     repeated(text, &tree)
         .map_or(Ok(()), Err)
         .and_then(|()| instant(&tree, joints, arms))
-        .map_err(|wrong| (line_of(text, &wrong.path), wrong.message))
+        .map_err(|error| (line_of(text, &error.path), error.message))
 }
 
 fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     let state = object(tree, "", "the state", &STATE)?;
     let required = |key: &str, wanted: &str| {
-        state
-            .get(key)
-            .ok_or_else(|| Wrong { path: String::new(), message: format!("missing key `{key}`, expected {wanted}") })
+        state.get(key).ok_or_else(|| InvalidValue {
+            path: String::new(),
+            message: format!("missing key `{key}`, expected {wanted}"),
+        })
     };
     let optional = |key: &str| state.get(key).filter(|value| !value.is_null());
     let of_joints = |unit: &str| format!("{joints} numbers in {unit}, one per joint");
@@ -87,7 +88,7 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
 fn target(value: &Value, path: &str) -> Read<Target<f64>> {
     let table = object(value, path, "a target", &TARGET)?;
     let required = |key: &str, wanted: &str| {
-        table.get(key).ok_or_else(|| Wrong {
+        table.get(key).ok_or_else(|| InvalidValue {
             path: path.to_owned(),
             message: format!("missing key `{path}.{key}`, expected {wanted}"),
         })
@@ -108,12 +109,12 @@ fn target(value: &Value, path: &str) -> Read<Target<f64>> {
     })
 }
 
-/// An object that has no other keys.
+/// An object without other keys.
 fn object<'a>(value: &'a Value, path: &str, what: &str, keys: &[&str]) -> Read<&'a Map<String, Value>> {
     let Value::Object(map) = value else {
         let wanted = format!("an object with {}", listing(keys, "and"));
         return Err(if path.is_empty() {
-            Wrong { path: String::new(), message: format!("{what} is {}, expected {wanted}", shown(value)) }
+            InvalidValue { path: String::new(), message: format!("{what} is {}, expected {wanted}", excerpt_of(value)) }
         } else {
             expected(path, value, &wanted)
         });
@@ -125,18 +126,18 @@ fn object<'a>(value: &'a Value, path: &str, what: &str, keys: &[&str]) -> Read<&
         None => format!("keys of {what}: {}", listing(keys, "and")),
     };
     let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-    Err(Wrong { message: format!("unknown key `{}` ({}); {hint}", excerpt(&path), shown(value)), path })
+    Err(InvalidValue { message: format!("unknown key `{}` ({}); {hint}", excerpt(&path), excerpt_of(value)), path })
 }
 
-/// The elements of an array of the right length, with their paths.
+/// The elements of an array of the expected length, with their paths.
 fn items<'a>(
     value: &'a Value,
     path: &str,
     count: usize,
     wanted: &str,
 ) -> Read<impl Iterator<Item = (String, &'a Value)>> {
-    let wrong = || expected(path, value, wanted);
-    let list = value.as_array().ok_or_else(wrong)?;
+    let error = || expected(path, value, wanted);
+    let list = value.as_array().ok_or_else(error)?;
     if list.len() != count {
         return Err(expected(path, value, &format!("{wanted} (it has {})", list.len())));
     }
@@ -158,17 +159,17 @@ fn number(value: &Value, path: &str, wanted: &str) -> Read<f64> {
     value.as_f64().filter(|number| number.is_finite()).ok_or_else(|| expected(path, value, wanted))
 }
 
-fn expected(path: &str, value: &Value, wanted: &str) -> Wrong {
-    Wrong { path: path.to_owned(), message: format!("`{path}` is {}, expected {wanted}", shown(value)) }
+fn expected(path: &str, value: &Value, wanted: &str) -> InvalidValue {
+    InvalidValue { path: path.to_owned(), message: format!("`{path}` is {}, expected {wanted}", excerpt_of(value)) }
 }
 
-fn shown(value: &Value) -> String {
+fn excerpt_of(value: &Value) -> String {
     excerpt(&value.to_string())
 }
 
 /// Lines before the value at `path`.
 fn line_of(text: &[u8], path: &str) -> usize {
-    let place = places(text).into_iter().rev().find(|(found, _)| found == path);
+    let place = offsets(text).into_iter().rev().find(|(found, _)| found == path);
     lines_before(text, place.map_or(0, |(_, offset)| offset))
 }
 
@@ -176,14 +177,14 @@ fn lines_before(text: &[u8], offset: usize) -> usize {
     text.iter().take(offset).filter(|byte| **byte == b'\n').count()
 }
 
-/// A text that is no JSON, or holds a number too large for 64 bits.
+/// The error of a text that is not JSON, or has a number too large for 64 bits.
 fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
     let lines = error.line().saturating_sub(1);
     let start = text.split_inclusive(|byte| *byte == b'\n').take(lines).map(<[u8]>::len).sum::<usize>();
     let offset = start + error.column();
-    let before = places(text).into_iter().take_while(|(_, place)| *place < offset).last();
+    let before = offsets(text).into_iter().take_while(|(_, place)| *place < offset).last();
     let what = error.to_string();
-    // the parser counts lines from the start of this state; ours stands in front of the message
+    // without the line, which the parser counts from the start of the state
     let what = what.split(" at line ").next().unwrap_or_default();
     let message = match before {
         Some((path, place)) if !path.is_empty() => {
@@ -201,14 +202,14 @@ fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
     (lines, message)
 }
 
-/// The first key that stands twice in one object: a tree keeps only the last of them.
-fn repeated(text: &[u8], tree: &Value) -> Option<Wrong> {
+/// The first key that an object has twice; the tree has only the last.
+fn repeated(text: &[u8], tree: &Value) -> Option<InvalidValue> {
     if keys_of(tree) == colons(text) {
         return None;
     }
-    let places = places(text);
-    let repeat = places.iter().enumerate().find(|(i, (path, _))| places.iter().take(*i).any(|(p, _)| p == path));
-    repeat.map(|(_, (path, _))| Wrong {
+    let offsets = offsets(text);
+    let repeat = offsets.iter().enumerate().find(|(i, (path, _))| offsets.iter().take(*i).any(|(p, _)| p == path));
+    repeat.map(|(_, (path, _))| InvalidValue {
         message: format!("`{}` is given twice, expected once", excerpt(path)),
         path: path.clone(),
     })

@@ -1,12 +1,12 @@
-//! What `eval` shows of a state: the shown rows of the table of quantities.
+//! The values of the shown rows of the table of quantities as JSON.
 
 use crate::evaluation::Values;
 use crate::quantity::Quantity;
 use crate::target::Target;
 use serde_json::{Map, Value, json};
 
-/// Quantities under their names, `impact.G` as `G` in a block `impact`: matrices as nested rows, and `null` for an arm
-/// that captures nothing. A block that has no values is absent.
+/// Quantities by name, `impact.G` as `G` in a block `impact`; matrices are nested rows, and an arm without target is
+/// `null`. A block without values is absent.
 #[must_use]
 pub fn result_to_json(values: &Values, targets: &[Option<Target<f64>>]) -> Value {
     let mut result = Map::new();
@@ -34,7 +34,7 @@ pub fn result_to_json(values: &Values, targets: &[Option<Target<f64>>]) -> Value
     Value::Object(result)
 }
 
-/// Numbers in nested lists of a shape; a single number without one.
+/// Nested lists of this shape; a number for the empty shape.
 fn nested(entries: &[f64], shape: &[usize]) -> Value {
     match shape {
         [] => json!(entries.first()),

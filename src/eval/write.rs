@@ -1,18 +1,18 @@
-//! A state as JSON, so that it reads back as the same numbers.
+//! Writes a state as JSON; its numbers read back exactly.
 
 use crate::evaluation::EvaluationInput;
 use crate::target::Target;
 use serde_json::{Value, json};
 
-/// The object that [`States`](super::States) reads as this instant; what is absent stays out.
+/// The object that [`States`](super::States) reads as this input; optional entries without value are absent.
 #[must_use]
 pub fn to_json(instant: &EvaluationInput) -> Value {
-    let motion = &instant.state;
+    let state = &instant.state;
     let mut value = json!({
-        "base_pose": motion.base_pose,
-        "joint_angles": motion.joint_angles,
-        "base_twist": motion.base_twist,
-        "joint_rates": motion.joint_rates,
+        "base_pose": state.base_pose,
+        "joint_angles": state.joint_angles,
+        "base_twist": state.base_twist,
+        "joint_rates": state.joint_rates,
         "joint_torques": instant.joint_torques,
     });
     if let Some(wrench) = instant.base_wrench {

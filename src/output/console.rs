@@ -78,7 +78,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
         }
     }
     if let Some(margin) = phase.singularity_margin {
-        writeln!(out, "  generalized Jacobian in the approach: least smallest/largest singular value {margin:.4}")?;
+        writeln!(out, "  generalized Jacobian in the approach: smallest/largest singular value at least {margin:.4}")?;
         if let Tracking::ResolvedMotionRate { singularity_threshold, .. } = scenario.approach.tracking
             && margin < singularity_threshold
         {

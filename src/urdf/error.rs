@@ -1,86 +1,48 @@
-//! Why a URDF file gives no layout.
+//! Errors of the import of a URDF file.
 
 use crate::diagnostic::Report;
 
-/// What keeps a URDF from being a layout: where, the value there and what would be right.
+/// Why a URDF file gives no layout.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum UrdfError {
     /// Not XML, or not the elements and attributes of a URDF.
     #[error("this is not a URDF file: {0}")]
     Unreadable(String),
-    /// One element that cannot be read.
+    /// An element that cannot be read.
     #[error("line {line}, {element}: {found}")]
     Element {
         /// Of the file, from 1.
         line: usize,
         /// The link or joint.
         element: String,
-        /// What is wrong.
+        /// The invalid text.
         found: String,
     },
-    /// The tree as a whole.
-    #[error("robot `{robot}`: {found}; {wanted}")]
-    Robot {
-        /// Its name.
-        robot: String,
-        /// What is there.
+    /// A part of the robot that a layout cannot represent, or an unsuitable option.
+    #[error("{part}: {found}; {wanted}")]
+    Part {
+        /// Kind and name, such as `` link `base` ``.
+        part: String,
+        /// The fact.
         found: String,
-        /// What would be right.
+        /// What is expected.
         wanted: String,
     },
-    /// One link.
-    #[error("link `{link}`: {found}; {wanted}")]
-    Link {
-        /// Its name.
-        link: String,
-        /// What is there.
-        found: String,
-        /// What would be right.
-        wanted: String,
-    },
-    /// One joint.
-    #[error("joint `{joint}`: {found}; {wanted}")]
-    Joint {
-        /// Its name.
-        joint: String,
-        /// What is there.
-        found: String,
-        /// What would be right.
-        wanted: String,
-    },
-    /// A tip that was asked for.
-    #[error("tip `{tip}`: {found}; {wanted}")]
-    Tip {
-        /// The link asked for.
-        tip: String,
-        /// What is there.
-        found: String,
-        /// What would be right.
-        wanted: String,
-    },
-    /// The name of the layout.
-    #[error("`{name}` {found}; {wanted}")]
-    Name {
-        /// The name.
-        name: String,
-        /// What is wrong with it.
-        found: String,
-        /// What would be right.
-        wanted: String,
-    },
-    /// The numbers are none that a layout may have.
+    /// The resulting layout is invalid.
     #[error("the layout that it gives cannot be used:\n{0}")]
     Layout(#[from] Report),
 }
 
 impl UrdfError {
-    /// A problem of a link.
-    pub(super) fn link(link: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
-        Self::Link { link: link.to_owned(), found: found.into(), wanted: wanted.into() }
+    pub(super) fn part(kind: &str, name: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
+        Self::Part { part: format!("{kind} `{name}`"), found: found.into(), wanted: wanted.into() }
     }
 
-    /// A problem of a joint.
+    pub(super) fn link(link: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
+        Self::part("link", link, found, wanted)
+    }
+
     pub(super) fn joint(joint: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
-        Self::Joint { joint: joint.to_owned(), found: found.into(), wanted: wanted.into() }
+        Self::part("joint", joint, found, wanted)
     }
 }

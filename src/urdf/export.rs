@@ -1,13 +1,13 @@
-//! From a layout to a URDF.
+//! Writes a layout as a URDF.
 
 use crate::layout::Layout;
 use std::fmt::Write;
 
-/// The layout as a URDF of a base that moves freely in the plane z = 0.
+/// The layout as a URDF whose base moves freely in the plane z = 0.
 ///
-/// A planar joint holds the link `base` in the link `world`: Pinocchio makes it one joint, `MuJoCo` two slides and a
-/// hinge. Arm `NAME` has the links `NAME_link1`, …, the joints `NAME_joint1`, … and the massless link `NAME_tip`, which
-/// `MuJoCo` merges with the last link. Numbers read back as the same.
+/// A planar joint connects the link `base` to the link `world`; `MuJoCo` converts it to two slides and a hinge. Arm
+/// `NAME` has the links `NAME_link1`, …, the joints `NAME_joint1`, … and the massless link `NAME_tip`, which `MuJoCo`
+/// merges with the last link. Numbers read back exactly.
 #[must_use]
 pub fn export(layout: &Layout) -> String {
     let mut parts = vec![format!(
@@ -58,7 +58,6 @@ fn escaped(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars() {
         match c {
-            // references keep white space that a parser may turn into spaces, too
             '&' | '<' | '>' | '"' | '\'' => {
                 let _ = write!(safe, "&#{};", u32::from(c));
             }

@@ -1,26 +1,28 @@
-//! Layouts from URDF files, and URDF files from layouts.
+//! Converts URDF files to layouts and layouts to URDF files.
 //!
-//! [`import`] takes a tree of links with parallel revolute joints as a free-floating planar robot and says what each
-//! joint became and what was left out; [`export`] writes a layout for other simulators. What a layout cannot hold is an
-//! [`UrdfError`] that names the link or joint.
+//! [`import`] reads a tree of links with parallel revolute joints as a free-floating planar robot, with the relation of
+//! the joint angles and remarks on what is omitted; [`export`] writes a layout for other simulators. What a layout
+//! cannot represent is an [`UrdfError`] that names the link or joint.
 
-mod body;
 mod chain;
-mod document;
 mod error;
 mod export;
-mod group;
 mod import;
+mod imported_layout;
+mod link_group;
 mod names;
-mod omission;
+mod omissions;
 mod planar_body;
 mod plane;
 mod reader;
-mod scan;
+mod remark;
+mod spatial_body;
+mod tags;
 mod tip;
 mod tree;
 
-pub use document::Remark;
 pub use error::UrdfError;
 pub use export::export;
-pub use import::{ImportOptions, ImportedJoint, ImportedLayout, import};
+pub use import::{ImportOptions, import};
+pub use imported_layout::{ImportedJoint, ImportedLayout};
+pub use remark::Remark;

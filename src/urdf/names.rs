@@ -5,16 +5,12 @@ use crate::diagnostic::printable;
 use crate::layout::Layout;
 use std::collections::HashSet;
 
-/// The name of the layout: the one asked for, else the robot's with what a module's name cannot hold made `_`.
+/// The requested name of the layout, else that of the robot with `_` for characters that a module name cannot have.
 pub(super) fn layout_name(robot: &str, asked: Option<&str>) -> Result<String, UrdfError> {
     let wanted = "expected lower-case letters, digits and `_`, a letter first, at most 64, and no Rust keyword";
     if let Some(name) = asked {
-        let refused = || UrdfError::Name {
-            name: name.to_owned(),
-            found: "cannot name a layout".to_owned(),
-            wanted: wanted.to_owned(),
-        };
-        return if Layout::is_name(name) { Ok(name.to_owned()) } else { Err(refused()) };
+        let invalid = || UrdfError::part("name", name, "it cannot name a layout", wanted);
+        return if Layout::is_name(name) { Ok(name.to_owned()) } else { Err(invalid()) };
     }
     let words = robot.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
     let mut name = words.collect::<Vec<_>>().join("_").to_ascii_lowercase();
@@ -28,15 +24,10 @@ pub(super) fn layout_name(robot: &str, asked: Option<&str>) -> Result<String, Ur
     if Layout::is_name(&name) {
         return Ok(name);
     }
-    Err(UrdfError::Name {
-        name: robot.to_owned(),
-        found: "is the robot's name and gives no name for a layout".to_owned(),
-        wanted: "name it with `--name`".to_owned(),
-    })
+    Err(UrdfError::part("robot", robot, "its name gives no name of a layout", "name the layout with `--name`"))
 }
 
-/// The names of the arms: what stands before `_joint1` in the name of the first joint, as `export` writes it, else
-/// the joint's whole name.
+/// The names of the arms: those of their first joints, without the suffix `_joint1` of `export` if they remain unique.
 pub(super) fn arm_names(first_joints: &[&str]) -> Vec<String> {
     let short: Vec<&str> = first_joints
         .iter()

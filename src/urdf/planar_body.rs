@@ -1,17 +1,17 @@
-//! Bodies as the plane sees them, and what it does not see.
+//! Projections of bodies on the plane of motion, and warnings of bodies that would leave it.
 
 use super::UrdfError;
-use super::document::Remark;
-use super::group::Group;
+use super::link_group::LinkGroup;
 use super::plane::Plane;
+use super::remark::Remark;
 use super::tree::Tree;
 
-/// What two centres of mass may differ in height, m: rounding of files with nine digits or more.
-const FLAT: f64 = 1e-9;
-/// What products of inertia with the normal may be, of the moment of inertia about it: the same.
-const BALANCED: f64 = 1e-9;
+/// Largest difference in height of centres of mass, m: rounding of files with nine digits.
+const MAX_HEIGHT_DIFFERENCE: f64 = 1e-9;
+/// Largest product of inertia with the normal over the moment of inertia about it.
+const MAX_PRODUCT: f64 = 1e-9;
 
-/// Mass, centre of mass and inertia in a plane.
+/// Mass, centre of mass and moment of inertia in the plane.
 #[derive(Clone, Debug)]
 pub(super) struct PlanarBody {
     link: String,
@@ -20,15 +20,18 @@ pub(super) struct PlanarBody {
     pub(super) com: [f64; 2],
     /// About the normal through the centre of mass.
     pub(super) inertia: f64,
-    /// Of the centre of mass above the frame of the base.
+    /// Of the centre of mass above the frame of the base, m.
     height: f64,
-    /// Of inertia, with the normal.
+    /// Products of inertia with the normal, kg m².
     products: [f64; 2],
 }
 
 impl PlanarBody {
-    /// Of a group whose frame stands at a height; it must have mass and inertia.
-    pub(super) fn of(tree: &Tree, group: &Group, plane: &Plane, height: f64) -> Result<Self, UrdfError> {
+    /// Of a group whose frame has this height, m.
+    ///
+    /// # Errors
+    /// [`UrdfError::Part`] without mass or moment of inertia.
+    pub(super) fn new(tree: &Tree, group: &LinkGroup, plane: &Plane, height: f64) -> Result<Self, UrdfError> {
         let (com, above) = plane.project(&group.body.com);
         let (products, inertia) = plane.project(&(group.body.inertia * plane.normal.into_inner()));
         let mass = group.body.mass;
@@ -47,19 +50,19 @@ impl PlanarBody {
     }
 }
 
-/// Warnings of what makes a robot without supports leave the plane.
-pub(super) fn remarks(planar_bodies: &[PlanarBody]) -> Vec<Remark> {
+/// Warnings of heights and products of inertia by which a free robot would leave the plane.
+pub(super) fn remarks(bodies: &[PlanarBody]) -> Vec<Remark> {
     let mut remarks = Vec::new();
-    let highest = planar_bodies.iter().fold(f64::NEG_INFINITY, |most, planar_body| most.max(planar_body.height));
-    let lowest = planar_bodies.iter().fold(f64::INFINITY, |least, planar_body| least.min(planar_body.height));
-    if highest - lowest > FLAT {
-        let heights: Vec<String> = planar_bodies.iter().map(|o| format!("`{}` {:?} m", o.link, o.height)).collect();
+    let highest = bodies.iter().map(|body| body.height).fold(f64::NEG_INFINITY, f64::max);
+    let lowest = bodies.iter().map(|body| body.height).fold(f64::INFINITY, f64::min);
+    if highest - lowest > MAX_HEIGHT_DIFFERENCE {
+        let heights: Vec<String> = bodies.iter().map(|o| format!("`{}` {:?} m", o.link, o.height)).collect();
         remarks.push(Remark::warning(&format!(
             "the robot would leave the plane: centres of mass are at different heights along its normal: {}",
             heights.join(", ")
         )));
     }
-    let skew = planar_bodies.iter().filter(|o| o.products[0].hypot(o.products[1]) > BALANCED * o.inertia);
+    let skew = bodies.iter().filter(|o| o.products[0].hypot(o.products[1]) > MAX_PRODUCT * o.inertia);
     let skew: Vec<String> = skew.map(|o| format!("`{}` {:?} kg m²", o.link, o.products)).collect();
     if !skew.is_empty() {
         remarks.push(Remark::warning(&format!(

@@ -1,11 +1,11 @@
-//! The plane that a robot moves in, as the frames of its links see it.
+//! The plane of motion of a robot in the frames of its links.
 
 use nalgebra::{Rotation3, Unit, Vector3};
 
-/// How far from parallel axes may be, rad: 1.5708 for π/2, which many files have, is 4e-6 off.
-pub(super) const PARALLEL: f64 = 1e-5;
+/// Largest angle between axes that count as parallel, rad; 1.5708 for π/2, as in many files, has an error of 4e-6.
+pub(super) const MAX_TILT: f64 = 1e-5;
 
-/// The axes of the plane in the frame of some link: its normal, and the link's own x axis projected on it.
+/// The axes of the plane in the frame of a link: its normal, and the projected x axis of the link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
     pub(super) normal: Unit<Vector3<f64>>,
@@ -14,30 +14,30 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// With the projected x axis of the frame, or its y axis where x is along the normal.
-    pub(super) fn across(normal: Unit<Vector3<f64>>) -> Self {
-        let own = if normal.cross(&Vector3::x()).norm() > PARALLEL { Vector3::x() } else { Vector3::y() };
+    /// With the projected x axis of the frame, or its y axis if x is along the normal.
+    pub(super) fn with_normal(normal: Unit<Vector3<f64>>) -> Self {
+        let own = if normal.cross(&Vector3::x()).norm() > MAX_TILT { Vector3::x() } else { Vector3::y() };
         let x = (own - normal.scale(normal.dot(&own))).normalize();
         Self { normal, x, y: normal.cross(&x) }
     }
 
-    /// The plane of a base whose first joint has this axis: normal +z where the axis is along z, else the axis.
-    pub(super) fn of_base(axis: Unit<Vector3<f64>>) -> Self {
-        let upright = axis.cross(&Vector3::z()).norm() <= PARALLEL;
-        Self::across(if upright { Vector3::z_axis() } else { axis })
+    /// The plane of a base whose first joint has this axis: the normal is +z if the axis is along ±z, else the axis.
+    pub(super) fn for_base(axis: Unit<Vector3<f64>>) -> Self {
+        let upright = axis.cross(&Vector3::z()).norm() <= MAX_TILT;
+        Self::with_normal(if upright { Vector3::z_axis() } else { axis })
     }
 
-    /// The same plane in the frame of a link that is turned by `rotation`, with that link's own x axis.
-    pub(super) fn seen_from(&self, rotation: &Rotation3<f64>) -> Self {
-        Self::across(Unit::new_normalize(rotation.inverse() * self.normal.into_inner()))
+    /// The same plane in the frame of a link that is rotated by `rotation`.
+    pub(super) fn in_frame(&self, rotation: &Rotation3<f64>) -> Self {
+        Self::with_normal(Unit::new_normalize(rotation.inverse() * self.normal.into_inner()))
     }
 
-    /// Coordinates in the plane, and the height above it.
+    /// Components in the plane and along the normal.
     pub(super) fn project(&self, vector: &Vector3<f64>) -> ([f64; 2], f64) {
         ([self.x.dot(vector), self.y.dot(vector)], self.normal.dot(vector))
     }
 
-    /// Angle of an axis with the normal, rad, and whether it points the other way.
+    /// Angle between an axis and the normal, rad, and whether it points against the normal.
     pub(super) fn tilt(&self, axis: &Vector3<f64>) -> (f64, bool) {
         let along = self.normal.dot(axis);
         (self.normal.cross(axis).norm().atan2(along.abs()), along < 0.0)
@@ -49,14 +49,14 @@ pub(super) fn direction([x, y]: [f64; 2]) -> f64 {
     y.atan2(x)
 }
 
-/// A planar vector from axes that are turned by `angle`; at 0 it stays what it is to the bit.
-pub(super) fn turned_back([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+/// Components of a planar vector in axes that are rotated by `angle`; exact at 0.
+pub(super) fn in_rotated_axes([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sine, cosine) = angle.sin_cos();
     [cosine * x + sine * y, cosine * y - sine * x]
 }
 
-/// Components below 1e-12 of `scale` as the exact zeros they stand for: what sines of π and sums of equal numbers
-/// leave. Exact zeros are structural: they choose the generated code.
-pub(super) fn snapped<const N: usize>(vector: [f64; N], scale: f64) -> [f64; N] {
+/// Components below 1e-12 of `scale`, such as the sine of π, as exact zeros, which are structural: they select the
+/// generated code.
+pub(super) fn with_exact_zeros<const N: usize>(vector: [f64; N], scale: f64) -> [f64; N] {
     vector.map(|component| if component.abs() <= 1e-12 * scale { 0.0 } else { component })
 }

@@ -1,17 +1,16 @@
-//! The text of a URDF file as links and joints.
+//! Reads the links and joints of a URDF file.
 
 use super::UrdfError;
-use super::scan::{Tag, tags};
+use super::tags::{Tag, tags};
 use crate::diagnostic::printable;
 use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
 use urdf_rs::{Pose, Robot};
 
-/// Elements within elements: a URDF has six or so, plugins some more. The XML parser recurses, so that a file made to
-/// break it would.
-const DEEPEST: usize = 64;
+/// Largest depth of nested elements; a URDF has about six. The XML parser recurses, and would overflow the stack.
+const MAX_DEPTH: usize = 64;
 
-/// Elements that a layout is made from, and their attributes that hold numbers.
-const NUMBERS: &[(&str, &[&str])] = &[
+/// The numeric attributes of the elements that are imported.
+const NUMERIC_ATTRIBUTES: &[(&str, &[&str])] = &[
     ("origin", &["xyz", "rpy"]),
     ("mass", &["value"]),
     ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
@@ -19,25 +18,25 @@ const NUMBERS: &[(&str, &[&str])] = &[
     ("limit", &["lower", "upper", "effort", "velocity"]),
 ];
 
-/// Reads the elements of a URDF; the tree they make is still to be checked.
+/// Reads the elements of a URDF; does not check that they form a tree.
 ///
 /// # Errors
-/// [`UrdfError::Unreadable`], and [`UrdfError::Element`] for the link or joint that is to blame.
+/// [`UrdfError::Unreadable`], or [`UrdfError::Element`] with the invalid link or joint.
 pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
     let tags = tags(text);
     let depth = tags.iter().map(|tag| tag.depth + 1).max().unwrap_or_default();
-    if depth > DEEPEST {
-        let message = format!("its elements stand {depth} deep within each other, {DEEPEST} at most are read");
+    if depth > MAX_DEPTH {
+        let message = format!("its elements are nested {depth} deep, expected {MAX_DEPTH} at most");
         return Err(UrdfError::Unreadable(message));
     }
     reject_text_for_numbers(&tags)?;
     urdf_rs::read_from_string(text).map_err(|error| {
         let parts = tags.iter().filter(|tag| tag.depth == 1 && matches!(tag.name(), "link" | "joint"));
-        parts.map(broken).find_map(Result::err).unwrap_or_else(|| UrdfError::Unreadable(reason(&error)))
+        parts.map(parse_alone).find_map(Result::err).unwrap_or_else(|| UrdfError::Unreadable(reason(&error)))
     })
 }
 
-/// urdf-rs passes over what is no number among three, and says of others neither where nor what they are.
+/// urdf-rs skips words in lists of numbers, and its errors have neither place nor text.
 fn reject_text_for_numbers(tags: &[Tag<'_>]) -> Result<(), UrdfError> {
     let mut part: Option<&Tag<'_>> = None;
     for tag in tags {
@@ -45,11 +44,13 @@ fn reject_text_for_numbers(tags: &[Tag<'_>]) -> Result<(), UrdfError> {
             part = Some(tag).filter(|tag| matches!(tag.name(), "link" | "joint"));
         }
         let Some(part) = part else { continue };
-        let names = NUMBERS.iter().find(|(element, _)| *element == tag.name()).map_or(&[][..], |(_, names)| names);
+        let names =
+            NUMERIC_ATTRIBUTES.iter().find(|(element, _)| *element == tag.name()).map_or(&[][..], |(_, names)| names);
         for (name, value) in tag.attributes().into_iter().filter(|(name, _)| names.contains(name)) {
             if let Some(word) = value.split_whitespace().find(|word| word.parse::<f64>().is_err()) {
                 let hint = if word.contains("${") { ": expand the file with xacro first" } else { "" };
-                let found = format!("`{name}` of <{}> is \"{value}\", where `{word}` is no number{hint}", tag.name());
+                let found =
+                    format!("`{name}` of <{}> is \"{value}\", where `{word}` is not a number{hint}", tag.name());
                 return Err(element(part, tag.line, found));
             }
         }
@@ -72,8 +73,8 @@ pub(super) fn joints_without_axis(text: &str) -> Vec<String> {
     found.into_iter().chain(joint).map(str::to_owned).collect()
 }
 
-/// Reads one link or joint alone.
-fn broken(tag: &Tag<'_>) -> Result<(), UrdfError> {
+/// The error of a link or joint when parsed alone.
+fn parse_alone(tag: &Tag<'_>) -> Result<(), UrdfError> {
     let name = tag.name();
     let end = format!("</{name}>");
     let whole = if tag.rest.split('>').next().is_some_and(|first| first.ends_with('/')) {
@@ -90,7 +91,7 @@ fn element(part: &Tag<'_>, line: usize, found: String) -> UrdfError {
     UrdfError::Element { line, element: format!("{} `{}`", part.name(), printable(name)), found }
 }
 
-/// What an XML library says, without its own names for things.
+/// The message of the XML library, without its prefix.
 fn reason(error: &urdf_rs::UrdfError) -> String {
     let text = printable(&error.to_string());
     text.strip_prefix("custom: ").unwrap_or(&text).to_owned()
@@ -109,7 +110,7 @@ pub(super) fn finite<const N: usize>(
     }
 }
 
-/// A pose as a transformation: `rpy` turns about the fixed axes x, y, z in this order.
+/// A pose as a transformation: `rpy` are rotations about the fixed axes x, y, z in this order.
 pub(super) fn isometry(pose: &Pose) -> IsometryMatrix3<f64> {
     let ([x, y, z], [roll, pitch, yaw]) = (*pose.xyz, *pose.rpy);
     IsometryMatrix3::from_parts(Translation3::new(x, y, z), Rotation3::from_euler_angles(roll, pitch, yaw))

@@ -1,67 +1,67 @@
-//! Where arms end.
+//! The end effectors of the arms.
 
-use super::chain::Step;
-use super::document::Remark;
-use super::group::Group;
+use super::chain::ChainJoint;
+use super::link_group::LinkGroup;
+use super::remark::Remark;
 use super::tree::Tree;
-use super::{UrdfError, body::Body};
+use super::{UrdfError, spatial_body::SpatialBody};
 use crate::diagnostic::{listing, nearest};
 use nalgebra::Vector3;
 
 /// The end of an arm, in the frame of its last link.
 pub(super) struct Tip {
     pub(super) position: Vector3<f64>,
-    /// The link whose frame it is.
+    /// The link at whose frame it is.
     pub(super) name: Option<String>,
 }
 
-/// The tips of the arms: those asked for, else the first massless leaf that is fixed to the last link, else its only
-/// fixed leaf, else the point at twice the distance of the centre of mass.
+/// The end effectors of the arms: the requested links, else the first massless leaf fixed to the last link, else its
+/// only fixed leaf, else the point at twice the distance of the centre of mass.
 pub(super) fn tips(
     tree: &Tree,
-    arms: &[Vec<Step>],
+    arms: &[Vec<ChainJoint>],
     names: &[String],
     wanted: &[String],
     remarks: &mut Vec<Remark>,
 ) -> Result<Vec<Tip>, UrdfError> {
-    let ends: Vec<&Group> = arms.iter().filter_map(|steps| steps.last().map(|step| &step.group)).collect();
+    let ends: Vec<&LinkGroup> = arms.iter().filter_map(|steps| steps.last().map(|step| &step.group)).collect();
     let mut asked: Vec<Option<usize>> = vec![None; ends.len()];
     for tip in wanted {
-        let problem = |found: String, wanted| UrdfError::Tip { tip: tip.clone(), found, wanted };
-        let may_be = || {
-            let each =
+        let problem = |found: &str, wanted: String| UrdfError::part("tip", tip, found, wanted);
+        let candidates = || {
+            let arms =
                 ends.iter().zip(names).map(|(g, arm)| format!("{} (arm `{arm}`)", listing(&g.names(tree), "or")));
-            format!("expected a link fixed to the end of an arm: {}", each.collect::<Vec<_>>().join(", "))
+            format!("expected a link fixed to the end of an arm: {}", arms.collect::<Vec<_>>().join(", "))
         };
         let Some(link) = tree.link_named(tip) else {
             let all = ends.iter().flat_map(|group| group.names(tree));
             let meant = nearest(tip, all).map(|name| format!("did you mean `{name}`? ")).unwrap_or_default();
-            return Err(problem("there is no such link".to_owned(), meant + &may_be()));
+            return Err(problem("there is no such link", meant + &candidates()));
         };
         let Some(arm) = ends.iter().position(|group| group.members.iter().any(|(member, _)| *member == link)) else {
-            return Err(problem("it is not at the end of an arm".to_owned(), may_be()));
+            return Err(problem("it is not at the end of an arm", candidates()));
         };
         if let Some(other) = asked[arm].replace(link) {
             let found = format!("arm `{}` has the tip `{}` already", names[arm], tree.link_name(other));
-            return Err(problem(found, "name one for each arm".to_owned()));
+            return Err(problem(&found, "expected one for each arm".to_owned()));
         }
     }
     let each = ends.iter().zip(asked).zip(names);
     each.map(|((group, asked), arm)| match asked {
         Some(link) => Ok(at_link(tree, group, link)),
-        None => found(tree, group, arm, remarks),
+        None => default_tip(tree, group, arm, remarks),
     })
     .collect()
 }
 
-/// The tip of an arm that none was named for.
-fn found(tree: &Tree, group: &Group, arm: &str, remarks: &mut Vec<Remark>) -> Result<Tip, UrdfError> {
+/// The end effector of an arm without requested link.
+fn default_tip(tree: &Tree, group: &LinkGroup, arm: &str, remarks: &mut Vec<Remark>) -> Result<Tip, UrdfError> {
     let fixed = group.members.iter().skip(1).map(|(link, _)| *link);
-    let mut leaves: Vec<usize> = fixed.filter(|link| tree.joints_below(*link).is_empty()).collect();
+    let mut leaves: Vec<usize> = fixed.filter(|link| tree.child_joints(*link).is_empty()).collect();
     leaves.sort_unstable();
     let mut massless = Vec::new();
     for link in &leaves {
-        if Body::of(tree.link(*link))?.is_nothing() {
+        if SpatialBody::from_link(tree.link(*link))?.is_massless() {
             massless.push(*link);
         }
     }
@@ -83,7 +83,7 @@ fn found(tree: &Tree, group: &Group, arm: &str, remarks: &mut Vec<Remark>) -> Re
                 several => format!("{} are fixed to its end, and none of them is massless", names(several)),
             };
             let text = format!(
-                "arm `{arm}` has no tip: {why}; the tip is put at twice the distance of the centre of mass of `{}`; \
+                "arm `{arm}` has no tip: {why}; its tip is at twice the distance of the centre of mass of `{}`; \
                  `--tip` names a link",
                 tree.link_name(group.link)
             );
@@ -93,8 +93,7 @@ fn found(tree: &Tree, group: &Group, arm: &str, remarks: &mut Vec<Remark>) -> Re
     }
 }
 
-fn at_link(tree: &Tree, group: &Group, link: usize) -> Tip {
-    let place = group.members.iter().find(|(member, _)| *member == link);
-    let position = place.map_or_else(Vector3::zeros, |(_, place)| place.translation.vector);
-    Tip { position, name: Some(tree.link_name(link).to_owned()) }
+fn at_link(tree: &Tree, group: &LinkGroup, link: usize) -> Tip {
+    let (_, frame) = group.members.iter().find(|(member, _)| *member == link).expect("the link belongs to the group");
+    Tip { position: frame.translation.vector, name: Some(tree.link_name(link).to_owned()) }
 }

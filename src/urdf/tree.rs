@@ -1,8 +1,8 @@
-//! The tree of links that the joints of a URDF make.
+//! The tree of the links and joints of a URDF.
 
 use super::UrdfError;
-use super::body::Body;
 use super::reader::{finite, isometry};
+use super::spatial_body::SpatialBody;
 use nalgebra::IsometryMatrix3;
 use std::collections::HashMap;
 use urdf_rs::{Joint, JointType, Link, Robot};
@@ -10,21 +10,17 @@ use urdf_rs::{Joint, JointType, Link, Robot};
 /// Links and joints by their indices in the document; every link but the root is the child of one joint.
 pub(super) struct Tree {
     robot: Robot,
-    /// Of each link, the joints that it is the parent of.
+    /// Per link, the joints whose parent it is.
     children: Vec<Vec<usize>>,
-    /// Of each joint.
+    /// Per joint, its child link.
     child: Vec<usize>,
     root: usize,
 }
 
 impl Tree {
-    /// Checks that it is a tree, that names differ and that the numbers are finite.
+    /// Checks that the links form one tree, that names are unique and that numbers are finite.
     pub(super) fn new(robot: Robot) -> Result<Self, UrdfError> {
-        let problem = |found: String, wanted: &str| UrdfError::Robot {
-            robot: robot.name.clone(),
-            found,
-            wanted: wanted.to_owned(),
-        };
+        let problem = |found: String, wanted: &str| UrdfError::part("robot", &robot.name, found, wanted);
         if robot.links.is_empty() {
             return Err(problem("it has no links".to_owned(), "expected `<robot>` with `<link>` and `<joint>` in it"));
         }
@@ -49,7 +45,11 @@ impl Tree {
             let (above, below) = (find("parent", &joint.parent.link)?, find("child", &joint.child.link)?);
             if let Some(other) = parent[below].replace(j) {
                 let found = format!("it is the child of joints `{}` and `{}`", robot.joints[other].name, joint.name);
-                return Err(UrdfError::link(&joint.child.link, found, "closed chains are no tree: one joint, please"));
+                return Err(UrdfError::link(
+                    &joint.child.link,
+                    found,
+                    "a tree of links has no closed chains: expected one joint",
+                ));
             }
             finite("its origin", *joint.origin.xyz, |f, w| UrdfError::joint(&joint.name, f, w))?;
             finite("its origin's rpy", *joint.origin.rpy, |f, w| UrdfError::joint(&joint.name, f, w))?;
@@ -68,17 +68,17 @@ impl Tree {
             return Err(problem(found, "expected one tree, with one link that is the base"));
         }
         let tree = Self { robot, children, child, root: first };
-        tree.reject_circles()?;
+        tree.reject_cycles()?;
         Ok(tree)
     }
 
-    /// With one root and one parent for everything else, what cannot be reached from the root is a circle.
-    fn reject_circles(&self) -> Result<(), UrdfError> {
+    /// Links that cannot be reached from the root form cycles, because all but the root have one parent.
+    fn reject_cycles(&self) -> Result<(), UrdfError> {
         let mut reached = vec![false; self.robot.links.len()];
         let mut open = vec![self.root];
         while let Some(link) = open.pop() {
             reached[link] = true;
-            open.extend(self.joints_below(link).iter().map(|joint| self.child[*joint]));
+            open.extend(self.child_joints(link).iter().map(|joint| self.child[*joint]));
         }
         match reached.iter().position(|reached| !reached) {
             Some(link) => Err(UrdfError::link(
@@ -114,24 +114,24 @@ impl Tree {
         self.child[joint]
     }
 
-    /// The joints that a link is the parent of, in the order of the document.
-    pub(super) fn joints_below(&self, link: usize) -> &[usize] {
+    /// The joints whose parent is this link, in the order of the document.
+    pub(super) fn child_joints(&self, link: usize) -> &[usize] {
         &self.children[link]
     }
 
-    /// From the frame of the child link, joint at zero, to that of the parent link.
-    pub(super) fn place(&self, joint: usize) -> IsometryMatrix3<f64> {
+    /// From the frame of the child link, at joint angle 0, to that of the parent link.
+    pub(super) fn origin(&self, joint: usize) -> IsometryMatrix3<f64> {
         isometry(&self.joint(joint).origin)
     }
 
-    /// The base: the root, or below massless roots that hold one child without a revolute joint, the `world` of many
-    /// files. With the joint that was passed last.
+    /// The base: the root, or the child of a massless root (`world`) with one joint that is not revolute. Also the last
+    /// such joint.
     pub(super) fn base(&self) -> Result<(usize, Option<usize>), UrdfError> {
         let (mut link, mut passed) = (self.root, None);
-        while let [joint] = *self.joints_below(link) {
+        while let [joint] = *self.child_joints(link) {
             let free =
                 matches!(self.joint(joint).joint_type, JointType::Fixed | JointType::Floating | JointType::Planar);
-            if !free || !Body::of(self.link(link))?.is_nothing() {
+            if !free || !SpatialBody::from_link(self.link(link))?.is_massless() {
                 break;
             }
             (link, passed) = (self.child(joint), Some(joint));

@@ -278,7 +278,7 @@ fn losses_limits_and_missing_axes_are_reported() {
                 <dynamics damping=\"0.25\" friction=\"0\"/>";
     let text = robot(&arm()).replacen("<axis xyz=\"0 0 1\"/>", more, 1).replacen("continuous", "revolute", 1);
     let text = remarks(&imported(&text));
-    assert!(text.contains("warning: joints move without losses; left out: `shoulder` damping 0.25"), "{text}");
+    assert!(text.contains("warning: losses of joints are omitted: `shoulder` damping 0.25"), "{text}");
     assert!(text.contains("`shoulder` angle [-1.0, 2.0] rad, torque 30.0 N m"), "{text}");
     let axes = robot(&arm())
         .replacen("<axis xyz=\"0 0 1\"/>", "", 1)

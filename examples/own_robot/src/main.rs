@@ -1,6 +1,6 @@
-//! A robot of one's own catches a piece of debris: the arm reaches out, takes hold of it, and all drift on together.
+//! Your own robot captures a piece of debris: approach, rigid impact, free motion of the merged system.
 //!
-//! Nothing here needs an operating system but the printing: the model and the integrator allocate nothing.
+//! Only the printing needs an operating system; model and integrator do not allocate.
 
 use planar_capture::control::{Control, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::{Kinematics, Merge, MomentumAndEnergy};
@@ -16,18 +16,18 @@ use std::process::ExitCode;
 planar_capture::include_layout!("inspector");
 use inspector::{ARMS, JOINTS, MANIFEST, Model};
 
-/// Entries of the state vector: pose, angles, twist, rates, work of the torques.
+/// Length of the state vector: pose, angles, twist, rates, work of the torques.
 const LENGTH: usize = vector_length(JOINTS);
 /// Time step, s.
 const STEP: f64 = 0.005;
-/// Momentum may drift by rounding alone, N m s.
+/// Bound on the drift of the angular momentum, which is rounding alone, N m s.
 const DRIFT: f64 = 1e-9;
 
-/// Gripper folded, mast back; gripper out. rad, in the order of `MANIFEST.coordinates`.
+/// Joint angles at the start and at the contact, in the order of `MANIFEST.coordinates`, rad.
 const FOLDED: [f64; JOINTS] = [1.2, -2.2, 1.5, 0.4, 0.0, 0.0];
 const REACHED: [f64; JOINTS] = [0.5, -0.8, 0.6, 0.1, 0.3, -0.4];
 
-/// Four kilograms that turn once in twenty seconds, held at their edge.
+/// Turns once in 20 s; its contact point is at its edge.
 const DEBRIS: Target<f64> = Target { mass: 4.0, inertia: 0.2, contact: [-0.3, 0.05], twist: [0.314, -0.02, 0.01] };
 
 fn main() -> ExitCode {
@@ -44,7 +44,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// Approach, impact, drift; by how much the angular momentum at the end is not the debris's before the impact.
+/// Approach, impact and free motion. Returns the difference between the angular momentum at the end and that of the debris
+/// before the impact, N m s.
 fn capture() -> Result<f64, Error> {
     let mut robot = Model::<f64>::default();
     let mut x = [0.0; LENGTH];
@@ -66,9 +67,9 @@ fn capture() -> Result<f64, Error> {
         RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut twists, impulses: &mut impulses };
     let before = x;
     let state = state(&before)?;
-    let mut tips = [[0.0; 3]; ARMS];
-    Kinematics::end_effector_poses(&robot, &state.base_pose, state.joint_angles, &mut tips)?;
-    let brought = debris_momentum(tips[0]);
+    let mut end_effectors = [[0.0; 3]; ARMS];
+    Kinematics::end_effector_poses(&robot, &state.base_pose, state.joint_angles, &mut end_effectors)?;
+    let before_impact = debris_momentum(end_effectors[0]);
     let base_twist = impact::exact(&robot, &state, &targets, &mut after)?;
     let [n, fx, fy] = impulses[0];
     println!("impulse on the gripper: {n:.4} N m s, [{fx:.4}, {fy:.4}] N s");
@@ -78,15 +79,15 @@ fn capture() -> Result<f64, Error> {
 
     run(&robot, &mut ZeroTorque, 10.0, &mut x)?;
     report("10 s later", &x);
-    let drift = (MomentumAndEnergy::momentum(&robot, &self::state(&x)?)?.angular_momentum - brought).abs();
-    println!("angular momentum: {brought:.6} N m s brought by the debris, {drift:.1e} of it lost");
+    let drift = (MomentumAndEnergy::momentum(&robot, &self::state(&x)?)?.angular_momentum - before_impact).abs();
+    println!("angular momentum: {before_impact:.6} N m s of the debris before the impact, drift {drift:.1e} N m s");
     Ok(drift)
 }
 
-/// Angular momentum of the debris about the inertial origin while the gripper's tip is at its contact point, N m s.
-fn debris_momentum(tip: [f64; 3]) -> f64 {
+/// Angular momentum of the debris about the inertial origin with its contact point at the end effector, N m s.
+fn debris_momentum([_, end_effector_x, end_effector_y]: [f64; 3]) -> f64 {
     let Target { mass, inertia, contact, twist } = DEBRIS;
-    let [x, y] = [tip[1] - contact[0], tip[2] - contact[1]];
+    let [x, y] = [end_effector_x - contact[0], end_effector_y - contact[1]];
     inertia * twist[0] + mass * (x * twist[2] - y * twist[1])
 }
 
@@ -105,7 +106,7 @@ fn state(x: &[f64; LENGTH]) -> Result<State<'_, f64>, Error> {
     State::from_vector(x, JOINTS)
 }
 
-/// The coordinates, by the names of the manifest.
+/// Prints the coordinates with their names and units from the manifest.
 fn report(when: &str, x: &[f64; LENGTH]) {
     println!("{when}:");
     for (coordinate, value) in MANIFEST.coordinates.iter().zip(x) {
@@ -117,9 +118,8 @@ fn report(when: &str, x: &[f64; LENGTH]) {
 mod tests {
     use super::{DRIFT, capture};
 
-    /// The generated module's reference vectors are tested by its own tests; this is the program's.
     #[test]
-    fn momentum_stays_where_nothing_pushes() {
+    fn angular_momentum_is_conserved() {
         let drift = capture().expect("the robot is far from singular");
         assert!(drift < DRIFT, "{drift:e} N m s");
     }

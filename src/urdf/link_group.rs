@@ -1,34 +1,34 @@
-//! Links that fixed joints make one rigid body.
+//! Groups of links that fixed joints merge into one rigid body.
 
 use super::UrdfError;
-use super::body::Body;
+use super::spatial_body::SpatialBody;
 use super::tree::Tree;
 use nalgebra::{IsometryMatrix3, Matrix3, Vector3};
 use urdf_rs::JointType;
 
-/// A link and all that is fixed to it, in the frame of that link.
-pub(super) struct Group {
-    /// The link that the moving joint holds.
+/// A link and all links fixed to it, in the frame of that link.
+pub(super) struct LinkGroup {
+    /// The child of the moving joint.
     pub(super) link: usize,
-    /// All of it.
-    pub(super) body: Body,
-    /// The links and their frames: the first is `link`, then in the order of the tree.
+    /// Of all links together.
+    pub(super) body: SpatialBody,
+    /// The links and their frames: first `link`, then the others in the order of the tree.
     pub(super) members: Vec<(usize, IsometryMatrix3<f64>)>,
     /// The moving joints on it and their frames, in the order of the document.
     pub(super) joints: Vec<(usize, IsometryMatrix3<f64>)>,
 }
 
-impl Group {
-    /// Collects what is fixed to a link.
-    pub(super) fn of(tree: &Tree, link: usize) -> Result<Self, UrdfError> {
-        let nothing = Body { mass: 0.0, com: Vector3::zeros(), inertia: Matrix3::zeros() };
+impl LinkGroup {
+    /// Collects the links that are fixed to a link.
+    pub(super) fn new(tree: &Tree, link: usize) -> Result<Self, UrdfError> {
+        let nothing = SpatialBody { mass: 0.0, com: Vector3::zeros(), inertia: Matrix3::zeros() };
         let mut group = Self { link, body: nothing, members: Vec::new(), joints: Vec::new() };
         let mut open = vec![(link, IsometryMatrix3::identity())];
         while let Some((member, place)) = open.pop() {
-            group.body = group.body.with(&Body::of(tree.link(member))?.seen_through(&place));
+            group.body = group.body.combined(&SpatialBody::from_link(tree.link(member))?.transformed(&place));
             group.members.push((member, place));
-            for joint in tree.joints_below(member).iter().rev() {
-                let at = place * tree.place(*joint);
+            for joint in tree.child_joints(member).iter().rev() {
+                let at = place * tree.origin(*joint);
                 if tree.joint(*joint).joint_type == JointType::Fixed {
                     open.push((tree.child(*joint), at));
                 } else {

@@ -1,40 +1,40 @@
-//! Where in a JSON text each value stands.
+//! Offsets of the values in a JSON text.
 
-/// Deeper than any state.
-const DEEPEST: usize = 16;
+/// Largest depth of nested values, more than that of a state.
+const MAX_DEPTH: usize = 16;
 
-/// (path, offset) of every value in order, as far as the text is JSON: `targets[1].mass`.
-pub fn places(text: &[u8]) -> Vec<(String, usize)> {
-    let mut walk = Walk { text, at: 0, found: Vec::new() };
-    walk.value("", 0);
-    walk.found
+/// (path, such as `targets[1].mass`; offset) of every value in order, up to the first syntax error.
+pub fn offsets(text: &[u8]) -> Vec<(String, usize)> {
+    let mut scanner = Scanner { text, at: 0, found: Vec::new() };
+    scanner.value("", 0);
+    scanner.found
 }
 
-struct Walk<'a> {
+struct Scanner<'a> {
     text: &'a [u8],
     at: usize,
     found: Vec<(String, usize)>,
 }
 
-impl Walk<'_> {
-    /// Walks over one value; `None` where the text ends or is no JSON.
+impl Scanner<'_> {
+    /// Scans a value; `None` at the end of the text or at a syntax error.
     fn value(&mut self, path: &str, depth: usize) -> Option<()> {
         let first = self.skip_space()?;
         self.found.push((path.to_owned(), self.at));
         match first {
-            b'{' | b'[' if depth == DEEPEST => None,
-            b'{' => self.members(b'}', |walk| {
-                let key = walk.string()?;
-                (walk.skip_space()? == b':').then_some(())?;
-                walk.at += 1;
+            b'{' | b'[' if depth == MAX_DEPTH => None,
+            b'{' => self.members(b'}', |scanner| {
+                let key = scanner.string()?;
+                (scanner.skip_space()? == b':').then_some(())?;
+                scanner.at += 1;
                 let path = if path.is_empty() { key } else { format!("{path}.{key}") };
-                walk.value(&path, depth + 1)
+                scanner.value(&path, depth + 1)
             }),
             b'[' => {
                 let mut index = 0;
-                self.members(b']', |walk| {
+                self.members(b']', |scanner| {
                     index += 1;
-                    walk.value(&format!("{path}[{}]", index - 1), depth + 1)
+                    scanner.value(&format!("{path}[{}]", index - 1), depth + 1)
                 })
             }
             b'"' => self.string().map(drop),
@@ -47,7 +47,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Walks over what stands between brackets, the opening one being next.
+    /// Scans the members between brackets, from the opening one.
     fn members(&mut self, close: u8, mut member: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
         self.at += 1;
         while self.skip_space()? != close {
@@ -62,7 +62,7 @@ impl Walk<'_> {
         Some(())
     }
 
-    /// Walks over a string, and returns it as it is written.
+    /// Scans a string and returns its text, with its escape sequences.
     fn string(&mut self) -> Option<String> {
         (self.skip_space()? == b'"').then_some(())?;
         let start = self.at + 1;

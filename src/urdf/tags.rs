@@ -1,19 +1,19 @@
-//! The tags of an XML text with their lines, as far as its parser, which keeps none, leaves something to say.
+//! The opening tags of an XML text with their lines, which the XML parser does not report.
 
-/// One tag that opens an element.
+/// An opening tag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tag<'a> {
     /// The name and the attributes.
     pub(super) text: &'a str,
     /// Counted from 1.
     pub(super) line: usize,
-    /// Elements around it.
+    /// Number of enclosing elements.
     pub(super) depth: usize,
-    /// The element, from its tag to the text behind it.
+    /// The text from this tag on.
     pub(super) rest: &'a str,
 }
 
-/// All opening tags; comments, instructions and declarations are passed over.
+/// All opening tags, without comments, processing instructions and declarations.
 pub(super) fn tags(text: &str) -> Vec<Tag<'_>> {
     let (mut found, mut depth, mut line) = (Vec::new(), 0_usize, 1);
     let mut rest = text;

@@ -1,9 +1,9 @@
-//! What a URDF says of its joints that a layout does not hold.
+//! Remarks on properties of joints that a layout does not have: losses and limits.
 
-use super::document::Remark;
+use super::remark::Remark;
 use urdf_rs::{Joint, JointType};
 
-/// Remarks on the joints that became joints of the layout; some have no axis in the file.
+/// Remarks on the imported joints; `without_axis` are the names of those without `<axis>`.
 pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone, without_axis: &[String]) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let lossy = joints.clone().filter_map(|joint| {
@@ -12,25 +12,25 @@ pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone, wit
     });
     let lossy: Vec<String> = lossy.collect();
     if !lossy.is_empty() {
-        remarks.push(Remark::warning(&format!("joints move without losses; left out: {}", lossy.join("; "))));
+        remarks.push(Remark::warning(&format!("losses of joints are omitted: {}", lossy.join("; "))));
     }
     let limits: Vec<String> = joints.clone().filter_map(limits).collect();
     if !limits.is_empty() {
-        remarks.push(Remark::note(&format!("joints move without limits; left out: {}", limits.join("; "))));
+        remarks.push(Remark::note(&format!("limits of joints are omitted: {}", limits.join("; "))));
     }
     let unsaid: Vec<String> =
         joints.filter(|joint| without_axis.contains(&joint.name)).map(|joint| format!("`{}`", joint.name)).collect();
     if !unsaid.is_empty() {
-        remarks.push(Remark::note(&format!("no <axis>, so that it is URDF's default, x: {}", unsaid.join(", "))));
+        remarks.push(Remark::note(&format!("no <axis>; URDF's default is x: {}", unsaid.join(", "))));
     }
     remarks
 }
 
-/// The limits of a joint, where there are any.
+/// The limits of a joint, if it has any.
 fn limits(joint: &Joint) -> Option<String> {
     let limit = &joint.limit;
     let mut parts = Vec::new();
-    // a continuous joint has none, whatever stands there
+    // a continuous joint has no limits of its angle
     if joint.joint_type == JointType::Revolute && (limit.lower.is_finite() || limit.upper.is_finite()) {
         parts.push(format!("angle [{:?}, {:?}] rad", limit.lower, limit.upper));
     }

@@ -1,22 +1,22 @@
-//! Mass, centre of mass and inertia of rigid bodies in space.
+//! Mass, centre of mass and inertia tensor of rigid bodies in space.
 
 use super::UrdfError;
 use super::reader::{finite, isometry};
 use nalgebra::{IsometryMatrix3, Matrix3, Vector3};
 use urdf_rs::Link;
 
-/// A rigid body, seen from some frame.
+/// A rigid body in the frame of a link.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Body {
+pub(super) struct SpatialBody {
     pub(super) mass: f64,
     pub(super) com: Vector3<f64>,
     /// About the centre of mass.
     pub(super) inertia: Matrix3<f64>,
 }
 
-impl Body {
-    /// The body of a link in the frame of that link; no `<inertial>` is no mass.
-    pub(super) fn of(link: &Link) -> Result<Self, UrdfError> {
+impl SpatialBody {
+    /// The body of a link in the frame of that link; massless without `<inertial>`.
+    pub(super) fn from_link(link: &Link) -> Result<Self, UrdfError> {
         let inertial = &link.inertial;
         let problem = |found: String, wanted: &'static str| UrdfError::link(&link.name, found, wanted);
         let i = &inertial.inertia;
@@ -29,16 +29,16 @@ impl Body {
         }
         let moments = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
         let own = Self { mass: inertial.mass.value, com: Vector3::zeros(), inertia: moments };
-        Ok(own.seen_through(&isometry(&inertial.origin)))
+        Ok(own.transformed(&isometry(&inertial.origin)))
     }
 
-    /// Whether it neither weighs nor resists turning.
-    pub(super) fn is_nothing(&self) -> bool {
+    /// Whether mass and inertia are zero.
+    pub(super) fn is_massless(&self) -> bool {
         self.mass == 0.0 && self.inertia == Matrix3::zeros()
     }
 
-    /// The same body from the frame that `place` maps to.
-    pub(super) fn seen_through(&self, place: &IsometryMatrix3<f64>) -> Self {
+    /// The same body in the frame that `place` maps to.
+    pub(super) fn transformed(&self, place: &IsometryMatrix3<f64>) -> Self {
         let turn = place.rotation.matrix();
         Self {
             mass: self.mass,
@@ -47,12 +47,12 @@ impl Body {
         }
     }
 
-    /// Both as one rigid body. With nothing, a body keeps its numbers to the bit.
-    pub(super) fn with(&self, other: &Self) -> Self {
-        if other.is_nothing() {
+    /// Both as one rigid body. A massless one changes no bit of the other.
+    pub(super) fn combined(&self, other: &Self) -> Self {
+        if other.is_massless() {
             return self.clone();
         }
-        if self.is_nothing() {
+        if self.is_massless() {
             return other.clone();
         }
         let mass = self.mass + other.mass;
@@ -60,7 +60,7 @@ impl Body {
         Self { mass, com, inertia: self.inertia_about(&com) + other.inertia_about(&com) }
     }
 
-    /// The parallel axes theorem.
+    /// By the parallel axis theorem.
     fn inertia_about(&self, point: &Vector3<f64>) -> Matrix3<f64> {
         let arm = self.com - point;
         self.inertia + (Matrix3::identity() * arm.norm_squared() - arm * arm.transpose()) * self.mass
