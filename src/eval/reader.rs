@@ -6,6 +6,7 @@ use crate::evaluation::EvaluationInput;
 use crate::owned::RobotState;
 use crate::target::Target;
 use serde_json::{Map, Value};
+use std::collections::HashSet;
 
 const STATE: [&str; 8] = [
     "base_pose",
@@ -39,7 +40,7 @@ type Read<T> = Result<T, InvalidValue>;
 /// The number of lines before the invalid value, and a message with key, value and what is expected.
 pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, (usize, String)> {
     let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
-    repeated(text, &tree)
+    repeated(text)
         .map_or(Ok(()), Err)
         .and_then(|()| instant(&tree, joints, arms))
         .map_err(|error| (line_of(text, &error.path), error.message))
@@ -202,39 +203,9 @@ fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
     (lines, message)
 }
 
-/// The first key that an object has twice; the tree has only the last.
-fn repeated(text: &[u8], tree: &Value) -> Option<InvalidValue> {
-    if keys_of(tree) == colons(text) {
-        return None;
-    }
-    let offsets = offsets(text);
-    let repeat = offsets.iter().enumerate().find(|(i, (path, _))| offsets.iter().take(*i).any(|(p, _)| p == path));
-    repeat.map(|(_, (path, _))| InvalidValue {
-        message: format!("`{}` is given twice, expected once", excerpt(path)),
-        path: path.clone(),
-    })
-}
-
-/// Number of keys in a tree.
-fn keys_of(tree: &Value) -> usize {
-    match tree {
-        Value::Array(items) => items.iter().map(keys_of).sum(),
-        Value::Object(map) => map.len() + map.values().map(keys_of).sum::<usize>(),
-        _ => 0,
-    }
-}
-
-/// Number of keys in a JSON text: colons outside strings.
-fn colons(text: &[u8]) -> usize {
-    let (mut count, mut quoted, mut escaped) = (0, false, false);
-    for byte in text {
-        match byte {
-            _ if escaped => escaped = false,
-            b'\\' if quoted => escaped = true,
-            b'"' => quoted = !quoted,
-            b':' if !quoted => count += 1,
-            _ => {}
-        }
-    }
-    count
+/// The first key that an object has twice; the parsed tree has only the last.
+fn repeated(text: &[u8]) -> Option<InvalidValue> {
+    let mut paths = HashSet::new();
+    let repeat = offsets(text).into_iter().map(|(path, _)| path).find(|path| !paths.insert(path.clone()));
+    repeat.map(|path| InvalidValue { message: format!("`{}` is given twice, expected once", excerpt(&path)), path })
 }

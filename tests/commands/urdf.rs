@@ -285,11 +285,7 @@ fn losses_limits_and_missing_axes_are_reported() {
         .replace("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"1 0 0\"/>");
     let import = imported(&axes);
     assert_eq!((import.normal, import.x_axis), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
-    assert!(
-        remarks(&import).contains("no <axis>, so that it is URDF's default, x: `shoulder`"),
-        "{}",
-        remarks(&import)
-    );
+    assert!(remarks(&import).contains("no <axis>; URDF's default is x: `shoulder`"), "{}", remarks(&import));
 }
 
 #[test]

@@ -55,10 +55,10 @@ impl Method {
     /// Every scheme has a colour, every kind of coordinates a dash and a symbol.
     pub fn style(self) -> (Colour, Dash, Symbol) {
         let colour = match self.integration.scheme {
-            Scheme::GaussLegendre => Colour::Blue,
-            Scheme::RungeKutta4 => Colour::Vermillion,
-            Scheme::Adaptive { .. } => Colour::Green,
-            Scheme::SemiImplicitEuler => Colour::Purple,
+            Scheme::GaussLegendre => Colour::of(0),
+            Scheme::RungeKutta4 => Colour::of(1),
+            Scheme::Adaptive { .. } => Colour::of(2),
+            Scheme::SemiImplicitEuler => Colour::of(3),
         };
         match self.integration.coordinates {
             Formulation::Full => (colour, Dash::Solid, Symbol::Circle),

@@ -32,16 +32,16 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
     // after a rigid contact both twists are the same
     let kinds = if contacts.iter().all(|contact| contact.rigid) {
         vec![
-            ("tip, before", Colour::Blue, Symbol::Circle),
-            ("target, before", Colour::Vermillion, Symbol::Square),
-            ("both, after", Colour::Black, Symbol::Cross),
+            ("tip, before", Colour::BLUE, Symbol::Circle),
+            ("target, before", Colour::VERMILLION, Symbol::Square),
+            ("both, after", Colour::BLACK, Symbol::Cross),
         ]
     } else {
         vec![
-            ("tip, before", Colour::Blue, Symbol::Circle),
-            ("target, before", Colour::Vermillion, Symbol::Square),
-            ("target, after", Colour::Green, Symbol::Plus),
-            ("tip, after", Colour::Black, Symbol::Cross),
+            ("tip, before", Colour::BLUE, Symbol::Circle),
+            ("target, before", Colour::VERMILLION, Symbol::Square),
+            ("target, after", Colour::GREEN, Symbol::Plus),
+            ("tip, after", Colour::BLACK, Symbol::Cross),
         ]
     };
     let panel = |(label, component): (&str, usize)| {

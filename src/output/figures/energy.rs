@@ -1,4 +1,5 @@
-//! The kinetic energy of robot and targets together, and the part of it that the work of the actuators does not explain.
+//! The kinetic energy of robot and targets together, and the part of it that the work of the actuators does not
+//! explain.
 
 use super::figure::{Axis, Figure, Mark, Panel, Series};
 use super::style::{Colour, Dash};
@@ -18,7 +19,7 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Figure {
     }
     let end = points[0][points[0].len() - 1].0;
     let styles =
-        [("kinetic energy", Colour::Blue, Dash::Solid), ("less the work done", Colour::Vermillion, Dash::Dashed)];
+        [("kinetic energy", Colour::BLUE, Dash::Solid), ("less the work done", Colour::VERMILLION, Dash::Dashed)];
     let series = styles.into_iter().zip(points).map(|((label, colour, dash), points)| Series {
         label: Some(label.to_owned()),
         colour,

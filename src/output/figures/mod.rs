@@ -22,8 +22,8 @@ pub use style::{Colour, Dash, Symbol};
 use crate::capture::Study;
 use crate::scenario::Scenario;
 
-/// The figures of the approach, the impacts and the post-impact motion. The name of a figure that belongs to one case ends
-/// in the case's name.
+/// The figures of the approach, the impacts and the post-impact motion. The name of a figure that belongs to one case
+/// ends in the case's name.
 #[must_use]
 pub fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let mut figures = configuration::figures(scenario, study);

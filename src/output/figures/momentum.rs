@@ -41,8 +41,8 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
         let y = Axis { label: quantity.to_owned(), range: AxisRange::DataAndZero(span) };
         Panel::new(Axis::time("Time [s]", end), y, all)
     };
-    let linear = [("px", 1, Colour::Blue, Dash::Solid), ("py", 2, Colour::Vermillion, Dash::Dashed)];
-    let angular = [("l", 0, Colour::Blue, Dash::Solid)];
+    let linear = [("px", 1, Colour::BLUE, Dash::Solid), ("py", 2, Colour::VERMILLION, Dash::Dashed)];
+    let angular = [("l", 0, Colour::BLUE, Dash::Solid)];
     // a part of the momentum if all kinetic energy were in one motion
     let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.momentum.kinetic_energy));
     let span = |inertia: f64| MINIMUM_SPAN * (2.0 * energy * inertia).sqrt();
@@ -66,7 +66,7 @@ fn detected_impacts(study: &Study, case: &CaseResult, curves: &[Series]) -> Opti
     let mark = Mark::Points(Symbol::Cross);
     Some(Series {
         label: Some("impacts".to_owned()),
-        colour: Colour::Black,
+        colour: Colour::BLACK,
         mark,
         points: curves.iter().flat_map(on).collect(),
     })

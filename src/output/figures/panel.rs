@@ -10,8 +10,8 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use std::sync::Arc;
 
-/// Verdana and `DejaVu` Sans have the same widths, so that labels fit with either. An embedded font would add a megabyte
-/// to every SVG file.
+/// Verdana and `DejaVu` Sans have the same widths, so that labels fit with either. An embedded font would add a
+/// megabyte to every SVG file.
 const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Lengths of strokes and gaps in the legend over those of the curves.
@@ -171,7 +171,7 @@ pub(super) fn legend_entries(panel: &Panel, backend: Backend) -> Vec<LegendEntry
             Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, LEGEND_DASH, backend)),
             Mark::Points(symbol) => (LegendShape::Marker(marker(symbol)), None),
         };
-        let color = series.colour.hexadecimal().to_owned();
+        let color = series.colour.hexadecimal();
         entries.push(LegendEntry { label, color, shape, dasharray });
     }
     entries
@@ -198,10 +198,10 @@ fn plot(series: &Series, points_per_unit: [f64; 2], backend: Backend) -> Vec<Plo
     let colour = series.colour.hexadecimal();
     let points = series.points.iter().copied();
     let line =
-        |points: Vec<(f64, f64)>, width| LinePlot::new().with_data(points).with_color(colour).with_stroke_width(width);
+        |points: Vec<(f64, f64)>, width| LinePlot::new().with_data(points).with_color(&colour).with_stroke_width(width);
     match (series.mark, backend) {
         (Mark::Points(symbol), _) => {
-            let scatter = ScatterPlot::new().with_data(points).with_color(colour).with_size(4.5);
+            let scatter = ScatterPlot::new().with_data(points).with_color(&colour).with_size(4.5);
             vec![Plot::Scatter(scatter.with_marker(marker(symbol)))]
         }
         (Mark::Line(dash, width), Backend::Raster { .. }) => {

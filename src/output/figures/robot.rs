@@ -4,7 +4,7 @@ use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Symbol};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::output::scene::{Shape, base_shape, outline_shape, point, poses, robot_frames};
+use crate::output::scene::{Shape, base_shape, point, poses, robot_frames};
 use crate::owned::RobotState;
 use crate::scenario::Target;
 
@@ -18,7 +18,7 @@ const HEAD: f64 = 0.35;
 pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
     let frames = robot_frames(layout);
     let poses = poses(&frames, state, &[]);
-    let mut series = vec![outline("base", Colour::Black, Dash::Solid, &base_shape(layout), state.base_pose)];
+    let mut series = vec![outline("base", Colour::BLACK, Dash::Solid, &base_shape(layout), state.base_pose)];
     for (i, arm) in layout.arms.iter().enumerate() {
         let own = frames.iter().zip(&poses).filter(|(frame, _)| frame.arm == Some(i));
         let mut points: Vec<(f64, f64)> = own.map(|(_, [_, x, y])| (*x, *y)).collect();
@@ -31,15 +31,15 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
     series
 }
 
-/// A target's outline, and lines from its COM that show the orientation: to each end effector in contact, or along the x
-/// axis of a disc without contacts.
+/// A target's outline, and lines from its COM that show the orientation: to each end effector in contact, or along the
+/// x axis of a disc without contacts.
 pub(super) fn target(target: &Target, colour: Colour, pose: [f64; 3], end_effectors: &[[f64; 2]]) -> Vec<Series> {
     let [_, x, y] = pose;
     let mut ends = end_effectors.to_vec();
     if let (Outline::Disc { radius }, []) = (&target.surface, end_effectors) {
         ends.push(point(pose, [*radius, 0.0]));
     }
-    let mut series = vec![outline(&target.name, colour, Dash::Solid, &outline_shape(&target.surface), pose)];
+    let mut series = vec![outline(&target.name, colour, Dash::Solid, &Shape::Outline(target.surface.clone()), pose)];
     let spoke = |end: [f64; 2]| line(&target.name, colour, Dash::Solid, OUTLINE_WIDTH, vec![(x, y), end.into()]);
     series.extend(ends.into_iter().map(spoke));
     series
@@ -49,7 +49,7 @@ pub(super) fn target(target: &Target, colour: Colour, pose: [f64; 3], end_effect
 pub(super) fn pin(position: [f64; 2]) -> Series {
     Series {
         label: Some("pin".to_owned()),
-        colour: Colour::Black,
+        colour: Colour::BLACK,
         mark: Mark::Points(Symbol::Circle),
         points: vec![position.into()],
     }
@@ -65,12 +65,12 @@ pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Seri
     let angle = along[1].atan2(along[0]);
     let barb = |turn: f64| point([angle + turn, to[0], to[1]], [-HEAD * length, 0.0]).into();
     let points = vec![from.into(), to.into(), barb(0.5), to.into(), barb(-0.5)];
-    Some(line(label, Colour::Black, Dash::Solid, OUTLINE_WIDTH, points))
+    Some(line(label, Colour::BLACK, Dash::Solid, OUTLINE_WIDTH, points))
 }
 
 /// The outline of a target at its expected position.
 pub(super) fn expected_target(label: &str, target: &Target, [x, y]: [f64; 2]) -> Series {
-    outline(label, Colour::Grey, Dash::Dashed, &outline_shape(&target.surface), [target.yaw, x, y])
+    outline(label, Colour::GREY, Dash::Dashed, &Shape::Outline(target.surface.clone()), [target.yaw, x, y])
 }
 
 fn outline(label: &str, colour: Colour, dash: Dash, shape: &Shape, pose: [f64; 3]) -> Series {

@@ -1,26 +1,10 @@
 //! Colours, dash patterns and symbols.
 
-/// The palette of Okabe and Ito, distinguishable with any colour vision, without its yellow, which has too little contrast
-/// on white.
+use crate::output::scene::PALETTE;
+
+/// A colour of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Colour {
-    /// The first of a family of curves.
-    Blue,
-    /// The second.
-    Vermillion,
-    /// The third.
-    Green,
-    /// The fourth.
-    Purple,
-    /// The fifth.
-    Orange,
-    /// The sixth.
-    Sky,
-    /// The seventh.
-    Black,
-    /// Outside of the family: background.
-    Grey,
-}
+pub struct Colour([u8; 3]);
 
 /// The dash pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,34 +33,29 @@ pub enum Symbol {
 }
 
 impl Colour {
-    /// The colour of a family's member; from the eighth on they repeat.
+    /// The first of the palette.
+    pub const BLUE: Self = Self(PALETTE[0]);
+    /// The second.
+    pub const VERMILLION: Self = Self(PALETTE[1]);
+    /// The third.
+    pub const GREEN: Self = Self(PALETTE[2]);
+    /// Follows the palette.
+    pub const BLACK: Self = Self([0; 3]);
+    /// Of the background.
+    pub const GREY: Self = Self([0x8c; 3]);
+
+    /// The colour of the member `index` of a family of curves: the [`PALETTE`], then black; from the eighth on they
+    /// repeat.
     #[must_use]
     pub fn of(index: usize) -> Self {
-        const ALL: [Colour; 7] = [
-            Colour::Blue,
-            Colour::Vermillion,
-            Colour::Green,
-            Colour::Purple,
-            Colour::Orange,
-            Colour::Sky,
-            Colour::Black,
-        ];
-        ALL[index % ALL.len()]
+        PALETTE.get(index % (PALETTE.len() + 1)).map_or(Self::BLACK, |rgb| Self(*rgb))
     }
 
     /// `#rrggbb`.
     #[must_use]
-    pub fn hexadecimal(self) -> &'static str {
-        match self {
-            Self::Blue => "#0072b2",
-            Self::Vermillion => "#d55e00",
-            Self::Green => "#009e73",
-            Self::Purple => "#cc79a7",
-            Self::Orange => "#e69f00",
-            Self::Sky => "#56b4e9",
-            Self::Black => "#000000",
-            Self::Grey => "#8c8c8c",
-        }
+    pub fn hexadecimal(self) -> String {
+        let [red, green, blue] = self.0;
+        format!("#{red:02x}{green:02x}{blue:02x}")
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::recording::timestamp;
 use super::transforms::pose;
+use crate::outline::Outline;
 use crate::output::scene::{Shape, Visual};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{
@@ -30,14 +31,14 @@ fn solid(visual: &Visual) -> SceneEntity {
             size: Some(Vector3 { x: size[0], y: size[1], z: visual.thickness }),
             color,
         }),
-        Shape::Disc { radius } => entity.cylinders.push(CylinderPrimitive {
+        Shape::Outline(Outline::Disc { radius }) => entity.cylinders.push(CylinderPrimitive {
             pose: Some(pose([0.0; 3])),
             size: Some(Vector3 { x: 2.0 * radius, y: 2.0 * radius, z: visual.thickness }),
             bottom_scale: 1.0,
             top_scale: 1.0,
             color,
         }),
-        Shape::Polygon { corners } => entity.triangles.push(TriangleListPrimitive {
+        Shape::Outline(Outline::Polygon { corners }) => entity.triangles.push(TriangleListPrimitive {
             pose: Some(pose([0.0; 3])),
             points: side_faces(corners, visual.thickness / 2.0),
             color,

@@ -5,9 +5,9 @@
 
 mod visual;
 
-pub use visual::{Shape, Visual, base_size, visuals};
 #[cfg(feature = "figures")]
-pub(crate) use visual::{base_shape, outline_shape};
+pub(crate) use visual::base_shape;
+pub use visual::{PALETTE, Shape, Visual, base_size, visuals};
 
 use crate::layout::Layout;
 use crate::owned::RobotState;
@@ -55,7 +55,8 @@ pub fn frames(scenario: &Scenario) -> Vec<Frame> {
     frames
 }
 
-/// The frames of a robot: the base, then the links and the end effector of each arm; parents come before their children.
+/// The frames of a robot: the base, then the links and the end effector of each arm; parents come before their
+/// children.
 #[must_use]
 pub fn robot_frames(layout: &Layout) -> Vec<Frame> {
     let free = Frame { name: "base".to_owned(), parent: None, pose: [0.0; 3], motion: Motion::Base, arm: None };

@@ -29,20 +29,13 @@ pub enum Shape {
         /// Side lengths along x and y.
         size: [f64; 2],
     },
-    /// Centre at the frame's origin.
-    Disc {
-        /// The radius.
-        radius: f64,
-    },
-    /// Closed by the edge from its last corner to its first.
-    Polygon {
-        /// [x, y] in the frame, anticlockwise.
-        corners: Vec<[f64; 2]>,
-    },
+    /// A disc about the frame's origin, or a polygon.
+    Outline(Outline),
 }
 
-/// The colour-blind safe palette of Okabe and Ito; the HTML report has the same.
-const ARMS: [[u8; 3]; 6] = [
+/// The palette of Okabe and Ito, distinguishable with any colour vision, without its yellow, which has too little
+/// contrast on white; red, green, blue. The HTML report has the same.
+pub const PALETTE: [[u8; 3]; 6] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
     [0x00, 0x9e, 0x73],
@@ -65,23 +58,17 @@ pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
         let (shape, colour, thickness) = match frame.motion {
             Motion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
             Motion::Joint(joint) => {
-                (link_shape(links[joint], width), colour(ARMS[frame.arm? % ARMS.len()], 1.0), width)
+                (link_shape(links[joint], width), colour(PALETTE[frame.arm? % PALETTE.len()], 1.0), width)
             }
-            Motion::Target(target) => (outline_shape(&scenario.targets[target].surface), colour(TARGET, 0.5), width),
+            Motion::Target(target) => {
+                (Shape::Outline(scenario.targets[target].surface.clone()), colour(TARGET, 0.5), width)
+            }
             // an end effector is a point
             Motion::Fixed => return None,
         };
         Some(Visual { frame: frame.name, shape, colour, thickness })
     });
     each.collect()
-}
-
-/// The shape of a target's outline.
-pub(crate) fn outline_shape(outline: &Outline) -> Shape {
-    match outline {
-        Outline::Disc { radius } => Shape::Disc { radius: *radius },
-        Outline::Polygon { corners } => Shape::Polygon { corners: corners.clone() },
-    }
 }
 
 fn colour(rgb: [u8; 3], opacity: f64) -> [f64; 4] {
@@ -100,8 +87,8 @@ pub(crate) fn base_shape(layout: &Layout) -> Shape {
     Shape::Rectangle { centre: [0.0; 2], size: base_size(layout) }
 }
 
-/// Sides of the drawn base along x and y, m: those of a uniform square of its mass and inertia, or larger to contain the
-/// mounts.
+/// Sides of the drawn base along x and y, m: those of a uniform square of its mass and inertia, or larger to contain
+/// the mounts.
 #[must_use]
 pub fn base_size(layout: &Layout) -> [f64; 2] {
     let half = layout.base.radius_of_gyration() * 1.5_f64.sqrt();
@@ -113,12 +100,13 @@ fn link_shape(link: &Link, width: f64) -> Shape {
     if link.length > 0.0 {
         Shape::Rectangle { centre: [link.length / 2.0, 0.0], size: [link.length, width] }
     } else {
-        Shape::Disc { radius: (2.0 * link.inertia / link.mass).sqrt() }
+        Shape::Outline(Outline::Disc { radius: (2.0 * link.inertia / link.mass).sqrt() })
     }
 }
 
 impl Shape {
-    /// The closed outline, and a line from the frame's origin along its x axis to the outline, which shows the orientation.
+    /// The closed outline, and a line from the frame's origin along its x axis to the outline, which shows the
+    /// orientation.
     #[must_use]
     pub fn lines(&self) -> [Vec<[f64; 2]>; 2] {
         match self {
@@ -127,11 +115,11 @@ impl Shape {
                 let outline = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
                 [outline.map(|(a, b)| corner(a, b)).to_vec(), vec![[0.0; 2], [x + length / 2.0, 0.0]]]
             }
-            Self::Disc { radius } => {
+            Self::Outline(Outline::Disc { radius }) => {
                 let at = |angle: f64| [radius * angle.cos(), radius * angle.sin()];
                 [(0..=48).map(|i| at(TAU * f64::from(i) / 48.0)).collect(), vec![[0.0; 2], [*radius, 0.0]]]
             }
-            Self::Polygon { corners } => {
+            Self::Outline(Outline::Polygon { corners }) => {
                 let reach = corners.iter().map(|[x, _]| *x).fold(0.0, f64::max);
                 let outline = corners.iter().chain(corners.first()).copied();
                 [outline.collect(), vec![[0.0; 2], [reach, 0.0]]]
