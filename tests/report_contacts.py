@@ -89,7 +89,7 @@ def large_target(page, folder, summary, _scenario):
         assert kinds == [contact["kind"] for contact in contacts], kinds
         conserved(page, [case["impact"]])
         held = case["post_impact"]["constraint_errors"][0]
-        open_by = [v for curve in curves(page, "Openings of holds")[1] for v in curve if v is not None]
+        open_by = [v for curve in curves(page, "Openings of constraints")[1] for v in curve if v is not None]
         assert open_by and max(open_by) < 10 * held + 1e-14, f"{max(open_by)} against {held}"
         table = page.inner_text("#impact")
         for contact in contacts:

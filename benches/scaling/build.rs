@@ -1,4 +1,4 @@
-//! Hands the generated robots to the benchmark: an index that the measuring program wrote, or an empty one.
+//! Passes the index of the generated robots to the benchmark; an empty one without the measuring program.
 
 use std::path::Path;
 use std::{env, fs, io};

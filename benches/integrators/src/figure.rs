@@ -5,7 +5,7 @@ use crate::work::{Work, logarithms};
 use planar_capture::output::figures::{Axis, AxisRange, Dash, Figure, Mark, Panel, Series};
 
 const WIDTH: f64 = 1.4;
-/// How many maxima a curve over time is made of.
+/// Number of maxima in a curve over time.
 const PARTS: usize = 125;
 
 /// Error over evaluations, a panel per motion.
@@ -47,7 +47,7 @@ pub fn long_time(motions: &[LongTime]) -> Figure {
     Figure::column("long_time", panels.collect())
 }
 
-/// Logarithms of the largest value in each of as many parts of the time.
+/// Logarithm of the largest value in each of `PARTS` intervals.
 fn maxima(series: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let parts = series.get(1..).unwrap_or_default().chunks(series.len().div_ceil(PARTS).max(1));
     let of_part = |part: &[(f64, f64)]| {

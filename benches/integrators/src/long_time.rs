@@ -11,7 +11,7 @@ use planar_capture::simulate::{Phase, Sample};
 
 /// s.
 pub const DURATION: f64 = 1000.0;
-/// Between samples, s.
+/// Time between samples, s.
 const SAMPLE: f64 = 0.5;
 
 /// One run.
@@ -21,7 +21,7 @@ pub struct Run {
     pub evaluations: u64,
     /// (time, error), relative.
     pub energy: Vec<(f64, f64)>,
-    /// (time, error), linear or angular, relative to what the bodies have at the start, the larger of them.
+    /// (time, error): the larger of linear and angular, relative to the bodies' momenta at the start.
     pub momentum: Vec<(f64, f64)>,
 }
 
@@ -41,7 +41,7 @@ fn largest(series: &[(f64, f64)], until: f64) -> f64 {
     series.iter().filter(|(time, _)| *time <= until).fold(0.0, |most, (_, error)| most.max(*error))
 }
 
-/// One motion, by several methods.
+/// The runs of one motion.
 pub struct LongTime {
     /// In a title.
     pub title: &'static str,
@@ -56,8 +56,8 @@ pub fn motions() -> Result<[LongTime; 2], Problem> {
     ])
 }
 
-/// Methods with these steps of Gauss–Legendre and of Runge–Kutta, in s.
-fn chosen(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
+/// The methods, with these steps of Gauss–Legendre and Runge–Kutta, s.
+fn methods(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
     let method = |scheme, coordinates| Method { integration: Integration { scheme, coordinates } };
     let adaptive = Scheme::Adaptive { tolerance: 0.0 };
     let (full, reduced) = (Formulation::Full, Formulation::Reduced);
@@ -78,7 +78,7 @@ fn chosen(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
 fn runs(start: &RobotState, gauss: [f64; 2], runge_kutta: [f64; 2]) -> Result<Vec<Run>, Problem> {
     let problems = Problems::new()?;
     let scale = Scale::of(&*problems.model, start)?;
-    chosen(gauss, runge_kutta)
+    methods(gauss, runge_kutta)
         .into_iter()
         .map(|(method, fineness)| {
             let how = method.with(fineness, SAMPLE);
@@ -98,7 +98,7 @@ fn errors(phase: &Phase, error: &dyn Fn(&Sample, &Sample) -> f64) -> Vec<(f64, f
     phase.samples.iter().map(|sample| (sample.time, error(sample, start))).collect()
 }
 
-/// Momenta of the bodies at the start, without regard to their directions.
+/// Sums of the magnitudes of the bodies' momenta at the start.
 struct Scale {
     linear: f64,
     angular: f64,

@@ -1,8 +1,8 @@
-//! What integrators cost and keep: runs the paper's approach and free motion by every scheme in either coordinates, and
-//! writes `docs/integrators.md` with its figures, or checks that they are what is computed.
+//! Cost and accuracy of the integrators: the paper's approach and free motion by every scheme in both coordinates. Writes
+//! `docs/integrators.md` with its figures, or checks that they are up to date.
 //!
-//! Work is counted in evaluations of the derivative: that depends on no machine, but for the last bit of its library's
-//! powers.
+//! Work is counted in evaluations of the derivative, which does not depend on the machine, but for the last bit of its
+//! `pow`.
 
 mod figure;
 mod long_time;
@@ -17,7 +17,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Any: there is nobody to tell them apart.
+/// Any error.
 type Problem = Box<dyn std::error::Error>;
 
 const MEND: &str = "cargo run --release --manifest-path benches/integrators/Cargo.toml";
@@ -56,7 +56,7 @@ fn write(files: &[(&str, String)]) -> Result<(), Problem> {
 fn compare(files: &[(&str, String)]) -> Result<(), Problem> {
     for (path, text) in files {
         if std::fs::read_to_string(documents().join(path)).ok().as_ref() != Some(text) {
-            return Err(format!("docs/{path} is not what is computed; to mend: {MEND}").into());
+            return Err(format!("docs/{path} is not up to date; run: {MEND}").into());
         }
     }
     println!("docs/integrators.md: fresh");

@@ -1,15 +1,15 @@
-//! The schemes that are compared, and how they are named and drawn.
+//! The compared schemes with their names and styles.
 
 use planar_capture::output::figures::{Colour, Dash, Symbol};
 use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 
-/// A scheme in one of the coordinates.
+/// A scheme in full or reduced coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     pub integration: Integration,
 }
 
-/// What makes a method coarser or finer.
+/// Step or tolerance of a method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fineness {
     /// s.
@@ -18,7 +18,7 @@ pub enum Fineness {
 }
 
 impl Method {
-    /// Every one that a scenario can name.
+    /// All methods of scenarios.
     pub fn all() -> Vec<Self> {
         let method = |scheme, coordinates| Self { integration: Integration { scheme, coordinates } };
         let adaptive = Scheme::Adaptive { tolerance: 0.0 };
@@ -52,7 +52,7 @@ impl Method {
         format!("{}, {}", self.name(), self.coordinates())
     }
 
-    /// Every scheme has a colour, every kind of coordinates a dash and a symbol.
+    /// The colour shows the scheme, dash and symbol show the coordinates.
     pub fn style(self) -> (Colour, Dash, Symbol) {
         let colour = match self.integration.scheme {
             Scheme::GaussLegendre => Colour::of(0),
@@ -66,7 +66,7 @@ impl Method {
         }
     }
 
-    /// The scheme with a step or a tolerance, and the step.
+    /// The scheme with its tolerance, and the step.
     pub fn with(self, fineness: Fineness, duration: f64) -> (Integration, f64) {
         match fineness {
             Fineness::Step(step) => (self.integration, step),

@@ -20,14 +20,14 @@ use std::path::Path;
 
 const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/raina_shah_2017.toml");
 
-/// What is integrated.
+/// Model and scenario of the motions.
 pub struct Problems {
     pub model: Box<dyn CloneModel>,
     scenario: Scenario,
     rates: Vec<f64>,
 }
 
-/// Counts how often a law is asked.
+/// Counts the evaluations of a law.
 struct Counted<'a> {
     law: &'a mut dyn Control<f64>,
     calls: u64,
@@ -62,7 +62,7 @@ impl Problems {
         Ok(Self { rates: terminal_rates.joint_rates, model, scenario })
     }
 
-    /// The paper's approach: the phase, and the evaluations that it took.
+    /// The paper's approach, and its number of evaluations.
     pub fn approach(&self, (integration, step): (Integration, f64)) -> Result<(Phase, u64), PhaseError> {
         let approach = &self.scenario.approach;
         let ends = Ends {
@@ -97,7 +97,7 @@ impl Problems {
         self.run(&mut ZeroTorque, start, &timing)
     }
 
-    /// Turning with both arms out, which swing about that, and drifting away.
+    /// Rotation with extended, oscillating arms.
     pub fn turning() -> RobotState {
         RobotState {
             base_pose: [0.0; 3],
@@ -107,7 +107,7 @@ impl Problems {
         }
     }
 
-    /// Tumbling, base and joints turning by up to 0.9 rad/s.
+    /// Tumbling with rates of up to 0.9 rad/s.
     pub fn tumbling() -> RobotState {
         RobotState {
             base_pose: [0.3, 1.0, -2.0],
@@ -120,7 +120,7 @@ impl Problems {
     fn run(&self, law: &mut dyn Control<f64>, start: &RobotState, timing: &Timing) -> Result<(Phase, u64), PhaseError> {
         let mut law = Counted { law, calls: 0 };
         let phase = simulate(&System::alone(&*self.model), &mut law, start, timing, &mut NoEvents, &mut || ())?;
-        let samples = phase.samples.len() as u64; // the law is asked for each of them too
+        let samples = phase.samples.len() as u64; // the law is evaluated for each of them too
         Ok((phase, law.calls - samples))
     }
 }

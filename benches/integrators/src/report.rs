@@ -1,58 +1,58 @@
-//! The report: what to take, two tables, and how they were made.
+//! The text of the report.
 
 use crate::Problem;
 use crate::long_time::LongTime;
-use crate::work::{Effort, Line, Work};
+use crate::work::{Cost, Line, Work};
 use planar_capture::generated::dual_arm_3r::MANIFEST;
 use std::fmt::Write;
 
-/// Errors that work is compared at.
+/// Errors at which work is compared.
 const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 const HEAD: &str = "# Integrators
 
 <!-- Written by `cargo run --release --manifest-path benches/integrators/Cargo.toml`; `-- --check` compares. -->
 
-`integrator` and `coordinates` in `[approach]` and `[post_impact]` say how a phase is integrated. This page compares all of
-them on the paper's robot, by evaluations of the derivative and not by time, which depends on the machine.
+`integrator` and `coordinates` in `[approach]` and `[post_impact]` select the integration of a phase. This page compares them
+on the paper's robot by evaluations of the derivative; time would depend on the machine.
 
-## Which to take
+## Recommendations
 
-| for | `integrator` | why |
+| for | `integrator` | reason |
 |---|---|---|
-| most studies | `\"rk4\"`, the default, at the default step of 5 ms | explicit, the same work in every step; its error is far \
-below the audit's bounds in motions as fast as the paper's |
-| accuracy, long runs, references | `\"adaptive\"` | the fewest evaluations for errors below some 1e-8; energy and momentum \
-to some ten times its tolerance over 1,000 s |
-| momentum to rounding in full coordinates, at long fixed steps, with bodies beside the robot too | `\"gauss_legendre\"` | \
-symplectic: in regular motion the energy error does not grow either, over any time; dear per step, for it is implicit |
-| a quick look | `\"semi_implicit_euler\"` | one evaluation per step, and first order: the audit will object |
+| most studies | `\"rk4\"`, the default, at the default step of 5 ms | explicit, constant work per step; its error is far \
+below the audit's bounds for motions as fast as the paper's |
+| accuracy, long runs, references | `\"adaptive\"` | the fewest evaluations for errors below about 1e-8; energy and momentum \
+errors of about ten times its tolerance over 1,000 s |
+| momentum to rounding in full coordinates at long fixed steps, also with free bodies | `\"gauss_legendre\"` | \
+symplectic: in regular motion the energy error does not grow; expensive per step, because it is implicit |
+| quick estimates | `\"semi_implicit_euler\"` | one evaluation per step, first order: the audit will object |
 
-`coordinates = \"reduced\"` integrates joints and base pose alone and takes the base twist from the momentum, eq. (17). Momentum
-is then kept to rounding by any integrator, at twice the operations; the error of the motion and of its energy is as in full
-coordinates, so that the audit of the momentum no longer tells of it. Take it to compare with, or where the momentum must not
-stray. It is for a robot alone, and not for `gauss_legendre`, which has no use for it.
+`coordinates = \"reduced\"` integrates joints and base pose and computes the base twist from the momentum, eq. (17). Any integrator
+then conserves momentum to rounding, at twice the operations. The errors of motion and energy are as in full coordinates, but
+the audit of the momentum no longer shows them. Use it for comparison, or where the momentum must be exact. It is for a robot
+alone, and not for `gauss_legendre`, which conserves momentum already.
 
-## What they are
+## Integrators
 
-| `integrator` | order | evaluations per step | what |
+| `integrator` | order | evaluations per step | method |
 |---|---|---|---|
 | `rk4` | 4 | 4 | classical Runge–Kutta |
-| `semi_implicit_euler` | 1 | 1 | rates first, positions by the new rates |
-| `gauss_legendre` | 6 | 3 per round of iteration: 8 to 12 rounds, more under a stiff law | Gauss–Legendre collocation of three stages, on canonical \
+| `semi_implicit_euler` | 1 | 1 | rates first, then positions with the new rates |
+| `gauss_legendre` | 6 | 3 per iteration: 8 to 12 iterations, more under a stiff law | Gauss–Legendre collocation with three stages in canonical \
 variables |
 | `adaptive` | 9 | 26 per accepted step, 15 per rejected one | Verner's pair 9(8) with an interpolant of order 9, by the \
-crate `differential-equations`; `tolerance` is of each step, relative and per unit |
+crate `differential-equations`; `tolerance` per step, relative and per unit |
 
-Gauss methods keep every invariant that is at most quadratic in what they integrate. In positions and rates the momenta are
-not, for the mass matrix depends on the positions. In positions q and canonical momenta p = M v they are: linear momentum is
-[p_x, p_y], angular momentum p_yaw + x p_y − y p_x, and joint torques leave both alone. There the method is symplectic too:
-steps that resolve the motion have no drift of the energy. ∂T/∂q needs no derivative of M: for a joint k it is
-−v_k × P_k, its velocity and the linear momentum of what is beyond it (`motion::Canonical`).
+Gauss methods conserve invariants that are at most quadratic in the integrated variables. In positions and rates the momenta
+are not quadratic, because the mass matrix depends on the positions. In positions q and canonical momenta p = M v they are:
+linear momentum is [p_x, p_y], angular momentum p_yaw + x p_y − y p_x, and joint torques change neither. In these variables the
+method is also symplectic: with steps that resolve the motion the energy does not drift. ∂T/∂q needs no derivative of M: for
+joint k it is −v_k × P_k, with the velocity of the joint and the linear momentum of the bodies outboard of it.
 
-The adaptive integrator has steps of its own; `step` is then how often the law is asked where it is sampled, and how often the
-motion is audited and looked at for events, by dense output. Where torques are held it starts anew with every sample. Events are
-located by steps of the integrator itself, to 1e-13 of the time.
+The adaptive integrator chooses its steps; `step` is then the interval of sampling a discrete law, of the audit and of the
+search for events, by dense output. With held torques it restarts at every sample. Events are located by steps of the
+integrator itself, to 1e-13 of the time.
 
 ";
 
@@ -61,29 +61,28 @@ pub fn write(works: &[Work], motions: &[LongTime]) -> Result<String, Problem> {
     let mut text = HEAD.to_owned();
     costs(&mut text)?;
     text.push_str(
-        "\n## Work and precision\n\nError: the largest of any position or rate at the end, against the adaptive integrator \
+        "\n## Work and precision\n\nError: the largest of any position or rate at the end, relative to the adaptive integrator \
          at 1e-14.\n\n![Error over evaluations](integrators/work_precision.svg)\n",
     );
     for work in works {
         precision(&mut text, work)?;
     }
     text.push_str(
-        "\nUnder control, errors die out; what tumbles freely is chaotic, and all errors, rounding too, grow there. A stiff \
-         law limits\nthe steps of every method here, that of `gauss_legendre` most, whose iteration does not settle beyond: \
-         the run then stops and\nsays so. \"<\": the coarsest run was better; \"–\": none was so good.\n\n## A thousand seconds\n\nThe same robot moves freely: it turns by 0.5 rad/s with both arms out, which swing about that, a \
-         regular motion; or it\ntumbles, its joints turning by up to 0.9 rad/s at first, which is chaotic. Errors are relative: \
-         the kinetic energy's to\nitself, the momenta's to the sum of the bodies' at the start. The curves are the largest errors \
-         of every 8 s.\n\n![Energy and momentum errors over time](integrators/long_time.svg)\n",
+        "\nUnder control, errors decay; free tumbling is chaotic, and all errors grow, rounding errors too. A stiff law \
+         limits the\nsteps of every method, most of all those of `gauss_legendre`, whose iteration diverges for longer steps: \
+         the run then ends with an\nerror. \"<\": the coarsest run was better; \"–\": no run was as good.\n\n## A thousand seconds\n\nFree motion of the same robot: it turns at 0.5 rad/s with extended, oscillating arms, a \
+         regular motion; or it\ntumbles with initial joint rates of up to 0.9 rad/s, a chaotic motion. Errors are relative: \
+         of the kinetic energy to\nits initial value, of the momenta to the sums of the bodies' at the start. The curves show the \
+         largest errors of every 8 s.\n\n![Energy and momentum errors over time](integrators/long_time.svg)\n",
     );
     for motion in motions {
         long(&mut text, motion)?;
     }
     text.push_str(
-        "\nIn the regular motion the energy error of `rk4` grows with the time, that of `gauss_legendre` stays what it is in the \
-         first\nseconds: it pays over times much longer than this, for in 1,000 s the adaptive integrator gets as far with half \
-         the work.\nWhen the robot tumbles no method follows the true path for long, and the energy error of\n\
-         `gauss_legendre` moves by jumps, in swings that are too fast for the step; halving the step makes it some hundred times\n\
-         smaller. The audit of every run bounds momentum drift at 1e-9 and energy error at 1e-6.\n",
+        "\nIn the regular motion the energy error of `rk4` grows with time, while that of `gauss_legendre` stays at its value of the \
+         first\nseconds. It pays only over much longer times: within 1,000 s the adaptive integrator is as accurate with half \
+         the work.\nIn the tumbling motion no method follows the true path for long. The energy error of `gauss_legendre` then changes in \
+         jumps,\nduring oscillations too fast for the step; half the step makes it about a hundred times smaller. The audit of every run bounds momentum drift at 1e-9 and energy error at 1e-6.\n",
     );
     Ok(text)
 }
@@ -98,8 +97,8 @@ fn costs(text: &mut String) -> Result<(), Problem> {
     let canonical = flops(&["forward_dynamics", "forward_dynamics_with_base_wrench", "body_poses", "body_twists"]);
     writeln!(
         text,
-        "One evaluation of the paper's robot takes {full} flops of generated code in full coordinates, {reduced} in reduced \
-         ones and the\nsolution of 6 equations beside, {canonical} in canonical variables and a sweep over the bodies beside.",
+        "One evaluation of the paper's robot takes {full} flops of generated code in full coordinates, {reduced} and the \
+         solution of 6\nequations in reduced ones, {canonical} and a sweep over the bodies in canonical variables.",
     )?;
     Ok(())
 }
@@ -108,7 +107,7 @@ fn precision(text: &mut String, work: &Work) -> Result<(), Problem> {
     write!(text, "\n**{}.** Evaluations for an error of", work.title)?;
     writeln!(
         text,
-        " …; the reference is known to {}, by the two coordinates.\n\n| `integrator` | `coordinates` | {} | best error | \
+        " …; the reference solutions in the two coordinates differ by {}.\n\n| `integrator` | `coordinates` | {} | best error | \
          at |\n|---|---|{}---|---|",
         power(work.reference_error),
         ERRORS.map(power).join(" | "),
@@ -116,9 +115,9 @@ fn precision(text: &mut String, work: &Work) -> Result<(), Problem> {
     )?;
     for line in &work.lines {
         let work = ERRORS.map(|error| match line.evaluations_for(error) {
-            Effort::About(evaluations) => rounded(evaluations),
-            Effort::AtMost(evaluations) => format!("< {}", rounded(evaluations)),
-            Effort::More => "–".to_owned(),
+            Cost::About(evaluations) => rounded(evaluations),
+            Cost::AtMost(evaluations) => format!("< {}", rounded(evaluations)),
+            Cost::More => "–".to_owned(),
         });
         let (best, at) = best(line);
         let (name, coordinates) = (line.method.name(), line.method.coordinates());
@@ -159,12 +158,12 @@ fn long(text: &mut String, motion: &LongTime) -> Result<(), Problem> {
     Ok(())
 }
 
-/// With one digit, as 3e-7.
+/// One digit, such as 3e-7.
 fn power(value: f64) -> String {
     format!("{value:.0e}")
 }
 
-/// With two digits, and commas.
+/// Two digits, with commas.
 fn rounded(value: f64) -> String {
     let unit = 10_f64.powf(value.log10().floor() - 1.0).max(1.0);
     let digits = format!("{:.0}", (value / unit).round() * unit);

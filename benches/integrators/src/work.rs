@@ -6,16 +6,16 @@ use crate::motion::{Problems, end};
 use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::{Phase, PhaseError};
 
-/// Of one motion.
+/// The work–precision data of one motion.
 pub struct Work {
     /// In a title.
     pub title: &'static str,
-    /// How far apart the two best solutions are.
+    /// Difference between the two best solutions.
     pub reference_error: f64,
     pub lines: Vec<Line>,
 }
 
-/// Of one method.
+/// The runs of one method.
 pub struct Line {
     pub method: Method,
     /// From coarse to fine; `None` where the motion could not be computed.
@@ -82,28 +82,28 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
-/// How much work an error takes.
-pub enum Effort {
-    /// By a straight line between the logarithms of two runs.
+/// Evaluations for an error.
+pub enum Cost {
+    /// By linear interpolation of the logarithms.
     About(f64),
     /// The coarsest run was better.
     AtMost(f64),
-    /// No run was so good.
+    /// No run was as good.
     More,
 }
 
 impl Line {
     /// Evaluations for an error.
-    pub fn evaluations_for(&self, error: f64) -> Effort {
+    pub fn evaluations_for(&self, error: f64) -> Cost {
         let points: Vec<Point> = self.points.iter().filter_map(|(_, point)| *point).collect();
         if let Some(first) = points.first().filter(|first| first.error < error) {
-            return Effort::AtMost(10_f64.powf(logarithms(*first).0));
+            return Cost::AtMost(10_f64.powf(logarithms(*first).0));
         }
         let Some(pair) = points.windows(2).find(|pair| pair[0].error >= error && pair[1].error < error) else {
-            return Effort::More;
+            return Cost::More;
         };
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]].map(logarithms);
-        Effort::About(10_f64.powf(x0 + (x1 - x0) * (error.log10() - y0) / (y1 - y0)))
+        Cost::About(10_f64.powf(x0 + (x1 - x0) * (error.log10() - y0) / (y1 - y0)))
     }
 }
 

@@ -1,6 +1,6 @@
-//! Forward dynamics per call, generated and generic: by the same trait, at the same states, in the same runs.
+//! Time per call of forward dynamics, generated and generic, by the same trait at the same states in the same runs.
 //!
-//! `cargo run --release` in this folder derives the robots and runs this; alone it has none.
+//! `cargo run --release` in this folder derives the robots and runs this benchmark, which alone has no robots.
 
 use criterion::Criterion;
 use planar_capture::dynamics::ForwardDynamics;
@@ -24,7 +24,7 @@ struct Robot {
     model: fn() -> Box<dyn ForwardDynamics<f64>>,
 }
 
-/// States that are gone through in turn.
+/// Number of states, evaluated in turn.
 const STATES: u64 = 16;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -53,7 +53,7 @@ fn measure(
     let states: Vec<_> = (0..STATES).map(|index| Regime::Moving.sample(layout, 1, index).instant).collect();
     let mut accelerations = vec![0.0; layout.joints()];
     for instant in &states {
-        // an error would be quick
+        // errors would be fast and must not be timed
         let forces = Forces::torques(&instant.joint_torques);
         model.forward_dynamics(&instant.state.view(), &forces, &mut accelerations)?;
     }

@@ -1,4 +1,4 @@
-//! A crate with one module that stands alone, whose program is the module's own test: it calls every function.
+//! Build time and stack use of a crate with one standalone module, whose program is the module's self-test.
 
 use crate::{Problem, REPEATS};
 use std::path::{Path, PathBuf};
@@ -11,12 +11,12 @@ use std::{env, fs};
 pub struct Compilation {
     /// `cargo build`, s; the fastest of several.
     pub seconds: f64,
-    /// The least stack on which the module's test passes, KiB, to a sixteenth.
+    /// Smallest stack on which the module's self-test passes, KiB, to 1/16.
     pub stack: u32,
 }
 
-/// What a thread gets at least on common systems, KiB.
-pub const LEAST_STACK: u32 = 16;
+/// Smallest stack of a thread on common systems, KiB.
+pub const MINIMUM_STACK: u32 = 16;
 
 /// The program; its argument is the size of the stack.
 const PROGRAM: &str = r#"#![forbid(unsafe_code)]
@@ -30,12 +30,12 @@ fn main() {
 
 const MANIFEST: &str = "[package]\nname = \"robot\"\nversion = \"0.1.0\"\nedition = \"2024\"\n[workspace]\n";
 
-/// Cargo as it was called itself.
+/// The cargo that runs this program.
 pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Compiles a module for debugging or for release.
+/// Builds a module in the debug or release profile.
 pub fn compile(module: &str, folder: &Path, release: bool) -> Result<Compilation, Problem> {
     fs::create_dir_all(folder.join("src"))?;
     fs::write(folder.join("Cargo.toml"), MANIFEST)?;
@@ -58,17 +58,17 @@ pub fn compile(module: &str, folder: &Path, release: bool) -> Result<Compilation
         }
         seconds = seconds.min(start.elapsed().as_secs_f64());
     }
-    let stack = least_stack(&target.join(profile).join(format!("robot{}", env::consts::EXE_SUFFIX)))?;
+    let stack = smallest_stack(&target.join(profile).join(format!("robot{}", env::consts::EXE_SUFFIX)))?;
     Ok(Compilation { seconds, stack })
 }
 
-/// Doubles until it passes, then halves the interval until that is small.
-fn least_stack(program: &PathBuf) -> Result<u32, Problem> {
+/// Doubles the stack until the program passes, then bisects.
+fn smallest_stack(program: &PathBuf) -> Result<u32, Problem> {
     let passes = |stack: u32| {
         let status = Command::new(program).arg(stack.to_string()).stderr(Stdio::null()).status();
         status.map(|status| status.success())
     };
-    let (mut below, mut enough) = (LEAST_STACK, LEAST_STACK);
+    let (mut below, mut enough) = (MINIMUM_STACK, MINIMUM_STACK);
     while !passes(enough)? {
         (below, enough) = (enough, enough * 2);
         if enough > 1 << 20 {

@@ -1,4 +1,4 @@
-//! A robot's graph and module: how large they are, how long they take.
+//! Sizes and derivation time of a robot's graph and module.
 
 use crate::{Problem, REPEATS, shape::Shape};
 use planar_capture::build::Module;
@@ -7,22 +7,22 @@ use planar_capture::python_package::PYTHON_PACKAGE;
 use serde_json::Value;
 use std::time::Instant;
 
-/// What came of a layout.
+/// Graph and modules of a layout.
 #[derive(Debug)]
 pub struct Derivation {
     /// Layout to graph, Python's start included, s; the fastest of several.
     pub seconds: f64,
     /// Size of the graph's text.
     pub graph_bytes: usize,
-    /// A module on the library, to be included.
+    /// A module for inclusion, with the library.
     pub item: String,
-    /// A module that stands alone.
+    /// A standalone module.
     pub standalone: String,
     graph: Value,
 }
 
 impl Derivation {
-    /// Derives, proves and renders.
+    /// Derives, proves and renders a robot.
     pub fn of(shape: Shape) -> Result<Self, Problem> {
         let layout = shape.layout();
         let (mut seconds, mut text) = (f64::INFINITY, String::new());

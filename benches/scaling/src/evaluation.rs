@@ -1,4 +1,4 @@
-//! Runs the criterion benchmark over every robot, and reads what it found.
+//! Runs the criterion benchmark over all robots and reads its results.
 
 use crate::compilation::cargo;
 use crate::derivation::Derivation;
@@ -18,13 +18,13 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// How many times as long the generic implementation takes.
+    /// Time of the generic implementation over that of the generated code.
     pub fn ratio(self) -> f64 {
         self.generic / self.generated
     }
 }
 
-/// Measures them all in each run; results in the order of the robots.
+/// Measures all robots in each run; results in the order of the robots.
 pub fn evaluate(robots: &[(Shape, Derivation)], work: &Path) -> Result<Vec<Evaluation>, Problem> {
     let (modules, found) = (work.join("modules"), work.join("criterion"));
     fs::create_dir_all(&modules)?;

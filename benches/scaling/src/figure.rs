@@ -1,4 +1,4 @@
-//! The figure: four panels over the number of links. Colours by Wong, each with a marker of its own.
+//! The figure: four panels over the number of links.
 
 use crate::Row;
 use crate::fit::Fit;
@@ -12,7 +12,7 @@ use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use std::sync::Arc;
 
-/// Colour-blind safe, one per marker.
+/// Colours of Okabe and Ito with markers.
 const STYLES: [(&str, MarkerShape); 4] = [
     ("#0072B2", MarkerShape::Circle),
     ("#D55E00", MarkerShape::Square),
@@ -26,7 +26,7 @@ pub fn draw(rows: &[Row], fit: Fit) -> String {
     let operations = |function: &'static str| move |row: &Row| f64::from(row.derivation.flops(function));
     let mut first = vec![points(rows, 0, "forward dynamics", forward)];
     for arms in [1, 4] {
-        // two ends of each line: the planes of one and of four arms, hardly apart
+        // the fitted planes at one and four arms, as lines
         let ends = [2, 7].map(|links| Shape { arms, links });
         let ends: Vec<(f64, f64)> = ends.iter().map(|shape| (f64::from(shape.joints()), fit.at(*shape))).collect();
         let line = LinePlot::new().with_data(ends).with_color("#000000").with_stroke_width(1.2);
@@ -53,7 +53,7 @@ pub fn draw(rows: &[Row], fit: Fit) -> String {
     let titles = [
         ("Forward dynamics with the linear fit", "operations per call (flops)", false),
         ("Operations", "operations per call (flops)", true),
-        ("Making the code", "time (s)", true),
+        ("Derivation and compilation", "time (s)", true),
         ("One call of forward dynamics", "time (ns)", true),
     ];
     let layouts = panels.iter().zip(titles).map(|(panel, (title, y, logarithmic))| {

@@ -3,10 +3,10 @@
 use crate::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
-/// A plane through counts.
+/// A plane fitted to counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
-    /// What does not depend on the robot.
+    /// Independent of the robot.
     pub constant: f64,
     /// Per link, of whichever arm.
     pub per_link: f64,
@@ -17,7 +17,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// The best plane; `None` where the robots are too few or too much alike.
+    /// The best plane; `None` if the robots do not determine it.
     pub fn of(points: &[(Shape, u32)]) -> Option<Self> {
         let row = |shape: Shape| Vector3::new(1.0, f64::from(shape.joints()), f64::from(shape.arms));
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
@@ -31,13 +31,13 @@ impl Fit {
         Some(Self { constant: found.x, per_link: found.y, per_arm: found.z, residual })
     }
 
-    /// The plane at a robot.
+    /// The value of the plane at a robot.
     pub fn at(self, shape: Shape) -> f64 {
         self.constant + self.per_link * f64::from(shape.joints()) + self.per_arm * f64::from(shape.arms)
     }
 }
 
-/// Slope in logarithms: the exponent n of y ∝ xⁿ that fits best.
+/// The exponent n of the best fit y ∝ xⁿ, linear in logarithms.
 pub fn exponent(points: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let logs = points.map(|(x, y)| (x.ln(), y.ln()));
     let [n, x, y, xx, xy] =

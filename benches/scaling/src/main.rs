@@ -1,5 +1,5 @@
-//! How everything grows with arms and links: derives, compiles and evaluates robots from one arm of two links to four
-//! of seven, and writes `docs/scaling.md` and `docs/scaling.svg`.
+//! Cost over the number of arms and links: derives, compiles and evaluates robots from one arm of two links to four arms of
+//! seven, and writes `docs/scaling.md` and `docs/scaling.svg`.
 
 mod compilation;
 mod derivation;
@@ -19,13 +19,13 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Any: there is nobody to tell them apart.
+/// Any error.
 type Problem = Box<dyn std::error::Error>;
 
-/// How often everything is timed; the fastest counts, for others run on the same machine.
+/// Repetitions of each timing; the fastest counts, because of other programs on the machine.
 const REPEATS: u32 = 3;
 
-/// All that is known of one robot.
+/// The measurements of one robot.
 #[derive(Debug)]
 struct Row {
     shape: Shape,
@@ -49,7 +49,7 @@ fn measure() -> Result<(), Problem> {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (work, documents) = (here.join("target/work"), here.join("../../docs"));
     std::fs::create_dir_all(&documents)?;
-    eprintln!("making the environment of the derivation, where there is none");
+    eprintln!("preparing the environment of the derivation");
     planar_capture::generate::derive(
         &Shape { arms: 1, links: 2 }.layout(),
         planar_capture::python_package::PYTHON_PACKAGE,

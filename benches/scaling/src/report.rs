@@ -1,6 +1,6 @@
-//! The report: two tables, and what follows from them.
+//! The text of the report: two tables and conclusions.
 
-use crate::compilation::LEAST_STACK;
+use crate::compilation::MINIMUM_STACK;
 use crate::fit::{Fit, exponent};
 use crate::{Problem, REPEATS, Row, shape::Shape};
 use std::env::consts::ARCH;
@@ -8,13 +8,13 @@ use std::fmt::Write;
 use std::process::Command;
 use std::thread::available_parallelism;
 
-/// Function, what it is called here, how it grows and why: as `codegen/tests/test_scaling.py` proves it.
+/// (function, growth, reason), as `codegen/tests/test_scaling.py` proves them.
 const GROWTH: [(&str, &str, &str); 6] = [
     ("`forward_dynamics`, with wrenches or without", "linear", "articulated bodies, one division per link"),
-    ("kinematics, `bias`, `momentum`", "linear", "sweeps and sums; a Jacobian's columns are the arm's own"),
-    ("`mass_matrix`", "quadratic in the links of an arm, linear in the arms", "an arm's block has as many entries"),
-    ("`generalized_jacobian`", "quadratic in the links of an arm and in the arms", "every tip against every joint"),
-    ("`reduced_dynamics`", "quadratic in all links", "as many entries of the generalized inertia"),
+    ("kinematics, `bias`, `momentum`", "linear", "sweeps and sums; a Jacobian has only the arm's columns"),
+    ("`mass_matrix`", "quadratic in the links of an arm, linear in the arms", "the entries of an arm's block"),
+    ("`generalized_jacobian`", "quadratic in the links of an arm and in the arms", "every end effector times every joint"),
+    ("`reduced_dynamics`", "quadratic in all links", "the entries of the generalized inertia"),
     ("`full_impact`", "cubic in the links of an arm, linear in the arms", "LDLᵀ of an arm's block, which is dense"),
 ];
 
@@ -26,20 +26,20 @@ pub fn write(rows: &[Row]) -> Result<String, Problem> {
          <!-- Written by `cargo run --release --manifest-path benches/scaling/Cargo.toml`. -->\n\n\
          Regular robots of one to four arms with two to seven links each, none of whose mounts is on an axis, so that \
          nothing\nis a structural zero. The operations are counted in the graphs and the same everywhere; the times are \
-         of one machine and\nnoisy: compare them with each other.\n\n![Operations and times over the number of \
+         of one machine and\nnoisy: only their ratios matter.\n\n![Operations and times over the number of \
          links](scaling.svg)\n\n## Operations and sizes\n\nFlops (multiplications, additions, divisions) of one call, \
          run-time parameters, configuration included.\n\n",
     );
     operations(&mut text, rows)?;
     linearity(&mut text, rows)?;
-    text.push_str("\n| function | operations grow | why |\n|---|---|---|\n");
+    text.push_str("\n| function | growth of operations | reason |\n|---|---|---|\n");
     for (function, growth, why) in GROWTH {
         writeln!(text, "| {function} | {growth} | {why} |")?;
     }
     text.push_str(
         "| `reduced_impact` | cubic in all links | LDLᵀ of G, which is dense across the arms |\n\n\
-         The degrees are exact: `codegen/tests/test_scaling.py` takes finite differences of the counts. The paper's \
-         impact is the\none function that grows long; the exact one, which is the default, keeps the arms apart.\n\n\
+         The degrees are exact: `codegen/tests/test_scaling.py` takes finite differences of the counts. Only the \
+         paper's impact\nbecomes long; the exact impact, the default, treats the arms separately.\n\n\
          ## Times\n\n",
     );
     times(&mut text, rows)?;
@@ -83,9 +83,8 @@ fn linearity(text: &mut String, rows: &[Row]) -> Result<(), Problem> {
     let (all, several) = (all.ok_or("too few robots")?, several.ok_or("too few robots")?);
     writeln!(
         text,
-        "\n**Forward dynamics are linear**: flops = {:.1} + {:.1} · links + {:.1} · arms fits all of them, {:.1} flops \
-         off at most.\nFrom two arms on {:.0} + {:.0} · links + {:.0} · arms is off by {:.0}; with one arm the base has \
-         no other mount to be reckoned to.",
+        "\n**Forward dynamics are linear**: flops = {:.1} + {:.1} · links + {:.1} · arms with an error of {:.1} flops at \
+         most.\nFrom two arms on, the error of {:.0} + {:.0} · links + {:.0} · arms is {:.0}; one arm needs no sum over mounts.",
         all.constant,
         all.per_link,
         all.per_arm,
@@ -122,9 +121,9 @@ fn times(text: &mut String, rows: &[Row]) -> Result<(), Problem> {
     Ok(())
 }
 
-/// In words where it is no more than any thread has.
+/// As a bound if no thread has less.
 fn stack(least: u32) -> String {
-    if least <= LEAST_STACK { format!("≤ {LEAST_STACK}") } else { least.to_string() }
+    if least <= MINIMUM_STACK { format!("≤ {MINIMUM_STACK}") } else { least.to_string() }
 }
 
 fn conclusions(text: &mut String, rows: &[Row], first: &Row, last: &Row) -> Result<(), Problem> {
@@ -140,7 +139,7 @@ fn conclusions(text: &mut String, rows: &[Row], first: &Row, last: &Row) -> Resu
         text,
         "\n- A call of the generated forward dynamics grows with links^{:.2}, one of the generic implementation with \
          links^{:.2};\n  generic ÷ generated is {:.0} to {:.0}. From {} × {} to {} × {} the operations grow {:.1}-fold, \
-         the generated code's time\n  {:.1}-fold, the generic one's {:.0}-fold.",
+         the time of the generated\n  code {:.1}-fold, that of the generic one {:.0}-fold.",
         over(|row| row.evaluation.generated),
         over(|row| row.evaluation.generic),
         ratios().fold(f64::INFINITY, f64::min),
@@ -156,8 +155,8 @@ fn conclusions(text: &mut String, rows: &[Row], first: &Row, last: &Row) -> Resu
     writeln!(
         text,
         "- Derivation takes {:.1} s at most, a release build of a module with every function {:.1} s, a debug build \
-         {:.1} s.\n  Bodies of more than five hundred statements stand in blocks: in one piece, some thousands overflow \
-         the compiler's stack\n  where it describes variables to a debugger. Optimized code is the same either way.\n\
+         {:.1} s.\n  Function bodies of more than five hundred statements are split into blocks: several thousand in one \
+         block overflow the\n  compiler's stack when it writes debug information. The optimized code is the same.\n\
          - In a debug build the largest module's test, which calls every function, needs {} KiB of stack: tests have \
          2048.\n  In a release build it needs {} KiB.",
         worst(|row| row.derivation.seconds),
@@ -178,13 +177,13 @@ fn method(text: &mut String) -> Result<(), Problem> {
         "\n## How it was measured\n\n\
          - **Derive**: layout to graph as `planar-capture generate` does it, Python's start included; the fastest of \
          {REPEATS}.\n\
-         - **Builds**: `cargo build` of a crate without dependencies that holds one standalone module and, as its \
-         program, the\n  module's own test, which calls every function; from nothing, default profiles, the fastest of \
+         - **Builds**: `cargo build` of a crate without dependencies with one standalone module and, as its \
+         program, the\n  module's self-test, which calls every function; clean, default profiles, the fastest of \
          {REPEATS}.\n\
-         - **Stack**: the least on which that program passes, to a sixteenth.\n\
+         - **Stack**: the smallest on which that program passes, to 1/16.\n\
          - **Calls**: criterion's medians of `ForwardDynamics::forward_dynamics`, the trait with its checks, for the \
          generated\n  module and for the generic implementation, at the same sixteen random states in the same runs; \
-         those of the\n  fastest of {REPEATS} runs; default release profile, no flags for the processor.\n\
+         of the\n  fastest of {REPEATS} runs; default release profile, no processor flags.\n\
          - **Machine**: {ARCH}, {} cores, shared with others; rustc {rustc}.",
         available_parallelism()?,
     )?;

@@ -1,9 +1,9 @@
-//! The robots that are measured: regular ones, from one arm of two links to four of seven.
+//! The measured robots: equal arms and links, from one arm of two links to four of seven.
 
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use std::f64::consts::TAU;
 
-/// So many arms of so many links.
+/// A robot of equal arms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
     /// Number of arms.
@@ -13,7 +13,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Every robot that is measured, arms first.
+    /// All measured robots, by arms, then links.
     pub fn all() -> impl Iterator<Item = Self> {
         [1, 2, 3, 4].into_iter().flat_map(|arms| [2, 3, 5, 7].into_iter().map(move |links| Self { arms, links }))
     }
@@ -23,13 +23,13 @@ impl Shape {
         self.arms * self.links
     }
 
-    /// As a module is called.
+    /// The name of its module.
     pub fn name(self) -> String {
         format!("arms_{}_links_{}", self.arms, self.links)
     }
 
-    /// Arms spread evenly round the base, pointing outwards; no mount is on an axis, so that nothing is a structural
-    /// zero for one arm and not for another. Masses and lengths are those of a satellite with equal links.
+    /// Arms at equal angles around the base, pointing outwards; no mount is on an axis, so that all arms have the same
+    /// structural zeros. Masses and lengths are those of a satellite.
     pub fn layout(self) -> Layout {
         let link = Link { length: 0.8, mass: 7.0, inertia: 0.6, com: [0.35, 0.0] };
         let arm = |i: u8| {

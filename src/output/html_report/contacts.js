@@ -1,4 +1,4 @@
-// What the impacts of a case did, in numbers and words.
+// The table of the contacts of a case, and the audit.
 
 function cell(kind, text, span = 1) {
   const made = document.createElement(kind);
@@ -7,7 +7,7 @@ function cell(kind, text, span = 1) {
   return made;
 }
 
-/** Four digits; rounding is zero. */
+/** Four digits; rounding errors as zero. */
 function digits(value) {
   if (value === null || value === undefined) return "–";
   if (Math.abs(value) < 1e-9) return "0";
@@ -16,7 +16,7 @@ function digits(value) {
 
 const all = (values) => (values ? values.map(digits).join(", ") : "–");
 
-/** [quantity, what a contact has of it]; a row is left out where no contact has any. */
+/** [quantity, its text for a contact]; a row without any text is omitted. */
 const ROWS = [
   ["kind", (c) => (c.restitution === null ? c.kind : `${c.kind}, e = ${c.restitution}`)],
   ["impulse on the robot |f| [N s]", (c) => digits(force(c.impulse))],
@@ -25,11 +25,11 @@ const ROWS = [
   ["– |f| by the paper's equations", (c) => c.literal_impulse && digits(force(c.literal_impulse))],
   ["mean force |f| [N]", (c) => c.mean_force && (force(c.impulse) < 1e-9 ? "0" : digits(force(c.mean_force)))],
   ["closing speed [m/s]", (c) => digits(c.closing_speed)],
-  ["tip against target before: ω [rad/s]", (c) => digits(c.relative_twist[0])],
+  ["end effector relative to target before: ω [rad/s]", (c) => digits(c.relative_twist[0])],
   ["– vx, vy [m/s]", (c) => all(c.relative_twist.slice(1))],
   ["effective mass of the robot [kg]", (c) => c.effective_masses && digits(c.effective_masses[0])],
   ["– of the target", (c) => c.effective_masses && digits(c.effective_masses[1])],
-  ["– of both against each other", (c) => c.effective_masses && digits(c.effective_masses[2])],
+  ["– of both", (c) => c.effective_masses && digits(c.effective_masses[2])],
   ["impulse index [N s per m/s]", (c) => c.impulse_index !== null && digits(c.impulse_index)],
   ["impulse ellipse, semi-axes [N s per m/s]", (c) => all(c.impulse_ellipse.semi_axes)],
 ];
@@ -71,11 +71,11 @@ function contactsTable() {
     (a - b > 1e-9 * a ? `${digits(a - b)} (${(100 * (a - b) / a).toPrecision(3)} %)` : "0"));
 }
 
-/** Sentences on what did not meet or was not held. */
+/** Sentences on grasps that do not close and end effectors that meet no target. */
 function missed(one) {
   const open = one.open.map(({ arm, target }) => `${armName(arm)} does not close on ${targetName(target)}.`);
   const away = one.closest.map(({ arm, target, distance, time }) =>
-    `The tip of ${armName(arm)} never meets ${targetName(target)}: nearest at ${time.toFixed(2)} s, ${digits(distance)} m from it.`);
+    `The end effector of ${armName(arm)} never meets ${targetName(target)}; the smallest distance is ${digits(distance)} m, at ${time.toFixed(2)} s.`);
   return [...open, ...away, ...(one.targets.length && !one.impacts.length ? ["There is no impact."] : [])];
 }
 
@@ -85,11 +85,11 @@ function audit() {
     if (!phase) return [];
     const numbers = [["momentum drift", phase.momentum_drift], ["energy error", phase.energy_error],
       ["centre-of-mass drift", phase.center_of_mass_drift]];
-    if (one.post_impact === phase && phase.holds.length) numbers.push(["holds open by", Math.max(...phase.constraint_errors)]);
+    if (one.post_impact === phase && phase.holds.length) numbers.push(["constraints open by", Math.max(...phase.constraint_errors)]);
     return [`${name}: ${numbers.map(([what, value]) => `${what} ${value.toExponential(1)}`).join(", ")}`];
   };
   const after = one.impacts.length ? "after the impact" : "after the approach";
-  // those that name another case are that case's
+  // without the objections to other cases
   const others = study.cases.filter((other) => other !== one).map((other) => other.name);
   const objections = study.objections.filter((text) => !others.some((name) => text.startsWith(`${name}:`) || text.startsWith(`${name},`)));
   shown.textContent = [...of("approach", one.approach || study.approach), ...of(after, one.post_impact), ...objections].join(" · ");

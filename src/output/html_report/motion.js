@@ -1,8 +1,8 @@
 "use strict";
-// The study's motion at any time, which runs from the start of the approach.
+// The motion of a study at any time since the start of the approach.
 
 const study = JSON.parse(document.getElementById("data").textContent);
-// Okabe and Ito's colours, which colour-blind readers tell apart
+// the palette of Okabe and Ito, distinguishable with any colour vision
 const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5c00", "#444444"];
 const element = (id) => document.getElementById(id);
 const rotate = ([x, y], angle) => {
@@ -10,12 +10,12 @@ const rotate = ([x, y], angle) => {
   return [c * x - s * y, s * x + c * y];
 };
 const plus = ([a, b], [c, d]) => [a + c, b + d];
-/** Size of the force part of [n, fx, fy]. */
+/** Magnitude of the force part of [n, fx, fy]. */
 const force = ([, fx, fy]) => Math.hypot(fx, fy);
 const armName = (index) => study.layout.arms[index].name;
 const targetName = (index) => study.targets[index].name;
 
-/** One case on one axis of time: columns of both phases put end to end. */
+/** One case on one axis of time: the concatenated columns of both phases. */
 function timeline(one) {
   const approach = one.approach || study.approach;
   const phases = [approach, ...(one.post_impact ? [one.post_impact] : [])];
@@ -36,13 +36,13 @@ function timeline(one) {
   columns.before = approach.time.length;
   columns.after = one.post_impact ? approach.duration : Infinity;
   columns.impacts = one.impacts.map((impact) => ({ ...impact, time: time[columns.before + impact.sample] }));
-  // from when on who is held, and how
+  // the contacts that hold, each with its start
   columns.holds = columns.impacts.flatMap(({ time, contacts }) =>
     contacts.filter(({ kind }) => kind !== "bounce").map(({ arm, target, kind }) => ({ time, arm, target, kind })));
   return columns;
 }
 
-/** Index of the last sample at or before a time; at an impact that after it. */
+/** Index of the last sample at or before a time; at an impact, of the sample after it. */
 function place(line, time) {
   let [low, high] = [0, line.time.length - 1];
   while (low < high) {
@@ -52,7 +52,7 @@ function place(line, time) {
   return low;
 }
 
-/** A column's value between its samples, the first of which is the line's number `first`. */
+/** The interpolated value of a column whose first sample is that of index `first` of the line. */
 function between(line, column, time, first = 0) {
   const i = place(line, time), j = Math.min(i + 1, line.time.length - 1);
   const span = line.time[j] - line.time[i];
@@ -60,7 +60,7 @@ function between(line, column, time, first = 0) {
   return column[i - first] + part * (column[j - first] - column[i - first]);
 }
 
-/** Where every body of the robot is: the tree of its frames, composed from the base outwards. */
+/** Poses of the bodies of the robot, composed along the tree of frames. */
 function configuration(line, time) {
   const at = (column) => between(line, column, time);
   const [yaw, x, y] = line.base_pose.map(at);
@@ -79,7 +79,7 @@ function configuration(line, time) {
   return { yaw, base: [x, y], arms };
 }
 
-/** Pose of each target's COM: it flies freely until the first impact, then as it was computed. */
+/** Pose of each target's COM: free motion until the first impact, then the samples. */
 function targetPoses(one, line, time) {
   return one.targets.map(({ pose: [yaw, x, y], twist: [omega, vx, vy] }, i) => {
     if (time >= line.after) {
@@ -97,7 +97,7 @@ function targetTwists(one, line) {
     line.time.map((_, k) => (k < line.before ? value : one.post_impact.target_twists[i][part][k - line.before]))));
 }
 
-/** What goes on at a time, in words. */
+/** The name of the phase at a time. */
 function phaseName(line, time) {
   const passed = line.impacts.filter((impact) => impact.time <= time).length;
   if (passed === 0) return time < line.after ? "approach" : "after the approach";

@@ -1,4 +1,4 @@
-// What the page answers to.
+// Controls of the page.
 
 function setTime(time) {
   const [, line] = current();
@@ -26,7 +26,7 @@ function step(last, now) {
   else requestAnimationFrame((next) => step(now, next));
 }
 
-/** A mark on the bar of time for each impact, which goes there. */
+/** A mark on the time bar for each impact; a click sets the time. */
 function marksOfImpacts() {
   const [, line] = current();
   element("instants").replaceChildren(...line.impacts.map((impact, i) => {

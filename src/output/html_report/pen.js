@@ -1,4 +1,4 @@
-// What pictures are drawn with: lines, areas and words on the canvas, in pixels.
+// Lines, areas and text on the canvas, in pixels.
 
 const INK = "#44525f", TARGET = "#6d6d6d", IMPULSE = "#b3261e", TEXT = "12px system-ui, sans-serif";
 const canvas = element("scene"), pen = canvas.getContext("2d");
@@ -27,7 +27,7 @@ function circle([x, y], radius, fill, edge) {
   if (edge) { pen.strokeStyle = edge; pen.stroke(); }
 }
 
-/** Text that stays readable on whatever is behind it. */
+/** Text with an outline, readable on any background. */
 function label(text, [x, y], colour) {
   pen.font = TEXT; pen.lineJoin = "round";
   pen.strokeStyle = "rgba(251,252,253,0.85)"; pen.lineWidth = 3;

@@ -1,18 +1,18 @@
-// Time series beside the picture.
+// Plots of the time series.
 
 const DASHES = [[], [6, 4], [2, 3], [9, 3, 2, 3]];
 
 /** Names of the joints, arm by arm. */
 const joints = study.layout.arms.flatMap((arm) => arm.links.map((_, k) => `${arm.name} joint ${k + 1}`));
 
-/** { title, unit, series: [[name, column]], span: least of the axis, log } of each plot of a case. */
+/** { title, unit, series: [[name, column]], span: smallest of the axis, log } of each plot of a case. */
 function charts(one, line) {
   const masses = [study.layout.base, ...study.layout.arms.flatMap((arm) => arm.links), ...study.targets];
   const mass = masses.reduce((sum, body) => sum + body.mass, 0);
-  // momentum that nothing changes is a line, not the rounding in it: a part of what the bodies' energy could hold
+  // smallest span of an axis: a part of the momentum that the kinetic energy could hold, far above rounding errors
   const span = 0.02 * Math.sqrt(2 * mass * Math.max(...line.kinetic_energy)) || 1;
   const alone = one.targets_alone;
-  // robot and targets together: after the approach the samples have them all
+  // robot and targets together: the samples of the post-impact motion include the targets
   const whole = (column, share) => column.map((value, i) => value + (i < line.before ? share : 0));
   const named = (columns, names) => columns.map((column, i) => [names[i], column]);
   const energy = whole(line.kinetic_energy, alone.kinetic_energy);
@@ -20,7 +20,7 @@ function charts(one, line) {
   const pair = ({ arm, target }) => `${armName(arm)} · ${targetName(target)}`;
   const chart = (title, unit, series, more = {}) => ({ title, unit, series, ...more });
   const holds = one.post_impact ? one.post_impact.holds : [];
-  // rounding has no logarithm where it happens to be none
+  // zero has no logarithm
   const open = ({ open }) => [...Array(line.before).fill(null), ...open.map((value) => value && Math.max(value, 1e-18))];
   const together = one.targets.length ? " of robot and targets" : "";
   return [
@@ -30,15 +30,15 @@ function charts(one, line) {
     chart("Base yaw", "rad", [["yaw", line.base_pose[0]]]),
     chart("Base position", "m", named(line.base_pose.slice(1), ["x", "y"])),
     chart("Base twist", "rad/s, m/s", named(line.base_twist, ["ω", "vx", "vy"])),
-    chart("Distance of tips from targets", "m", one.distances.map((one) => [pair(one), one.distance])),
+    chart("Distances of end effectors from targets", "m", one.distances.map((one) => [pair(one), one.distance])),
     chart("Targets' rates", "rad/s", twists.map(([rate], i) => [targetName(i), rate])),
     chart("Targets' velocities", "m/s", twists.flatMap(([, vx, vy], i) => [[`${targetName(i)} vx`, vx], [`${targetName(i)} vy`, vy]])),
     chart(`Angular momentum${together}`, "N m s", [["l", whole(line.angular_momentum, alone.momentum[0])]], { span }),
     chart(`Linear momentum${together}`, "N s",
       named(line.linear_momentum.map((column, i) => whole(column, alone.momentum[i + 1])), ["px", "py"]), { span }),
-    // less what the joints did, only impacts change it
+    // energy less work changes only at impacts
     chart(`Kinetic energy${together}`, "J", [["T", energy], ["T less the work done", energy.map((value, i) => value - line.work[i])]]),
-    chart("Openings of holds", "m or rad", holds.map((hold) => [pair(hold), open(hold)]), { log: true }),
+    chart("Openings of constraints", "m or rad", holds.map((hold) => [pair(hold), open(hold)]), { log: true }),
   ].filter(({ series }) => series.length);
 }
 
@@ -62,7 +62,7 @@ function marks(line) {
       draw: [(plot) => {
         line.impacts.forEach((impact) => vertical(plot, impact.time, IMPULSE, [4, 4]));
         vertical(plot, state.time, "#1c2733", []);
-        // the legend says what is at the current time while no cursor is in a plot
+        // without a cursor in the plot, the legend shows the values at the current time
         if (!(plot.cursor.left >= 0)) plot.setLegend({ idx: place(line, state.time) }, false);
       }],
       ready: [(plot) => plot.over.addEventListener("click", () => setTime(plot.posToVal(plot.cursor.left, "x")))],
@@ -70,13 +70,13 @@ function marks(line) {
   };
 }
 
-/** The range, or one of at least `span` about its middle. */
+/** The range, extended to `span` about its middle if it is smaller. */
 function widened(low, high, span) {
   const [middle, half] = [(low + high) / 2, Math.max(high - low, span) / 2];
   return high - low < span ? [middle - half, middle + half] : [low, high];
 }
 
-/** The axis of what is rounding: every second power of ten. */
+/** A logarithmic axis with every second power of ten. */
 const DECADES = {
   splits: () => [1e-18, 1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1],
   filter: (plot, splits) => splits,
@@ -112,7 +112,7 @@ function drawPlots() {
         { label: "time [s]", value: number },
         ...series.map(([label], i) => ({
           label, value: log ? small : number, stroke: COLOURS[i % COLOURS.length], width: 1.5,
-          // curves that lie on each other are seen all the same
+          // dashes keep coinciding curves visible
           dash: DASHES[series.length <= DASHES.length ? i : Math.floor(i / COLOURS.length) % DASHES.length],
         })),
       ],

@@ -1,4 +1,4 @@
-// The picture of robot and targets at one time.
+// Draws robot and targets at one time.
 
 function draw() {
   const [one, line] = current(), now = configuration(line, state.time);
@@ -20,7 +20,7 @@ function draw() {
   if (element("traces").checked) traces(line, screen);
   poses.forEach((pose, i) => {
     drawTarget(study.targets[i], pose, screen, scale);
-    // what is held hangs on its grips: two of them and the robot close a loop
+    // lines to all holding contacts show closed loops
     pen.strokeStyle = TARGET; pen.lineWidth = 2;
     held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].tip].map(screen)));
   });
@@ -29,7 +29,7 @@ function draw() {
   held.forEach((hold) => drawGrip(hold, screen(now.arms[hold.arm].tip), scale));
   line.impacts.forEach((impact) => drawImpact(impact, line, screen));
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height));
-  // for those who look from outside: where things are drawn
+  // positions in pixels, for tests
   state.shown = { targets: poses, arms: now.arms, arrows: line.impacts.filter(isFresh).flatMap((impact) => impact.contacts) };
 }
 
@@ -61,7 +61,7 @@ function drawArm(arm, now, colour, screen, scale) {
   pen.lineWidth = 1.5;
   arm.links.forEach((link, k) => {
     const joint = screen(now.points[k]);
-    if (link.length === 0) { // a wheel, as large as its inertia makes it
+    if (link.length === 0) { // a reaction wheel: the uniform disc of its mass and inertia
       const radius = Math.max(6, scale * Math.sqrt(2 * link.inertia / link.mass));
       circle(joint, radius, null, colour);
       const spoke = [Math.cos(now.angles[k]) * radius, -Math.sin(now.angles[k]) * radius];
@@ -72,7 +72,7 @@ function drawArm(arm, now, colour, screen, scale) {
   circle(screen(now.tip), thick * 0.62, colour);
 }
 
-/** A ring where the target turns about the tip, a square where it cannot. */
+/** A ring for a pin, a square for a rigid contact. */
 function drawGrip(hold, [x, y], scale) {
   const colour = COLOURS[hold.arm % COLOURS.length], size = 0.55 * thickness(scale) + 3;
   pen.lineWidth = 2.5;
@@ -87,7 +87,7 @@ function drawTarget(target, pose, screen, scale) {
     area(target.polygon.map((corner) => screen(plus(pose.point, rotate(corner, pose.angle)))), fill, TARGET);
   } else {
     circle(middle, Math.max(3, target.radius * scale), fill, TARGET);
-    // lines that show how it turns
+    // spokes that show the rotation
     for (const quarter of [1, 0]) {
       const arm = rotate([target.radius, 0], pose.angle + quarter * Math.PI / 2);
       pen.strokeStyle = quarter ? "#c2c2c2" : TARGET;
@@ -97,7 +97,7 @@ function drawTarget(target, pose, screen, scale) {
   circle(middle, 3, TARGET);
 }
 
-/** Beside the target; at the edge of the picture for one outside, with how far it is from the base. */
+/** Next to the target; at the edge for one outside, with its distance from the base. */
 function nameTarget(target, pose, now, screen, scale, width, height) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
@@ -116,23 +116,23 @@ function nameTarget(target, pose, now, screen, scale, width, height) {
 const SHOWN_FOR = 4;
 const isFresh = (impact) => state.time >= impact.time && state.time <= impact.time + SHOWN_FOR;
 
-/** Pixels per N s in a case: arrows and, where they are shown, ellipses have room. */
+/** Pixels per N s in a case, so that arrows and visible ellipses fit. */
 function impulseScale(line) {
   const contacts = line.impacts.flatMap((impact) => impact.contacts), most = (of) => Math.max(...contacts.map(of));
   return Math.min(80 / most((one) => force(one.impulse)), element("ellipse").checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
 }
 
-/** Semi-axes of what the closing speed of a contact could ask for, N s. */
+/** Semi-axes of the impulse ellipse at the closing speed of a contact, N s. */
 const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
 
-/** For four seconds after an impact: the impulse on the robot at each of its contacts, and the ellipse of possible ones. */
+/** For four seconds after an impact: the impulse on the robot at each contact, and the impulse ellipse. */
 function drawImpact(impact, line, screen) {
   if (!isFresh(impact)) return;
   const scale = impulseScale(line);
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
   for (const contact of impact.contacts) {
     const from = screen(contact.tip), f = force(contact.impulse), [, fx, fy] = contact.impulse;
-    // rounding is no impulse
+    // rounding error
     if (f < 1e-9) {
       circle(from, 9, null, IMPULSE);
       label("no impulse", plus(from, [12, 4]), IMPULSE);
@@ -146,7 +146,7 @@ function drawImpact(impact, line, screen) {
       pen.fill();
       pen.stroke();
     }
-    // so long that it is seen
+    // at least 14 pixels long
     const way = [fx, -fy].map((part) => part / f * Math.max(scale * f, 14)), to = plus(from, way);
     pen.strokeStyle = IMPULSE; pen.lineWidth = 3;
     stroke([from, to]);

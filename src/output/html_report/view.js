@@ -1,9 +1,9 @@
-// The part of the plane that is seen.
+// The visible part of the plane.
 
-/** Half the sides of the base. */
+/** Half side lengths of the base. */
 const base = study.layout.base.size.map((side) => side / 2);
 
-/** When a target matters: its impacts, its nearest approach, the grasp that does not close. */
+/** The times at which a target is to be visible: its impacts, its closest approach, a grasp that does not close. */
 function instants(one, line, target) {
   const own = (pairs) => pairs.filter((pair) => pair.target === target);
   return [
@@ -13,14 +13,14 @@ function instants(one, line, target) {
   ];
 }
 
-/** The part of the plane that robot, what it holds, and impacts are in, or everything; about the base where that is followed. */
+/** The bounding box of robot, held targets and impacts, or of everything; about the base in that view. */
 function bounds(one, line, view) {
   const box = [Infinity, Infinity, -Infinity, -Infinity];
   const add = ([x, y], r) => {
     box[0] = Math.min(box[0], x - r); box[1] = Math.min(box[1], y - r);
     box[2] = Math.max(box[2], x + r); box[3] = Math.max(box[3], y + r);
   };
-  // a target far away does not shrink the robot to a dot: what is free counts around the instants when it matters
+  // a free target counts only around its times, so that a distant one does not make the robot small
   const matters = one.targets.map((_, i) => instants(one, line, i));
   const steps = 160, times = Array.from({ length: steps + 1 }, (_, i) => line.end * i / steps);
   for (const time of [...times, ...matters.flat()]) {
