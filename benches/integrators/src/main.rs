@@ -1,5 +1,5 @@
-//! Cost and accuracy of the integrators: the paper's approach and free motion by every scheme in both coordinates. Writes
-//! `docs/integrators.md` with its figures, or checks that they are up to date.
+//! Cost and accuracy of the integrators: the paper's approach and free motion by every scheme in both coordinates.
+//! Writes `docs/integrators.md` with its figures, or checks that they are up to date.
 //!
 //! Work is counted in evaluations of the derivative, which does not depend on the machine, but for the last bit of its
 //! `pow`.
@@ -13,7 +13,6 @@ mod work;
 
 use planar_capture::output::atomic_file::{create_folder, write_text};
 use planar_capture::output::figures::draw::svg;
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -15,7 +15,6 @@ use evaluation::{Evaluation, evaluate};
 use fit::Fit;
 use planar_capture::output::atomic_file::write_text;
 use shape::Shape;
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 

@@ -13,7 +13,11 @@ const GROWTH: [(&str, &str, &str); 6] = [
     ("`forward_dynamics`, with wrenches or without", "linear", "articulated bodies, one division per link"),
     ("kinematics, `bias`, `momentum`", "linear", "sweeps and sums; a Jacobian has only the arm's columns"),
     ("`mass_matrix`", "quadratic in the links of an arm, linear in the arms", "the entries of an arm's block"),
-    ("`generalized_jacobian`", "quadratic in the links of an arm and in the arms", "every end effector times every joint"),
+    (
+        "`generalized_jacobian`",
+        "quadratic in the links of an arm and in the arms",
+        "every end effector times every joint",
+    ),
     ("`reduced_dynamics`", "quadratic in all links", "the entries of the generalized inertia"),
     ("`full_impact`", "cubic in the links of an arm, linear in the arms", "LDLᵀ of an arm's block, which is dense"),
 ];
