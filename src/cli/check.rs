@@ -7,10 +7,10 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Says what a layout or a scenario is, what is odd about it and what is wrong.
+/// Describe a layout or a scenario, and warn of unusual values.
 ///
-/// What it is goes to the standard output, what is odd or wrong to the standard error. Exit code 0, or 2 where
-/// something is wrong.
+/// The description goes to the standard output, warnings and errors to the standard error. Exit code 2 for errors,
+/// else 0.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The file, a layout or a scenario; or the name of a shipped layout.
@@ -27,7 +27,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     writeln!(out, "{}", inspection.description)?;
     let warnings = inspection.warnings;
     match warnings.count() {
-        0 => writeln!(out, "nothing odd")?,
+        0 => writeln!(out, "no warnings")?,
         count => {
             // on a terminal the warnings follow the description
             out.flush()?;

@@ -9,10 +9,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Compares generated code with the generic implementation at random states, quantity by quantity.
+/// Compare generated code with the generic implementation at random states, quantity by quantity.
 ///
-/// Errors are relative to the natural size of each entry: the sum of the magnitudes that make it up. The worst state
-/// of each quantity is written so that `eval` can compute it again. Exit code 1 where a bound is exceeded.
+/// Errors are relative to the natural size of each entry: the sum of the magnitudes of its terms. The worst state of
+/// each quantity is written for `eval`. Exit code 1 if an error exceeds its bound.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.

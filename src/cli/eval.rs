@@ -9,10 +9,10 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::ExitCode;
 
-/// Every quantity of a robot at given states, as a JSON array on the standard output.
+/// Compute every quantity of a robot at given states, as a JSON array on the standard output.
 ///
-/// Each result is written as soon as its state is read. A state that is wrong ends it with exit code 2; the array is
-/// then closed after the results of the states before it.
+/// Each result is written as soon as its state is read. An invalid state ends the command with exit code 2; the array
+/// is then closed after the results of the states before it.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.

@@ -17,7 +17,7 @@ use std::process::ExitCode;
 /// Derive the equations of a layout and write them as a Rust module for your own crate or firmware.
 ///
 /// The first run makes a Python environment with CasADi in the user's cache folder (Python 3.11 or newer, network);
-/// later ones use it. What is derived is compared with the generic implementation before anything is written.
+/// later ones use it. The derived functions are compared with the generic implementation before a file is written.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
@@ -25,10 +25,10 @@ pub struct Arguments {
     /// What to write: FILE.rs for the module, FILE.json for the expression graph that build scripts render.
     #[arg(long, value_name = "FILE", value_parser = output)]
     out: PathBuf,
-    /// A module that depends on nothing, not even on planar-capture's core.
+    /// A module without dependencies, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
-    /// Write nothing; exit code 1 if FILE is not what the layout gives.
+    /// Write nothing; exit code 1 if FILE is not up to date.
     #[arg(long)]
     check: bool,
 }
@@ -122,7 +122,7 @@ fn check(text: &str, arguments: &Arguments) -> Result<ExitCode, CommandError> {
         writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
         return Ok(ExitCode::SUCCESS);
     }
-    let state = if path.exists() { "is not what the layout gives" } else { "is not there" };
+    let state = if path.exists() { "is not what the layout gives" } else { "does not exist" };
     let mend = command(&arguments.layout, &shown.to_string(), arguments.standalone);
     eprintln!("{shown} {state}; to mend: {mend}");
     Ok(ExitCode::from(1))
@@ -146,7 +146,7 @@ fn check_overwrite(path: &Path) -> Result<(), CommandError> {
     if generated || (found.is_file() && found.len() == 0) {
         return Ok(());
     }
-    let message = format!("{file} is there already and was not generated: name another file, or move it away first");
+    let message = format!("{file} already exists and was not generated: choose another file, or move it first");
     Err(CommandError::Usage(message))
 }
 

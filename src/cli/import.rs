@@ -6,10 +6,10 @@ use planar_capture::urdf::{self, ImportOptions};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Make a layout from a URDF: a tree of links with parallel revolute joints, taken as floating freely in their plane.
+/// Import a URDF as a layout: a tree of links with parallel revolute joints, as a free-floating robot in their plane.
 ///
-/// The root link is the base, every chain of joints on it an arm, and what fixed joints hold is one body. What became
-/// what and what was left out stands at the head of the layout, and the notable part of it on the standard error.
+/// The root link is the base and every chain of joints on it an arm; fixed joints merge links. The head of the layout
+/// lists joints and omissions; notes and warnings also go to the standard error.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The URDF file.

@@ -31,7 +31,7 @@ struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compute a scenario: the approach, and for every case the impact and what follows.
+    /// Compute a scenario: the approach, and for every case the impact and the post-impact motion.
     Run(run::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
@@ -91,7 +91,7 @@ fn write_new(path: Option<&Path>, text: &str) -> Result<(), CommandError> {
     match path {
         Some(path) if path.exists() => {
             let file = path.display();
-            let message = format!("{file} is there already: name another file, or move it away first");
+            let message = format!("{file} already exists: choose another file, or move it first");
             return Err(CommandError::Usage(message));
         }
         Some(path) => write_text(path, text)?,

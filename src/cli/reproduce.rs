@@ -4,7 +4,7 @@ use super::CommandError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Write the report on the paper's reproduction: every table and figure of it beside what is computed here.
+/// Write the report on the reproduction of the paper: its tables and figures beside the computed ones.
 ///
 /// Writes FOLDER/reproduction.md and the figures it shows; needs a build with the feature `figures`.
 #[derive(Debug, clap::Args)]
@@ -12,7 +12,7 @@ pub struct Arguments {
     /// Folder of the report.
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
-    /// Write nothing; exit code 1 if the report there is not what this command gives.
+    /// Write nothing; exit code 1 if the report is not up to date.
     #[arg(long)]
     check: bool,
 }

@@ -71,9 +71,9 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
 
 fn impact(scenario: &Scenario, impact: &ImpactSolution) -> Value {
     json!({
-        "exact": result(&impact.exact),
-        "paper": impact.paper.as_ref().map(result),
-        "contacts": impact.contacts.iter().map(|one| contact(scenario, one)).collect::<Vec<_>>(),
+        "exact": impact_result(&impact.exact),
+        "paper": impact.paper.as_ref().map(impact_result),
+        "contacts": impact.contacts.iter().map(|contact| contact_value(scenario, contact)).collect::<Vec<_>>(),
     })
 }
 
@@ -120,7 +120,7 @@ fn violation(violation: &LimitViolation) -> Value {
 }
 
 /// One contact, with target and arm by name.
-fn contact(scenario: &Scenario, result: &ContactResult) -> Value {
+pub(super) fn contact_value(scenario: &Scenario, result: &ContactResult) -> Value {
     let ImpactContact { target, arm, law, offset, miss } = result.touching;
     let response = &result.response;
     let mut value = json!({
@@ -159,7 +159,8 @@ fn residual_motion(residual: &ResidualMotion) -> Value {
     })
 }
 
-fn result(result: &ImpactResult) -> Value {
+/// The solution of one impact by one model.
+pub(super) fn impact_result(result: &ImpactResult) -> Value {
     json!({
         "joint_rates_after": result.joint_rates_after,
         "base_twist_after": result.base_twist_after,

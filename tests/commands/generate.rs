@@ -268,9 +268,9 @@ fn import_and_export_leave_what_is_there() {
         |arguments: &[&str]| said(command().args(arguments).current_dir(folder.path()).output().expect("it runs"));
     assert_eq!(run(&["export", "held_out.toml", "--out", "robot.urdf"]).0, 0);
     let (code, _, err) = run(&["export", "held_out.toml", "--out", "robot.urdf"]);
-    assert!(code == 2 && err.contains("robot.urdf is there already"), "{err}");
+    assert!(code == 2 && err.contains("robot.urdf already exists"), "{err}");
     let (code, _, err) = run(&["import", "robot.urdf", "--out", "held_out.toml"]);
-    assert!(code == 2 && err.contains("held_out.toml is there already"), "{err}");
+    assert!(code == 2 && err.contains("held_out.toml already exists"), "{err}");
     assert_eq!(fs::read_to_string(folder.path().join("held_out.toml")).expect("a layout"), LAYOUT);
 }
 
@@ -288,7 +288,7 @@ fn what_goes_wrong_says_what_to_do_and_writes_nothing() {
     };
     wrong(&["held_out.toml"], &["--out"]);
     wrong(&["held_out.toml", "--out", "robot.txt"], &["robot.txt", "`.rs`", "`.json`"]);
-    wrong(&["held_out.toml", "--out", "mine.rs"], &["mine.rs is there already and was not generated"]);
+    wrong(&["held_out.toml", "--out", "mine.rs"], &["mine.rs already exists and was not generated"]);
     wrong(&["held_out.toml", "--out", "robot.json", "--standalone"], &["--standalone"]);
     wrong(&["held_out.toml", "--out", "robot.json"], &["robot.json", "held_out.json"]);
     wrong(&["held_out.toml", "--out", "no/such/robot.rs"], &["there is no folder no/such"]);

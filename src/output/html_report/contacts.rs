@@ -1,13 +1,14 @@
 //! The contacts of a case as JSON: impacts, failed grasps, distances, and openings of the constraints.
 
-use super::data::digits;
+use super::digits;
 use crate::capture::assembly::turned;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_detection::signed_distance;
-use crate::capture::impact::{ContactResult, ImpactResult};
+use crate::capture::impact::ContactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::contact::ContactKind;
 use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::summary::{contact_value, impact_result};
 use crate::output::time_series::rows;
 use crate::scenario::{Case, Detection, Scenario};
 use crate::simulate::system::Body;
@@ -20,47 +21,27 @@ pub(super) fn impacts_of_case(scenario: &Scenario, study: &Study, result: &CaseR
         json!({
             "sample": event.after,
             "time": event.time,
-            "exact": balance(&event.solution.exact),
-            "paper": event.solution.paper.as_ref().map(balance),
+            "exact": impact_result(&event.solution.exact),
             "contacts": event.solution.contacts.iter().map(|one| contact(scenario, &event, one)).collect::<Vec<_>>(),
         })
     };
     with_contacts.map(value).collect()
 }
 
-fn balance(result: &ImpactResult) -> Value {
-    json!({
-        "momentum_jump": result.momentum_jump,
-        "kinetic_energy_before": result.kinetic_energy_before,
-        "kinetic_energy_after": result.kinetic_energy_after,
-    })
-}
-
+/// The contact as in the summary, but target and arm by index, with quantities that the page shows.
 fn contact(scenario: &Scenario, event: &ImpactEvent<'_>, result: &ContactResult) -> Value {
-    let ImpactContact { target, arm, law, miss, .. } = result.touching;
-    let response = &result.response;
+    let ImpactContact { target, arm, law, .. } = result.touching;
     let [_, x, y] = event.before.end_effector_poses[arm];
-    let [_, vx, vy] = response.relative_twist;
-    json!({
-        "target": target,
-        "arm": arm,
-        "kind": law.kind().name(),
-        "restitution": law.bounce().map(|(_, restitution)| restitution),
-        "tip": [x, y],
-        "miss": miss,
-        "impulse": result.impulse,
-        "literal_impulse": event.solution.paper.as_ref().and_then(|paper| paper.impulses[arm]),
-        "mean_force": scenario.contact.duration.map(|duration| result.impulse.map(|part| part / duration)),
-        "relative_twist": response.relative_twist,
-        // along the inward normal of a bounce
-        "closing_speed": law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)),
-        "effective_masses": response.effective_masses,
-        "impulse_index": response.impulse_index,
-        "impulse_ellipse": {
-            "semi_axes": response.impulse_ellipse.semi_axes,
-            "direction": response.impulse_ellipse.direction,
-        },
-    })
+    let [_, vx, vy] = result.response.relative_twist;
+    let mut value = contact_value(scenario, result);
+    value["target"] = json!(target);
+    value["arm"] = json!(arm);
+    value["restitution"] = json!(law.bounce().map(|(_, restitution)| restitution));
+    value["tip"] = json!([x, y]);
+    value["literal_impulse"] = json!(event.solution.paper.as_ref().and_then(|paper| paper.impulses[arm]));
+    // along the inward normal of a bounce
+    value["closing_speed"] = json!(law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)));
+    value
 }
 
 /// (target, arm, kind) of the contacts that a case plans; the kind is `None` where the grasp fails to close.

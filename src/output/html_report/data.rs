@@ -1,6 +1,7 @@
 //! The data of the HTML report as JSON: layout, motion, targets, impacts, momentum and energy over time.
 
 use super::contacts::{closing_failures, constraint_openings, distances, impacts_of_case};
+use super::digits;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::layout::Layout;
 use crate::outline::Outline;
@@ -122,9 +123,4 @@ fn phase(phase: &Phase) -> Value {
         "center_of_mass_drift": phase.drift.center_of_mass_drift,
         "constraint_errors": phase.constraint_errors,
     })
-}
-
-/// Rounded to six digits, more than the page shows.
-pub(super) fn digits(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }

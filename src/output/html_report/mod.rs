@@ -44,3 +44,8 @@ pub fn write_report(scenario: &Scenario, study: &Study, mut to: impl Write) -> i
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
+
+/// Rounded to six digits, more than the page shows.
+fn digits(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
