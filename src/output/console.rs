@@ -49,7 +49,8 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
     if let Some(found) = &study.terminal_rates {
         writeln!(
             out,
-            "  final joint rates found in {} iterations [rad/s]: {}\n  (generalized Jacobian at the final pose: smallest/largest singular value {:.3})",
+            "  final joint rates found in {} iterations [rad/s]: {}\n  (generalized Jacobian at the final pose: \
+             smallest/largest singular value {:.3})",
             found.iterations,
             list(&found.joint_rates, 6),
             found.singularity_margin

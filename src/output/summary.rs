@@ -101,7 +101,8 @@ fn phase(phase: &Phase, end_effectors: bool) -> Value {
         value["singularity_margin"] = json!(margin);
     }
     if let Some(LimitViolations { joint_angle, joint_rate }) = &phase.limit_violations {
-        value["limits"] = json!({"joint_angle": joint_angle.as_ref().map(violation), "joint_rate": joint_rate.as_ref().map(violation)});
+        let [joint_angle, joint_rate] = [joint_angle, joint_rate].map(|largest| largest.as_ref().map(violation));
+        value["limits"] = json!({"joint_angle": joint_angle, "joint_rate": joint_rate});
     }
     if !phase.saturation.joints.is_empty() {
         value["joints_saturated"] = json!(phase.saturation.joints);

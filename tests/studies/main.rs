@@ -10,6 +10,7 @@ mod events;
 mod figures;
 mod inverse_kinematics;
 mod maximal;
+mod outline;
 mod outputs;
 mod redysim;
 mod reproduction;

@@ -144,16 +144,9 @@ fn ticks(axis: &Axis, scale: Scale) -> TickFormat {
 
 /// 10⁻⁶ for −6.
 fn power_of_ten(exponent: f64) -> String {
-    let raised = format!("{exponent:.0}")
-        .chars()
-        .map(|c| match c {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            digit => digit.to_digit(10).and_then(|digit| char::from_u32(0x2070 + digit)).unwrap_or(digit),
-        })
-        .collect::<String>();
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let text = format!("{exponent:.0}");
+    let raised: String = text.chars().map(|c| c.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize])).collect();
     format!("10{raised}")
 }
 
