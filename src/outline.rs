@@ -1,4 +1,4 @@
-//! Outlines of targets, and signed distances of points from them.
+//! Outlines of targets, and how far a point is from them.
 
 /// The outline of a rigid body in its own frame, COM at the origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub enum Outline {
     },
 }
 
-/// Why corners give no outline.
+/// Why corners are no outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoOutline {
     /// Fewer than three.
@@ -29,7 +29,7 @@ pub enum NoOutline {
     Flat,
 }
 
-/// The distance of a point from an outline.
+/// How a point lies to an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
     /// Distance to the outline, m; negative inside.
@@ -59,7 +59,7 @@ impl Outline {
                 return Err(NoOutline::Crossing(i + 1, j + 1));
             }
         }
-        // after crossings, which may cancel the area and are the better message
+        // a crossing may cancel the area, and says more
         if area.abs() <= 1e-12 * size * size {
             return Err(NoOutline::Flat);
         }
@@ -69,7 +69,7 @@ impl Outline {
         Ok(Self::Polygon { corners })
     }
 
-    /// The signed distance of a point of the body's frame.
+    /// How a point of the body's frame lies to the outline.
     #[must_use]
     pub fn signed_distance(&self, [x, y]: [f64; 2]) -> SignedDistance {
         match self {
@@ -103,7 +103,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
         let away = [to[0] - part * along[0], to[1] - part * along[1]];
         let distance = away[0].hypot(away[1]);
         if distance < nearest.distance {
-            // near a corner the normal points away from it; on the outline it is that of the edge
+            // off a corner the normal is the way from it; at the outline itself there is only the edge's own
             at_corner = (part <= 0.0 || part >= 1.0) && distance > 1e-9 * length;
             let of_edge = [along[1] / length, -along[0] / length];
             nearest = SignedDistance { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
@@ -116,7 +116,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     if !inside {
         return nearest;
     }
-    // inside, a re-entrant corner lies in the direction of the normal
+    // from inside, a re-entrant corner lies outwards
     let normal = if at_corner { nearest.normal.map(|x| -x) } else { nearest.normal };
     SignedDistance { distance: -nearest.distance, normal }
 }
@@ -143,10 +143,58 @@ fn meet((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
     let side = |from: [f64; 2], to: [f64; 2], point: [f64; 2]| cross(minus(to, from), minus(point, from));
     let [of_c, of_d, of_a, of_b] = [side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)];
     if of_c == 0.0 && of_d == 0.0 {
-        // collinear: compare positions along the line
+        // on one line: where they are along it
         let along = |point| dot(minus(point, a), minus(b, a));
         let (low, high) = (along(c).min(along(d)), along(c).max(along(d)));
         return low <= along(b) && high >= 0.0;
     }
     of_c * of_d <= 0.0 && of_a * of_b <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plus_shape() -> Outline {
+        let quarter = [[1.0, -1.0], [3.0, -1.0], [3.0, 1.0]];
+        let turn = |[x, y]: [f64; 2], k: usize| (0..k).fold([x, y], |[x, y], _| [-y, x]);
+        let corners = (0..4).flat_map(|k| quarter.map(|corner| turn(corner, k))).collect();
+        Outline::polygon(corners).expect("an outline with edges on one line")
+    }
+
+    #[test]
+    fn gaps_of_a_plus() {
+        let cases = [
+            ([4.0, 0.0], 1.0, [1.0, 0.0]),
+            ([2.5, 0.0], -0.5, [1.0, 0.0]),
+            ([0.0, -3.5], 0.5, [0.0, -1.0]),
+            // off an outer corner, and inside at a re-entrant one
+            ([3.3, 1.4], 0.5, [0.6, 0.8]),
+            ([0.7, 0.6], -0.5, [0.6, 0.8]),
+        ];
+        for (point, distance, normal) in cases {
+            let signed_distance = plus_shape().signed_distance(point);
+            assert!((signed_distance.distance - distance).abs() < 1e-14, "{point:?}: {signed_distance:?}");
+            assert!(
+                minus(signed_distance.normal, normal).iter().all(|x| x.abs() < 1e-14),
+                "{point:?}: {signed_distance:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn corners_the_other_way_round_are_the_same_outline() {
+        let corners = vec![[0.0, 0.0], [0.0, 1.0], [2.0, 1.0], [2.0, 0.0]];
+        let signed_distance = Outline::polygon(corners).expect("a rectangle").signed_distance([1.0, 1.25]);
+        assert_eq!(signed_distance, SignedDistance { distance: 0.25, normal: [0.0, 1.0] });
+    }
+
+    #[test]
+    fn what_is_no_outline() {
+        let of = |corners: &[[f64; 2]]| Outline::polygon(corners.to_vec()).expect_err("no outline");
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoOutline::TooFew(2));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoOutline::Flat);
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoOutline::Crossing(1, 3));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), NoOutline::Crossing(1, 3));
+    }
 }

@@ -10,7 +10,6 @@ mod events;
 mod figures;
 mod inverse_kinematics;
 mod maximal;
-mod outline;
 mod outputs;
 mod redysim;
 mod reproduction;
