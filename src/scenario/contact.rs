@@ -1,9 +1,5 @@
 //! `[contact]`: how contacts come about and how long they last.
 
-use crate::diagnostic::{NumberRule, Table};
-
-const DURATION: NumberRule = NumberRule::positive("the duration of a contact", "s");
-
 /// When end effectors and targets meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detection {
@@ -21,20 +17,4 @@ pub struct ContactRules {
     pub detection: Detection,
     /// How long an impact takes, s: what turns its impulse into a mean force, and changes nothing else.
     pub duration: Option<f64>,
-}
-
-impl ContactRules {
-    pub(super) const KEYS: [&'static str; 2] = ["detection", "duration"];
-
-    pub(super) fn from_table(table: &Table<'_>) -> Option<Self> {
-        let detection = match table.get("detection") {
-            Some(value) => value.choice(&[("time", Detection::Time), ("event", Detection::Event)]),
-            None => Some(Detection::Time),
-        };
-        let duration = match table.get("duration") {
-            Some(value) => value.number(&DURATION).map(Some),
-            None => Some(None),
-        };
-        Some(Self { detection: detection?, duration: duration? })
-    }
 }

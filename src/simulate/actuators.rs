@@ -2,10 +2,22 @@
 
 use crate::control::{Control, Limited, Sampled};
 use crate::owned::RobotState;
-use crate::scenario::Actuation;
 use crate::simulate::event::Events;
+use crate::simulate::limits::JointLimits;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing, simulate_within};
+
+/// Limits and sample time of a control law.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Actuation {
+    /// The largest torque of each joint in N m, 0 or more; default none.
+    pub torque_limits: Option<Vec<f64>>,
+    /// How many steps each sample of the law is held for (zero-order hold); default none: the law acts continuously.
+    pub steps_per_sample: Option<u32>,
+    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty
+    /// without it.
+    pub joint_limits: Vec<JointLimits>,
+}
 
 /// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate_within`].
 ///

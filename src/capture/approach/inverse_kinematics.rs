@@ -7,7 +7,6 @@ use crate::dynamics::Model;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
 use crate::simulate::{Phase, PhaseError};
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::{PI, TAU};
 
 /// Rounds before giving up; each gains about a digit.
 const MOST_ROUNDS: usize = 80;
@@ -228,35 +227,6 @@ fn damped(jacobian: DMatrix<f64>, missing: &DVector<f64>) -> (DVector<f64>, f64)
     let longest = change.amax();
     let change = if longest > LONGEST_STEP { change * (LONGEST_STEP / longest) } else { change };
     (change, smallest / largest)
-}
-
-impl EndEffectorGoal {
-    /// How many numbers are wanted.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Any => 0,
-            Self::Position(_) => 2,
-            Self::Pose(_) => 3,
-        }
-    }
-
-    /// Whether nothing is wanted.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// (index in a pose, wanted less found) of what is wanted; the yaw to the nearest turn.
-    pub(crate) fn missing(&self, [yaw, x, y]: &[f64; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
-        let turn = |angle: f64| (angle + PI).rem_euclid(TAU) - PI;
-        let [turned, right, up] = match self {
-            Self::Any => [None; 3],
-            Self::Position([to_x, to_y]) => [None, Some(to_x - x), Some(to_y - y)],
-            Self::Pose([to_yaw, to_x, to_y]) => [Some(turn(to_yaw - yaw)), Some(to_x - x), Some(to_y - y)],
-        };
-        [turned, right, up].into_iter().enumerate().filter_map(|(part, missing)| Some((part, missing?)))
-    }
 }
 
 fn start_rates(scenario: &Scenario, joints: usize) -> Vec<f64> {

@@ -3,25 +3,13 @@
 use super::joints::Joints;
 use crate::diagnostic::{NumberRule, Table, Value};
 use crate::simulate::Timing;
-use crate::simulate::limits::JointLimits;
+use crate::simulate::actuators::Actuation;
 
 const TORQUE_LIMIT: NumberRule = NumberRule::non_negative("a torque limit (or one per joint)", "N m");
 const SAMPLE_TIME: NumberRule = NumberRule::positive("a sample time", "s");
 
 /// By how much a sample time may miss a whole number of steps, in steps: rounding of decimal fractions.
 const WHOLE: f64 = 1e-6;
-
-/// Limits and sample time of a control law.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Actuation {
-    /// The largest torque of each joint in N m, 0 or more; default none.
-    pub torque_limits: Option<Vec<f64>>,
-    /// How many steps each sample of the law is held for (zero-order hold); default none: the law acts continuously.
-    pub steps_per_sample: Option<u32>,
-    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty
-    /// without it.
-    pub joint_limits: Vec<JointLimits>,
-}
 
 impl Actuation {
     pub(super) const KEYS: [&'static str; 2] = ["torque_limits", "sample_time"];

@@ -1,14 +1,12 @@
 //! `[approach]` with `tracking = "resolved_motion_rate"`: end effectors that follow paths of their own.
 
-use super::actuation::Actuation;
-use super::approach::{
-    Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking, end_effector_goals, end_effector_twists,
-    trajectory_duration,
-};
+use super::approach::{end_effector_goals, end_effector_twists, trajectory_duration};
 use super::duration_and_step;
 use super::integration;
 use super::joints::Joints;
 use crate::diagnostic::{NumberRule, Table, Value};
+use crate::scenario::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
+use crate::simulate::actuators::Actuation;
 use crate::trajectory::TrajectoryKind;
 
 /// What only this tracking has.

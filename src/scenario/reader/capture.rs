@@ -1,14 +1,12 @@
 //! `[[target]]`, `[contact]`, `[[case]]` and `[post_impact]` together: what is captured, in which variants, and what
 //! follows.
 
-use super::case::Case;
-use super::contact::{ContactRules, Detection};
 use super::joints::Joints;
-use super::post_impact::PostImpact;
-use super::target::{NO_BOUNCE, Target};
+use super::target::NO_BOUNCE;
 use crate::contact::ContactKind;
 use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
+use crate::scenario::{Case, ContactRules, Detection, PostImpact, Target};
 use std::collections::HashSet;
 
 /// What the tables say.

@@ -1,0 +1,206 @@
+//! Scenarios from TOML.
+
+mod actuation;
+mod approach;
+mod capture;
+mod case;
+mod contact;
+mod integration;
+mod joints;
+mod limits;
+mod post_impact;
+mod resolved;
+mod target;
+
+use crate::diagnostic::{NumberRule, Report, Table, Value, read_document, read_text};
+use crate::layout::Layout;
+use crate::owned::RobotState;
+use crate::scenario::{Approach, Scenario, Tracking};
+use joints::Joints;
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+/// The time step where a scenario gives none, in s.
+pub const DEFAULT_STEP: f64 = 0.005;
+
+/// The most steps that one phase may take; more would run for days and fill the disk.
+pub const MOST_STEPS: f64 = 1e8;
+
+const DURATION: NumberRule = NumberRule::positive("a duration", "s");
+const STEP: NumberRule = NumberRule::positive("a time step", "s");
+/// Outboard two turns, an angle is in degrees.
+const MOST_ANGLE: f64 = 4.0 * PI;
+const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
+const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s");
+const POSITION: [NumberRule; 2] = [NumberRule::any("x", "m"), NumberRule::any("y", "m")];
+const POSE: [NumberRule; 3] = [NumberRule::any("yaw", "rad"), NumberRule::any("x", "m"), NumberRule::any("y", "m")];
+const TWIST: [NumberRule; 3] =
+    [NumberRule::any("ω", "rad/s"), NumberRule::any("vx", "m/s"), NumberRule::any("vy", "m/s")];
+
+const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
+const LAYOUT: &str = "a shipped layout's name or the path of a layout file";
+
+/// What a layout was read from.
+#[derive(Debug)]
+pub(crate) struct LayoutSource {
+    /// TOML.
+    pub(crate) text: String,
+    /// As shown to the user.
+    pub(crate) file: String,
+}
+
+impl Scenario {
+    /// Reads a scenario file and the layout that it names.
+    ///
+    /// A layout that ends in `.toml` or contains a `/` is a path relative to the scenario file;
+    /// any other is the name of a `shipped` one, given as pairs of name and TOML text.
+    ///
+    /// # Errors
+    /// All that is wrong with the scenario and with the layout file.
+    pub fn read(path: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        let text = read_text(path, "TOML")?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Self::parse(&text, &path.display().to_string(), folder, shipped)
+    }
+
+    /// Reads a scenario from TOML text; `file` is the name that problems are reported under, and
+    /// a path to a layout is relative to `folder`.
+    ///
+    /// # Errors
+    /// All that is wrong with the content and with the layout file.
+    pub fn parse(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        Self::parse_with_source(text, file, folder, shipped).map(|(scenario, _)| scenario)
+    }
+
+    /// As [`parse`](Self::parse), with the text that the layout was read from.
+    pub(crate) fn parse_with_source(
+        text: &str,
+        file: &str,
+        folder: &Path,
+        shipped: &[(&str, &str)],
+    ) -> Result<(Self, LayoutSource), Report> {
+        const KEYS: [&str; 9] =
+            ["name", "layout", "initial", "limits", "approach", "target", "contact", "case", "post_impact"];
+        read_document(text, file, &KEYS, |root| {
+            let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
+            let (layout, source) =
+                root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped)).unzip();
+            let joints = Joints { layout: layout.as_ref() };
+
+            let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
+            let initial = initial_table.as_ref().and_then(|table| read_initial(table, &joints));
+            let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
+            let approach =
+                root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints, start));
+            if let (Some(table), Some(approach)) = (&initial_table, &approach)
+                && approach.tracking == Tracking::Exact
+                && approach.trajectory.properties().starts_at_rest
+            {
+                require_rest(table, initial.as_ref());
+            }
+            let limits = match root.get("limits") {
+                Some(value) => value.table(&limits::KEYS).and_then(|table| limits::from_table(&table, &joints)),
+                None => Some(Vec::new()),
+            };
+            if let (Some(table), Some(initial), Some(limits)) = (&initial_table, &initial, &limits) {
+                limits::check_initial(table, initial, limits);
+            }
+            let capture = capture::read(root, layout.as_ref(), name.as_deref());
+
+            let capture::Capture { targets, contact, cases, mut post_impact } = capture?;
+            let (mut approach, limits) = (approach?, limits?);
+            if let Some(after) = &mut post_impact {
+                after.actuation.joint_limits.clone_from(&limits);
+            }
+            approach.actuation.joint_limits = limits;
+            let scenario = Self {
+                name: name?,
+                layout: layout?,
+                initial: initial?,
+                approach,
+                targets,
+                contact,
+                cases,
+                post_impact,
+            };
+            Some((scenario, source?))
+        })
+    }
+}
+
+/// Joint angles have to be there, all else is zero where it is not.
+fn read_initial(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
+    let joint_angles =
+        table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
+    let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
+    let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
+    let joint_rates = match table.get("joint_rates") {
+        Some(value) => joints.numbers(&value, &JOINT_RATE),
+        None => Some(joints.repeat(0.0)),
+    };
+    Some(RobotState {
+        joint_angles: joint_angles?,
+        base_pose: base_pose?,
+        base_twist: base_twist?,
+        joint_rates: joint_rates?,
+    })
+}
+
+/// All trajectories but the quintic start at rest, so the arms must too where tracking is exact.
+fn require_rest(table: &Table<'_>, initial: Option<&RobotState>) {
+    let moving = initial.is_some_and(|initial| initial.joint_rates.iter().any(|rate| *rate != 0.0));
+    if let (true, Some(value)) = (moving, table.get("joint_rates")) {
+        value.reject(
+            "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or `trajectory = \"quintic\"`",
+        );
+    }
+}
+
+/// `duration` and `step` of a phase, with a number of steps that can be simulated.
+fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
+    let duration = table.number("duration", &DURATION);
+    let step = table.number_or("step", &STEP, DEFAULT_STEP);
+    let (duration, step) = (duration?, step?);
+    let steps = duration / step;
+    let why = if steps < 1.0 {
+        format!("the step, {step} s, must not be longer than the duration, {duration} s")
+    } else if steps > MOST_STEPS {
+        let least = duration / MOST_STEPS;
+        format!("{duration:?} s would take {steps:.3e} steps, expected at most 1e8 (step >= {least:?} s)")
+    } else {
+        return Some((duration, step));
+    };
+    if let Some(value) = table.get("step").or_else(|| table.get("duration")) {
+        value.reject(&why);
+    }
+    None
+}
+
+/// A name that can be part of a file's name on any system.
+fn file_name(value: &Value<'_>) -> Option<String> {
+    let name = value.text(FILE_NAME)?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
+        value.expected(&format!("{FILE_NAME}, at most 100 of them"), None);
+        return None;
+    }
+    Some(name.to_owned())
+}
+
+/// The layout that a scenario names, and the text that it was read from.
+fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, LayoutSource)> {
+    let name = value.text(LAYOUT)?;
+    let source = if Layout::is_path(name) {
+        // Collected from its components, a path loses its `./`.
+        let path: PathBuf = folder.join(name).components().collect();
+        read_text(&path, "TOML").map(|text| LayoutSource { text, file: path.display().to_string() })
+    } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
+        Ok(LayoutSource { text: (*text).to_owned(), file: format!("{name}.toml (shipped)") })
+    } else {
+        let names: Vec<_> = shipped.iter().map(|(name, _)| *name).collect();
+        value.expected_one_of(&names, Some("or a path, which ends in `.toml` or contains a `/`"));
+        return None;
+    };
+    let layout = source.and_then(|source| Ok((Layout::parse(&source.text, &source.file)?, source)));
+    layout.map_err(|report| value.adopt(report)).ok()
+}
