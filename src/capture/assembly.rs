@@ -105,7 +105,7 @@ impl Assembly {
     /// What a phase moves.
     #[must_use]
     pub fn system(&self) -> System<'_> {
-        System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints }
+        System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints, joint_limits: &[] }
     }
 
     /// Those of the targets, as they are at some time, that are beside the robot.

@@ -35,13 +35,13 @@ pub fn contact_at_time(
     let (mut bodies, mut touching) = (Vec::new(), Vec::new());
     for (i, target) in scenario.targets.iter().enumerate() {
         let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
-        let each = || target.touches.iter().zip(kinds);
+        let each = || target.contacts.iter().zip(kinds);
         let closing = each().any(|(_, kind)| kind.is_some());
         let placed: Vec<[f64; 2]> = each()
             .filter(|(_, kind)| !closing || kind.is_some())
             .filter_map(|(touch, _)| {
                 let [_, x, y] = end_effectors.get(touch.arm)?;
-                Some([x - touch.contact[0], y - touch.contact[1]])
+                Some([x - touch.point[0], y - touch.point[1]])
             })
             .collect();
         #[allow(clippy::cast_precision_loss, reason = "a few arms")]
@@ -53,9 +53,9 @@ pub fn contact_at_time(
             let Some([_, end_effector_x, end_effector_y]) = end_effectors.get(touch.arm) else { continue };
             let offset = [end_effector_x - x, end_effector_y - y];
             let outline =
-                || turned(target.surface.signed_distance(turned(touch.contact, -target.yaw)).normal, target.yaw);
+                || turned(target.outline.signed_distance(turned(touch.point, -target.yaw)).normal, target.yaw);
             if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
-                let miss = (offset[0] - touch.contact[0]).hypot(offset[1] - touch.contact[1]);
+                let miss = (offset[0] - touch.point[0]).hypot(offset[1] - touch.point[1]);
                 touching.push(ImpactContact { target: i, arm: touch.arm, law, offset, miss });
             }
         }

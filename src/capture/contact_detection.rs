@@ -54,7 +54,7 @@ pub(crate) fn signed_distance(
     match scenario.targets.get(target) {
         Some(target) => {
             let signed_distance =
-                target.surface.signed_distance(turned([end_effector[1] - x, end_effector[2] - y], -yaw));
+                target.outline.signed_distance(turned([end_effector[1] - x, end_effector[2] - y], -yaw));
             (signed_distance.distance, turned(signed_distance.normal, yaw))
         }
         None => (f64::INFINITY, [1.0, 0.0]),

@@ -11,7 +11,7 @@ use crate::capture::{CaptureResult, CaseResult, ClosestApproach, FurtherImpact, 
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scenario::{Case, PostCaptureControl, PostImpact, Scenario, Target};
-use crate::simulate::system::Body;
+use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, PhaseError, Sample, Timing};
 
 /// The most impacts of one case.
@@ -166,7 +166,7 @@ impl CaptureSequence<'_> {
     fn pairs(self, attachments: &[Attachment]) -> Vec<ContactPair> {
         let mut pairs = Vec::new();
         for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
-            for (k, (touch, kind)) in target.touches.iter().zip(kinds).enumerate() {
+            for (k, (touch, kind)) in target.contacts.iter().zip(kinds).enumerate() {
                 let held = attachments.iter().any(|grip| grip.arm == touch.arm);
                 if kind.is_some() && !held {
                     pairs.push(ContactPair { target: i, touch: k, arm: touch.arm });
@@ -297,9 +297,9 @@ impl SequenceState<'_> {
         let wheels = wheels(&course.scenario.layout, &self.attachments);
         let wanted = PostCaptureLaw { after: course.after, wheels: &wheels, angles: &self.angles };
         let timing = course.timing(course.after.duration - time);
-        let phase =
-            run_post_capture(&assembly.system(), wanted, state, &timing, &mut contacts, &mut || observer.step())
-                .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
+        let system = System { joint_limits: &course.scenario.joint_limits, ..assembly.system() };
+        let phase = run_post_capture(&system, wanted, state, &timing, &mut contacts, &mut || observer.step())
+            .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
         let along: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();

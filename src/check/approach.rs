@@ -162,7 +162,7 @@ fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
 /// Where the approach should end beyond the limits of its joints. (An initial state there is refused.)
 fn beyond_limits(scenario: &Scenario) -> Vec<Warning> {
     let approach = &scenario.approach;
-    let limits = || approach.actuation.joint_limits.iter().enumerate();
+    let limits = || scenario.joint_limits.iter().enumerate();
     let angles = match approach.final_end_effector_poses {
         Some(_) => &[][..], // not known before the run, or a first guess
         None => &approach.final_joint_angles,

@@ -34,7 +34,7 @@ pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     }
     let designed = matches!(scenario.approach.end, FinalRates::EndEffectorTwists(_));
     let captures =
-        |i| designed || scenario.targets.iter().flat_map(|target| &target.touches).any(|touch| touch.arm == i);
+        |i| designed || scenario.targets.iter().flat_map(|target| &target.contacts).any(|touch| touch.arm == i);
     let arms = scenario.layout.arms.iter().enumerate();
     let arms: Vec<_> = arms.filter(|(i, arm)| captures(*i) && arm.links.len() >= 3 && arm.reach() > 0.0).collect();
     let (_, jacobian) = reduced(&scenario.layout, &scenario.approach.final_joint_angles)?;

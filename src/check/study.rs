@@ -192,10 +192,10 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
     let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
     write!(out, "\n{}", row(head))?;
     for target in &scenario.targets {
-        let names = target.touches.iter().filter_map(|touch| Some(scenario.layout.arms.get(touch.arm)?.name.as_str()));
+        let names = target.contacts.iter().filter_map(|touch| Some(scenario.layout.arms.get(touch.arm)?.name.as_str()));
         let arm = names.collect::<Vec<_>>().join(", ");
         let contact = match scenario.contact.detection {
-            Detection::Time => target.touches.iter().map(|touch| point(touch.contact)).collect::<Vec<_>>().join(", "),
+            Detection::Time => target.contacts.iter().map(|touch| point(touch.point)).collect::<Vec<_>>().join(", "),
             Detection::Event => "detected".to_owned(),
         };
         let reach = of_contact(scenario, target);

@@ -49,12 +49,12 @@ fn heavy(scenario: &Scenario, target: &Target) -> Option<Odd> {
 }
 
 fn off_rim(target: &Target) -> Option<Odd> {
-    let size = target.surface.reach();
-    let apart = |touch: &PlannedContact| target.surface.signed_distance(turned(touch.contact, -target.yaw)).distance;
-    let touch = target.touches.iter().find(|touch| apart(touch).abs() > RIM * size)?;
-    let why = match target.surface {
+    let size = target.outline.reach();
+    let apart = |touch: &PlannedContact| target.outline.signed_distance(turned(touch.point, -target.yaw)).distance;
+    let touch = target.contacts.iter().find(|touch| apart(touch).abs() > RIM * size)?;
+    let why = match target.outline {
         Outline::Disc { radius } => {
-            let [x, y] = touch.contact;
+            let [x, y] = touch.point;
             format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
         }
         Outline::Polygon { .. } if apart(touch) > 0.0 => format!("{} m outside the polygon", short(apart(touch))),
@@ -66,8 +66,8 @@ fn off_rim(target: &Target) -> Option<Odd> {
 
 fn inertia(target: &Target) -> Option<Odd> {
     // whichever is meant to be its size
-    let [x, y] = target.contact();
-    let size = target.surface.reach().max(x.hypot(y));
+    let [x, y] = target.contacts[0].point;
+    let size = target.outline.reach().max(x.hypot(y));
     let ring = target.mass * size * size;
     (target.inertia > ring * (1.0 + 1e-9)).then(|| {
         let why = format!("more than a ring of its mass and size has, {} kg m²: mass · radius²", short(ring));
@@ -78,7 +78,7 @@ fn inertia(target: &Target) -> Option<Odd> {
 }
 
 fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
-    let mut arms = target.touches.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm));
+    let mut arms = target.contacts.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm));
     let arm = arms.find(|arm| arm.reach() == 0.0)?;
     let why = format!("`{}` has no length, it is a reaction wheel, which takes hold of nothing", arm.name);
     let longer: Vec<_> =
@@ -89,7 +89,7 @@ fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Odd> {
 /// A loop closed by more constraints than its arms have joints: the impulses at its contacts cannot be told apart.
 fn too_few_joints(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd> {
     let joints: usize =
-        target.touches.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm)).map(|arm| arm.links.len()).sum();
+        target.contacts.iter().filter_map(|touch| scenario.layout.arms.get(touch.arm)).map(|arm| arm.links.len()).sum();
     let constraints =
         |kinds: &Vec<Option<ContactKind>>| -> usize { kinds.iter().flatten().map(|kind| kind.constraints()).sum() };
     let most = scenario.cases.iter().filter_map(|case| case.kinds.get(i)).map(constraints).max()?;
@@ -103,8 +103,8 @@ fn too_few_joints(scenario: &Scenario, i: usize, target: &Target) -> Option<Odd>
 /// [`distance_and_most`] of the contact point; `None` also where the target's place is not given.
 pub(super) fn of_contact(scenario: &Scenario, target: &Target) -> Option<(f64, f64)> {
     let [x, y] = target.position.filter(|_| scenario.contact.detection == Detection::Time)?;
-    let [rx, ry] = target.contact();
-    distance_and_most(scenario, target.arm(), [x + rx, y + ry])
+    let [rx, ry] = target.contacts[0].point;
+    distance_and_most(scenario, target.contacts[0].arm, [x + rx, y + ry])
 }
 
 /// The distance of a point from the robot's COM at the end of the approach, and the most at which the arm can have its

@@ -39,7 +39,7 @@ impl fmt::Debug for Adaptive {
 
 impl Adaptive {
     /// Smallest tolerance: beyond it rounding is larger.
-    pub const LEAST_TOLERANCE: f64 = 1e-14;
+    pub const SMALLEST_TOLERANCE: f64 = 1e-14;
 
     /// With this tolerance, relative and per unit; to be [started](Self::start).
     #[must_use]

@@ -101,10 +101,10 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
 /// m.
 fn wanted_contact(scenario: &Scenario, arm: usize) -> Option<(&str, [f64; 2])> {
     let at_time = scenario.targets.iter().filter(|_| scenario.contact.detection == Detection::Time);
-    let mut touches = at_time.flat_map(|target| target.touches.iter().map(move |touch| (target, touch)));
+    let mut touches = at_time.flat_map(|target| target.contacts.iter().map(move |touch| (target, touch)));
     let (target, touch) = touches.find(|(_, touch)| touch.arm == arm)?;
     let [x, y] = target.position?;
-    Some((&target.name, [x + touch.contact[0], y + touch.contact[1]]))
+    Some((&target.name, [x + touch.point[0], y + touch.point[1]]))
 }
 
 /// Times at the torque limits, and violations of the joint limits, of a phase that has such limits.

@@ -49,8 +49,10 @@ fn targets(run: &Run) -> String {
     let [mass, radius, inertia] = TARGET;
     let mut rows = Vec::new();
     for (target, [x, y]) in run.scenario.targets.iter().zip(LOCATIONS) {
-        let Some([_, end_effector_x, end_effector_y]) = end.end_effector_poses.get(target.arm()) else { continue };
-        let [rx, ry] = target.contact();
+        let Some([_, end_effector_x, end_effector_y]) = end.end_effector_poses.get(target.contacts[0].arm) else {
+            continue;
+        };
+        let [rx, ry] = target.contacts[0].point;
         let place = [end_effector_x - rx, end_effector_y - ry];
         rows.push(vec![
             target.name.clone(),
@@ -58,7 +60,7 @@ fn targets(run: &Run) -> String {
             format!(
                 "{} kg, {} m, {} kg m², taken at {}",
                 target.mass,
-                target.surface.reach(),
+                target.outline.reach(),
                 target.inertia,
                 point(place, 4)
             ),

@@ -90,6 +90,31 @@ pub enum Tracking {
     },
 }
 
+impl FinalRates {
+    /// Whether all given rates or twists are zero.
+    #[must_use]
+    pub fn is_rest(&self) -> bool {
+        match self {
+            Self::Rest => true,
+            Self::JointRates(rates) => rates.iter().all(|rate| *rate == 0.0),
+            Self::EndEffectorTwists(twists) => twists.as_flattened().iter().flatten().all(|part| *part == 0.0),
+        }
+    }
+}
+
+impl Tracking {
+    /// As in a scenario.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::ProportionalDerivative { .. } => "pd",
+            Self::ResolvedMotionRate { .. } => "resolved_motion_rate",
+            Self::ComputedTorque { .. } => "computed_torque",
+        }
+    }
+}
+
 impl Approach {
     /// How long the trajectory takes, in s.
     #[must_use]

@@ -1,6 +1,7 @@
 //! `[[case]]`: variants of a capture.
 
 use crate::contact::ContactKind;
+use crate::scenario::Target;
 
 /// One variant of the capture. All lists are in the targets' order.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,11 +10,25 @@ pub struct Case {
     pub name: String,
     /// Twist of each target before the impact; default the target's own.
     pub target_twists: Vec<[f64; 3]>,
-    /// What each target's contacts do, in the order of its arms; default the target's own.
+    /// Kinds of each target's contacts, in the order of its arms; default the target's own.
     pub kinds: Vec<Vec<Option<ContactKind>>>,
-    /// Of bounces off each target; default the target's own.
+    /// Coefficient of restitution of each target's bounces; default the target's own.
     pub restitutions: Vec<f64>,
-    /// Impulse magnitude at each target's contact as somebody else reports it, N s; shown beside what is computed, and
-    /// used for nothing else.
+    /// Published impulse magnitude at each target's contact, N s; shown beside the computed one and used for nothing
+    /// else.
     pub printed_impulses: Vec<Option<f64>>,
+}
+
+impl Case {
+    /// The case with the targets' own twists, kinds of contact and restitutions.
+    #[must_use]
+    pub fn of_targets(name: &str, targets: &[Target]) -> Self {
+        Self {
+            name: name.to_owned(),
+            target_twists: targets.iter().map(|target| target.twist).collect(),
+            kinds: targets.iter().map(|target| target.contacts.iter().map(|contact| contact.kind).collect()).collect(),
+            restitutions: targets.iter().map(|target| target.restitution).collect(),
+            printed_impulses: vec![None; targets.len()],
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Scenarios: what a run simulates, read from TOML.
+//! Scenarios: the robot, its approach, the targets and the motion after their capture, as plain data read from TOML.
 
 mod approach;
 mod case;
@@ -9,13 +9,13 @@ mod target;
 
 use crate::layout::Layout;
 use crate::owned::RobotState;
+use crate::simulate::limits::JointLimits;
 
 pub use crate::simulate::actuators::Actuation;
 pub use approach::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
 pub use case::Case;
 pub use contact::{ContactRules, Detection};
 pub use post_impact::{PostCaptureControl, PostImpact};
-pub use reader::{DEFAULT_STEP, MOST_STEPS};
 pub use target::{PlannedContact, Target, contact_name};
 
 /// An approach and, where there are targets, their capture and the motion after it.
@@ -29,11 +29,14 @@ pub struct Scenario {
     pub layout: Layout,
     /// The state at the start of the approach.
     pub initial: RobotState,
+    /// Ranges of the joint angles and rates, one per joint, which are checked in every phase and not enforced; empty
+    /// without `[limits]`.
+    pub joint_limits: Vec<JointLimits>,
     /// The motion of the arms towards the targets.
     pub approach: Approach,
-    /// What the arms capture, at most one target per arm; empty for an approach alone.
+    /// The bodies that the arms capture, at most one per arm; empty for an approach alone.
     pub targets: Vec<Target>,
-    /// How contacts come about.
+    /// When contacts begin, and how long an impact takes.
     pub contact: ContactRules,
     /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
     pub cases: Vec<Case>,

@@ -3,9 +3,8 @@
 use crate::control::{Control, Limited, Sampled};
 use crate::owned::RobotState;
 use crate::simulate::event::Events;
-use crate::simulate::limits::JointLimits;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, PhaseError, Timing, simulate_within};
+use crate::simulate::{Phase, PhaseError, Timing, simulate};
 
 /// Limits and sample time of a control law.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,12 +13,9 @@ pub struct Actuation {
     pub torque_limits: Option<Vec<f64>>,
     /// How many steps each sample of the law is held for (zero-order hold); default none: the law acts continuously.
     pub steps_per_sample: Option<u32>,
-    /// How far and how fast the joints may turn, one per joint, from `[limits]`: watched, whatever the law; empty
-    /// without it.
-    pub joint_limits: Vec<JointLimits>,
 }
 
-/// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate_within`].
+/// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate()`].
 ///
 /// # Errors
 /// When and why it stopped.
@@ -50,5 +46,5 @@ pub fn drive(
         }
         None => law,
     };
-    simulate_within(system, &actuation.joint_limits, law, initial, timing, events, tick)
+    simulate(system, law, initial, timing, events, tick)
 }

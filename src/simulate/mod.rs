@@ -20,7 +20,7 @@ use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::integration::Integration;
-use crate::simulate::limits::{JointLimits, LimitViolations};
+use crate::simulate::limits::LimitViolations;
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Stepper;
 use crate::simulate::system::{Body, System};
@@ -180,26 +180,10 @@ impl PhaseError {
 /// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
 ///
 /// # Errors
-/// The time and the reason where the model or the law has no answer (singular, not finite), and where the integrator
-/// has none.
+/// Time and reason of a singular matrix or a number that is not finite in model or law, and of an adaptive integrator
+/// that does not reach its tolerance.
 pub fn simulate(
     system: &System<'_>,
-    control: &mut dyn Control<f64>,
-    initial: &RobotState,
-    timing: &Timing,
-    events: &mut dyn Events,
-    tick: &mut dyn FnMut(),
-) -> Result<Phase, PhaseError> {
-    simulate_within(system, &[], control, initial, timing, events, tick)
-}
-
-/// The same, and reports where joints go beyond their limits: one per joint, or none.
-///
-/// # Errors
-/// As [`simulate()`].
-pub fn simulate_within(
-    system: &System<'_>,
-    limits: &[JointLimits],
     control: &mut dyn Control<f64>,
     initial: &RobotState,
     timing: &Timing,
@@ -210,7 +194,7 @@ pub fn simulate_within(
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut locator = EventLocator::new(system, events);
-    let mut phase = Recorder::new(system, limits, &initial.view()).map_err(at(0.0))?;
+    let mut phase = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);

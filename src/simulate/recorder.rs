@@ -4,7 +4,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
-use crate::simulate::limits::{JointLimits, LimitViolations};
+use crate::simulate::limits::LimitViolations;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{ActuatorWork, State};
@@ -20,7 +20,6 @@ pub(crate) struct Recorder<'a> {
     saturated: Vec<bool>,
     base_saturated: bool,
     constraint_errors: [f64; 2],
-    limits: &'a [JointLimits],
     limit_violations: LimitViolations,
 }
 
@@ -29,11 +28,7 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// What the model says.
-    pub(crate) fn new(
-        system: &'a System<'a>,
-        limits: &'a [JointLimits],
-        start: &State<'_, f64>,
-    ) -> Result<Self, Error> {
+    pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
         Ok(Self {
             system,
             audit: ConservationAudit::new(system.model, start, system.bodies)?,
@@ -43,7 +38,6 @@ impl<'a> Recorder<'a> {
             saturated: Vec::new(),
             base_saturated: false,
             constraint_errors: [0.0; 2],
-            limits,
             limit_violations: LimitViolations::default(),
         })
     }
@@ -66,7 +60,7 @@ impl<'a> Recorder<'a> {
         let done = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let open = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
-        self.limit_violations.look(self.limits, time, &state);
+        self.limit_violations.look(self.system.joint_limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &done)?;
         if begins {
@@ -110,7 +104,7 @@ impl<'a> Recorder<'a> {
 
     /// The phase, so long.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
-        let Self { samples, audit, saturation, constraint_errors, limits, limit_violations, .. } = self;
+        let Self { system, samples, audit, saturation, constraint_errors, limit_violations, .. } = self;
         Phase {
             duration,
             event,
@@ -119,7 +113,7 @@ impl<'a> Recorder<'a> {
             saturation,
             constraint_errors,
             singularity_margin: None,
-            limit_violations: (!limits.is_empty()).then_some(limit_violations),
+            limit_violations: (!system.joint_limits.is_empty()).then_some(limit_violations),
         }
     }
 }

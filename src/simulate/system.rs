@@ -5,6 +5,7 @@ use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::formulation::derivative;
+use crate::simulate::limits::JointLimits;
 use crate::state::{Coordinates, CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut, vector_length};
 
 /// A rigid body beside the robot.
@@ -17,15 +18,17 @@ pub struct System<'a> {
     pub model: &'a dyn Model<f64>,
     /// The bodies beside it: held as the closures say, free where none does.
     pub bodies: &'a [Body],
-    /// Holds of end effectors on the bodies, and on what other end effectors hold.
+    /// Constraints between end effectors and bodies, or between two end effectors.
     pub constraints: &'a [LoopConstraint<f64>],
+    /// Ranges of the joints, one per joint, which are checked and not enforced; empty where there are none.
+    pub joint_limits: &'a [JointLimits],
 }
 
 impl<'a> System<'a> {
     /// A robot alone.
     #[must_use]
     pub fn alone(model: &'a dyn Model<f64>) -> Self {
-        Self { model, bodies: &[], constraints: &[] }
+        Self { model, bodies: &[], constraints: &[], joint_limits: &[] }
     }
 
     /// The integrated vector at the start, from the robot's state.

@@ -321,7 +321,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         &["twists[0]` is [1, 0, 0]", "expected [vx, vy]"],
     ),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[1]]", 8, &["poses[0]` is [1]", "[yaw, x, y]"]),
-    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "nothing is wanted"]),
+    ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = [[]]", 8, &["is [[]]", "no arm has a pose"]),
     ("\"quartic\"", "\"quartic\"\nfinal_end_effector_poses = []", 8, &["is []", "per arm", "found 0"]),
     ("\"quartic\"", "\"quartic\"\nsample_time = 0", 8, &["`approach.sample_time` is 0", "in s greater than 0"]),
     (

@@ -137,9 +137,8 @@ fn the_largest_excess_is_found() {
         scenario.approach.actuation.steps_per_sample = scenario.approach.actuation.steps_per_sample.map(|_| 1);
         scenario.approach.tracking = tracking.unwrap_or(scenario.approach.tracking);
         let limits = limited(&scenario.layout, [-1.45, 2.5], 0.12);
-        scenario.approach.actuation.joint_limits.clone_from(&limits);
-        let after = scenario.post_impact.as_mut().expect("a capture");
-        (after.step, after.actuation.joint_limits) = (0.05, limits);
+        scenario.joint_limits = limits;
+        scenario.post_impact.as_mut().expect("a capture").step = 0.05;
         let study = run(&scenario);
         studies.push((scenario, study));
     }
@@ -182,7 +181,7 @@ fn limits_are_read_joint_by_joint() {
     let read = |limits: &str| -> Vec<JointLimits> {
         let text = text.replace("[approach]", &format!("{limits}\n[approach]"));
         let scenario = Scenario::parse(&text, "it.toml", std::path::Path::new(""), registry::SHIPPED);
-        scenario.unwrap_or_else(|report| panic!("{report}")).approach.actuation.joint_limits
+        scenario.unwrap_or_else(|report| panic!("{report}")).joint_limits
     };
     assert_eq!(read(""), []);
     let found = read("[limits]\njoint_angles = [[-2, 2.0], [], [-1.6, 1.3]]\njoint_rates = 0.2");
@@ -227,11 +226,9 @@ fn limits_are_watched_and_not_enforced() {
     let mut scenario = scenario("stabilised_capture");
     scenario.cases.truncate(1);
     let free = run(&scenario);
-    let limits = limited(&scenario.layout, [-0.1, 0.1], 0.01);
-    scenario.approach.actuation.joint_limits.clone_from(&limits);
-    let after = scenario.post_impact.as_mut().expect("a capture");
+    scenario.joint_limits = limited(&scenario.layout, [-0.1, 0.1], 0.01);
+    let after = scenario.post_impact.as_ref().expect("a capture");
     assert!(matches!(after.control, PostCaptureControl::Stabilise { .. }));
-    after.actuation.joint_limits = limits;
     let watched = run(&scenario);
     assert_eq!(free.approach.samples, watched.approach.samples);
     let of = |study: &planar_capture::capture::Study| {

@@ -165,7 +165,7 @@ fn both_coordinates_take_a_base_torque() {
 fn bodies_beside_the_robot() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
-    let system = System { model: &*model, bodies: &[body], constraints: &[] };
+    let system = System { model: &*model, bodies: &[body], constraints: &[], joint_limits: &[] };
     let run = |scheme, coordinates| {
         let integration = Integration { scheme, coordinates };
         let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
@@ -201,7 +201,7 @@ fn a_closed_loop_by_every_scheme() {
         LoopConstraint::new(&contact, &tips[arm], &pose).expect("a hold")
     };
     let constraints = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
-    let system = System { model: &*model, bodies: &[body], constraints: &constraints };
+    let system = System { model: &*model, bodies: &[body], constraints: &constraints, joint_limits: &[] };
     let wanted: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |scheme, step| {
         let timing =

@@ -57,7 +57,7 @@ impl Hold {
 fn signed_distance(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f64; 2]) {
     let body = all.bodies[1 + all.joints.len() + target];
     let away = all.position(&all.tips[arm]) - body.com();
-    match &scenario.targets[target].surface {
+    match &scenario.targets[target].outline {
         Outline::Disc { radius } => (away.norm() - radius, (away / away.norm()).into()),
         Outline::Polygon { corners } => {
             let next = corners.iter().cycle().skip(1);
@@ -220,7 +220,7 @@ fn rebounds_are_detected() {
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let approach = result.approach(&study);
         let touches: Vec<_> =
-            scenario.targets.iter().enumerate().map(|(i, target)| (i, target.touches[0].arm)).collect();
+            scenario.targets.iter().enumerate().map(|(i, target)| (i, target.contacts[0].arm)).collect();
         for (i, sample) in approach.samples.iter().enumerate() {
             let targets: Vec<_> = result.targets_before(approach.duration - sample.time);
             let all = system(&scenario, &sample.state, &targets, &[]);

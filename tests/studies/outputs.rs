@@ -417,7 +417,7 @@ mod mcap_files {
         let study = run(&scenario);
         // not convex
         let corners = vec![[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.0, -0.5], [0.0, 0.0], [0.5, 0.0]];
-        scenario.targets[0].surface = Outline::polygon(corners.clone()).expect("a polygon");
+        scenario.targets[0].outline = Outline::polygon(corners.clone()).expect("a polygon");
         let (_, file) = record(&scenario, &study, &study.cases[0]);
         let scene = SceneUpdate::decode(&file.messages["/scene"][0].1[..]).expect("a scene");
         let entity = scene.entities.iter().find(|entity| entity.id == "targets/target1").expect("the target");

@@ -184,7 +184,7 @@ fn every_shipped_study_passes_its_audit() {
             // the paper's equations are about rigid captures: there is no literal result of others
             let rigid = |contact: &ContactResult| contact.touching.law.kind() == ContactKind::Rigid;
             let contacts = &captured.impact.contacts;
-            let of_the_paper = scenario(&name).targets.iter().all(|target| target.touches.len() == 1);
+            let of_the_paper = scenario(&name).targets.iter().all(|target| target.contacts.len() == 1);
             assert_eq!(
                 captured.impact.paper.is_some(),
                 of_the_paper && !contacts.is_empty() && contacts.iter().all(rigid),

@@ -12,7 +12,7 @@ use crate::scenario::{Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::system::System;
-use crate::simulate::{Phase, PhaseError, Timing, simulate_within};
+use crate::simulate::{Phase, PhaseError, Timing, simulate};
 use crate::trajectory::{AnyTrajectory, Ends};
 
 /// The approach of one scenario.
@@ -62,7 +62,7 @@ impl<'a> Approach<'a> {
         let initial = RobotState::of(&self.scenario.initial.view());
         let actuation = &self.scenario.approach.actuation;
         let mut drive = |law: &mut dyn Control<f64>| {
-            drive(&System::alone(model), law, actuation, &initial, &self.timing, events, tick)
+            drive(&self.system(model), law, actuation, &initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
             Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
@@ -123,8 +123,11 @@ impl<'a> Approach<'a> {
                 self.scenario.initial.joint_rates.clone()
             },
         };
-        let limits = &self.scenario.approach.actuation.joint_limits;
-        simulate_within(&System::alone(model), limits, &mut law, &initial, &self.timing, events, tick)
+        simulate(&self.system(model), &mut law, &initial, &self.timing, events, tick)
+    }
+
+    fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {
+        System { joint_limits: &self.scenario.joint_limits, ..System::alone(model) }
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {

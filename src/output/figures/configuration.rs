@@ -115,7 +115,7 @@ pub(super) fn post_impact_motion(
             snapshot.free.push(FreeTarget {
                 series,
                 centre: [x, y],
-                radius: scenario.targets[target].surface.reach(),
+                radius: scenario.targets[target].outline.reach(),
                 in_contact: i == 0 && contacts_until(0).any(|contact| contact.target == target),
             });
         }

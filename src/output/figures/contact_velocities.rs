@@ -72,7 +72,7 @@ fn contact_twists(
         let (kind, body) = (law.kind(), &scenario.targets[target]);
         // v + ω × r
         let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];
-        let arm_name = (body.touches.len() > 1).then(|| format!(" at {}", scenario.layout.arms[arm].name));
+        let arm_name = (body.contacts.len() > 1).then(|| format!(" at {}", scenario.layout.arms[arm].name));
         let time = (i > 0).then(|| format!(", {:.1} s", event.time));
         let kind_name = (kind != ContactKind::Rigid).then(|| format!(" ({})", kind.name()));
         let additions: String = [arm_name, time, kind_name].into_iter().flatten().collect();

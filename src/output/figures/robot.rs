@@ -36,10 +36,10 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
 pub(super) fn target(target: &Target, colour: Colour, pose: [f64; 3], end_effectors: &[[f64; 2]]) -> Vec<Series> {
     let [_, x, y] = pose;
     let mut ends = end_effectors.to_vec();
-    if let (Outline::Disc { radius }, []) = (&target.surface, end_effectors) {
+    if let (Outline::Disc { radius }, []) = (&target.outline, end_effectors) {
         ends.push(point(pose, [*radius, 0.0]));
     }
-    let mut series = vec![outline(&target.name, colour, Dash::Solid, &Shape::Outline(target.surface.clone()), pose)];
+    let mut series = vec![outline(&target.name, colour, Dash::Solid, &Shape::Outline(target.outline.clone()), pose)];
     let spoke = |end: [f64; 2]| line(&target.name, colour, Dash::Solid, OUTLINE_WIDTH, vec![(x, y), end.into()]);
     series.extend(ends.into_iter().map(spoke));
     series
@@ -70,7 +70,7 @@ pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Seri
 
 /// The outline of a target at its expected position.
 pub(super) fn expected_target(label: &str, target: &Target, [x, y]: [f64; 2]) -> Series {
-    outline(label, Colour::GREY, Dash::Dashed, &Shape::Outline(target.surface.clone()), [target.yaw, x, y])
+    outline(label, Colour::GREY, Dash::Dashed, &Shape::Outline(target.outline.clone()), [target.yaw, x, y])
 }
 
 fn outline(label: &str, colour: Colour, dash: Dash, shape: &Shape, pose: [f64; 3]) -> Series {

@@ -51,7 +51,7 @@ fn planned_contacts<'a>(
 ) -> impl Iterator<Item = (usize, usize, Option<ContactKind>)> + 'a {
     let targets = scenario.targets.iter().zip(&case.kinds).enumerate();
     targets.flat_map(|(i, (target, kinds))| {
-        target.touches.iter().zip(kinds).map(move |(touch, kind)| (i, touch.arm, *kind))
+        target.contacts.iter().zip(kinds).map(move |(touch, kind)| (i, touch.arm, *kind))
     })
 }
 

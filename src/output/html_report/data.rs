@@ -19,8 +19,8 @@ pub(super) fn data(scenario: &Scenario, study: &Study) -> Value {
         "layout": robot(&scenario.layout),
         "contact_duration": scenario.contact.duration,
         "targets": scenario.targets.iter().map(|target| json!({
-            "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.surface.reach(),
-            "polygon": match &target.surface {
+            "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.outline.reach(),
+            "polygon": match &target.outline {
                 Outline::Disc { .. } => None,
                 Outline::Polygon { corners } => Some(corners),
             },

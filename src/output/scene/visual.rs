@@ -61,7 +61,7 @@ pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
                 (link_shape(links[joint], width), colour(PALETTE[frame.arm? % PALETTE.len()], 1.0), width)
             }
             Motion::Target(target) => {
-                (Shape::Outline(scenario.targets[target].surface.clone()), colour(TARGET, 0.5), width)
+                (Shape::Outline(scenario.targets[target].outline.clone()), colour(TARGET, 0.5), width)
             }
             // an end effector is a point
             Motion::Fixed => return None,

@@ -1,33 +1,31 @@
 //! `integrator`, `tolerance` and `coordinates`: how a phase is integrated.
 
+use super::read_or;
 use crate::diagnostic::{NumberRule, Table};
 use crate::integrate::Adaptive;
 use crate::simulate::integration::{Formulation, Integration, Scheme};
 
-pub(super) const KEYS: [&str; 3] = ["integrator", "tolerance", "coordinates"];
-
 const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 
-/// Looser is no longer what anybody wants of an order 9.
-const MOST_TOLERANCE: f64 = 1e-3;
+/// Largest tolerance: beyond it an integrator of order 9 follows no motion.
+const LARGEST_TOLERANCE: f64 = 1e-3;
 
 pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
-    let scheme = match table.get("integrator") {
-        Some(value) => value.choice(&Scheme::ALL.map(|scheme| (scheme.properties().name, scheme))),
-        None => Some(Scheme::RungeKutta4),
-    };
-    let coordinates = match table.get("coordinates") {
-        Some(value) => value.choice(&[("full", Formulation::Full), ("reduced", Formulation::Reduced)]),
-        None => Some(Formulation::Full),
-    };
-    if let (Some(scheme), Some(Formulation::Reduced), Some(value)) = (scheme, coordinates, table.get("coordinates"))
-        && scheme.properties().is_canonical
-    {
-        let name = scheme.properties().name;
-        value
-            .reject(&format!("{name} keeps the momentum in full coordinates, expected \"full\" or another integrator"));
-        return None;
-    }
+    let scheme = read_or(table, "integrator", Scheme::RungeKutta4, |value| {
+        value.choice(&Scheme::ALL.map(|scheme| (scheme.properties().name, scheme)))
+    });
+    let coordinates = read_or(table, "coordinates", Formulation::Full, |value| {
+        let coordinates = value.choice(&[("full", Formulation::Full), ("reduced", Formulation::Reduced)])?;
+        let properties = scheme.map(Scheme::properties).filter(|properties| properties.is_canonical);
+        if let (Some(properties), Formulation::Reduced) = (properties, coordinates) {
+            let name = properties.name;
+            value.reject(&format!(
+                "{name} keeps the momentum in full coordinates, expected \"full\" or another integrator"
+            ));
+            return None;
+        }
+        Some(coordinates)
+    });
     let tolerance = tolerance(table, scheme);
     let scheme = match scheme? {
         Scheme::Adaptive { .. } => Scheme::Adaptive { tolerance: tolerance? },
@@ -43,10 +41,10 @@ fn tolerance(table: &Table<'_>, scheme: Option<Scheme>) -> Option<f64> {
         return None;
     }
     let tolerance = value.number(&TOLERANCE)?;
-    let least = Adaptive::LEAST_TOLERANCE;
-    if !(least..=MOST_TOLERANCE).contains(&tolerance) {
+    let smallest = Adaptive::SMALLEST_TOLERANCE;
+    if !(smallest..=LARGEST_TOLERANCE).contains(&tolerance) {
         value.reject(&format!(
-            "expected {least:e} to {MOST_TOLERANCE:e}: less is lost in rounding, more is no longer a motion"
+            "expected {smallest:e} to {LARGEST_TOLERANCE:e}: less is lost in rounding, more is no longer a motion"
         ));
         return None;
     }

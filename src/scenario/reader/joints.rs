@@ -1,9 +1,9 @@
-//! Checking lists against the joints and arms of the layout.
+//! Lists with one entry per joint or arm, checked against the layout.
 
 use crate::diagnostic::{NumberRule, Table, Value};
 use crate::layout::Layout;
 
-/// The joints that lists are checked against; nothing is known of them where the layout is broken.
+/// The joints and arms that lists are checked against; not checked where the layout could not be read.
 pub(super) struct Joints<'a> {
     pub(super) layout: Option<&'a Layout>,
 }
@@ -18,36 +18,44 @@ impl Joints<'_> {
         format!("{} numbers, one per joint ({})", layout.joints(), arms.join(", "))
     }
 
-    /// A list with one number per joint; notes the first that is wrong.
-    pub(super) fn numbers(&self, value: &Value<'_>, quantity: &NumberRule) -> Option<Vec<f64>> {
+    /// Rejects a list that has not one entry per joint.
+    pub(super) fn check_length(&self, value: &Value<'_>, found: usize, expected: &str) -> Option<()> {
+        check_length(value, found, self.layout.map(Layout::joints), expected)
+    }
+
+    /// A list with one number per joint; the first that is wrong is noted.
+    pub(super) fn numbers(&self, value: &Value<'_>, rule: &NumberRule) -> Option<Vec<f64>> {
         let items = value.items(&self.one_each())?;
-        check_length(value, items.len(), self.layout.map(Layout::joints), &self.one_each())?;
-        items.iter().map(|item| item.number(quantity)).collect()
+        self.check_length(value, items.len(), &self.one_each())?;
+        items.iter().map(|item| item.number(rule)).collect()
     }
 
     /// One number for all joints, or a list with one per joint.
-    pub(super) fn one_or_each(&self, value: &Value<'_>, quantity: &NumberRule) -> Option<Vec<f64>> {
+    pub(super) fn one_or_each(&self, value: &Value<'_>, rule: &NumberRule) -> Option<Vec<f64>> {
         if value.is_array() {
-            return self.numbers(value, quantity);
+            return self.numbers(value, rule);
         }
-        value.number(quantity).map(|number| self.repeat(number))
+        value.number(rule).map(|number| self.repeat(number))
     }
 
-    /// The gain under a key, or the default for every joint.
-    pub(super) fn gain(&self, table: &Table<'_>, key: &str, quantity: &NumberRule, default: f64) -> Option<Vec<f64>> {
-        table.get(key).map_or_else(|| Some(self.repeat(default)), |value| self.one_or_each(&value, quantity))
+    /// Puts the gain under a key, if given, in place of the default.
+    pub(super) fn read_gain(&self, table: &Table<'_>, key: &str, rule: &NumberRule, gain: &mut Vec<f64>) -> Option<()> {
+        if let Some(value) = table.get(key) {
+            *gain = self.one_or_each(&value, rule)?;
+        }
+        Some(())
     }
 
-    /// The same number for every joint.
-    pub(super) fn repeat(&self, number: f64) -> Vec<f64> {
-        vec![number; self.layout.map_or(0, Layout::joints)]
+    /// The same entry for every joint.
+    pub(super) fn repeat<T: Clone>(&self, entry: T) -> Vec<T> {
+        vec![entry; self.layout.map_or(0, Layout::joints)]
     }
 }
 
-/// `None`, with a note, where a list has another length than the layout asks for.
-pub(super) fn check_length(value: &Value<'_>, found: usize, right: Option<usize>, wanted: &str) -> Option<()> {
-    if right.is_some_and(|right| right != found) {
-        value.expected(&format!("{wanted}, found {found}"), None);
+/// Rejects a list of another length than the expected one, where that is known.
+pub(super) fn check_length(value: &Value<'_>, found: usize, length: Option<usize>, expected: &str) -> Option<()> {
+    if length.is_some_and(|length| length != found) {
+        value.expected(&format!("{expected}, found {found}"), None);
         return None;
     }
     Some(())

@@ -1,36 +1,34 @@
-//! Scenarios from TOML.
+//! Scenarios from TOML. Every reader notes all that is wrong with its table, so that one report shows it all.
 
 mod actuation;
 mod approach;
 mod capture;
 mod case;
-mod contact;
 mod integration;
 mod joints;
 mod limits;
 mod post_impact;
-mod resolved;
 mod target;
 
 use crate::diagnostic::{NumberRule, Report, Table, Value, read_document, read_text};
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::{Approach, Scenario, Tracking};
+use crate::scenario::{Scenario, Tracking};
 use joints::Joints;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
 /// The time step where a scenario gives none, in s.
-pub const DEFAULT_STEP: f64 = 0.005;
+const DEFAULT_STEP: f64 = 0.005;
 
 /// The most steps that one phase may take; more would run for days and fill the disk.
-pub const MOST_STEPS: f64 = 1e8;
+const MOST_STEPS: f64 = 1e8;
 
 const DURATION: NumberRule = NumberRule::positive("a duration", "s");
 const STEP: NumberRule = NumberRule::positive("a time step", "s");
-/// Outboard two turns, an angle is in degrees.
-const MOST_ANGLE: f64 = 4.0 * PI;
-const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(MOST_ANGLE);
+/// Two turns; a larger angle is taken for one in degrees.
+const LARGEST_ANGLE: f64 = 4.0 * PI;
+const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(LARGEST_ANGLE);
 const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s");
 const POSITION: [NumberRule; 2] = [NumberRule::any("x", "m"), NumberRule::any("y", "m")];
 const POSE: [NumberRule; 3] = [NumberRule::any("yaw", "rad"), NumberRule::any("x", "m"), NumberRule::any("y", "m")];
@@ -84,76 +82,69 @@ impl Scenario {
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
             let (layout, source) =
-                root.require("layout", LAYOUT).and_then(|value| find(&value, folder, shipped)).unzip();
+                root.require("layout", LAYOUT).and_then(|value| find_layout(&value, folder, shipped)).unzip();
             let joints = Joints { layout: layout.as_ref() };
 
             let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
-            let initial = initial_table.as_ref().and_then(|table| read_initial(table, &joints));
+            let initial = initial_table.as_ref().and_then(|table| initial_state(table, &joints));
             let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
             let approach =
-                root.table("approach", &Approach::KEYS).and_then(|table| Approach::from_table(&table, &joints, start));
-            if let (Some(table), Some(approach)) = (&initial_table, &approach)
-                && approach.tracking == Tracking::Exact
-                && approach.trajectory.properties().starts_at_rest
-            {
-                require_rest(table, initial.as_ref());
+                root.table("approach", approach::KEYS).and_then(|table| approach::approach(&table, &joints, start));
+            let limits =
+                read_or(root, "limits", Vec::new(), |value| limits::joint_limits(&value.table(limits::KEYS)?, &joints));
+            if let (Some(table), Some(initial)) = (&initial_table, &initial) {
+                let from_rest = approach.as_ref().is_some_and(|approach| {
+                    approach.tracking == Tracking::Exact && approach.trajectory.properties().starts_at_rest
+                });
+                if from_rest && initial.joint_rates.iter().any(|rate| *rate != 0.0) {
+                    let why = "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or \
+                               `trajectory = \"quintic\"`";
+                    reject_keys(table, &["joint_rates"], why);
+                }
+                limits::check_initial(table, initial, limits.as_deref().unwrap_or_default());
             }
-            let limits = match root.get("limits") {
-                Some(value) => value.table(&limits::KEYS).and_then(|table| limits::from_table(&table, &joints)),
-                None => Some(Vec::new()),
-            };
-            if let (Some(table), Some(initial), Some(limits)) = (&initial_table, &initial, &limits) {
-                limits::check_initial(table, initial, limits);
-            }
-            let capture = capture::read(root, layout.as_ref(), name.as_deref());
-
-            let capture::Capture { targets, contact, cases, mut post_impact } = capture?;
-            let (mut approach, limits) = (approach?, limits?);
-            if let Some(after) = &mut post_impact {
-                after.actuation.joint_limits.clone_from(&limits);
-            }
-            approach.actuation.joint_limits = limits;
+            let capture = capture::capture(root, layout.as_ref(), name.as_deref())?;
             let scenario = Self {
                 name: name?,
                 layout: layout?,
                 initial: initial?,
-                approach,
-                targets,
-                contact,
-                cases,
-                post_impact,
+                joint_limits: limits?,
+                approach: approach?,
+                targets: capture.targets,
+                contact: capture.contact,
+                cases: capture.cases,
+                post_impact: capture.post_impact,
             };
             Some((scenario, source?))
         })
     }
 }
 
-/// Joint angles have to be there, all else is zero where it is not.
-fn read_initial(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
+/// What `read` makes of the value of a key; the default where the key is not given.
+fn read_or<'a, T>(table: &Table<'a>, key: &str, default: T, read: impl FnOnce(&Value<'a>) -> Option<T>) -> Option<T> {
+    table.get(key).map_or(Some(default), |value| read(&value))
+}
+
+/// Rejects each of the keys that is given.
+fn reject_keys(table: &Table<'_>, keys: &[&str], why: &str) {
+    for value in keys.iter().filter_map(|key| table.get(key)) {
+        value.reject(why);
+    }
+}
+
+/// The state at the start; joint angles must be given, all else is zero by default.
+fn initial_state(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
     let joint_angles =
         table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
     let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
     let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
-    let joint_rates = match table.get("joint_rates") {
-        Some(value) => joints.numbers(&value, &JOINT_RATE),
-        None => Some(joints.repeat(0.0)),
-    };
+    let joint_rates = read_or(table, "joint_rates", joints.repeat(0.0), |value| joints.numbers(value, &JOINT_RATE));
     Some(RobotState {
         joint_angles: joint_angles?,
         base_pose: base_pose?,
         base_twist: base_twist?,
         joint_rates: joint_rates?,
     })
-}
-
-/// All trajectories but the quintic start at rest, so the arms must too where tracking is exact.
-fn require_rest(table: &Table<'_>, initial: Option<&RobotState>) {
-    let moving = initial.is_some_and(|initial| initial.joint_rates.iter().any(|rate| *rate != 0.0));
-    if let (true, Some(value)) = (moving, table.get("joint_rates")) {
-        value.reject(
-            "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or `trajectory = \"quintic\"`",
-        );
-    }
 }
 
 /// `duration` and `step` of a phase, with a number of steps that can be simulated.
@@ -188,10 +179,10 @@ fn file_name(value: &Value<'_>) -> Option<String> {
 }
 
 /// The layout that a scenario names, and the text that it was read from.
-fn find(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, LayoutSource)> {
+fn find_layout(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, LayoutSource)> {
     let name = value.text(LAYOUT)?;
     let source = if Layout::is_path(name) {
-        // Collected from its components, a path loses its `./`.
+        // collecting the components drops `./`
         let path: PathBuf = folder.join(name).components().collect();
         read_text(&path, "TOML").map(|text| LayoutSource { text, file: path.display().to_string() })
     } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {

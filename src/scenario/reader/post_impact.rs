@@ -1,9 +1,10 @@
-//! The `[post_impact]` table: what follows the capture.
+//! The `[post_impact]` table.
 
-use super::duration_and_step;
-use super::integration;
+use super::actuation::actuation;
+use super::integration::integration;
 use super::joints::Joints;
-use crate::diagnostic::{NumberRule, Table};
+use super::{duration_and_step, read_or, reject_keys};
+use crate::diagnostic::{NumberRule, Table, every};
 use crate::scenario::{PostCaptureControl, PostImpact};
 use crate::simulate::actuators::Actuation;
 
@@ -14,99 +15,77 @@ const JOINT_DECAY: NumberRule =
 const BASE_DECAY: NumberRule = NumberRule::non_negative("a gain of the base rate", "1/s");
 const BASE_TORQUE: NumberRule = NumberRule::non_negative("a limit of the torque on the base", "N m");
 
-impl PostCaptureControl {
-    fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
-        let choice = match table.get("control") {
-            Some(value) => value.choice(&Choice::ALL)?,
-            None => Choice::None,
-        };
-        choice.reject_others(table);
-        let gain = |key, quantity, default| joints.gain(table, key, quantity, default);
-        Some(match choice {
-            Choice::None => Self::None,
-            Choice::Hold => {
-                let proportional_gain = gain("proportional_gain", &STIFFNESS, 49.0);
-                let derivative_gain = gain("derivative_gain", &DAMPING, 14.0);
-                Self::Hold { proportional_gain: proportional_gain?, derivative_gain: derivative_gain? }
-            }
-            Choice::Damping => Self::Damping { derivative_gain: gain("derivative_gain", &DAMPING, 7.0)? },
-            Choice::Stabilise => {
-                let derivative_gain = gain("derivative_gain", &JOINT_DECAY, 0.5);
-                let base_gain = table.number_or("base_gain", &BASE_DECAY, 0.5);
-                let base_torque_limit = match table.get("base_torque_limit") {
-                    Some(value) => value.number(&BASE_TORQUE).map(Some),
-                    None => Some(None),
-                };
-                Self::Stabilise {
-                    derivative_gain: derivative_gain?,
-                    base_gain: base_gain?,
-                    base_torque_limit: base_torque_limit?,
-                }
-            }
-        })
-    }
+pub(super) const KEYS: &[&str] = &[
+    "duration",
+    "step",
+    "integrator",
+    "tolerance",
+    "coordinates",
+    "control",
+    "proportional_gain",
+    "derivative_gain",
+    "base_gain",
+    "base_torque_limit",
+    "torque_limits",
+    "sample_time",
+];
+
+pub(super) fn post_impact(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostImpact> {
+    let times = duration_and_step(table);
+    let control = control(table, joints);
+    let actuation = match control {
+        Some(PostCaptureControl::None) => Some(Actuation::default()),
+        _ => actuation(table, times, joints),
+    };
+    let integration = integration(table);
+    let (duration, step) = times?;
+    Some(PostImpact { duration, step, control: control?, actuation: actuation?, integration: integration? })
 }
 
-/// The value of `control`.
-#[derive(Clone, Copy)]
-enum Choice {
-    None,
-    Hold,
-    Damping,
-    Stabilise,
+/// The laws with their default gains; the default law first.
+fn laws(joints: &Joints<'_>) -> [PostCaptureControl; 4] {
+    [
+        PostCaptureControl::None,
+        PostCaptureControl::Hold { proportional_gain: joints.repeat(49.0), derivative_gain: joints.repeat(14.0) },
+        PostCaptureControl::Damping { derivative_gain: joints.repeat(7.0) },
+        PostCaptureControl::Stabilise { derivative_gain: joints.repeat(0.5), base_gain: 0.5, base_torque_limit: None },
+    ]
 }
 
-impl Choice {
-    const ALL: [(&'static str, Self); 4] =
-        [("none", Self::None), ("hold", Self::Hold), ("damping", Self::Damping), ("stabilise", Self::Stabilise)];
-
-    /// Notes the keys that are about another law.
-    fn reject_others(self, table: &Table<'_>) {
-        let (others, why): (&[&str], _) = match self {
-            Self::None => (
-                &PostImpact::KEYS[6..],
-                "without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it",
-            ),
-            Self::Hold => (&["base_gain", "base_torque_limit"], "only `control = \"stabilise\"` acts on the base"),
-            Self::Damping => (
-                &["proportional_gain", "base_gain", "base_torque_limit"],
-                "damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it",
-            ),
-            Self::Stabilise => {
-                (&["proportional_gain"], "stabilisation wants no angles, expected `control = \"hold\"` with it")
-            }
-        };
-        for value in others.iter().filter_map(|key| table.get(key)) {
-            value.reject(why);
+/// The law of the table, with the table's gains in place of the defaults.
+fn control(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostCaptureControl> {
+    let laws = laws(joints);
+    let mut law =
+        read_or(table, "control", &laws[0], |value| value.choice(&laws.each_ref().map(|law| (law.name(), law))))?
+            .clone();
+    match &mut law {
+        PostCaptureControl::None => reject_keys(
+            table,
+            &["proportional_gain", "derivative_gain", "base_gain", "base_torque_limit", "torque_limits", "sample_time"],
+            "without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it",
+        ),
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
+            let why = "only `control = \"stabilise\"` acts on the base";
+            reject_keys(table, &["base_gain", "base_torque_limit"], why);
+            every([
+                joints.read_gain(table, "proportional_gain", &STIFFNESS, proportional_gain),
+                joints.read_gain(table, "derivative_gain", &DAMPING, derivative_gain),
+            ])?;
+        }
+        PostCaptureControl::Damping { derivative_gain } => {
+            let why = "damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it";
+            reject_keys(table, &["proportional_gain", "base_gain", "base_torque_limit"], why);
+            joints.read_gain(table, "derivative_gain", &DAMPING, derivative_gain)?;
+        }
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
+            let why = "stabilisation wants no angles, expected `control = \"hold\"` with it";
+            reject_keys(table, &["proportional_gain"], why);
+            let joint_gain = joints.read_gain(table, "derivative_gain", &JOINT_DECAY, derivative_gain);
+            let gain = table.number_or("base_gain", &BASE_DECAY, *base_gain);
+            let limit = read_or(table, "base_torque_limit", None, |value| value.number(&BASE_TORQUE).map(Some));
+            joint_gain?;
+            (*base_gain, *base_torque_limit) = (gain?, limit?);
         }
     }
-}
-
-impl PostImpact {
-    pub(super) const KEYS: [&'static str; 12] = [
-        "duration",
-        "step",
-        integration::KEYS[0],
-        integration::KEYS[1],
-        integration::KEYS[2],
-        "control",
-        "proportional_gain",
-        "derivative_gain",
-        "base_gain",
-        "base_torque_limit",
-        Actuation::KEYS[0],
-        Actuation::KEYS[1],
-    ];
-
-    pub(super) fn from_table(table: &Table<'_>, joints: &Joints<'_>) -> Option<Self> {
-        let times = duration_and_step(table);
-        let control = PostCaptureControl::from_table(table, joints);
-        let actuation = match control {
-            Some(PostCaptureControl::None) => Some(Actuation::default()),
-            _ => Actuation::from_table(table, times, joints),
-        };
-        let integration = integration::integration(table);
-        let (duration, step) = times?;
-        Some(Self { duration, step, control: control?, actuation: actuation?, integration: integration? })
-    }
+    Some(law)
 }

@@ -1,13 +1,12 @@
-//! `[[target]]`: what the arms touch, and how.
+//! `[[target]]`: the bodies that arms touch.
 
 use super::joints::check_length;
-use super::{POSITION, TWIST};
+use super::{POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
 use crate::diagnostic::{NumberRule, Table, Value, every, listing};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::scenario::target::NONE;
-use crate::scenario::{Detection, PlannedContact, Target};
+use crate::scenario::{Detection, PlannedContact, Target, contact_name};
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
@@ -16,105 +15,98 @@ const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²"
 const RADIUS: NumberRule = NumberRule::positive("a radius", "m");
 const YAW: NumberRule = NumberRule::any("a yaw", "rad").not_degrees(4.0 * PI);
 const RESTITUTION: NumberRule = NumberRule::any("a restitution, 0 (nothing comes back) to 1 (all of it)", "");
-const CONTACTS: &str = "[rx, ry] in m, or a list of those, one per arm";
-const CONTACT: [NumberRule; 2] = [NumberRule::any("rx", "m"), NumberRule::any("ry", "m")];
+const POINTS: &str = "[rx, ry] in m, or a list of those, one per arm";
+const POINT: [NumberRule; 2] = [NumberRule::any("rx", "m"), NumberRule::any("ry", "m")];
+
+pub(super) const KEYS: &[&str] = &[
+    "name",
+    "arm",
+    "mass",
+    "inertia",
+    "contact",
+    "radius",
+    "polygon",
+    "kind",
+    "restitution",
+    "twist",
+    "yaw",
+    "position",
+];
 
 pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
 
 pub(super) const NO_BOUNCE: &str =
     "no contact of the target bounces, and what holds gives nothing back, expected `bounce` as a kind of it";
 
-/// The kinds of contacts, and none: a grasp that fails.
-fn kinds() -> Vec<(&'static str, Option<ContactKind>)> {
-    let all = ContactKind::ALL.iter().map(|kind| (kind.name(), Some(*kind)));
-    all.chain([(NONE, None)]).collect()
+pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Target> {
+    let name = table.text("name", "a name");
+    let arms = table
+        .require("arm", "the name of an arm of the layout, or a list of such names")
+        .and_then(|value| arms(&value, layout?));
+    let count = arms.as_ref().map(Vec::len);
+    let points = contact_points(table, count, detection);
+    let kinds = match table.get("kind") {
+        Some(value) => contact_kinds(&value, count),
+        None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
+    };
+    let mass = table.number("mass", &MASS);
+    let inertia = table.number("inertia", &INERTIA);
+    let outline = outline(table);
+    let restitution = read_or(table, "restitution", 0.0, restitution);
+    let twist = table.vector_or("twist", &TWIST, [0.0; 3]);
+    let yaw = table.number_or("yaw", &YAW, 0.0);
+    let position = match detection {
+        Detection::Event => {
+            let expected = "[x, y] of its COM at the start in m, from where it flies to the contact";
+            table.require("position", expected).and_then(|value| value.vector(&POSITION)).map(Some)
+        }
+        Detection::Time => read_or(table, "position", None, |value| value.vector(&POSITION).map(Some)),
+    };
+    let contacts = arms?.into_iter().zip(points?).zip(kinds?);
+    let target = Target {
+        name: name?.to_owned(),
+        contacts: contacts.map(|((arm, point), kind)| PlannedContact { arm, point, kind }).collect(),
+        mass: mass?,
+        inertia: inertia?,
+        outline: outline?,
+        restitution: restitution?,
+        twist: twist?,
+        yaw: yaw?,
+        position: position?,
+    };
+    let kinds: Vec<_> = target.contacts.iter().map(|contact| contact.kind).collect();
+    if detection == Detection::Time && bounces_at_com(&target, &kinds) {
+        if let Some(value) = table.get("contact") {
+            value.reject(NO_NORMAL);
+        }
+        return None;
+    }
+    Some(target)
 }
 
-/// One kind for all touches, or a list of as many.
-pub(super) fn contact_kinds(value: &Value<'_>, touches: Option<usize>) -> Option<Vec<Option<ContactKind>>> {
-    let kinds = kinds();
+/// Whether one of the contacts, of these kinds, would bounce at the COM of a disc, where there is no outward normal.
+pub(super) fn bounces_at_com(target: &Target, kinds: &[Option<ContactKind>]) -> bool {
+    let mut contacts = target.contacts.iter().zip(kinds);
+    let at_com = contacts.any(|(contact, kind)| *kind == Some(ContactKind::Bounce) && contact.point == [0.0; 2]);
+    at_com && matches!(target.outline, Outline::Disc { .. })
+}
+
+/// One kind for all contacts, or a list with one per contact.
+pub(super) fn contact_kinds(value: &Value<'_>, count: Option<usize>) -> Option<Vec<Option<ContactKind>>> {
+    let kinds = ContactKind::ALL.iter().copied().map(Some).chain([None]);
+    let kinds: Vec<_> = kinds.map(|kind| (contact_name(kind), kind)).collect();
     if !value.is_array() {
         let kind = value.choice(&kinds)?;
-        return Some(vec![kind; touches.unwrap_or(1)]);
+        return Some(vec![kind; count.unwrap_or(1)]);
     }
     let names: Vec<_> = kinds.iter().map(|(name, _)| *name).collect();
-    let wanted = for_each(touches, &listing(&names, "or"));
-    let items = value.items(&wanted)?;
-    check_length(value, items.len(), touches, &wanted)?;
+    let expected = for_each(count, &listing(&names, "or"));
+    let items = value.items(&expected)?;
+    check_length(value, items.len(), count, &expected)?;
     every(items.iter().map(|item| item.choice(&kinds)))
 }
 
-impl Target {
-    pub(super) const KEYS: [&'static str; 12] = [
-        "name",
-        "arm",
-        "mass",
-        "inertia",
-        "contact",
-        "radius",
-        "polygon",
-        "kind",
-        "restitution",
-        "twist",
-        "yaw",
-        "position",
-    ];
-
-    pub(super) fn from_table(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Self> {
-        let name = table.text("name", "a name");
-        let arms = table
-            .require("arm", "the name of an arm of the layout, or a list of such names")
-            .and_then(|value| arms(&value, layout?));
-        let count = arms.as_ref().map(Vec::len);
-        let contacts = contacts(table, count, detection);
-        let kinds = match table.get("kind") {
-            Some(value) => contact_kinds(&value, count),
-            None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
-        };
-        let mass = table.number("mass", &MASS);
-        let inertia = table.number("inertia", &INERTIA);
-        let surface = surface(table);
-        let restitution = match table.get("restitution") {
-            Some(value) => restitution(&value),
-            None => Some(0.0),
-        };
-        let twist = table.vector_or("twist", &TWIST, [0.0; 3]);
-        let yaw = table.number_or("yaw", &YAW, 0.0);
-        let wanted = "[x, y] of its COM at the start in m, from where it flies to the contact";
-        let position = match detection {
-            Detection::Event => table.require("position", wanted).and_then(|value| value.vector(&POSITION)).map(Some),
-            Detection::Time => table.get("position").map_or(Some(None), |value| value.vector(&POSITION).map(Some)),
-        };
-        let touches: Vec<_> = arms?
-            .into_iter()
-            .zip(contacts?)
-            .zip(kinds?)
-            .map(|((arm, contact), kind)| PlannedContact { arm, contact, kind })
-            .collect();
-        let surface = surface?;
-        let target = Self {
-            name: name?.to_owned(),
-            touches,
-            mass: mass?,
-            inertia: inertia?,
-            surface,
-            restitution: restitution?,
-            twist: twist?,
-            yaw: yaw?,
-            position: position?,
-        };
-        let kinds: Vec<_> = target.touches.iter().map(|touch| touch.kind).collect();
-        if detection == Detection::Time && target.bounces_at_its_com(&kinds) {
-            if let Some(value) = table.get("contact") {
-                value.reject(NO_NORMAL);
-            }
-            return None;
-        }
-        Some(target)
-    }
-}
-
-/// A restitution: no more than 1 comes back.
+/// A restitution from 0 to 1.
 pub(super) fn restitution(value: &Value<'_>) -> Option<f64> {
     let restitution = value.number(&RESTITUTION)?;
     if !(0.0..=1.0).contains(&restitution) {
@@ -153,8 +145,8 @@ fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
     index
 }
 
-/// `contact`: one point, or one for each of several arms.
-fn contacts(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Option<Vec<[f64; 2]>> {
+/// `contact`: one point, or one for each of several arms; zeros where contacts are found by detection.
+fn contact_points(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Option<Vec<[f64; 2]>> {
     if detection == Detection::Event {
         if let Some(value) = table.get("contact") {
             value.reject("contacts are found where tip and surface meet (`contact.detection`), expected no such key");
@@ -162,19 +154,19 @@ fn contacts(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Opt
         }
         return arms.map(|arms| vec![[0.0; 2]; arms]);
     }
-    let value = table.require("contact", CONTACTS)?;
-    let items = value.items(CONTACTS)?;
-    let wanted = for_each(arms, "a contact point [rx, ry] in m");
+    let value = table.require("contact", POINTS)?;
+    let items = value.items(POINTS)?;
+    let expected = for_each(arms, "a contact point [rx, ry] in m");
     if !items.iter().any(Value::is_array) && (arms == Some(1) || !items.is_empty()) {
-        let contact = value.vector(&CONTACT)?;
-        check_length(&value, 1, arms, &wanted)?;
-        return Some(vec![contact]);
+        let point = value.vector(&POINT)?;
+        check_length(&value, 1, arms, &expected)?;
+        return Some(vec![point]);
     }
-    check_length(&value, items.len(), arms, &wanted)?;
-    every(items.iter().map(|item| item.vector(&CONTACT)))
+    check_length(&value, items.len(), arms, &expected)?;
+    every(items.iter().map(|item| item.vector(&POINT)))
 }
 
-/// What is wanted in a list, and how often.
+/// What a list holds, and for how many arms.
 fn for_each(arms: Option<usize>, what: &str) -> String {
     match arms {
         Some(1) => format!("{what} for the one arm that touches it"),
@@ -184,37 +176,34 @@ fn for_each(arms: Option<usize>, what: &str) -> String {
 }
 
 /// `radius` or `polygon`.
-fn surface(table: &Table<'_>) -> Option<Outline> {
+fn outline(table: &Table<'_>) -> Option<Outline> {
     match (table.get("radius"), table.get("polygon")) {
+        // a misspelt `polygon` is noted already
+        (None, None) if table.is_misspelt("polygon") => None,
         (None, None) => {
-            // unless one of them is misspelt, which was said
-            if !table.is_misspelt("polygon") {
-                let _ = table.require("radius", &format!("{RADIUS}, or the corners of a `polygon` in its place"));
-            }
-            None
+            let expected = format!("{RADIUS}, or the corners of a `polygon` in its place");
+            table.require("radius", &expected).and(None)
         }
         (Some(_), Some(polygon)) => {
             polygon.reject("`radius` is there too, expected one of the two");
             None
         }
-        (Some(_), None) => table.number("radius", &RADIUS).map(|radius| Outline::Disc { radius }),
+        (Some(value), None) => value.number(&RADIUS).map(|radius| Outline::Disc { radius }),
         (None, Some(value)) => {
             let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
             let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;
-            let surrounded = surrounded(&corners);
-            let surface = Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
-            if !surrounded {
+            let surround = surround_origin(&corners);
+            let outline = Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
+            if !surround {
                 value.reject("the COM, from which corners are counted, is outside, expected corners around [0, 0]");
-                return None;
             }
-            Some(surface)
+            surround.then_some(outline)
         }
     }
 }
 
-/// Whether the origin is inside the convex hull of some corners, as every COM is: from there the corners are all
-/// around.
-fn surrounded(corners: &[[f64; 2]]) -> bool {
+/// Whether the origin is inside the convex hull of the corners, as every COM is: no half plane through it is empty.
+fn surround_origin(corners: &[[f64; 2]]) -> bool {
     let mut directions: Vec<f64> =
         corners.iter().filter(|[x, y]| x.hypot(*y) > 0.0).map(|[x, y]| y.atan2(*x)).collect();
     directions.sort_by(f64::total_cmp);

@@ -83,7 +83,7 @@ fn a_rigid_hold_is_a_merged_link() {
     let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
     let held = [Body { twist: twists[0], ..body }];
     let constraints = [LoopConstraint::new(&contact, &tip, &body.pose).expect("a hold")];
-    let system = System { model: &model, bodies: &held, constraints: &constraints };
+    let system = System { model: &model, bodies: &held, constraints: &constraints, joint_limits: &[] };
     let by_forces = simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
     let mut merged = model;
@@ -124,7 +124,7 @@ fn a_loop_stays_closed() {
         let held = [Body { twist: twists[0], ..body }];
         let constraint = |(contact, tip)| LoopConstraint::new(contact, tip, &body.pose).expect("a hold");
         let constraints: Vec<_> = contacts.iter().zip(&both).map(constraint).collect();
-        let system = System { model: &model, bodies: &held, constraints: &constraints };
+        let system = System { model: &model, bodies: &held, constraints: &constraints, joint_limits: &[] };
         let drift = |step: f64| {
             let timing = Timing { duration: 2.0, step, sample: 2.0, ..Timing::default() };
             let phase =
