@@ -77,7 +77,7 @@ impl Assembly {
                         Some(Target { mass, inertia, contact: [end_effector[1] - x, end_effector[2] - y], twist });
                     TargetPlacement::Merged {
                         arm: *arm,
-                        offset: turned([x - end_effector[1], y - end_effector[2]], -end_effector[0]),
+                        offset: rotated([x - end_effector[1], y - end_effector[2]], -end_effector[0]),
                         yaw: yaw - end_effector[0],
                     }
                 }
@@ -145,7 +145,7 @@ impl Assembly {
             TargetPlacement::Merged { arm, offset, yaw } => {
                 let [end_effector_yaw, x, y] = end_effectors[arm];
                 let [omega, vx, vy] = end_effector_twists[arm];
-                let [rx, ry] = turned(offset, end_effector_yaw);
+                let [rx, ry] = rotated(offset, end_effector_yaw);
                 Body {
                     pose: [end_effector_yaw + yaw, x + rx, y + ry],
                     twist: [omega, vx - omega * ry, vy + omega * rx],
@@ -157,8 +157,8 @@ impl Assembly {
     }
 }
 
-/// A vector turned by an angle, rad.
-pub(crate) fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+/// A vector rotated by an angle, rad.
+pub(crate) fn rotated([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]
 }

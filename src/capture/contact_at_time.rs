@@ -1,8 +1,8 @@
-//! End effectors and targets at the instant of an impact: where they touch, and how.
+//! Positions of the targets and contacts of an impact at the end of the approach, from the poses of the end effectors.
 
-use crate::capture::assembly::turned;
-use crate::contact::{ContactKind, ContactLaw};
-use crate::scenario::{Case, Scenario};
+use crate::capture::assembly::rotated;
+use crate::contact::ContactLaw;
+use crate::scenario::{Case, PlannedContact, Scenario};
 use crate::simulate::system::Body;
 
 /// One contact of an end effector with a target.
@@ -12,62 +12,46 @@ pub struct ImpactContact {
     pub target: usize,
     /// Index of the arm.
     pub arm: usize,
-    /// What the contact does.
+    /// Rigid, pinned, or bouncing with its normal and restitution.
     pub law: ContactLaw<f64>,
     /// From the COM of the target to the end effector, inertial axes, m.
     pub offset: [f64; 2],
-    /// Distance of the end effector from where the contact was wanted on the target, m: between several end effectors
-    /// on one target.
+    /// Distance of the end effector from the planned contact point, m; not zero where several end effectors hold one
+    /// target, or where the contact is found by detection.
     pub miss: f64,
 }
 
-/// The targets at the end of an approach that ends by time: each is where the end effectors put it, and contacts are
-/// where the end effectors are. With one arm that is the end effector less the wanted contact; with several the mean of
-/// that.
+/// The targets at the end of an approach that ends by time, and their contacts: end effectors touch where they are. A
+/// target is at its end effector less the planned contact point, or, with several arms, at the mean of these.
 ///
-/// Yaws are the scenario's. A target that no arm takes hold of is where its arms would have, had they closed.
+/// Yaws are the scenario's. A target whose grasps all fail is where its arms would have held it.
 #[must_use]
 pub fn contact_at_time(
     scenario: &Scenario,
     case: &Case,
     end_effectors: &[[f64; 3]],
 ) -> (Vec<Body>, Vec<ImpactContact>) {
-    let (mut bodies, mut touching) = (Vec::new(), Vec::new());
+    let (mut bodies, mut contacts) = (Vec::new(), Vec::new());
     for (i, target) in scenario.targets.iter().enumerate() {
-        let kinds = case.kinds.get(i).map_or(&[][..], Vec::as_slice);
-        let each = || target.contacts.iter().zip(kinds);
-        let closing = each().any(|(_, kind)| kind.is_some());
-        let placed: Vec<[f64; 2]> = each()
-            .filter(|(_, kind)| !closing || kind.is_some())
-            .filter_map(|(touch, _)| {
-                let [_, x, y] = end_effectors.get(touch.arm)?;
-                Some([x - touch.point[0], y - touch.point[1]])
-            })
+        let planned = || target.contacts.iter().zip(&case.kinds[i]);
+        let all_fail = planned().all(|(_, kind)| kind.is_none());
+        let positions: Vec<[f64; 2]> = planned()
+            .filter(|(_, kind)| all_fail || kind.is_some())
+            .map(|(contact, _)| [0, 1].map(|axis| end_effectors[contact.arm][1 + axis] - contact.point[axis]))
             .collect();
         #[allow(clippy::cast_precision_loss, reason = "a few arms")]
-        let mean = |axis: usize| placed.iter().map(|place| place[axis]).sum::<f64>() / placed.len().max(1) as f64;
+        let mean = |axis: usize| positions.iter().map(|position| position[axis]).sum::<f64>() / positions.len() as f64;
         let (x, y) = (mean(0), mean(1));
-        let twist = case.target_twists.get(i).copied().unwrap_or(target.twist);
-        bodies.push(Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist });
-        for (touch, kind) in each() {
-            let Some([_, end_effector_x, end_effector_y]) = end_effectors.get(touch.arm) else { continue };
-            let offset = [end_effector_x - x, end_effector_y - y];
-            let outline =
-                || turned(target.outline.signed_distance(turned(touch.point, -target.yaw)).normal, target.yaw);
-            if let Some(law) = contact_law(*kind, outline, case.restitutions.get(i).copied()) {
-                let miss = (offset[0] - touch.point[0]).hypot(offset[1] - touch.point[1]);
-                touching.push(ImpactContact { target: i, arm: touch.arm, law, offset, miss });
-            }
+        let pose = [target.yaw, x, y];
+        bodies.push(Body { mass: target.mass, inertia: target.inertia, pose, twist: case.target_twists[i] });
+        for (PlannedContact { arm, point, .. }, kind) in planned() {
+            let Some(kind) = kind else { continue };
+            let normal = || rotated(target.outline.signed_distance(rotated(*point, -target.yaw)).normal, target.yaw);
+            let law = ContactLaw::new(*kind, normal, case.restitutions[i]);
+            let offset = [end_effectors[*arm][1] - x, end_effectors[*arm][2] - y];
+            let miss = (offset[0] - point[0]).hypot(offset[1] - point[1]);
+            contacts.push(ImpactContact { target: i, arm: *arm, law, offset, miss });
         }
     }
-    (bodies, touching)
-}
-
-/// The law of a contact; `None` where the end effector does nothing.
-pub(crate) fn contact_law(
-    kind: Option<ContactKind>,
-    normal: impl FnOnce() -> [f64; 2],
-    restitution: Option<f64>,
-) -> Option<ContactLaw<f64>> {
-    kind.map(|kind| ContactLaw::new(kind, normal, restitution.unwrap_or_default()))
+    (bodies, contacts)
 }

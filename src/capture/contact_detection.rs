@@ -1,45 +1,46 @@
-//! Contacts found by detection: the gaps between end effectors and their targets as events.
+//! Contact detection: events where the signed distance of an end effector from the outline of its target falls to zero.
 
-use crate::capture::assembly::{Assembly, turned};
+use crate::capture::assembly::{Assembly, rotated};
 use crate::error::Error;
+use crate::outline::SignedDistance;
 use crate::scenario::Scenario;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::system::Body;
 
-/// How the targets move meanwhile.
+/// How the targets move during a phase.
 #[derive(Clone, Copy)]
 pub enum TargetMotion<'a> {
-    /// All of them freely, from these poses at the start of the phase.
+    /// All freely, from these poses at the start of the phase.
     Free(&'a [Body]),
-    /// As an assembly has them; these are their properties.
+    /// With or beside the robot of an assembly; the bodies give mass and inertia.
     Assembled(&'a Assembly, &'a [Body]),
 }
 
-/// One value for each pair of an end effector and its target that may meet: the distance of the end effector from the
-/// target's outline, m, negative inside.
+/// One event for each pair: its value is the distance of the end effector from the outline of the target, m, negative
+/// inside.
 pub struct ContactDetection<'a> {
     scenario: &'a Scenario,
-    flight: TargetMotion<'a>,
+    motion: TargetMotion<'a>,
     pairs: Vec<ContactPair>,
     end_effectors: Vec<[f64; 3]>,
 }
 
-/// An end effector and a target.
+/// An end effector and a target that may come into contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ContactPair {
     /// Index of the target.
     pub target: usize,
-    /// Which of its touches.
-    pub touch: usize,
+    /// Index of the contact among the target's.
+    pub contact: usize,
     /// Index of the arm.
     pub arm: usize,
 }
 
 impl<'a> ContactDetection<'a> {
-    /// Watches these pairs.
+    /// Detects the contacts of these pairs.
     #[must_use]
-    pub fn new(scenario: &'a Scenario, flight: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
-        Self { scenario, flight, pairs, end_effectors: vec![[0.0; 3]; scenario.layout.arms.len()] }
+    pub fn new(scenario: &'a Scenario, motion: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
+        Self { scenario, motion, pairs, end_effectors: vec![[0.0; 3]; scenario.layout.arms.len()] }
     }
 }
 
@@ -51,14 +52,9 @@ pub(crate) fn signed_distance(
     end_effector: &[f64; 3],
 ) -> (f64, [f64; 2]) {
     let [yaw, x, y] = body.pose;
-    match scenario.targets.get(target) {
-        Some(target) => {
-            let signed_distance =
-                target.outline.signed_distance(turned([end_effector[1] - x, end_effector[2] - y], -yaw));
-            (signed_distance.distance, turned(signed_distance.normal, yaw))
-        }
-        None => (f64::INFINITY, [1.0, 0.0]),
-    }
+    let point = rotated([end_effector[1] - x, end_effector[2] - y], -yaw);
+    let SignedDistance { distance, normal } = scenario.targets[target].outline.signed_distance(point);
+    (distance, rotated(normal, yaw))
 }
 
 impl Events for ContactDetection<'_> {
@@ -69,17 +65,15 @@ impl Events for ContactDetection<'_> {
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
         let model = now.system.model;
         model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut self.end_effectors)?;
-        let targets = match self.flight {
+        let targets = match self.motion {
             TargetMotion::Free(targets) => targets.iter().map(|target| target.after(now.time)).collect(),
-            // of twists nothing is asked
+            // the twists are not used
             TargetMotion::Assembled(assembly, targets) => {
                 assembly.targets(targets, &self.end_effectors, &self.end_effectors, now.bodies)
             }
         };
         for (value, pair) in values.iter_mut().zip(&self.pairs) {
-            let (Some(body), Some(end_effector)) = (targets.get(pair.target), self.end_effectors.get(pair.arm)) else {
-                continue;
-            };
+            let (body, end_effector) = (&targets[pair.target], &self.end_effectors[pair.arm]);
             (*value, _) = signed_distance(self.scenario, pair.target, body, end_effector);
         }
         Ok(())

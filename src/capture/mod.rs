@@ -7,6 +7,8 @@ pub mod contact_detection;
 pub mod contact_response;
 pub mod impact;
 pub mod post_capture;
+pub(crate) mod reach;
+pub(crate) mod reduced_matrices;
 pub mod residual_motion;
 mod sequence;
 pub mod terminal_error;
@@ -224,15 +226,15 @@ pub fn study(
     let cases = scenario
         .cases
         .iter()
-        .map(|case| match (&scenario.post_impact, approach.end()) {
-            (Some(after), Some(end)) => {
-                let course = CaptureSequence { scenario, case, after, make, sample };
+        .map(|case| match &scenario.post_impact {
+            Some(after) => {
+                let sequence = CaptureSequence { scenario, case, after, make, sample };
                 match scenario.contact.detection {
-                    Detection::Time => course.contact_at_time(&end.state, &end.end_effector_poses, observer),
-                    Detection::Event => course.contact_by_detection(&rates, observer),
+                    Detection::Time => sequence.contact_at_time(approach.end(), observer),
+                    Detection::Event => sequence.contact_by_detection(&rates, observer),
                 }
             }
-            _ => Ok(CaseResult::alone(&case.name)),
+            None => Ok(CaseResult::alone(&case.name)),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let terminal_errors = TerminalError::of(scenario, &approach);

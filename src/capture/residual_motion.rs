@@ -4,7 +4,7 @@ use crate::dynamics::Model;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scenario::PostCaptureControl;
-use crate::simulate::bodies::{bodies, center_of_mass, with_bodies};
+use crate::simulate::bodies::{bodies, center_of_mass, inertia_about, with_bodies};
 use crate::simulate::system::Body;
 
 /// The motion that remains, robot and targets as one.
@@ -44,11 +44,7 @@ impl ResidualMotion {
         let bodies = bodies(model, &motion.view(), held)?;
         let total = with_bodies(model.momentum(&motion.view())?, held);
         let (center, mass) = center_of_mass(&bodies);
-        let about = |body: &Body| {
-            let [_, x, y] = body.pose;
-            body.inertia + body.mass * ((x - center[0]).powi(2) + (y - center[1]).powi(2))
-        };
-        let inertia: f64 = bodies.iter().map(about).sum();
+        let inertia = inertia_about(&bodies, center);
         let [px, py] = total.linear_momentum;
         let angular = total.angular_momentum - (center[0] * py - center[1] * px);
         let joints = || motion.joint_rates.iter().zip(wheels);

@@ -1,26 +1,27 @@
-//! The course of one case: impacts, and the motion between them.
+//! The capture sequence of one case: impacts, and the motion between them.
 
 use crate::capture::approach::Approach;
 use crate::capture::assembly::{Assembly, Attachment};
-use crate::capture::contact_at_time::{ImpactContact, contact_at_time, contact_law};
+use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
 use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, signed_distance};
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::{CaptureResult, CaseResult, ClosestApproach, FurtherImpact, ModelFactory, Observer, StudyError};
+use crate::contact::ContactLaw;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scenario::{Case, PostCaptureControl, PostImpact, Scenario, Target};
 use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, PhaseError, Sample, Timing};
 
-/// The most impacts of one case.
-const MOST_IMPACTS: usize = 1000;
+/// Largest number of impacts in one case.
+const MAX_IMPACTS: usize = 1000;
 
-/// End effectors no farther than this from their targets touch them when another does, m.
-const TOGETHER: f64 = 1e-9;
+/// Other end effectors at most this far from their targets touch them at the same impact, m.
+const SIMULTANEOUS_DISTANCE: f64 = 1e-9;
 
-/// What a case is run from.
+/// One case of a scenario, and how it is simulated.
 #[derive(Clone, Copy)]
 pub(crate) struct CaptureSequence<'a> {
     pub(crate) scenario: &'a Scenario,
@@ -32,21 +33,16 @@ pub(crate) struct CaptureSequence<'a> {
 }
 
 impl CaptureSequence<'_> {
-    /// Contacts are where the end effectors are when the approach ends.
-    pub(crate) fn contact_at_time(
-        self,
-        end: &RobotState,
-        end_effectors: &[[f64; 3]],
-        observer: &mut dyn Observer,
-    ) -> Result<CaseResult, StudyError> {
-        let (targets, touching) = contact_at_time(self.scenario, self.case, end_effectors);
-        let capture = self.after_impact(end, &targets, &touching, false, observer)?;
+    /// Runs the case with contacts where the end effectors are when the approach ends.
+    pub(crate) fn contact_at_time(self, end: &Sample, observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
+        let (targets, touching) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
+        let capture = self.after_impact(&end.state, &targets, &touching, false, observer)?;
         let name = self.case.name.clone();
         Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
     }
 
-    /// The targets fly freely from the start on, and the approach ends where an end effector reaches its target;
-    /// `rates` are the approach's end rates, rad/s.
+    /// Runs the case with contact detection: the targets move freely from the start, and the approach ends when an end
+    /// effector reaches its target. `rates` are the final joint rates of the trajectory, rad/s.
     pub(crate) fn contact_by_detection(
         self,
         rates: &[f64],
@@ -62,20 +58,19 @@ impl CaptureSequence<'_> {
         let phase = approach
             .track_until(&*model, rates, &mut contact_detection, &mut || observer.step())
             .map_err(StudyError::Approach)?;
-        let flown = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
-        let targets = flown(phase.duration);
-        let mut closest = self.closest(&pairs, &phase, 0.0, |i| flown(phase.samples.get(i).map_or(0.0, |s| s.time)));
-        let capture = match (phase.event, phase.end()) {
-            (Some((event, _)), Some(end)) => {
-                let touching = self.touching(&pairs, event, &targets, &end.end_effector_poses);
-                Some(self.after_impact(&end.state, &targets, &touching, true, observer)?)
+        let targets_at = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
+        let targets = targets_at(phase.duration);
+        let paths: Vec<_> = phase.samples.iter().map(|sample| targets_at(sample.time)).collect();
+        let mut closest = self.closest(&pairs, &phase, 0.0, &paths);
+        let capture = match phase.event {
+            Some((event, _)) => {
+                let touching = self.touching(&pairs, event, &targets, &phase.end().end_effector_poses);
+                Some(self.after_impact(&phase.end().state, &targets, &touching, true, observer)?)
             }
-            _ => None,
+            None => None,
         };
         if let Some(captured) = &capture {
-            let later = self.closest(&pairs, &captured.post_impact, phase.duration, |i| {
-                captured.targets.get(i).cloned().unwrap_or_default()
-            });
+            let later = self.closest(&pairs, &captured.post_impact, phase.duration, &captured.targets);
             for (nearest, later) in closest.iter_mut().zip(later) {
                 *nearest = if later.distance < nearest.distance { later } else { *nearest };
             }
@@ -87,8 +82,7 @@ impl CaptureSequence<'_> {
         Ok(CaseResult { name, approach: Some(phase), targets, closest, capture })
     }
 
-    /// An impact, the motion after it, and the impacts that interrupt that: of end effectors and targets that
-    /// `detected` asks for.
+    /// An impact, the motion after it, and with contact detection (`detected`) the impacts that interrupt this motion.
     fn after_impact(
         self,
         before: &RobotState,
@@ -98,9 +92,9 @@ impl CaptureSequence<'_> {
         observer: &mut dyn Observer,
     ) -> Result<CaptureResult, StudyError> {
         observer.begin(&self.case.name, self.timing(self.after.duration).steps());
-        let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.unsolved(source))?;
+        let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.impact_error(source))?;
         let mut moving = SequenceState {
-            course: self,
+            sequence: self,
             state: before.clone(),
             targets: targets.to_vec(),
             attachments: Vec::new(),
@@ -109,43 +103,43 @@ impl CaptureSequence<'_> {
         };
         let impact = moving.apply_impact(touching)?;
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
-        let (mut post_impact, mut flown) = moving.integrate_to_contact(&open, 0.0, observer)?;
+        let (mut post_impact, mut target_paths) = moving.integrate_to_contact(&open, 0.0, observer)?;
         let mut further = Vec::new();
-        let mut penetration = self.penetration(&open, &post_impact, &flown);
-        while let (Some((event, _)), Some(end)) = (post_impact.event, post_impact.end()) {
+        let mut penetration = self.penetration(&open, &post_impact, &target_paths);
+        while let Some((event, _)) = post_impact.event {
             let time = post_impact.duration;
-            if further.len() == MOST_IMPACTS {
+            if further.len() == MAX_IMPACTS {
                 return Err(StudyError::Chatter { case: self.case.name.clone(), impacts: further.len() + 1, time });
             }
-            let touching = self.touching(&open, event, &moving.targets, &end.end_effector_poses);
+            let touching = self.touching(&open, event, &moving.targets, &post_impact.end().end_effector_poses);
             further.push(FurtherImpact { time, impact: moving.apply_impact(&touching)? });
             if time >= self.after.duration {
                 break;
             }
             open = self.pairs(&moving.attachments);
-            let (next, along) = moving.integrate_to_contact(&open, time, observer)?;
-            penetration = penetration.max(self.penetration(&open, &next, &along));
+            let (next, path) = moving.integrate_to_contact(&open, time, observer)?;
+            penetration = penetration.max(self.penetration(&open, &next, &path));
             post_impact = post_impact.then(next);
-            flown.extend(along);
+            target_paths.extend(path);
         }
         let remainder = match &self.after.control {
             PostCaptureControl::None => None,
-            control => Some(moving.remainder(control, &post_impact)?),
+            control => Some(moving.residual_motion(control, &post_impact)?),
         };
-        Ok(CaptureResult { impact, post_impact, targets: flown, further, penetration, remainder })
+        Ok(CaptureResult { impact, post_impact, targets: target_paths, further, penetration, remainder })
     }
 
-    fn unsolved(self, source: Error) -> StudyError {
+    fn impact_error(self, source: Error) -> StudyError {
         StudyError::Impact { case: self.case.name.clone(), source }
     }
 
-    fn stopped(self, time: f64, source: Error) -> StudyError {
+    fn post_impact_error(self, time: f64, source: Error) -> StudyError {
         StudyError::PostImpact { case: self.case.name.clone(), source: PhaseError { time, source } }
     }
 
-    /// By how much an end effector is inside its target at most, in the samples of a phase, m.
+    /// Largest penetration of a target by an end effector in the samples of a phase, m.
     fn penetration(self, pairs: &[ContactPair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
-        let closest = self.closest(pairs, phase, 0.0, |i| targets.get(i).cloned().unwrap_or_default());
+        let closest = self.closest(pairs, phase, 0.0, targets);
         closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
     }
 
@@ -156,27 +150,27 @@ impl CaptureSequence<'_> {
     fn targets_at_start(self) -> Vec<Body> {
         let pairs = self.scenario.targets.iter().zip(&self.case.target_twists);
         let body = |(target, twist): (&Target, &[f64; 3])| {
-            let [x, y] = target.position.unwrap_or_default();
+            let [x, y] = target.position.expect("contact detection needs initial positions");
             Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist: *twist }
         };
         pairs.map(body).collect()
     }
 
-    /// The end effectors and targets that may meet: those that are to, and do not hold each other yet.
+    /// The planned contacts that have not been made yet.
     fn pairs(self, attachments: &[Attachment]) -> Vec<ContactPair> {
         let mut pairs = Vec::new();
         for (i, (target, kinds)) in self.scenario.targets.iter().zip(&self.case.kinds).enumerate() {
-            for (k, (touch, kind)) in target.contacts.iter().zip(kinds).enumerate() {
-                let held = attachments.iter().any(|grip| grip.arm == touch.arm);
+            for (k, (contact, kind)) in target.contacts.iter().zip(kinds).enumerate() {
+                let held = attachments.iter().any(|attachment| attachment.arm == contact.arm);
                 if kind.is_some() && !held {
-                    pairs.push(ContactPair { target: i, touch: k, arm: touch.arm });
+                    pairs.push(ContactPair { target: i, contact: k, arm: contact.arm });
                 }
             }
         }
         pairs
     }
 
-    /// The contacts of an instant: the one that was detected, and those that come with it.
+    /// The contacts at one instant: the one detected, and those made at the same time.
     fn touching(
         self,
         pairs: &[ContactPair],
@@ -186,16 +180,15 @@ impl CaptureSequence<'_> {
     ) -> Vec<ImpactContact> {
         let mut touching = Vec::new();
         for (i, pair) in pairs.iter().enumerate() {
-            let (Some(body), Some(end_effector)) = (targets.get(pair.target), end_effectors.get(pair.arm)) else {
-                continue;
-            };
-            let (distance, normal) = signed_distance(self.scenario, pair.target, body, end_effector);
-            let kind = self.case.kinds.get(pair.target).and_then(|kinds| kinds.get(pair.touch));
-            let restitution = self.case.restitutions.get(pair.target).copied();
-            let law = kind.and_then(|kind| contact_law(*kind, || normal, restitution));
-            if let (true, Some(law)) = (i == event || distance.abs() <= TOGETHER, law) {
+            let ContactPair { target, contact, arm } = *pair;
+            let (body, end_effector) = (&targets[target], &end_effectors[arm]);
+            let (distance, normal) = signed_distance(self.scenario, target, body, end_effector);
+            let kind =
+                self.case.kinds[target][contact].filter(|_| i == event || distance.abs() <= SIMULTANEOUS_DISTANCE);
+            if let Some(kind) = kind {
+                let law = ContactLaw::new(kind, || normal, self.case.restitutions[target]);
                 let offset = [end_effector[1] - body.pose[1], end_effector[2] - body.pose[2]];
-                touching.push(ImpactContact { target: pair.target, arm: pair.arm, law, offset, miss: distance.abs() });
+                touching.push(ImpactContact { target, arm, law, offset, miss: distance.abs() });
             }
         }
         touching
@@ -208,118 +201,96 @@ impl CaptureSequence<'_> {
             .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut end_effectors)
             .map_err(|source| StudyError::Approach(PhaseError { time: 0.0, source }))?;
         for pair in pairs {
-            let (Some(body), Some(end_effector)) = (targets.get(pair.target), end_effectors.get(pair.arm)) else {
-                continue;
-            };
+            let (body, end_effector) = (&targets[pair.target], &end_effectors[pair.arm]);
             let (distance, _) = signed_distance(self.scenario, pair.target, body, end_effector);
             if distance <= 0.0 {
-                let arm = self.scenario.layout.arms.get(pair.arm).map_or_else(String::new, |arm| arm.name.clone());
-                let target = self.scenario.targets.get(pair.target).map_or_else(String::new, |t| t.name.clone());
+                let arm = self.scenario.layout.arms[pair.arm].name.clone();
+                let target = self.scenario.targets[pair.target].name.clone();
                 return Err(StudyError::Inside { case: self.case.name.clone(), arm, target, depth: -distance });
             }
         }
         Ok(())
     }
 
-    /// How near each pair comes in the samples of a phase that starts at `from` s.
-    fn closest(
-        self,
-        pairs: &[ContactPair],
-        phase: &Phase,
-        from: f64,
-        targets: impl Fn(usize) -> Vec<Body>,
-    ) -> Vec<ClosestApproach> {
-        let far = |pair: &ContactPair| ClosestApproach {
-            target: pair.target,
-            arm: pair.arm,
-            distance: f64::INFINITY,
-            time: from,
-        };
-        let mut closest: Vec<ClosestApproach> = pairs.iter().map(far).collect();
-        if closest.is_empty() {
-            return closest;
-        }
-        for (i, sample) in phase.samples.iter().enumerate() {
-            let targets = targets(i);
-            for nearest in &mut closest {
-                let (body, end_effector) = (targets.get(nearest.target), sample.end_effector_poses.get(nearest.arm));
-                let (Some(body), Some(end_effector)) = (body, end_effector) else { continue };
-                let (distance, _) = signed_distance(self.scenario, nearest.target, body, end_effector);
-                if distance < nearest.distance {
-                    *nearest = ClosestApproach { distance, time: from + sample.time, ..*nearest };
-                }
-            }
-        }
-        closest
+    /// The closest approach of each pair in the samples of a phase that starts at `from` s; `targets` are those at each
+    /// sample.
+    fn closest(self, pairs: &[ContactPair], phase: &Phase, from: f64, targets: &[Vec<Body>]) -> Vec<ClosestApproach> {
+        let closest = pairs.iter().map(|&ContactPair { target, arm, .. }| {
+            let distances = phase.samples.iter().zip(targets).map(|(sample, targets)| {
+                let end_effector = &sample.end_effector_poses[arm];
+                let (distance, _) = signed_distance(self.scenario, target, &targets[target], end_effector);
+                ClosestApproach { target, arm, distance, time: from + sample.time }
+            });
+            distances.min_by(|a, b| a.distance.total_cmp(&b.distance)).expect("a phase has samples")
+        });
+        closest.collect()
     }
 }
 
-/// Robot and targets in the course of a case.
+/// Robot and targets between the impacts of a case.
 struct SequenceState<'a> {
-    course: CaptureSequence<'a>,
+    sequence: CaptureSequence<'a>,
     state: RobotState,
     targets: Vec<Body>,
     attachments: Vec<Attachment>,
     assembly: Assembly,
-    /// Of the first impact, rad.
+    /// Joint angles at the first impact, rad.
     angles: Vec<f64>,
 }
 
 impl SequenceState<'_> {
-    /// Velocities change, and what takes hold becomes part of the assembly.
+    /// Solves the impact, sets the velocities after it, and adds lasting contacts to the assembly.
     fn apply_impact(&mut self, touching: &[ImpactContact]) -> Result<ImpactSolution, StudyError> {
-        let course = self.course;
+        let sequence = self.sequence;
         let impact = solve_impact(&self.assembly, &self.state, &self.targets, touching)
-            .map_err(|source| course.unsolved(source))?;
+            .map_err(|source| sequence.impact_error(source))?;
         self.state.base_twist = impact.exact.base_twist_after;
         self.state.joint_rates.clone_from(&impact.exact.joint_rates_after);
         for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
             target.twist = *twist;
         }
         self.attachments.extend(holds(touching));
-        self.assembly = Assembly::new((course.make)(), &self.state, &self.targets, &self.attachments)
-            .map_err(|source| course.unsolved(source))?;
+        self.assembly = Assembly::new((sequence.make)(), &self.state, &self.targets, &self.attachments)
+            .map_err(|source| sequence.impact_error(source))?;
         Ok(impact)
     }
 
-    /// The motion from `time` s after the first impact on, up to a contact of the pairs; and the targets at its
-    /// samples.
+    /// Simulates from `time` s after the first impact to the next contact of the pairs or the end; returns the phase and
+    /// the targets at its samples.
     fn integrate_to_contact(
         &mut self,
         pairs: &[ContactPair],
         time: f64,
         observer: &mut dyn Observer,
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
-        let course = self.course;
+        let sequence = self.sequence;
         let Self { state, targets, assembly, .. } = self;
-        let flight = TargetMotion::Assembled(assembly, targets);
-        let mut contacts = ContactDetection::new(course.scenario, flight, pairs.to_vec());
-        let wheels = wheels(&course.scenario.layout, &self.attachments);
-        let wanted = PostCaptureLaw { after: course.after, wheels: &wheels, angles: &self.angles };
-        let timing = course.timing(course.after.duration - time);
-        let system = System { joint_limits: &course.scenario.joint_limits, ..assembly.system() };
+        let motion = TargetMotion::Assembled(assembly, targets);
+        let mut contacts = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
+        let wheels = wheels(&sequence.scenario.layout, &self.attachments);
+        let wanted = PostCaptureLaw { after: sequence.after, wheels: &wheels, angles: &self.angles };
+        let timing = sequence.timing(sequence.after.duration - time);
+        let system = System { joint_limits: &sequence.scenario.joint_limits, ..assembly.system() };
         let phase = run_post_capture(&system, wanted, state, &timing, &mut contacts, &mut || observer.step())
-            .map_err(|stopped| course.stopped(time + stopped.time, stopped.source))?;
+            .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
-        let along: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
-        if let (Some(end), Some(last)) = (phase.end(), along.last()) {
-            state.clone_from(&end.state);
-            targets.clone_from(last);
-        }
-        Ok((phase, along))
+        let path: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
+        state.clone_from(&phase.end().state);
+        targets.clone_from(path.last().expect("a phase has samples"));
+        Ok((phase, path))
     }
 
-    /// What is left of the motion.
-    fn remainder(&self, control: &PostCaptureControl, phase: &Phase) -> Result<ResidualMotion, StudyError> {
-        let wheels = wheels(&self.course.scenario.layout, &self.attachments);
-        let beside = phase.end().map_or_else(Vec::new, |end| self.assembly.pinned(&end.bodies));
+    /// The residual motion at the end of a phase.
+    fn residual_motion(&self, control: &PostCaptureControl, phase: &Phase) -> Result<ResidualMotion, StudyError> {
+        let wheels = wheels(&self.sequence.scenario.layout, &self.attachments);
+        let beside = self.assembly.pinned(&phase.end().bodies);
         ResidualMotion::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
-            .map_err(|source| self.course.stopped(phase.duration, source))
+            .map_err(|source| self.sequence.post_impact_error(phase.duration, source))
     }
 }
 
-/// The contacts that hold.
+/// The contacts that last.
 fn holds(touching: &[ImpactContact]) -> impl Iterator<Item = Attachment> {
     let held = touching.iter().filter(|touch| touch.law.kind().holds());
     held.map(|touch| Attachment { target: touch.target, arm: touch.arm, kind: touch.law.kind() })

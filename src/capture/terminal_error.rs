@@ -1,33 +1,31 @@
-//! By how much an end effector misses where it was wanted.
+//! Terminal errors: desired less reached end effector poses at the end of an approach.
 
 use crate::scenario::{EndEffectorGoal, Scenario};
 use crate::simulate::Phase;
 use std::fmt::{Display, Formatter};
 
-/// Outboard this part of its reach, or so many rad, an end effector is not where it was wanted.
-const REACHED: f64 = 1e-3;
+/// Largest error of a pose that counts as reached: m per m of the arm's reach, and rad.
+const TOLERANCE: f64 = 1e-3;
 
-/// Wanted less reached at the end of an approach.
+/// Desired less reached pose of an end effector at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TerminalError {
     /// As the goal has them: [yaw, x, y] or [x, y]; rad to the nearest turn, m.
     pub parts: Vec<f64>,
     /// m.
     pub distance: f64,
-    /// Its size, rad; `None` where the yaw is free.
+    /// Absolute error of the yaw, rad; `None` where the yaw is free.
     pub yaw: Option<f64>,
-    /// Whether that is little: less than 1e-3 of the arm's reach, and 1e-3 rad.
+    /// Whether the errors are at most 1e-3 of the arm's reach and 1e-3 rad.
     pub reached: bool,
 }
 
 impl TerminalError {
-    /// One per arm, `None` for an arm that may end anywhere; empty where no end effector poses are wanted.
+    /// One per arm, `None` for an arm that may end anywhere; empty where the scenario gives no end effector poses.
     #[must_use]
     pub fn of(scenario: &Scenario, phase: &Phase) -> Vec<Option<Self>> {
-        let (Some(goals), Some(end)) = (&scenario.approach.final_end_effector_poses, phase.end()) else {
-            return Vec::new();
-        };
-        let arms = goals.iter().zip(&end.end_effector_poses).zip(&scenario.layout.arms);
+        let goals = scenario.approach.final_end_effector_poses.iter().flatten();
+        let arms = goals.zip(&phase.end().end_effector_poses).zip(&scenario.layout.arms);
         arms.map(|((goal, pose), arm)| Self::at(goal, pose, arm.reach())).collect()
     }
 
@@ -38,7 +36,7 @@ impl TerminalError {
             [yaw, x, y] => (Some(yaw.abs()), x.hypot(*y)),
             _ => return None,
         };
-        let reached = distance <= REACHED * reach && yaw.is_none_or(|yaw| yaw <= REACHED);
+        let reached = distance <= TOLERANCE * reach && yaw.is_none_or(|yaw| yaw <= TOLERANCE);
         Some(Self { parts, distance, yaw, reached })
     }
 }

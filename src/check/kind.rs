@@ -1,4 +1,4 @@
-//! Telling layouts from scenarios.
+//! Whether a TOML file is a layout or a scenario, by its top-level keys.
 
 use crate::diagnostic::{Report, nearest, read_document};
 use std::convert::Infallible;

@@ -1,7 +1,7 @@
-//! What a layout or a scenario is and what is odd about it: `planar-capture check`.
+//! Descriptions of layouts and scenarios and warnings about unlikely numbers in them: `planar-capture check`.
 //!
-//! What is wrong the readers say. An oddity is a number that can be worked with but seldom is what was meant; each has
-//! a threshold, named where it is compared, that no sensible robot comes near.
+//! Errors are found by the readers. A warning is about a valid number that is probably not what was meant; each has a
+//! threshold, a named constant, that no realistic robot comes near.
 
 mod approach;
 mod arms;
@@ -9,33 +9,31 @@ mod bodies;
 mod kind;
 mod link;
 mod number;
-mod places;
 mod pose;
 mod robot;
 mod stiffness;
 mod study;
 mod targets;
 
-use crate::diagnostic::{Report, report_warnings};
+use crate::diagnostic::{Report, Warning, report_warnings};
 use crate::layout::Layout;
 use crate::scenario::Scenario;
 use kind::Kind;
 use std::path::Path;
-pub(crate) use targets::distance_and_most;
 
-/// A file that can be worked with.
+/// A valid file.
 #[derive(Clone, Debug)]
 pub struct CheckReport {
-    /// What it is, in lines for the terminal.
+    /// Lines for the terminal.
     pub description: String,
-    /// What is odd about it, and about the layout that it names.
+    /// About the file, and about the layout that it names.
     pub warnings: Report,
 }
 
-/// Looks at a layout or a scenario, whichever the TOML text is; the other arguments are those of [`Scenario::parse`].
+/// Checks TOML text of a layout or a scenario; the other arguments are those of [`Scenario::parse`].
 ///
 /// # Errors
-/// All that is wrong with it.
+/// Those of [`Layout::parse`] and [`Scenario::parse`].
 pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<CheckReport, Report> {
     match Kind::of(text, file)? {
         Kind::Layout => {
@@ -45,7 +43,7 @@ pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) 
         Kind::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
             let warnings = [approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
-            let warnings: Vec<_> = warnings.into_iter().flat_map(|look| look(&scenario)).collect();
+            let warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
             Ok(CheckReport {
                 description: study::description(&scenario),
@@ -57,4 +55,9 @@ pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) 
 
 fn layout_warnings(layout: &Layout, text: &str, file: &str) -> Report {
     report_warnings(text, file, &[bodies::warnings(layout), arms::warnings(layout)].concat())
+}
+
+/// A warning about the value of a key, with the reason and the expected value.
+fn warning(key: impl Into<String>, why: impl Into<String>, help: impl Into<String>) -> Warning {
+    Warning { key: key.into(), why: why.into(), help: help.into() }
 }

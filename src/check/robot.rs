@@ -1,17 +1,16 @@
-//! A layout in words and numbers.
+//! The description of a layout: masses, lengths, degrees of freedom, generated code.
 
 use super::number::{point, short};
-use super::places::{inertia, places};
 use crate::layout::Layout;
 use crate::registry;
+use crate::simulate::bodies::{bodies, center_of_mass, inertia_about};
+use crate::state::State;
 use crate::structure::in_words;
 use std::fmt::{self, Write};
 
-/// What the robot is, line by line.
 pub(super) fn description(layout: &Layout) -> String {
     let mut text = String::new();
-    // writing to a String does not fail
-    let _ = write(&mut text, layout);
+    write(&mut text, layout).expect("writing to a String does not fail");
     text
 }
 
@@ -27,30 +26,28 @@ fn write(out: &mut String, layout: &Layout) -> fmt::Result {
         short(base.inertia),
         short(base.radius_of_gyration())
     )?;
-    if let Some(places) = places(layout, &[0.0; 3], &vec![0.0; layout.joints()]) {
-        writeln!(
-            out,
-            "  inertia             {} kg m² about the robot's COM, all joint angles 0",
-            short(inertia(&places))
-        )?;
+    let zeros = vec![0.0; layout.joints()];
+    let state = State { base_pose: [0.0; 3], joint_angles: &zeros, base_twist: [0.0; 3], joint_rates: &zeros };
+    if let Ok(bodies) = bodies(&*registry::generic(layout), &state, &[]) {
+        let inertia = short(inertia_about(&bodies, center_of_mass(&bodies).0));
+        writeln!(out, "  inertia             {inertia} kg m² about the robot's COM, all joint angles 0")?;
     }
     writeln!(out, "  structure           {}", in_words(layout))?;
     writeln!(out, "  generated code      {}\n", code(layout))?;
     arms(out, layout)
 }
 
-/// As many digits of the hash as tell layouts apart.
+/// The first 12 digits of the hash.
 pub(super) fn digest(layout: &Layout) -> String {
-    layout.sha256().chars().take(12).collect()
+    layout.sha256()[..12].to_owned()
 }
 
-/// Degrees of freedom.
 pub(super) fn freedom(layout: &Layout) -> String {
     let joints = layout.joints();
     format!("{}: base 3, joints {joints}", 3 + joints)
 }
 
-/// What generated code there is for it, or how to get it.
+/// The generated code of its structure, or how to get it.
 pub(super) fn code(layout: &Layout) -> String {
     match registry::manifest(layout) {
         Ok(manifest) if manifest.sha256 == layout.sha256() => format!("generated::{}", manifest.name),

@@ -1,21 +1,21 @@
-//! Joints too stiff for the time step, or for the sample time: before the impact and after it.
+//! Warnings about gains: joints too stiff for the time step or for the sample time.
 
 use super::number::short;
 use super::pose::reduced;
+use super::warning;
 use crate::diagnostic::Warning;
 use crate::scenario::{PostCaptureControl, Scenario, Tracking};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-/// In times of the fastest mode. The audit of the paper's study objects from 0.3 on; beyond 2.8 Runge–Kutta steps of
-/// fourth order are unstable.
-const COARSE: f64 = 0.5;
-/// A step so long keeps the audit's bounds by far.
-const FINE: f64 = 0.2;
+/// Longest step, in times of the fastest mode. The paper's study fails its audit from 0.3 on; beyond 2.8 Runge–Kutta
+/// steps of fourth order are unstable.
+const MAX_STEP: f64 = 0.5;
+/// The recommended step, in times of the fastest mode: it keeps well within the audit's bounds.
+const RECOMMENDED_STEP: f64 = 0.2;
 
-/// What is odd about gains, steps and sample times.
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     let Scenario { approach, .. } = scenario;
-    let before = fastest_mode(scenario).map(|rate| Held {
+    let before = fastest_mode(scenario).map(|rate| ClosedLoop {
         phase: "approach",
         step: approach.step,
         steps_per_sample: approach.actuation.steps_per_sample,
@@ -23,17 +23,16 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     });
     let after = scenario.post_impact.as_ref().and_then(|after| {
         let (step, steps_per_sample) = (after.step, after.actuation.steps_per_sample);
-        Some(Held { phase: "post_impact", step, steps_per_sample, rate: fastest_mode_afterwards(scenario)? })
+        Some(ClosedLoop { phase: "post_impact", step, steps_per_sample, rate: fastest_mode_afterwards(scenario)? })
     });
-    before.iter().chain(&after).flat_map(|held| [held.coarse(), held.seldom()]).flatten().collect()
+    before.iter().chain(&after).flat_map(|law| [law.long_step(), law.long_sample_time()]).flatten().collect()
 }
 
-/// 1/s: how fast the fastest joint motion under the control law goes. Computed torque makes it that of its gains, and
-/// so does resolved motion rate control away from singular poses; under PD control it is, at the initial or the final
-/// pose, that of
+/// The rate of the fastest mode of the joints under the tracking law, 1/s. Under computed torque, and resolved motion
+/// rate control away from singular poses, the gains give it. Under PD control it is that of
 ///
-/// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I: the largest of the damping rates, eigenvalues of I⁻¹ Kd, and
-/// the natural frequencies, roots of those of I⁻¹ Kp.
+/// `I θ̈ = −Kd θ̇ − Kp θ` with the generalized inertia I at the initial or the final pose: the largest of the damping
+/// rates, eigenvalues of I⁻¹ Kd, and the natural frequencies, square roots of those of I⁻¹ Kp.
 pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
     let (proportional_gain, derivative_gain) = match &scenario.approach.tracking {
         Tracking::Exact => return None,
@@ -48,8 +47,8 @@ pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
     poses.into_iter().filter_map(|angles| mode(scenario, angles, proportional_gain, derivative_gain)).reduce(f64::max)
 }
 
-/// The same after the impact, at the final joint angles. It is that of the robot alone, which bounds that of robot and
-/// targets: with them the kinetic energy of any joint rates, ½ θ̇ᵀ I θ̇ at the best of all base twists, is larger.
+/// The same after the impact, at the final joint angles: the rate of the robot alone, an upper bound for robot and
+/// targets together, whose kinetic energy ½ θ̇ᵀ I θ̇ is larger for the same joint rates.
 pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
     let angles = &scenario.approach.final_joint_angles;
     match &scenario.post_impact.as_ref()?.control {
@@ -66,7 +65,7 @@ pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
     }
 }
 
-/// Of PD control at rest in a pose.
+/// The fastest mode of PD control at rest in a pose.
 fn mode(scenario: &Scenario, angles: &[f64], proportional_gain: &[f64], derivative_gain: &[f64]) -> Option<f64> {
     let (inertia, _) = reduced(&scenario.layout, angles)?;
     let factor = Cholesky::new(inertia)?;
@@ -74,7 +73,7 @@ fn mode(scenario: &Scenario, angles: &[f64], proportional_gain: &[f64], derivati
     Some(damping.max(largest_eigenvalue(&factor, proportional_gain)?.sqrt()))
 }
 
-/// Of `I⁻¹ diag(gains)`, with I = L Lᵀ: the same as of `L⁻¹ diag(gains) L⁻ᵀ`, which is symmetric.
+/// The largest eigenvalue of `I⁻¹ diag(gains)`, with I = L Lᵀ: that of the symmetric `L⁻¹ diag(gains) L⁻ᵀ`.
 fn largest_eigenvalue(factor: &Cholesky<f64, nalgebra::Dyn>, gains: &[f64]) -> Option<f64> {
     let half = factor
         .l()
@@ -83,8 +82,8 @@ fn largest_eigenvalue(factor: &Cholesky<f64, nalgebra::Dyn>, gains: &[f64]) -> O
     Some(values.max().powi(2))
 }
 
-/// A law in one phase.
-struct Held {
+/// The joints under the control law of one phase.
+struct ClosedLoop {
     phase: &'static str,
     /// s.
     step: f64,
@@ -93,32 +92,32 @@ struct Held {
     rate: f64,
 }
 
-impl Held {
-    fn coarse(&self) -> Option<Warning> {
+impl ClosedLoop {
+    fn long_step(&self) -> Option<Warning> {
         let Self { phase, step, rate, .. } = self;
-        (step * rate > COARSE).then(|| Warning {
-            key: format!("{phase}.step"),
-            why: format!(
+        (step * rate > MAX_STEP).then(|| {
+            let why = format!(
                 "a step of {} s, while the fastest joint motion under these gains decays or swings within {} s",
                 short(*step),
                 short(1.0 / rate)
-            ),
-            help: format!("a step of {} s or less resolves it; or smaller gains", short(FINE / rate)),
+            );
+            let help = format!("a step of {} s or less resolves it; or smaller gains", short(RECOMMENDED_STEP / rate));
+            warning(format!("{phase}.step"), why, help)
         })
     }
 
-    /// Torques that are held for longer than the motion that they should steer takes.
-    fn seldom(&self) -> Option<Warning> {
+    fn long_sample_time(&self) -> Option<Warning> {
         let Self { phase, step, rate, .. } = self;
         let sample_time = f64::from(self.steps_per_sample?) * step;
-        (sample_time * rate > COARSE && step * rate <= COARSE).then(|| Warning {
-            key: format!("{phase}.sample_time"),
-            why: format!(
+        (sample_time * rate > MAX_STEP && step * rate <= MAX_STEP).then(|| {
+            let why = format!(
                 "torques are held for {} s, while the fastest joint motion under these gains decays or swings within {} s",
                 short(sample_time),
                 short(1.0 / rate)
-            ),
-            help: format!("a sample time of {} s or less keeps up with it; or smaller gains", short(FINE / rate)),
+            );
+            let longest = short(RECOMMENDED_STEP / rate);
+            let help = format!("a sample time of {longest} s or less keeps up with it; or smaller gains");
+            warning(format!("{phase}.sample_time"), why, help)
         })
     }
 }

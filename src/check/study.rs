@@ -1,11 +1,11 @@
-//! A scenario in words and numbers.
+//! The description of a scenario: robot, approach, control laws, targets and cases.
 
-use super::approach::{joint_name, largest_turn, peak_rate};
+use super::approach::{largest_turn, peak_rate};
 use super::number::{count, list, point, short};
 use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
-use super::targets::of_contact;
+use super::targets::contact_reach;
 use crate::contact::ContactKind;
 use crate::registry;
 use crate::scenario::{
@@ -15,11 +15,9 @@ use crate::scenario::{
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
-/// What the study is, line by line.
 pub(super) fn description(scenario: &Scenario) -> String {
     let mut text = String::new();
-    // writing to a String does not fail
-    let _ = write(&mut text, scenario);
+    write(&mut text, scenario).expect("writing to a String does not fail");
     text
 }
 
@@ -34,8 +32,8 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
     match &approach.final_end_effector_poses {
-        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  tips                to {}", wishes(goals))?,
-        Some(goals) => writeln!(out, "  final angles        to be designed, for {}", wishes(goals))?,
+        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  tips                to {}", goal_poses(goals))?,
+        Some(goals) => writeln!(out, "  final angles        to be designed, for {}", goal_poses(goals))?,
         None => writeln!(out, "  largest turn        {}", turn(scenario))?,
     }
     writeln!(out, "  tracking            {}", tracking(scenario))?;
@@ -52,13 +50,12 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
         writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
-        let Actuation { torque_limits, steps_per_sample, .. } = &after.actuation;
         if after.control != PostCaptureControl::None {
-            let actuation = actuation(torque_limits.as_deref(), *steps_per_sample);
+            let actuation = actuation(&after.actuation);
             let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
                 format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
             });
-            writeln!(out, "  control afterwards  {}{mode}{actuation}", settling(&after.control))?;
+            writeln!(out, "  control afterwards  {}{mode}{actuation}", post_capture_law(&after.control))?;
         }
         targets(out, scenario)?;
         cases(out, scenario)?;
@@ -108,7 +105,7 @@ fn trajectory(scenario: &Scenario) -> String {
     format!("{shape}{whose}, to {end}{then}")
 }
 
-fn wishes(goals: &[EndEffectorGoal]) -> String {
+fn goal_poses(goals: &[EndEffectorGoal]) -> String {
     let goals = goals.iter().map(|goal| match goal {
         EndEffectorGoal::Any => "any pose".to_owned(),
         EndEffectorGoal::Position(position) => format!("tip at {} m", point(*position)),
@@ -119,29 +116,24 @@ fn wishes(goals: &[EndEffectorGoal]) -> String {
 
 fn turn(scenario: &Scenario) -> String {
     let (joint, turn) = largest_turn(scenario);
-    format!("{}, {} rad at up to {} rad/s", joint_name(scenario, joint), short(turn), short(peak_rate(scenario)))
+    let joint = scenario.layout.joint_name(joint);
+    format!("{joint}, {} rad at up to {} rad/s", short(turn), short(peak_rate(scenario)))
 }
 
 fn tracking(scenario: &Scenario) -> String {
-    let law = law(scenario);
-    let law = match fastest_mode(scenario) {
-        Some(rate) => {
-            format!("{law}; fastest mode {} 1/s, {} in a step", short(rate), short(rate * scenario.approach.step))
-        }
-        None => law,
-    };
-    let Actuation { torque_limits, steps_per_sample, .. } = &scenario.approach.actuation;
-    format!("{law}{}", actuation(torque_limits.as_deref(), *steps_per_sample))
+    let mode = fastest_mode(scenario).map_or_else(String::new, |rate| {
+        format!("; fastest mode {} 1/s, {} in a step", short(rate), short(rate * scenario.approach.step))
+    });
+    format!("{}{mode}{}", law(scenario), actuation(&scenario.approach.actuation))
 }
 
-fn actuation(torque_limits: Option<&[f64]>, steps_per_sample: Option<u32>) -> String {
-    let limits = torque_limits.map_or_else(String::new, |limits| format!("; at most {} N m", gains(limits)));
-    let samples = steps_per_sample
-        .map_or_else(String::new, |steps| format!("; sampled every {}, and held", count(steps as usize, "step")));
-    format!("{limits}{samples}")
+fn actuation(Actuation { torque_limits, steps_per_sample }: &Actuation) -> String {
+    let limits = torque_limits.as_ref().map(|limits| format!("; at most {} N m", gains(limits)));
+    let samples = steps_per_sample.map(|steps| format!("; sampled every {}, and held", count(steps as usize, "step")));
+    limits.unwrap_or_default() + &samples.unwrap_or_default()
 }
 
-fn settling(control: &PostCaptureControl) -> String {
+fn post_capture_law(control: &PostCaptureControl) -> String {
     match control {
         PostCaptureControl::None => "none".to_owned(),
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
@@ -192,14 +184,16 @@ fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
     let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
     write!(out, "\n{}", row(head))?;
     for target in &scenario.targets {
-        let names = target.contacts.iter().filter_map(|touch| Some(scenario.layout.arms.get(touch.arm)?.name.as_str()));
+        let names = target.contacts.iter().map(|contact| scenario.layout.arms[contact.arm].name.as_str());
         let arm = names.collect::<Vec<_>>().join(", ");
         let contact = match scenario.contact.detection {
-            Detection::Time => target.contacts.iter().map(|touch| point(touch.point)).collect::<Vec<_>>().join(", "),
+            Detection::Time => {
+                target.contacts.iter().map(|contact| point(contact.point)).collect::<Vec<_>>().join(", ")
+            }
             Detection::Event => "detected".to_owned(),
         };
-        let reach = of_contact(scenario, target);
-        let reach = reach.map(|(distance, most)| format!("{} of at most {}", short(distance), short(most)));
+        let reach = contact_reach(scenario, target);
+        let reach = reach.map(|reach| format!("{} of at most {}", short(reach.distance), short(reach.limit)));
         out.write_str(&row([
             &target.name,
             &arm,
@@ -234,7 +228,7 @@ fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
 /// `rigid`, or `rigid and pin`, or `bounce (0.5)`.
 fn contacts(kinds: &[Option<ContactKind>], restitution: f64) -> String {
     let alike = kinds.iter().all(|kind| Some(kind) == kinds.first());
-    let shown = if alike { kinds.get(..1).unwrap_or_default() } else { kinds };
+    let shown = if alike { &kinds[..1] } else { kinds };
     let names = shown.iter().map(|kind| match kind {
         Some(ContactKind::Bounce) => format!("bounce ({})", short(restitution)),
         kind => contact_name(*kind).to_owned(),

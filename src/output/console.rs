@@ -34,7 +34,7 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Res
 
 fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
     let phase = &study.approach;
-    let Some(end) = phase.end() else { return Ok(()) };
+    let end = phase.end();
     writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
     if let Some(found) = &study.inverse_kinematics {
         writeln!(
@@ -288,7 +288,8 @@ fn residual_motion(out: &mut String, study: &Study) -> fmt::Result {
         if !residual.wheel_rates.is_empty() {
             writeln!(out, "    wheels turn at {} rad/s", list(&residual.wheel_rates, 6))?;
         }
-        if let Some(end) = phase.end().filter(|end| end.base_torque.is_some()) {
+        let end = phase.end();
+        if end.base_torque.is_some() {
             writeln!(
                 out,
                 "    base torque: {:.6} N m s taken, {:.6} J of work, {:.3} s at its limit",

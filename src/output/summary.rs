@@ -79,7 +79,7 @@ fn impact(scenario: &Scenario, impact: &ImpactSolution) -> Value {
 
 /// The state at the end of a phase, and its audit.
 fn phase(phase: &Phase, end_effectors: bool) -> Value {
-    let Some(end) = phase.end() else { return Value::Null };
+    let end = phase.end();
     let mut value = json!({
         "duration": phase.duration,
         "base_pose": end.state.base_pose,

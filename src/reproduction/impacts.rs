@@ -1,7 +1,7 @@
-//! Table 5 and the balances: exact beside the paper's equations.
+//! Table 5 and the balances of momentum and energy, by the exact and the paper's equations.
 
 use super::Run;
-use super::markdown::{jump, number, table};
+use super::markdown::{jump, number, point, table};
 use super::printed::IMPULSES;
 use crate::capture::CaptureResult;
 use crate::capture::impact::ImpactResult;
@@ -32,10 +32,9 @@ fn impulses(runs: &[Run; 3]) -> String {
         for (contact, printed) in printed.iter().enumerate() {
             let mut row = vec![format!("case {}, contact {}", case + 1, contact + 1), number(*printed, 4)];
             for captured in &all {
-                let Some(captured) = captured.get(case) else { continue };
-                for result in std::iter::once(&captured.impact.exact).chain(&captured.impact.paper) {
-                    let magnitude = result.impulse_magnitudes().get(contact).copied().flatten();
-                    row.push(number(magnitude.unwrap_or_default(), 4));
+                let impact = &captured[case].impact;
+                for result in std::iter::once(&impact.exact).chain(&impact.paper) {
+                    row.push(number(result.impulse_magnitudes()[contact].expect("both arms capture"), 4));
                 }
             }
             rows.push(row);
@@ -92,11 +91,11 @@ fn differences(run: &Run) -> String {
 
 fn post_impact(run: &Run) -> String {
     let rows: Vec<Vec<String>> = captures(run)
-        .filter_map(|(case, captured)| {
-            let end = captured.post_impact.end()?;
+        .map(|(case, captured)| {
+            let end = captured.post_impact.end();
             let [yaw, x, y] = end.state.base_pose;
             let angles = end.state.joint_angles.iter().map(|angle| number(*angle, 3)).collect::<Vec<_>>().join(", ");
-            Some(vec![case.to_owned(), number(yaw, 4), format!("({}, {})", number(x, 4), number(y, 4)), angles])
+            vec![case.to_owned(), number(yaw, 4), point([x, y], 4), angles]
         })
         .collect();
     table(&["50 s after the impact", "base yaw [rad]", "base position [m]", "joint angles [rad]"], &rows)

@@ -3,24 +3,25 @@
 use super::Run;
 use super::markdown::{number, point, table};
 use super::printed::{BODIES, JOINT_ANGLES, LOCATIONS, TARGET, TIPS};
+use crate::scenario::PlannedContact;
 use crate::simulate::Sample;
 
 /// Name in the template and table.
 pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
-    let mut tables = vec![("bodies", bodies(&runs[0])), ("targets", targets(&runs[0]))];
-    tables.extend([
+    vec![
+        ("bodies", bodies(&runs[0])),
+        ("targets", targets(&runs[0])),
         ("joint_angles", joint_angles(runs)),
         ("tips", end_effectors(runs)),
         ("tip_velocities", velocities(runs)),
-    ]);
-    tables.push(("ends", ends(runs)));
-    tables
+        ("ends", ends(runs)),
+    ]
 }
 
 /// Heads of the columns for the three readings.
 const READINGS: [&str; 3] = ["ours, PD control", "ours, exact tracking", "eq. (7) as printed, PD"];
 
-fn end(run: &Run) -> Option<&Sample> {
+fn end(run: &Run) -> &Sample {
     run.study.approach.end()
 }
 
@@ -45,14 +46,11 @@ fn bodies(run: &Run) -> String {
 }
 
 fn targets(run: &Run) -> String {
-    let Some(end) = end(run) else { return String::new() };
     let [mass, radius, inertia] = TARGET;
     let mut rows = Vec::new();
     for (target, [x, y]) in run.scenario.targets.iter().zip(LOCATIONS) {
-        let Some([_, end_effector_x, end_effector_y]) = end.end_effector_poses.get(target.contacts[0].arm) else {
-            continue;
-        };
-        let [rx, ry] = target.contacts[0].point;
+        let PlannedContact { arm, point: [rx, ry], .. } = target.contacts[0];
+        let [_, end_effector_x, end_effector_y] = end(run).end_effector_poses[arm];
         let place = [end_effector_x - rx, end_effector_y - ry];
         rows.push(vec![
             target.name.clone(),
@@ -74,29 +72,23 @@ fn joint_angles(runs: &[Run; 3]) -> String {
     let mut rows = Vec::new();
     let [initial, last] = JOINT_ANGLES;
     for (joint, (initial, last)) in initial.into_iter().zip(last).enumerate() {
-        let start = runs[0].scenario.initial.joint_angles.get(joint).copied().unwrap_or_default();
-        let mut row = vec![format!("θ{}", joint + 1), number(initial, 3), number(start, 3)];
-        row.push(number(last, 3));
-        row.extend(runs.iter().map(|run| {
-            let angle = end(run).and_then(|end| end.state.joint_angles.get(joint).copied());
-            number(angle.unwrap_or_default(), 4)
-        }));
+        let start = runs[0].scenario.initial.joint_angles[joint];
+        let mut row = vec![format!("θ{}", joint + 1), number(initial, 3), number(start, 3), number(last, 3)];
+        row.extend(runs.iter().map(|run| number(end(run).state.joint_angles[joint], 4)));
         rows.push(row);
     }
-    let mut head = vec!["[rad]", "Table 3, initial", "ours, initial", "Table 3, final"];
-    head.extend(READINGS);
-    table(&head, &rows)
+    table(&[&["[rad]", "Table 3, initial", "ours, initial", "Table 3, final"][..], &READINGS].concat(), &rows)
 }
 
 fn end_effectors(runs: &[Run; 3]) -> String {
-    let end_effector = |sample: Option<&Sample>, i: usize| {
-        let pose = sample.and_then(|sample| sample.end_effector_poses.get(i)).copied().unwrap_or_default();
-        [pose[1], pose[2]]
+    let end_effector = |sample: &Sample, i: usize| {
+        let [_, x, y] = sample.end_effector_poses[i];
+        [x, y]
     };
     let mut rows = Vec::new();
     let [initial, last] = TIPS;
     for (i, (initial, last)) in initial.into_iter().zip(last).enumerate() {
-        let start = end_effector(runs[0].study.approach.samples.first(), i);
+        let start = end_effector(&runs[0].study.approach.samples[0], i);
         let mut row = vec![format!("tip {}", i + 1), point(initial, 2), point(start, 4), point(last, 1)];
         row.extend(runs.iter().map(|run| point(end_effector(end(run), i), 4)));
         rows.push(row);
@@ -105,13 +97,11 @@ fn end_effectors(runs: &[Run; 3]) -> String {
     row.push(number(last[0][0].hypot(last[0][1]), 4));
     row.extend(runs.iter().map(|run| {
         let [x, y] = end_effector(end(run), 0);
-        let [_, base_x, base_y] = end(run).map(|end| end.state.base_pose).unwrap_or_default();
+        let [_, base_x, base_y] = end(run).state.base_pose;
         number((x - base_x).hypot(y - base_y), 4)
     }));
     rows.push(row);
-    let mut head = vec!["[m]", "Table 4, initial", "ours, initial", "Table 4, final"];
-    head.extend(READINGS);
-    table(&head, &rows)
+    table(&[&["[m]", "Table 4, initial", "ours, initial", "Table 4, final"][..], &READINGS].concat(), &rows)
 }
 
 fn velocities(runs: &[Run; 3]) -> String {
@@ -120,25 +110,18 @@ fn velocities(runs: &[Run; 3]) -> String {
         let text =
             |[omega, vx, vy]: [f64; 3], digits| format!("{}, {}", point([vx, vy], digits), number(omega, digits));
         let mut row = vec![format!("tip {}", i + 1), text(wanted, 1)];
-        row.extend(runs.iter().map(|run| {
-            let twist = end(run).and_then(|end| end.end_effector_twists.get(i).copied());
-            text(twist.unwrap_or_default(), 4)
-        }));
+        row.extend(runs.iter().map(|run| text(end(run).end_effector_twists[i], 4)));
         rows.push(row);
     }
-    let mut head = vec!["(vx, vy) [m/s], ω [rad/s]", "wanted"];
-    head.extend(READINGS);
-    table(&head, &rows)
+    table(&[&["(vx, vy) [m/s], ω [rad/s]", "wanted"][..], &READINGS].concat(), &rows)
 }
 
 fn ends(runs: &[Run; 3]) -> String {
     let mut rows: Vec<Vec<String>> = ["base yaw [rad]", "base position [m]"].map(|what| vec![what.to_owned()]).into();
     for run in runs {
-        let [yaw, x, y] = end(run).map(|end| end.state.base_pose).unwrap_or_default();
+        let [yaw, x, y] = end(run).state.base_pose;
         rows[0].push(number(yaw, 4));
         rows[1].push(point([x, y], 4));
     }
-    let mut head = vec!["after 20 s"];
-    head.extend(READINGS);
-    table(&head, &rows)
+    table(&[&["after 20 s"][..], &READINGS].concat(), &rows)
 }

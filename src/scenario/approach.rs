@@ -124,6 +124,15 @@ impl Approach {
 }
 
 impl EndEffectorGoal {
+    /// [x, y] in m; `None` for any position.
+    #[must_use]
+    pub fn position(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Any => None,
+            Self::Position([x, y]) | Self::Pose([_, x, y]) => Some([x, y]),
+        }
+    }
+
     /// How many numbers are wanted.
     #[must_use]
     pub fn len(&self) -> usize {

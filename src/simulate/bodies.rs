@@ -1,4 +1,4 @@
-//! Every rigid body of a robot and what is beside it.
+//! Rigid bodies of a robot and beside it: momentum, centre of mass and inertia of all together.
 
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
@@ -8,7 +8,7 @@ use crate::state::State;
 /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
 ///
 /// # Errors
-/// What the model says of the state.
+/// Those of the model.
 pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
     let count = model.joints() + 1;
     let (mut inertias, mut poses, mut twists) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
@@ -21,8 +21,7 @@ pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[B
     Ok(of_robot.chain(beside.iter().copied()).collect())
 }
 
-/// Σ |I ω| + m |r × v| and Σ m |v|: what angular and linear momentum could be, against which their changes are
-/// rounding.
+/// Σ |I ω| + m |r × v| and Σ m |v|, the scales that changes of angular and linear momentum are compared with.
 pub(crate) fn momentum_sizes(bodies: &[Body]) -> [f64; 2] {
     let mut sizes = [0.0; 2];
     for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {
@@ -37,6 +36,12 @@ pub(crate) fn center_of_mass(bodies: &[Body]) -> ([f64; 2], f64) {
     let mass: f64 = bodies.iter().map(|body| body.mass).sum();
     let along = |axis: usize| bodies.iter().map(|body| body.mass * body.pose[axis]).sum::<f64>() / mass;
     ([along(1), along(2)], mass)
+}
+
+/// The moment of inertia of bodies together about a point [x, y], kg m².
+pub(crate) fn inertia_about(bodies: &[Body], [x, y]: [f64; 2]) -> f64 {
+    let about = |body: &Body| body.inertia + body.mass * ((body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
+    bodies.iter().map(about).sum()
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.

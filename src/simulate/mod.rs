@@ -115,16 +115,19 @@ pub struct Saturation {
 }
 
 impl Phase {
-    /// The last instant.
+    /// The last sample.
+    ///
+    /// # Panics
+    /// Where there are no samples, which [`simulate()`] never returns.
     #[must_use]
-    pub fn end(&self) -> Option<&Sample> {
-        self.samples.last()
+    pub fn end(&self) -> &Sample {
+        self.samples.last().expect("a phase has samples")
     }
 
     /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
     #[must_use]
     pub fn then(mut self, next: Self) -> Self {
-        let work = self.end().map_or_else(ActuatorWork::default, |end| end.work);
+        let work = self.end().work;
         self.samples.extend(next.samples.into_iter().map(|sample| Sample {
             time: self.duration + sample.time,
             work: work.plus(&sample.work),

@@ -308,7 +308,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         STEERED,
         steered!("final_joint_angles = [0.5, 0.6]"),
         10,
-        &["final_joint_angles` is [0.5, 0.6]", "tips take them"],
+        &["final_joint_angles` is [0.5, 0.6]", "follow the end effectors"],
     ),
     (STEERED, steered!("final_joint_rates = [0.5, 0.6]"), 10, &["final_joint_rates` is [0.5, 0.6]", "_twists`"]),
     (STEERED, steered!("derivative_gain = 3"), 10, &["derivative_gain` is 3", "`pose_gain` and `rate_gain`"]),

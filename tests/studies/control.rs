@@ -33,7 +33,7 @@ fn track(scenario: &Scenario, rates: &[f64]) -> Phase {
 }
 
 fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
-    let motion = &phase.end().expect("an end").state;
+    let motion = &phase.end().state;
     (motion.joint_angles.clone(), motion.base_pose)
 }
 
@@ -75,7 +75,7 @@ fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
         scenario.approach.end = FinalRates::JointRates(last.clone());
         scenario.initial.joint_rates = vec![0.2, -0.3, 0.1];
         let phase = track(&scenario, &last);
-        let motion = &phase.end().expect("an end").state;
+        let motion = &phase.end().state;
         assert_close("angles", &motion.joint_angles, &scenario.approach.final_joint_angles, tolerance::CONTROLLED);
         assert_close("rates", &motion.joint_rates, &last, tolerance::CONTROLLED);
     }

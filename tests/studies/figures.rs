@@ -132,7 +132,7 @@ mod drawn {
         let angles = &of("approach_joint_angles").panels[0].series;
         assert_eq!(angles.len(), 6);
         for (joint, series) in angles.iter().enumerate() {
-            let last = study.approach.end().expect("an end");
+            let last = study.approach.end();
             assert_eq!(series.points.last(), Some(&(20.0, last.state.joint_angles[joint])));
         }
         // the colour says which joint, the dash which arm: no two curves look the same
@@ -146,7 +146,7 @@ mod drawn {
                 [0];
         assert!((momentum[1].points[0].1 - (0.4 + jump)).abs() < 1e-9);
         // the pictures' last joints and tips, by another way
-        let end = study.approach.end().expect("an end");
+        let end = study.approach.end();
         let robot = &of("impact_configuration").panels[0].series;
         for (arm, tip) in scenario.layout.arms.iter().zip(&end.end_effector_poses) {
             let line = robot.iter().find(|series| series.label.as_ref() == Some(&arm.name)).expect("the arm");
@@ -207,8 +207,7 @@ mod drawn {
             let (first, post) = (case.approach(&study), &captured.post_impact);
             let at = |time: f64| post.samples.iter().find(|sample| sample.time >= time).expect("a sample");
             let later = captured.further.iter().map(|one| (first.duration + one.time, at(one.time), &one.impact));
-            let impacts =
-                std::iter::once((first.duration, first.end().expect("an end"), &captured.impact)).chain(later);
+            let impacts = std::iter::once((first.duration, first.end(), &captured.impact)).chain(later);
             assert_eq!(figure.panels.len(), 1 + captured.further.len());
             for (panel, (time, now, impact)) in figure.panels.iter().zip(impacts) {
                 assert_eq!(panel.title, Some(format!("Impact at {time:.3} s")));

@@ -136,7 +136,7 @@ fn check_motion(scenario: &Scenario, captured: &CaptureResult, from: usize, held
 /// The first impact, every other, and the motion after each; how many impacts there were.
 fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
     let Some(captured) = &case.capture else { return 0 };
-    let before = &case.approach(study).end().expect("an end").state;
+    let before = &case.approach(study).end().state;
     let mut held = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
     let first = captured.further.first().map_or(f64::INFINITY, |further| further.time);
     check_motion(scenario, captured, 0, &held, first.min(4.0));
@@ -238,7 +238,7 @@ fn rebounds_are_detected() {
                 assert!(distance > -tolerance::DETECTED, "{}: {distance:e} m at {} s", case.name, sample.time);
             }
         }
-        let end = approach.end().expect("an end");
+        let end = approach.end();
         let all = system(&scenario, &end.state, &result.targets, &[]);
         let distances = captured
             .impact

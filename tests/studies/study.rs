@@ -62,7 +62,7 @@ fn exact_tracking_gives_the_notes_digits() {
     let terminal_rates = study.terminal_rates.as_ref().expect("designed rates");
     let rates = [0.014_021_81, -0.124_352_22, 0.096_810_71, 0.014_061_43, -0.124_387_95, 0.096_806_82];
     assert_close("end rates", &terminal_rates.joint_rates, &rates, tolerance::PRINTED_DIGITS);
-    let end = study.approach.end().expect("an end");
+    let end = study.approach.end();
     let [yaw, x, y] = end.state.base_pose;
     assert_close("yaw, y", &[yaw, y], &[0.687_457_5, 0.019_422_8], 10.0 * tolerance::PRINTED_DIGITS);
     assert_close("x", &[x], &[6.8e-6], 10.0 * tolerance::PRINTED_DIGITS);

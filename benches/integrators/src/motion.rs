@@ -127,9 +127,6 @@ impl Problems {
 
 /// Every position and rate at the end of a phase.
 pub fn end(phase: &Phase) -> Vec<f64> {
-    let parts = phase
-        .end()
-        .map(|end| &end.state)
-        .map(|motion| [&motion.base_pose[..], &motion.joint_angles, &motion.base_twist, &motion.joint_rates].concat());
-    parts.unwrap_or_default()
+    let state = &phase.end().state;
+    [&state.base_pose[..], &state.joint_angles, &state.base_twist, &state.joint_rates].concat()
 }

@@ -1,4 +1,4 @@
-//! An approach by its end effectors: paths, wishes and working space of resolved motion rate control, from a scenario.
+//! Resolved motion rate control of an approach: end effector paths from a scenario, and the law's working space.
 
 use crate::control::{EndEffectorWorkspace, ResolvedMotionRate};
 use crate::dynamics::Model;
@@ -6,12 +6,12 @@ use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
 use crate::simulate::PhaseError;
 use crate::trajectory::EndEffectorPath;
 
-/// Errors of the end effectors' poses count as no more: rad, m per m of reach. An arm that strains for a place out of
-/// reach then still leaves the other on its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s
-/// with the default gains.
+/// Larger errors of the end effectors' poses are cut to this: rad, m per m of reach. An arm whose goal is out of reach
+/// then does not take the other from its path, and its joints are no stiffer than √(2 · 10 · 0.05)/0.04 = 25 1/s with
+/// the default gains.
 const ERROR_LIMIT: f64 = 0.05;
 
-/// What the law borrows.
+/// What [`ResolvedMotionRate`] borrows.
 #[derive(Clone, Debug)]
 pub struct EndEffectorFeedback {
     initial_poses: Vec<[f64; 3]>,
@@ -34,11 +34,11 @@ pub struct EndEffectorFeedback {
 }
 
 impl EndEffectorFeedback {
-    /// Paths from where the end effectors are at the start, and as fast as they are there, to the wanted poses; yaws to
-    /// the nearest turn. Arms of which nothing is wanted hold still.
+    /// Paths from the initial poses and twists of the end effectors to the desired ones, yaws by less than a turn. Arms
+    /// without a goal hold their joint angles.
     ///
     /// # Errors
-    /// What the model says of the initial state.
+    /// Those of the model at the initial state.
     pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, PhaseError> {
         let (arms, joints) = (model.arms(), model.joints());
         let start = scenario.initial.view();
@@ -47,20 +47,17 @@ impl EndEffectorFeedback {
             .end_effector_poses(&start.base_pose, start.joint_angles, &mut initial_poses)
             .and_then(|()| model.end_effector_twists(&start, &mut initial_twists))
             .map_err(|source| PhaseError { time: 0.0, source })?;
-        let goals = scenario.approach.final_end_effector_poses.as_deref().unwrap_or_default();
-        let goals: Vec<_> = (0..arms).map(|arm| goals.get(arm).copied().unwrap_or(EndEffectorGoal::Any)).collect();
+        let goals = scenario.approach.final_end_effector_poses.clone().unwrap_or(vec![EndEffectorGoal::Any; arms]);
         let (mut final_poses, mut wanted) = (initial_poses.clone(), vec![[false; 3]; arms]);
-        for ((goal, from), (to, wanted)) in
-            goals.iter().zip(&initial_poses).zip(final_poses.iter_mut().zip(&mut wanted))
-        {
-            for (part, missing) in goal.missing(from) {
-                to[part] += missing;
-                wanted[part] = true;
+        for (i, (goal, initial)) in goals.iter().zip(&initial_poses).enumerate() {
+            for (part, error) in goal.missing(initial) {
+                final_poses[i][part] += error;
+                wanted[i][part] = true;
             }
         }
         let final_twists = match &scenario.approach.end {
             FinalRates::EndEffectorTwists(twists) => {
-                twists.iter().map(|twist| twist.map(Option::unwrap_or_default)).collect()
+                twists.iter().map(|twist| twist.map(|part| part.unwrap_or(0.0))).collect()
             }
             FinalRates::Rest | FinalRates::JointRates(_) => vec![[0.0; 3]; arms],
         };
@@ -89,7 +86,7 @@ impl EndEffectorFeedback {
         })
     }
 
-    /// The law, with these gains of poses and rates (1/s).
+    /// The law with gains of poses and rates, 1/s.
     #[must_use]
     pub fn law(&mut self, [pose_gain, rate_gain]: [f64; 2], singularity_threshold: f64) -> ResolvedMotionRate<'_, f64> {
         ResolvedMotionRate {

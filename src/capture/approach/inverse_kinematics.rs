@@ -1,47 +1,48 @@
-//! Final joint angles of the approach, designed from the end effector poses that are wanted at contact.
+//! Inverse kinematics: final joint angles of the approach from the desired end effector poses at its end.
 
 use crate::capture::approach::Approach;
-use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, generalized_jacobian, rates_for};
-use crate::check::distance_and_most;
+use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, rates_for};
+use crate::capture::reach::Reach;
+use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
-use crate::simulate::{Phase, PhaseError};
+use crate::simulate::{PhaseError, Sample};
 use nalgebra::{DMatrix, DVector};
 
-/// Rounds before giving up; each gains about a digit.
-const MOST_ROUNDS: usize = 80;
-/// Residual at which the end effectors are where they are wanted: rad, and m per m of reach.
-const ENOUGH: f64 = 1e-11;
-/// Joints turn by at most this in one round, rad: the Jacobian is that of one pose.
-const LONGEST_STEP: f64 = 0.5;
-/// Singular values below this part of the largest are held back.
+/// Largest number of iterations; each gains about a digit.
+const MAX_ROUNDS: usize = 80;
+/// Residual of a converged solution: rad, and m per m of reach.
+const TOLERANCE: f64 = 1e-11;
+/// Largest change of a joint angle in one iteration, rad: the Jacobian is that of one pose.
+const MAX_STEP: f64 = 0.5;
+/// Damping of the least-squares steps, relative to the largest singular value.
 const DAMPING: f64 = 1e-3;
-/// How often a step that makes things worse is halved.
-const MOST_HALVINGS: u32 = 12;
+/// Largest number of halvings of a step that does not reduce the residual.
+const MAX_HALVINGS: u32 = 12;
 
-/// Final joint angles whose exactly tracked approach ends with the end effectors at the wanted poses.
+/// Final joint angles whose exactly tracked approach ends with the end effectors at the desired poses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseKinematics {
     /// rad.
     pub joint_angles: Vec<f64>,
-    /// The end rates that go with them, rad/s, and what their design saw.
+    /// The terminal joint rates of the same approach, rad/s.
     pub rates: TerminalRates,
-    /// The largest that is missing: rad, and m per m of the arm's reach.
+    /// The largest error of a pose: rad, and m per m of the arm's reach.
     pub residual: f64,
     /// How many approaches were tracked.
     pub rounds: usize,
-    /// Joints less wanted numbers. Where it is positive, every step is the shortest that does it; where it is negative,
-    /// only wishes that agree with each other can be met.
+    /// Number of joints less number of equations. Where it is positive, every step is the shortest solution; where it is
+    /// negative, only compatible goals can be reached.
     pub spare_joints: isize,
 }
 
 /// Why no final joint angles were found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InverseKinematicsError {
-    /// A place beyond the stretched arm.
+    /// A position beyond the stretched arm.
     #[error(
         "the pose wanted of the tip of `{arm}` is out of reach: {distance:.4} m from where the robot's COM is at the end of \
-         the approach, and no pose brings that tip further out than {most:.4} m"
+         the approach, and no pose brings that tip further out than {limit:.4} m"
     )]
     OutOfReach {
         /// The arm's name.
@@ -49,21 +50,22 @@ pub enum InverseKinematicsError {
         /// m.
         distance: f64,
         /// m.
-        most: f64,
+        limit: f64,
     },
-    /// The iteration came no nearer.
+    /// The iteration did not converge.
     #[error(
         "the wanted tip poses were not reached: after {rounds} approaches they are still missed by {residual:.3e} (rad, or m \
-         per m of reach; the way there: {history}), with smallest/largest singular value {singularity_margin:.1e} of the \
-         generalized Jacobian. They may be out of reach; or give final_joint_angles near the wanted pose to start from"
+         per m of reach; the way there: {}), with smallest/largest singular value {singularity_margin:.1e} of the \
+         generalized Jacobian. They may be out of reach; or give final_joint_angles near the wanted pose to start from",
+        shortened(history)
     )]
-    Unsettled {
+    NotConverged {
         /// How many were tracked.
         rounds: usize,
         /// The best that was reached.
         residual: f64,
         /// Residuals, round by round.
-        history: History,
+        history: Vec<f64>,
         /// At the best pose.
         singularity_margin: f64,
     },
@@ -72,34 +74,27 @@ pub enum InverseKinematicsError {
     Rates(#[from] TerminalRatesError),
 }
 
-/// Residuals of an iteration, round by round.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct History(pub Vec<f64>);
-
-impl std::fmt::Display for History {
-    /// The first three and the last three.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let shown = |values: &[f64]| values.iter().map(|value| format!("{value:.1e}")).collect::<Vec<_>>().join(", ");
-        match self.0.as_slice() {
-            [first @ .., _, _, _] if first.len() > 3 => {
-                let (start, end) = (self.0.get(..3).unwrap_or_default(), self.0.get(first.len()..).unwrap_or_default());
-                write!(f, "{}, …, {}", shown(start), shown(end))
-            }
-            values => f.write_str(&shown(values)),
+/// The first three and the last three residuals.
+fn shortened(residuals: &[f64]) -> String {
+    let list = |values: &[f64]| values.iter().map(|value| format!("{value:.1e}")).collect::<Vec<_>>().join(", ");
+    match residuals {
+        [start @ .., _, _, _] if start.len() > 3 => {
+            format!("{}, …, {}", list(&residuals[..3]), list(&residuals[start.len()..]))
         }
+        residuals => list(residuals),
     }
 }
 
-/// Newton's method over whole approaches: track exactly → end effector poses → step by the generalized Jacobian →
-/// track.
+/// Newton's method over whole approaches: track exactly → errors of the end effector poses → step by the generalized
+/// Jacobian → track.
 ///
-/// The base turns with the path (the robot is non-holonomic), so the Jacobian of the final pose over the final joint
-/// angles is the generalized one only nearly, and the method converges linearly. Steps are damped least squares, at
-/// most 0.5 rad, and halved where they do not bring the end effectors nearer. Every round takes the end rates from the
-/// one before; both settle together. The yaw of an end effector is wanted up to whole turns.
+/// The base turns along the path (the robot is non-holonomic), so the Jacobian of the final pose with respect to the
+/// final joint angles is only approximately the generalized one, and the method converges linearly. Steps are damped
+/// least squares, at most 0.5 rad, and halved where they do not reduce the residual. Every iteration takes the terminal
+/// rates from the one before; both converge together. Yaws are reached up to whole turns.
 ///
 /// # Errors
-/// [`InverseKinematicsError`], with the numbers.
+/// [`InverseKinematicsError`].
 pub fn inverse_kinematics(
     model: &dyn Model<f64>,
     scenario: &Scenario,
@@ -107,111 +102,118 @@ pub fn inverse_kinematics(
     sample: f64,
     tick: &mut dyn FnMut(),
 ) -> Result<InverseKinematics, InverseKinematicsError> {
-    out_of_reach(scenario, goals)?;
-    let mut trial = Trial { scenario: scenario.clone(), rates: start_rates(scenario, model.joints()) };
+    check_reach(scenario, goals)?;
+    let rates = match &scenario.approach.end {
+        FinalRates::JointRates(rates) => rates.clone(),
+        FinalRates::Rest | FinalRates::EndEffectorTwists(_) => vec![0.0; model.joints()],
+    };
+    let mut trial = Trial { scenario: scenario.clone(), rates };
     let mut best: Option<Step> = None;
-    let (mut history, mut part, mut halvings) = (History::default(), 1.0, 0);
-    for round in 1..=MOST_ROUNDS {
-        let (found, margin, change) = match trial.track(model, goals, sample, tick) {
-            Ok(found) => found,
-            // a wild step may end where nothing can be computed: as bad as one that ends far away
-            Err(_) if best.is_some() => (None, 0.0, f64::INFINITY),
+    let (mut history, mut part, mut halvings) = (Vec::new(), 1.0, 0);
+    for round in 1..=MAX_ROUNDS {
+        let step = match trial.track(model, goals, sample, tick) {
+            Ok(step) => Some(step),
+            // a large step may end where the dynamics have no solution: it is shortened like one that ends far away
+            Err(_) if best.is_some() => None,
             Err(error) => return Err(error.into()),
         };
-        let residual = found.as_ref().map_or(f64::INFINITY, |step| step.residual);
-        history.0.push(residual);
-        if let Some(step) = found.filter(|step| best.as_ref().is_none_or(|best| step.residual < best.residual)) {
+        let residual = step.as_ref().map_or(f64::INFINITY, |step| step.residual);
+        history.push(residual);
+        if let Some(step) = step.filter(|step| best.as_ref().is_none_or(|best| step.residual < best.residual)) {
             (part, halvings) = (1.0, 0);
-            if step.residual <= ENOUGH && change <= ENOUGH {
-                let rates = TerminalRates { joint_rates: trial.rates, singularity_margin: margin, iterations: round };
-                let wanted: usize = goals.iter().map(EndEffectorGoal::len).sum();
+            if step.residual <= TOLERANCE && step.rate_change <= TOLERANCE {
+                let singularity_margin = step.rates_margin;
+                let equations: usize = goals.iter().map(EndEffectorGoal::len).sum();
                 return Ok(InverseKinematics {
                     joint_angles: step.angles,
-                    rates,
+                    rates: TerminalRates { joint_rates: trial.rates, singularity_margin, iterations: round },
                     residual: step.residual,
                     rounds: round,
-                    spare_joints: isize::try_from(model.joints()).unwrap_or(isize::MAX)
-                        - isize::try_from(wanted).unwrap_or(isize::MAX),
+                    spare_joints: model.joints().cast_signed() - equations.cast_signed(),
                 });
             }
             best = Some(step);
-        } else if residual > ENOUGH {
+        } else if residual > TOLERANCE {
             (part, halvings) = (part * 0.5, halvings + 1);
         }
-        let Some(step) = best.as_ref().filter(|_| halvings <= MOST_HALVINGS) else { break };
+        let Some(step) = best.as_ref().filter(|_| halvings <= MAX_HALVINGS) else { break };
         let moved = step.angles.iter().zip(step.change.iter()).map(|(angle, change)| angle + part * change);
         trial.scenario.approach.final_joint_angles = moved.collect();
     }
     let (residual, singularity_margin) = best.map_or((f64::INFINITY, 0.0), |best| (best.residual, best.margin));
-    Err(InverseKinematicsError::Unsettled { rounds: history.0.len(), residual, history, singularity_margin })
+    Err(InverseKinematicsError::NotConverged { rounds: history.len(), residual, history, singularity_margin })
 }
 
-/// What a round tracks.
+/// The scenario with the final joint angles and the terminal rates of an iteration.
 struct Trial {
     scenario: Scenario,
     rates: Vec<f64>,
 }
 
-/// A pose that was reached, and where to go from it.
+/// The end of one tracked approach, and the step from it.
 struct Step {
     angles: Vec<f64>,
     residual: f64,
+    /// Of the scaled equations of the step.
     margin: f64,
     change: DVector<f64>,
+    /// Of the equations of the terminal rates, or `margin` where there are none.
+    rates_margin: f64,
+    /// Largest change of a terminal rate, rad/s.
+    rate_change: f64,
 }
 
 impl Trial {
-    /// One approach; then the rates for the next one. Returns also the singularity margin and by how much the rates
-    /// changed.
+    /// Tracks one approach, then takes the terminal rates for the next one from its end.
     fn track(
         &mut self,
         model: &dyn Model<f64>,
         goals: &[EndEffectorGoal],
         sample: f64,
         tick: &mut dyn FnMut(),
-    ) -> Result<(Option<Step>, f64, f64), TerminalRatesError> {
+    ) -> Result<Step, TerminalRatesError> {
         let phase = Approach::new(&self.scenario, sample).track_exactly(model, &self.rates, tick)?;
-        let step = self.step(model, goals, &phase)?;
-        let margin = step.as_ref().map_or(0.0, |step| step.margin);
-        let FinalRates::EndEffectorTwists(wanted) = &self.scenario.approach.end else { return Ok((step, margin, 0.0)) };
-        let (rates, margin) = rates_for(model, &phase, wanted)?;
-        let change = rates.iter().zip(&self.rates).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-        self.rates = rates;
-        Ok((step, margin, change))
+        let mut step = self.step(model, goals, phase.end())?;
+        if let FinalRates::EndEffectorTwists(twists) = &self.scenario.approach.end {
+            let (rates, margin) = rates_for(model, phase.end(), twists)?;
+            let changes = rates.iter().zip(&self.rates).map(|(a, b)| (a - b).abs());
+            (step.rates_margin, step.rate_change) = (margin, changes.fold(0.0, f64::max));
+            self.rates = rates;
+        }
+        Ok(step)
     }
 
-    fn step(
-        &self,
-        model: &dyn Model<f64>,
-        goals: &[EndEffectorGoal],
-        phase: &Phase,
-    ) -> Result<Option<Step>, TerminalRatesError> {
-        let Some(end) = phase.end() else { return Ok(None) };
-        let jacobian =
-            generalized_jacobian(model, &end.state).map_err(|source| PhaseError { time: end.time, source })?;
+    fn step(&self, model: &dyn Model<f64>, goals: &[EndEffectorGoal], end: &Sample) -> Result<Step, PhaseError> {
+        let (_, jacobian) =
+            reduced_matrices(model, &end.state.view()).map_err(|source| PhaseError { time: end.time, source })?;
         let mut rows = Vec::new();
-        for (i, ((goal, pose), arm)) in
-            goals.iter().zip(&end.end_effector_poses).zip(&self.scenario.layout.arms).enumerate()
-        {
-            let unit = if arm.reach() > 0.0 { arm.reach() } else { 1.0 };
-            rows.extend(goal.missing(pose).map(|(part, missing)| {
-                let unit = if part == 0 { 1.0 } else { unit };
-                (3 * i + part, missing / unit, unit)
+        let arms = goals.iter().zip(&end.end_effector_poses).zip(&self.scenario.layout.arms);
+        for (i, ((goal, pose), arm)) in arms.enumerate() {
+            let reach = if arm.reach() > 0.0 { arm.reach() } else { 1.0 };
+            rows.extend(goal.missing(pose).map(|(part, error)| {
+                let unit = if part == 0 { 1.0 } else { reach };
+                (3 * i + part, error / unit, unit)
             }));
         }
-        let missing = DVector::from_iterator(rows.len(), rows.iter().map(|(_, missing, _)| *missing));
-        let scaled = DMatrix::from_fn(rows.len(), jacobian.ncols(), |row, column| {
-            rows.get(row).map_or(0.0, |(from, _, unit)| jacobian[(*from, column)] / unit)
+        let errors = DVector::from_iterator(rows.len(), rows.iter().map(|(_, error, _)| *error));
+        let scaled = DMatrix::from_fn(rows.len(), jacobian.ncols(), |i, column| {
+            let (row, _, unit) = rows[i];
+            jacobian[(row, column)] / unit
         });
-        let angles = self.scenario.approach.final_joint_angles.clone();
-        let (change, margin) = damped(scaled, &missing);
-        let residual = if missing.is_empty() { 0.0 } else { missing.amax() };
-        Ok(Some(Step { angles, residual, margin, change }))
+        let (change, margin) = damped_step(scaled, &errors);
+        Ok(Step {
+            angles: self.scenario.approach.final_joint_angles.clone(),
+            residual: if errors.is_empty() { 0.0 } else { errors.amax() },
+            margin,
+            change,
+            rates_margin: margin,
+            rate_change: 0.0,
+        })
     }
 }
 
-/// The damped least-squares step, at most [`LONGEST_STEP`], and the smallest singular value over the largest.
-fn damped(jacobian: DMatrix<f64>, missing: &DVector<f64>) -> (DVector<f64>, f64) {
+/// The damped least-squares step, at most [`MAX_STEP`], and the smallest singular value over the largest.
+fn damped_step(jacobian: DMatrix<f64>, errors: &DVector<f64>) -> (DVector<f64>, f64) {
     let joints = jacobian.ncols();
     let svd = jacobian.svd(true, true);
     let largest = svd.singular_values.iter().copied().fold(0.0, f64::max);
@@ -220,29 +222,19 @@ fn damped(jacobian: DMatrix<f64>, missing: &DVector<f64>) -> (DVector<f64>, f64)
     if largest == 0.0 {
         return (DVector::zeros(joints), 0.0);
     }
-    let held_back = (DAMPING * largest).powi(2);
-    let parts =
-        (u.transpose() * missing).component_mul(&svd.singular_values.map(|value| value / (value * value + held_back)));
-    let change = v.transpose() * parts;
+    let damping = (DAMPING * largest).powi(2);
+    let inverse = svd.singular_values.map(|value| value / (value * value + damping));
+    let change = v.transpose() * (u.transpose() * errors).component_mul(&inverse);
     let longest = change.amax();
-    let change = if longest > LONGEST_STEP { change * (LONGEST_STEP / longest) } else { change };
+    let change = if longest > MAX_STEP { change * (MAX_STEP / longest) } else { change };
     (change, smallest / largest)
 }
 
-fn start_rates(scenario: &Scenario, joints: usize) -> Vec<f64> {
-    match &scenario.approach.end {
-        FinalRates::JointRates(rates) => rates.clone(),
-        FinalRates::Rest | FinalRates::EndEffectorTwists(_) => vec![0.0; joints],
-    }
-}
-
-fn out_of_reach(scenario: &Scenario, goals: &[EndEffectorGoal]) -> Result<(), InverseKinematicsError> {
+fn check_reach(scenario: &Scenario, goals: &[EndEffectorGoal]) -> Result<(), InverseKinematicsError> {
     for (i, (goal, arm)) in goals.iter().zip(&scenario.layout.arms).enumerate() {
-        let (EndEffectorGoal::Position([x, y]) | EndEffectorGoal::Pose([_, x, y])) = goal else { continue };
-        if let Some((distance, most)) = distance_and_most(scenario, i, [*x, *y])
-            && distance > most
-        {
-            return Err(InverseKinematicsError::OutOfReach { arm: arm.name.clone(), distance, most });
+        let reach = goal.position().and_then(|position| Reach::new(scenario, i, position)).filter(Reach::is_exceeded);
+        if let Some(Reach { distance, limit, .. }) = reach {
+            return Err(InverseKinematicsError::OutOfReach { arm: arm.name.clone(), distance, limit });
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! The approach phase of a scenario: trajectory and tracking put together.
+//! The approach of a scenario: its trajectory, eqs. (6) and (7), followed by its tracking law, eq. (18).
 
 pub mod end_effector_paths;
 pub mod inverse_kinematics;
@@ -7,8 +7,7 @@ pub mod terminal_rates;
 use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::Model;
-use crate::owned::RobotState;
-use crate::scenario::{Scenario, Tracking};
+use crate::scenario::{self, Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::system::System;
@@ -26,10 +25,8 @@ impl<'a> Approach<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
-        let approach = &scenario.approach;
-        let (duration, step, integration) = (approach.duration, approach.step, approach.integration);
-        let timing = Timing { duration, step, sample, integration };
-        Self { scenario, timing }
+        let scenario::Approach { duration, step, integration, .. } = scenario.approach;
+        Self { scenario, timing: Timing { duration, step, sample, integration } }
     }
 
     /// Number of steps.
@@ -38,7 +35,8 @@ impl<'a> Approach<'a> {
         self.timing.steps()
     }
 
-    /// Runs it as the scenario says, with these end rates (rad/s; a cycloidal trajectory has none).
+    /// Simulates it under the scenario's tracking law, with the trajectory's final rates (rad/s; a cycloidal trajectory
+    /// has none).
     ///
     /// # Errors
     /// When and why it stopped.
@@ -59,10 +57,10 @@ impl<'a> Approach<'a> {
     ) -> Result<Phase, PhaseError> {
         let trajectory = self.trajectory(rates);
         let joints = model.joints();
-        let initial = RobotState::of(&self.scenario.initial.view());
+        let initial = &self.scenario.initial;
         let actuation = &self.scenario.approach.actuation;
         let mut drive = |law: &mut dyn Control<f64>| {
-            drive(&self.system(model), law, actuation, &initial, &self.timing, events, tick)
+            drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
             Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
@@ -86,7 +84,8 @@ impl<'a> Approach<'a> {
         }
     }
 
-    /// Runs it with torques from inverse dynamics, from the rates that the trajectory starts with.
+    /// Simulates it with torques from inverse dynamics and without tracking error: the joints start at the trajectory's
+    /// initial rates.
     ///
     /// # Errors
     /// When and why it stopped.
@@ -113,16 +112,10 @@ impl<'a> Approach<'a> {
             generalized_bias: &mut vec![0.0; joints],
             generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
         };
-        let initial = RobotState {
-            base_pose: self.scenario.initial.base_pose,
-            joint_angles: self.scenario.initial.joint_angles.clone(),
-            base_twist: self.scenario.initial.base_twist,
-            joint_rates: if self.scenario.approach.trajectory.properties().starts_at_rest {
-                vec![0.0; joints]
-            } else {
-                self.scenario.initial.joint_rates.clone()
-            },
-        };
+        let mut initial = self.scenario.initial.clone();
+        if self.scenario.approach.trajectory.properties().starts_at_rest {
+            initial.joint_rates.fill(0.0);
+        }
         simulate(&self.system(model), &mut law, &initial, &self.timing, events, tick)
     }
 

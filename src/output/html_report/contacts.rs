@@ -1,7 +1,7 @@
 //! The contacts of a case as JSON: impacts, failed grasps, distances, and openings of the constraints.
 
 use super::digits;
-use crate::capture::assembly::turned;
+use crate::capture::assembly::rotated;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_detection::signed_distance;
 use crate::capture::impact::ContactResult;
@@ -114,6 +114,6 @@ pub(super) fn constraint_openings(study: &Study, result: &CaseResult, capture: &
 /// Pose of an end effector in the frame of a target.
 fn relative_pose(target: &Body, end_effector: &[f64; 3]) -> [f64; 3] {
     let [yaw, x, y] = target.pose;
-    let [along, across] = turned([end_effector[1] - x, end_effector[2] - y], -yaw);
+    let [along, across] = rotated([end_effector[1] - x, end_effector[2] - y], -yaw);
     [end_effector[0] - yaw, along, across]
 }

@@ -82,7 +82,7 @@ pub fn columns(scenario: &Scenario, case: &CaseResult) -> Vec<Column> {
 }
 
 fn has_base_torque(case: &CaseResult) -> bool {
-    case.capture.iter().filter_map(|captured| captured.post_impact.end()).any(|end| end.base_torque.is_some())
+    case.capture.iter().any(|captured| captured.post_impact.end().base_torque.is_some())
 }
 
 #[derive(Default)]
