@@ -1,4 +1,4 @@
-//! Outlines of targets, and how far a point is from them.
+//! Outlines of targets: discs and polygons, and the signed distance of points from them.
 
 /// The outline of a rigid body in its own frame, COM at the origin.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,9 +15,9 @@ pub enum Outline {
     },
 }
 
-/// Why corners are no outline.
+/// Why corners are not an outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NoOutline {
+pub enum OutlineError {
     /// Fewer than three.
     #[error("a polygon has three corners or more, found {0}")]
     TooFew(usize),
@@ -29,7 +29,7 @@ pub enum NoOutline {
     Flat,
 }
 
-/// How a point lies to an outline.
+/// The signed distance of a point from an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignedDistance {
     /// Distance to the outline, m; negative inside.
@@ -39,29 +39,29 @@ pub struct SignedDistance {
 }
 
 impl Outline {
-    /// A polygon of these corners, in one or the other direction.
+    /// A polygon with these corners, in either direction.
     ///
     /// # Errors
-    /// [`NoOutline`].
-    pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, NoOutline> {
+    /// [`OutlineError`].
+    pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, OutlineError> {
         if corners.len() < 3 {
-            return Err(NoOutline::TooFew(corners.len()));
+            return Err(OutlineError::TooFew(corners.len()));
         }
         let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
         let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
         if edges(&corners).any(|(a, b)| minus(a, b).iter().all(|x| *x == 0.0)) {
-            return Err(NoOutline::Flat);
+            return Err(OutlineError::Flat);
         }
         let all: Vec<_> = edges(&corners).collect();
         for (i, first) in all.iter().enumerate() {
             let others = all.iter().enumerate().skip(i + 2).filter(|(j, _)| !(i == 0 && *j == all.len() - 1));
             if let Some((j, _)) = others.into_iter().find(|(_, second)| meet(*first, **second)) {
-                return Err(NoOutline::Crossing(i + 1, j + 1));
+                return Err(OutlineError::Crossing(i + 1, j + 1));
             }
         }
-        // a crossing may cancel the area, and says more
+        // after the crossings, which may cancel the area
         if area.abs() <= 1e-12 * size * size {
-            return Err(NoOutline::Flat);
+            return Err(OutlineError::Flat);
         }
         if area < 0.0 {
             corners.reverse();
@@ -69,7 +69,7 @@ impl Outline {
         Ok(Self::Polygon { corners })
     }
 
-    /// How a point of the body's frame lies to the outline.
+    /// The signed distance of a point in the body's frame.
     #[must_use]
     pub fn signed_distance(&self, [x, y]: [f64; 2]) -> SignedDistance {
         match self {
@@ -78,7 +78,7 @@ impl Outline {
                 let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
                 SignedDistance { distance: distance - radius, normal }
             }
-            Self::Polygon { corners } => of_polygon(corners, [x, y]),
+            Self::Polygon { corners } => polygon_distance(corners, [x, y]),
         }
     }
 
@@ -92,7 +92,7 @@ impl Outline {
     }
 }
 
-fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
+fn polygon_distance(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     let mut inside = false;
     let mut at_corner = false;
     let mut nearest = SignedDistance { distance: f64::INFINITY, normal: [1.0, 0.0] };
@@ -103,7 +103,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
         let away = [to[0] - part * along[0], to[1] - part * along[1]];
         let distance = away[0].hypot(away[1]);
         if distance < nearest.distance {
-            // off a corner the normal is the way from it; at the outline itself there is only the edge's own
+            // the normal points away from the nearest corner; on the outline it is that of the edge
             at_corner = (part <= 0.0 || part >= 1.0) && distance > 1e-9 * length;
             let of_edge = [along[1] / length, -along[0] / length];
             nearest = SignedDistance { distance, normal: if at_corner { away.map(|x| x / distance) } else { of_edge } };
@@ -116,7 +116,7 @@ fn of_polygon(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     if !inside {
         return nearest;
     }
-    // from inside, a re-entrant corner lies outwards
+    // from inside, a re-entrant corner is outwards
     let normal = if at_corner { nearest.normal.map(|x| -x) } else { nearest.normal };
     SignedDistance { distance: -nearest.distance, normal }
 }
@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn gaps_of_a_plus() {
+    fn signed_distances_of_a_plus() {
         let cases = [
             ([4.0, 0.0], 1.0, [1.0, 0.0]),
             ([2.5, 0.0], -0.5, [1.0, 0.0]),
@@ -192,9 +192,9 @@ mod tests {
     #[test]
     fn what_is_no_outline() {
         let of = |corners: &[[f64; 2]]| Outline::polygon(corners.to_vec()).expect_err("no outline");
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), NoOutline::TooFew(2));
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), NoOutline::Flat);
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), NoOutline::Crossing(1, 3));
-        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), NoOutline::Crossing(1, 3));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0]]), OutlineError::TooFew(2));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), OutlineError::Flat);
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 2.0]]), OutlineError::Crossing(1, 3));
+        assert_eq!(of(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]), OutlineError::Crossing(1, 3));
     }
 }

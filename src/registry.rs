@@ -1,5 +1,5 @@
-//! From a layout to a model: which generated structure fits, with the layout's numbers as its parameters, or the
-//! generic implementation.
+//! The model of a layout: generated code of its structure, with the layout's numbers as parameters, or the generic
+//! implementation.
 
 #[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;
@@ -9,15 +9,7 @@ use crate::manifest::Manifest;
 use crate::owned::CloneModel;
 use crate::structure::{Difference, Mismatch, in_words, parameters};
 
-/// As many values as there are parameters: [`parameters`] made them so.
-#[allow(dead_code, reason = "a build may be without any layout")]
-fn place<const N: usize>(values: Vec<f64>) -> [f64; N] {
-    let mut array = [0.0; N];
-    array.iter_mut().zip(values).for_each(|(place, value)| *place = value);
-    array
-}
-
-/// A generated structure and how to set its numbers.
+/// A generated structure, and its model with given values of the parameters.
 struct Candidate {
     manifest: &'static Manifest,
     build: fn(Vec<f64>) -> Box<dyn CloneModel>,
@@ -37,8 +29,8 @@ macro_rules! registry {
         const CANDIDATES: &[Candidate] = &[$(Candidate {
             manifest: &generated::$name::MANIFEST,
             build: |values| {
-                let parameters = generated::$name::Parameters::from_array(place(values));
-                Box::new(generated::$name::Model::new(parameters))
+                let values = values.try_into().expect("one value per parameter");
+                Box::new(generated::$name::Model::new(generated::$name::Parameters::from_array(values)))
             },
         }),*];
     };
@@ -55,7 +47,7 @@ macro_rules! shipped {
 
 include!(concat!(env!("OUT_DIR"), "/registry.rs"));
 
-/// No generated code has the structure of a layout.
+/// No generated code in this build has the structure of a layout.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "no generated code in this build has the structure of layout `{layout}` ({structure}); there is code for: \
@@ -66,11 +58,11 @@ pub struct NoModel {
     pub layout: String,
     /// Its structure in words.
     pub structure: String,
-    /// The structures that there are.
+    /// The names of the generated structures.
     pub available: String,
-    /// What keeps it from the nearest of them, as keys and values; empty where arms or links are others.
+    /// The differences from the nearest of them, as keys and values; empty where arms or links differ.
     pub nearest: String,
-    /// How to get it.
+    /// How to get generated code.
     pub mend: String,
 }
 
@@ -82,7 +74,7 @@ pub fn generated(layout: &Layout) -> Result<Box<dyn CloneModel>, NoModel> {
     fitting(layout).map(|(candidate, values)| (candidate.build)(values))
 }
 
-/// What the generated code of the layout's structure was derived from.
+/// The manifest of the generated code of the layout's structure.
 ///
 /// # Errors
 /// As [`fn@generated`].
@@ -90,7 +82,7 @@ pub fn manifest(layout: &Layout) -> Result<&'static Manifest, NoModel> {
     fitting(layout).map(|(candidate, _)| candidate.manifest)
 }
 
-/// The generated structure with the fewest parameters that the layout fits, and its values of them.
+/// The generated structure with the fewest parameters that the layout fits, and their values.
 fn fitting(layout: &Layout) -> Result<(&'static Candidate, Vec<f64>), NoModel> {
     let mut fitting: Option<(&'static Candidate, Vec<f64>)> = None;
     let mut nearest: Option<(&str, Vec<Difference>)> = None;
@@ -123,7 +115,7 @@ pub fn generic(layout: &Layout) -> Box<dyn CloneModel> {
     Box::new(Generic::new(layout))
 }
 
-/// The way to generated code of a layout.
+/// How to get generated code of a layout.
 fn mend(layout: &Layout) -> String {
     let name = &layout.name;
     let generic = "`run` and `eval` compute any layout as it is with `--dynamics generic`, and `generate` writes code of \

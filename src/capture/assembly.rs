@@ -1,4 +1,4 @@
-//! Robot and targets as they hang together between two impacts.
+//! Robot and targets between two impacts: merged with links, or beside the robot under constraints.
 
 use crate::contact::{Contact, ContactKind, ContactLaw, ContactPartner, LoopConstraint};
 use crate::error::Error;
@@ -6,7 +6,7 @@ use crate::owned::{CloneModel, RobotState};
 use crate::simulate::system::{Body, System};
 use crate::target::Target;
 
-/// A contact that lasts: an end effector that holds a target.
+/// A lasting contact: an end effector that holds a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Attachment {
     /// Index of the target.
@@ -17,12 +17,12 @@ pub struct Attachment {
     pub kind: ContactKind,
 }
 
-/// How a target is part of what moves.
+/// How a target is part of the system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TargetPlacement {
     /// A body beside the robot, free or pinned, by its index.
     Beside(usize),
-    /// One with the last link of an arm.
+    /// Merged with the last link of an arm.
     Merged {
         /// The arm.
         arm: usize,
@@ -33,34 +33,34 @@ pub enum TargetPlacement {
     },
 }
 
-/// A robot whose last links are one with what they hold rigidly, the other targets beside it, and the holds that close
-/// loops.
+/// A robot whose last links are merged with the targets that they hold rigidly, the other targets beside it, and the
+/// constraints of closed loops.
 ///
-/// Of the rigid attachments on a target the first makes it one with its arm; all others, and pins, are closures.
+/// The first rigid attachment of a target merges it with its arm; the others, and pins, are constraints.
 pub struct Assembly {
-    /// The robot, with what its links have become.
+    /// The robot with merged links.
     pub model: Box<dyn CloneModel>,
-    /// Targets that are no part of a link.
+    /// Targets that are not merged.
     pub bodies: Vec<Body>,
-    /// Holds between end effectors and bodies, or end effectors and end effectors.
+    /// Between end effectors and bodies, or between two end effectors.
     pub constraints: Vec<LoopConstraint<f64>>,
-    /// Where each target is.
+    /// One per target.
     pub places: Vec<TargetPlacement>,
 }
 
 impl Assembly {
-    /// From the robot as it is without targets, the targets as they are now, and what holds them.
+    /// From the model of the robot without targets, the states of robot and targets, and the attachments.
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub fn new(
         mut model: Box<dyn CloneModel>,
-        motion: &RobotState,
+        state: &RobotState,
         targets: &[Body],
         attachments: &[Attachment],
     ) -> Result<Self, Error> {
         let mut end_effectors = vec![[0.0; 3]; model.arms()];
-        model.end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut end_effectors)?;
+        model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut end_effectors)?;
         let mut merged = vec![None; model.arms()];
         let (mut bodies, mut places) = (Vec::new(), Vec::new());
         for (i, target) in targets.iter().enumerate() {
@@ -83,7 +83,7 @@ impl Assembly {
                 }
             });
         }
-        model.merge(&motion.base_pose, &motion.joint_angles, &merged)?;
+        model.merge(&state.base_pose, &state.joint_angles, &merged)?;
         let mut constraints = Vec::new();
         for attachment in attachments {
             let (other, pose) = match places[attachment.target] {
@@ -102,28 +102,28 @@ impl Assembly {
         Ok(Self { model, bodies, constraints, places })
     }
 
-    /// What a phase moves.
+    /// The system of a phase, without joint limits.
     #[must_use]
     pub fn system(&self) -> System<'_> {
         System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints, joint_limits: &[] }
     }
 
-    /// Those of the targets, as they are at some time, that are beside the robot.
+    /// The targets beside the robot, of all.
     #[must_use]
     pub fn beside(&self, targets: &[Body]) -> Vec<Body> {
         let pairs = targets.iter().zip(&self.places);
         pairs.filter(|(_, place)| matches!(place, TargetPlacement::Beside(_))).map(|(target, _)| *target).collect()
     }
 
-    /// Those of the bodies beside the robot that end effectors hold.
+    /// The bodies that end effectors hold, of those beside the robot.
     #[must_use]
     pub fn pinned(&self, bodies: &[Body]) -> Vec<Body> {
         let held = |i: usize| self.constraints.iter().any(|constraint| constraint.other == ContactPartner::Body(i));
         bodies.iter().enumerate().filter(|(i, _)| held(*i)).map(|(_, body)| *body).collect()
     }
 
-    /// The holds as contacts, at poses of the end effectors and bodies.
-    pub(crate) fn holds(&self, end_effectors: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
+    /// The constraints as contacts, at poses of the end effectors and bodies.
+    pub(crate) fn constraint_contacts(&self, end_effectors: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
         let pose = |other: ContactPartner| match other {
             ContactPartner::Body(i) => bodies[i].pose,
             ContactPartner::EndEffector(arm) => end_effectors[arm],
@@ -140,7 +140,7 @@ impl Assembly {
         end_effector_twists: &[[f64; 3]],
         bodies: &[Body],
     ) -> Vec<Body> {
-        let of = |(target, place): (&Body, &TargetPlacement)| match *place {
+        let moved = |(target, place): (&Body, &TargetPlacement)| match *place {
             TargetPlacement::Beside(i) => bodies[i],
             TargetPlacement::Merged { arm, offset, yaw } => {
                 let [end_effector_yaw, x, y] = end_effectors[arm];
@@ -153,7 +153,7 @@ impl Assembly {
                 }
             }
         };
-        targets.iter().zip(&self.places).map(of).collect()
+        targets.iter().zip(&self.places).map(moved).collect()
     }
 }
 

@@ -1,4 +1,5 @@
-//! What a contact asks of robot and target: extended inverse inertia, effective masses, impulse index and ellipse.
+//! The response of robot and target to a contact: extended inverse inertia, effective masses, impulse index and
+//! ellipse.
 
 use crate::capture::contact_at_time::ImpactContact;
 use crate::contact::{ImpulseEllipse, InverseInertia};
@@ -7,30 +8,29 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::system::Body;
 
-/// Before an impact, for the contact by itself: end effector and target free to move otherwise.
+/// The response before an impact to one contact alone, as if there were no other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResponse {
     /// [ω, vx, vy] of the end effector relative to the contact point of the target.
     pub relative_twist: [f64; 3],
-    /// The direction that the effective masses are of: of a bounce the normal, else that of the relative velocity;
-    /// `None` where there is none.
+    /// The direction of the effective masses: the normal of a bounce, else that of the relative velocity; `None` where
+    /// that is zero.
     pub direction: Option<[f64; 2]>,
     /// Of the end effector: Yoshida & Sashida's extended inverse inertia tensor.
     pub inverse_inertia: InverseInertia<f64>,
-    /// Along the direction, kg: of the robot at its end effector, of the target at its contact point, of both against
-    /// each other.
+    /// Along the direction, kg: of the robot at its end effector, of the target at its contact point, of both together.
     pub effective_masses: Option<[f64; 3]>,
-    /// Size of the impulse, N s, that a closing speed of 1 m/s along the direction asks for at a point contact without
-    /// restitution.
+    /// Magnitude of the impulse, N s, that stops a closing speed of 1 m/s along the direction at a point contact
+    /// without restitution.
     pub impulse_index: Option<f64>,
-    /// The impulses that a closing speed of 1 m/s asks for, over all directions.
+    /// The same impulses over all directions.
     pub impulse_ellipse: ImpulseEllipse<f64>,
 }
 
-/// Of one contact.
+/// The response of one contact.
 ///
 /// # Errors
-/// What the model says.
+/// Those of the model.
 pub fn response(
     model: &dyn Model<f64>,
     before: &RobotState,
@@ -54,7 +54,7 @@ pub fn response(
     let masses = |along: &[f64; 2]| [of_end_effector, of_target, of_both].map(|inertia| inertia.effective_mass(along));
     let index = |along: &[f64; 2]| {
         let [fx, fy] = match touch.law.bounce() {
-            // only the part along the normal
+            // a bounce has no tangential impulse
             Some(_) => along.map(|part| part * of_both.effective_mass(along)),
             None => of_both.stopping_impulse(along),
         };

@@ -1,4 +1,4 @@
-//! One impact of a study: exact and paper side by side, with momentum and energy of robot and targets together.
+//! One impact by the exact and by the paper's equations, (10) to (17), with the balance of momentum and energy.
 
 use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
@@ -18,26 +18,26 @@ use crate::target::Target;
 pub struct ImpactSolution {
     /// In full coordinates.
     pub exact: ImpactResult,
-    /// The paper's literal equations, which are about rigid captures of one target per arm; `None` for other contacts.
+    /// By the paper's literal equations, for rigid captures of one target per arm; `None` for other contacts.
     pub paper: Option<ImpactResult>,
-    /// [ω, vx, vy] of every target after it, touched or not, by the exact model.
+    /// [ω, vx, vy] of every target after it, by the exact equations.
     pub target_twists: Vec<[f64; 3]>,
     /// The contacts one by one.
     pub contacts: Vec<ContactResult>,
 }
 
-/// One contact, by the exact model.
+/// One contact, by the exact equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResult {
-    /// Who touches whom, where and how.
+    /// Target, arm, contact point and law.
     pub touching: ImpactContact,
     /// [n, fx, fy] on the robot at the end effector; N m s, N s.
     pub impulse: [f64; 3],
-    /// What the impulse had to do with.
+    /// Inertia and relative velocity at the contact.
     pub response: ContactResponse,
 }
 
-/// What an impact did, by one of the models. Per arm: `None` where the arm touches nothing.
+/// The result of an impact. Lists per arm have `None` for an arm without contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImpactResult {
     /// rad/s.
@@ -50,7 +50,7 @@ pub struct ImpactResult {
     pub impulses: Vec<Option<[f64; 3]>>,
     /// [l, px, py] after less before, robot and targets together, about the inertial origin.
     pub momentum_jump: [f64; 3],
-    /// The largest jump over the sum of the bodies' momenta, linear or angular.
+    /// The larger of linear and angular jump, relative to the sum of the bodies' momenta.
     pub relative_momentum_jump: f64,
     /// With the targets, J.
     pub kinetic_energy_before: f64,
@@ -66,10 +66,10 @@ impl ImpactResult {
     }
 }
 
-/// An impact on an assembly in motion, where `targets` are as they are before it.
+/// Solves an impact on an assembly; `before` and `targets` are the states before it.
 ///
 /// # Errors
-/// What the model says of the state and the targets; [`Error::Singular`] where contacts depend on each other.
+/// Those of the model; [`Error::Singular`] where contacts depend on each other.
 pub fn solve_impact(
     assembly: &Assembly,
     before: &RobotState,
@@ -92,7 +92,7 @@ pub fn solve_impact(
     Ok(ImpactSolution { exact: result(&exact)?, paper, target_twists, contacts })
 }
 
-/// What an impact leaves: all targets, and one impulse per contact.
+/// Velocities after an impact, of all targets, and one impulse per contact.
 struct Velocities {
     base_twist: [f64; 3],
     joint_rates: Vec<f64>,
@@ -100,7 +100,7 @@ struct Velocities {
     impulses: Vec<[f64; 3]>,
 }
 
-/// The targets by arm, where each contact is rigid and the only one of its target, and nothing is held yet.
+/// The targets by arm, where each contact is rigid and the only one of its target, and no target is held yet.
 fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact]) -> Option<Vec<Option<Target<f64>>>> {
     if assembly.places.iter().any(|place| matches!(place, TargetPlacement::Merged { .. }))
         || !assembly.constraints.is_empty()
@@ -110,14 +110,16 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact
     let mut by_arm = vec![None; assembly.model.arms()];
     for touch in touching {
         let alone = touching.iter().filter(|other| other.target == touch.target).count() == 1;
-        let Body { mass, inertia, twist, .. } = *targets.get(touch.target)?;
-        let place = by_arm.get_mut(touch.arm).filter(|_| alone && touch.law.kind() == ContactKind::Rigid)?;
-        *place = Some(Target { mass, inertia, contact: touch.offset, twist });
+        if !alone || touch.law.kind() != ContactKind::Rigid {
+            return None;
+        }
+        let Body { mass, inertia, twist, .. } = targets[touch.target];
+        by_arm[touch.arm] = Some(Target { mass, inertia, contact: touch.offset, twist });
     }
     Some(by_arm)
 }
 
-/// The rigid capture by the paper's reduced equations.
+/// The rigid capture by the paper's reduced equations, (10) to (17).
 fn by_equations_of_the_paper(
     model: &dyn Model<f64>,
     before: &RobotState,
@@ -149,7 +151,7 @@ fn by_equations_of_the_paper(
     })
 }
 
-/// Contacts of any kind, together with what is held already.
+/// Contacts of any kind together with the existing constraints, in full coordinates.
 fn by_contacts(
     assembly: &Assembly,
     before: &RobotState,
@@ -159,7 +161,6 @@ fn by_contacts(
     let model = &*assembly.model;
     let mut end_effectors = vec![[0.0; 3]; model.arms()];
     model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut end_effectors)?;
-    // the end effectors and bodies as they are now
     let bodies: Vec<Body> = assembly.beside(targets);
     let new = touching.iter().map(|touch| {
         let (other, offset) = match assembly.places[touch.target] {
@@ -171,7 +172,7 @@ fn by_contacts(
         };
         Contact { arm: touch.arm, other, offset, law: touch.law }
     });
-    let held = assembly.holds(&end_effectors, &bodies);
+    let held = assembly.constraint_contacts(&end_effectors, &bodies);
     let contacts: Vec<_> = new.chain(held).collect();
     let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&contacts));
     let mut numbers = vec![0.0; length];
@@ -192,7 +193,7 @@ fn by_contacts(
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
 }
 
-/// Momentum [l, px, py] and energy of robot and targets, and the sums of their bodies' sizes, [angular, linear].
+/// Momentum [l, px, py] and energy of robot and targets, and the scales [angular, linear] of their momentum.
 struct Total {
     momentum: [f64; 3],
     magnitude: [f64; 2],
@@ -215,15 +216,14 @@ fn balance(
     let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
     let angular = relative(jump[0].abs(), start.magnitude[0].max(end.magnitude[0]));
     let linear = relative(jump[1].hypot(jump[2]), start.magnitude[1].max(end.magnitude[1]));
-    let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> Option<[f64; 3]>| {
-        let arms = 0..assembly.model.arms();
-        let touch = |arm| touching.iter().enumerate().find(|(_, touch)| touch.arm == arm);
-        arms.map(|arm| touch(arm).and_then(|(i, touch)| value(i, touch))).collect()
+    let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> [f64; 3]| {
+        let contact = |arm| touching.iter().enumerate().find(|(_, contact)| contact.arm == arm);
+        (0..assembly.model.arms()).map(|arm| contact(arm).map(|(i, contact)| value(i, contact))).collect()
     };
     Ok(ImpactResult {
         base_twist_after: *base_twist,
-        target_twists_after: per_arm(&|_, touch| twists.get(touch.target).copied()),
-        impulses: per_arm(&|i, _| impulses.get(i).copied()),
+        target_twists_after: per_arm(&|_, touch| twists[touch.target]),
+        impulses: per_arm(&|i, _| impulses[i]),
         momentum_jump: jump,
         relative_momentum_jump: angular.max(linear),
         kinetic_energy_before: start.energy,
@@ -232,7 +232,7 @@ fn balance(
     })
 }
 
-/// Of the robot, with what its links hold, and the targets beside it.
+/// Of the robot with merged targets and the targets beside it.
 fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<Total, Error> {
     let beside = assembly.beside(targets);
     let whole = with_bodies(assembly.model.momentum(state)?, &beside);

@@ -1,4 +1,5 @@
-//! A scenario from approach to post-impact: one approach, then an impact and what follows for every case.
+//! A study: simulates a scenario's approach, then for every case the impact, eqs. (10) to (17), and the motion after
+//! it.
 
 pub mod approach;
 pub mod assembly;
@@ -28,52 +29,51 @@ use crate::simulate::{Phase, PhaseError};
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
-/// Largest drift of the centre of mass in a phase that passes the audit: it is the integral of what the momentum drifts
-/// by.
+/// Largest drift of the centre of mass, the integral of the momentum drift, in a phase that passes the audit.
 pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
 
-/// Largest opening of what is held that passes the audit, rad or m, and its rate.
+/// Largest constraint error that passes the audit, rad or m, and its largest rate.
 pub const CONSTRAINT_BOUND: f64 = 1e-10;
 
-/// Deepest that an end effector may be inside a target that it does not hold, m.
+/// Largest penetration of a target by an end effector that does not hold it, m.
 pub const PENETRATION_BOUND: f64 = 1e-6;
 
-/// Makes a model of the robot, in its state before any capture.
+/// Makes a model of the robot without targets.
 pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 
-/// What was computed for one scenario.
+/// The results of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Where the end rates of the approach come from, where they were designed.
+    /// Of the approach, where end effector twists are given.
     pub terminal_rates: Option<TerminalRates>,
-    /// Where its final joint angles come from, where they were designed.
+    /// Of the approach, where end effector poses are given and the joint trajectory is to reach them.
     pub inverse_kinematics: Option<InverseKinematics>,
-    /// The approach: of all cases where contacts come by time, else as far as it would go without any.
+    /// The approach of all cases; with contact detection, that without contacts.
     pub approach: Phase,
-    /// By how much it misses the wanted end effector poses, one per arm; empty where none are wanted.
+    /// Its errors from the desired end effector poses, one per arm; empty where none are given.
     pub terminal_errors: Vec<Option<TerminalError>>,
     /// One per case, in the scenario's order.
     pub cases: Vec<CaseResult>,
 }
 
-/// One case.
+/// The results of one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseResult {
     /// Its name.
     pub name: String,
-    /// Its own approach, which ends at the first contact; `None` where that comes by time.
+    /// With contact detection, the approach up to the first contact; else `None`.
     pub approach: Option<Phase>,
-    /// The targets at the end of the approach, before they are touched.
+    /// The targets at the end of the approach, before the impact.
     pub targets: Vec<Body>,
-    /// End effectors and targets that were to meet and did not, where contacts are found by detection.
+    /// With contact detection, the planned contacts that were not made.
     pub closest: Vec<ClosestApproach>,
-    /// Impact and what follows; `None` where there is nothing to capture, or no end effector met its target.
+    /// Impact and post-impact motion; `None` without targets, and where no end effector met its target.
     pub capture: Option<CaptureResult>,
 }
 
-/// An impact in the course of the motion after another.
+/// An impact after the first one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FurtherImpact {
     /// Since the first impact, s.
@@ -82,43 +82,43 @@ pub struct FurtherImpact {
     pub impact: ImpactSolution,
 }
 
-/// How near an end effector came to a target that it never touched.
+/// The smallest distance of an end effector from a target that it never touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosestApproach {
     /// Index of the target.
     pub target: usize,
     /// Index of the arm.
     pub arm: usize,
-    /// From its outline, m.
+    /// From the outline, m.
     pub distance: f64,
-    /// Since the start of the approach, s, to the time between samples.
+    /// Since the start of the approach, s, to the sampling interval.
     pub time: f64,
 }
 
 /// A capture and the motion after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaptureResult {
-    /// Exact and as the paper writes it.
+    /// The first impact, by the exact and the paper's equations.
     pub impact: ImpactSolution,
-    /// Robot and targets from the exact velocities on.
+    /// The motion of robot and targets from the exact velocities.
     pub post_impact: Phase,
     /// The targets at each of its samples.
     pub targets: Vec<Vec<Body>>,
     /// Impacts after the first one, where contacts are found by detection.
     pub further: Vec<FurtherImpact>,
-    /// By how much an end effector was inside a target that it does not hold, at most, m.
+    /// Largest penetration of a target by an end effector that does not hold it, m.
     pub penetration: f64,
-    /// What is left at its end; `None` where the joints are free, as in the paper.
+    /// The residual motion at the end; `None` without control, as in the paper.
     pub remainder: Option<ResidualMotion>,
 }
 
 /// Why a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StudyError {
-    /// The end rates could not be designed.
+    /// The terminal rates could not be computed.
     #[error(transparent)]
     TerminalRates(#[from] TerminalRatesError),
-    /// The final joint angles could not be designed.
+    /// The final joint angles could not be computed.
     #[error(transparent)]
     InverseKinematics(#[from] InverseKinematicsError),
     /// The approach stopped.
@@ -139,7 +139,7 @@ pub enum StudyError {
         /// m.
         depth: f64,
     },
-    /// Contacts follow each other without end.
+    /// Too many impacts.
     #[error(
         "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \
          modelled"
@@ -170,18 +170,18 @@ pub enum StudyError {
     },
 }
 
-/// Told what the study is about to do, for a progress display.
+/// The progress display of a study.
 pub trait Observer {
-    /// A part begins that takes about so many steps.
+    /// A part begins, of about so many steps; 0 where the number is not known.
     fn begin(&mut self, part: &str, steps: u64);
     /// One more step is done.
     fn step(&mut self);
 }
 
-/// Runs a scenario; samples are `sample` seconds apart.
+/// Simulates a scenario; samples are `sample` seconds apart.
 ///
 /// # Errors
-/// [`StudyError`], with the part and the numbers.
+/// [`StudyError`].
 pub fn study(
     scenario: &Scenario,
     make: ModelFactory<'_>,
@@ -189,7 +189,7 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     let model = make();
-    // end effectors on paths of their own need no joint trajectory
+    // resolved motion rate control needs no joint trajectory
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     let inverse_kinematics = match &scenario.approach.final_end_effector_poses {
         Some(goals) if !by_end_effectors => {
@@ -242,7 +242,7 @@ pub fn study(
 }
 
 impl CaseResult {
-    /// An approach to nothing.
+    /// Of a scenario without targets.
     fn alone(name: &str) -> Self {
         Self { name: name.to_owned(), approach: None, targets: Vec::new(), closest: Vec::new(), capture: None }
     }
@@ -253,8 +253,8 @@ impl CaseResult {
         self.approach.as_ref().unwrap_or(&study.approach)
     }
 
-    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together, which nothing changes
-    /// before they are touched; N m s, N s, J.
+    /// Momentum [l, px, py] about the inertial origin and kinetic energy of the targets together before the impact; N m
+    /// s, N s, J.
     #[must_use]
     pub fn targets_momentum(&self) -> ([f64; 3], f64) {
         self.targets.iter().map(Body::momentum).fold(([0.0; 3], 0.0), |(sum, energy), (part, more)| {
@@ -262,7 +262,7 @@ impl CaseResult {
         })
     }
 
-    /// The targets at a time of the approach, s before its end: they fly freely.
+    /// The freely moving targets `ago` s before the end of the approach.
     #[must_use]
     pub fn targets_before(&self, ago: f64) -> Vec<Body> {
         self.targets.iter().map(|target| target.after(-ago)).collect()
@@ -270,11 +270,11 @@ impl CaseResult {
 }
 
 impl Study {
-    /// What the audit objects to; empty when every phase and every exact impact passes.
+    /// The failures of the audit; empty when every phase and every exact impact passes.
     #[must_use]
     pub fn objections(&self) -> Vec<String> {
         let mut found = Vec::new();
-        // where every case has an approach of its own, the one without contacts never happens
+        // the approach without contacts is not part of any case with contact detection
         if self.cases.iter().any(|case| case.approach.is_none()) {
             found.extend(phase_objections("approach", &self.approach));
         }
@@ -300,7 +300,7 @@ impl Study {
 fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
     let mut found = Vec::new();
     let jump = exact.relative_momentum_jump;
-    // a NaN is not within its bound
+    // NaN exceeds every bound
     if jump.partial_cmp(&MOMENTUM_BOUND).is_none_or(std::cmp::Ordering::is_gt) {
         found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
     }
@@ -321,7 +321,7 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
         ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
         ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
-    // a NaN is not within its bound
+    // NaN exceeds every bound
     let out_of_bound =
         checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
     let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));

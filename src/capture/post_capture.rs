@@ -1,4 +1,4 @@
-//! The motion after an impact, under the law that a scenario names.
+//! The motion after an impact under the scenario's post-capture control law.
 
 use crate::capture::assembly::Attachment;
 use crate::control::{Control, ProportionalDerivative, Stabilise, ZeroTorque};
@@ -11,8 +11,8 @@ use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing};
 use crate::trajectory::ConstantSetpoint;
 
-/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis, that hold
-/// nothing.
+/// Which joints turn balanced reaction wheels: arms of one link of length 0 with its COM on the axis that hold no
+/// target.
 #[must_use]
 pub fn wheels(layout: &Layout, attachments: &[Attachment]) -> Vec<bool> {
     let arms = layout.arms.iter().enumerate();
@@ -24,18 +24,18 @@ fn is_wheel(arm: &Arm) -> bool {
     matches!(arm.links.as_slice(), [link] if [link.length, link.com[0], link.com[1]].iter().all(|size| *size == 0.0))
 }
 
-/// What a scenario wants after an impact, for what its end effectors hold.
+/// A post-capture control law and its parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct PostCaptureLaw<'a> {
-    /// The law.
+    /// From the scenario.
     pub after: &'a PostImpact,
     /// Which joints turn wheels, see [`wheels`].
     pub wheels: &'a [bool],
-    /// The joint angles of the capture, rad, which some laws hold.
+    /// Setpoint of the joint angles, rad: those of the capture.
     pub angles: &'a [f64],
 }
 
-/// Runs robot and targets from `start` on, for a time or up to an event.
+/// Simulates robot and targets from `start` under the law, up to the duration or an event.
 ///
 /// # Errors
 /// When and why it stopped.
@@ -51,16 +51,16 @@ pub fn run_post_capture(
     let size = 3 + model.joints();
     let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     let (mut held, mut damped, mut stabilised);
-    let standing = ConstantSetpoint { angles };
+    let setpoint = ConstantSetpoint { angles };
     let no_stiffness = vec![0.0; model.joints()];
     let law: &mut dyn Control<f64> = match &after.control {
         PostCaptureControl::None => &mut ZeroTorque,
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
-            held = ProportionalDerivative { trajectory: standing, proportional_gain, derivative_gain };
+            held = ProportionalDerivative { trajectory: setpoint, proportional_gain, derivative_gain };
             &mut held
         }
         PostCaptureControl::Damping { derivative_gain } => {
-            damped = ProportionalDerivative { trajectory: standing, proportional_gain: &no_stiffness, derivative_gain };
+            damped = ProportionalDerivative { trajectory: setpoint, proportional_gain: &no_stiffness, derivative_gain };
             &mut damped
         }
         PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {

@@ -1,4 +1,4 @@
-//! What is left of the motion when a robot has settled after a capture.
+//! The residual motion of robot and captured targets at the end of the post-impact phase.
 
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -7,48 +7,47 @@ use crate::scenario::PostCaptureControl;
 use crate::simulate::bodies::{bodies, center_of_mass, inertia_about, with_bodies};
 use crate::simulate::system::Body;
 
-/// The motion that remains, robot and targets as one.
+/// Momentum and rates of robot and captured targets together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResidualMotion {
-    /// The law, as in a scenario.
+    /// Name of the control law, as in a scenario.
     pub control: &'static str,
     /// [l, px, py], l about the COM of the whole; N m s, N s.
     pub momentum: [f64; 3],
-    /// [vx, vy] of the COM of the whole, m/s: no joint and no wheel changes it.
+    /// [vx, vy] of the COM of the whole, m/s, which no joint torque changes.
     pub velocity: [f64; 2],
     /// Of the whole about its COM, kg m².
     pub inertia: f64,
-    /// l/I: the rate of the whole turning as one rigid body, rad/s.
+    /// l/I: the rate of the whole as one rigid body, rad/s.
     pub rigid_rate: f64,
     /// ω of the base, rad/s.
     pub base_rate: f64,
-    /// The largest size of the rates of the joints that turn no wheel, rad/s.
+    /// The largest absolute rate of the joints without wheels, rad/s.
     pub largest_joint_rate: f64,
     /// The rates of the wheels, rad/s; empty without wheels.
     pub wheel_rates: Vec<f64>,
 }
 
 impl ResidualMotion {
-    /// Of the robot with what it holds, its links' and the bodies `held` beside them; `wheels` says which joints turn
-    /// wheels.
+    /// Of the robot with merged targets and the bodies `held` beside it; `wheels` says which joints turn wheels.
     ///
     /// # Errors
-    /// What the model says of the state.
+    /// Those of the model.
     pub fn of(
         model: &dyn Model<f64>,
         held: &[Body],
         control: &PostCaptureControl,
-        motion: &RobotState,
+        state: &RobotState,
         wheels: &[bool],
     ) -> Result<Self, Error> {
-        let bodies = bodies(model, &motion.view(), held)?;
-        let total = with_bodies(model.momentum(&motion.view())?, held);
+        let bodies = bodies(model, &state.view(), held)?;
+        let total = with_bodies(model.momentum(&state.view())?, held);
         let (center, mass) = center_of_mass(&bodies);
         let inertia = inertia_about(&bodies, center);
         let [px, py] = total.linear_momentum;
         let angular = total.angular_momentum - (center[0] * py - center[1] * px);
-        let joints = || motion.joint_rates.iter().zip(wheels);
-        let [base_rate, ..] = motion.base_twist;
+        let joints = || state.joint_rates.iter().zip(wheels);
+        let [base_rate, ..] = state.base_twist;
         Ok(Self {
             control: control.name(),
             momentum: [angular, px, py],

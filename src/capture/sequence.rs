@@ -255,8 +255,8 @@ impl SequenceState<'_> {
         Ok(impact)
     }
 
-    /// Simulates from `time` s after the first impact to the next contact of the pairs or the end; returns the phase and
-    /// the targets at its samples.
+    /// Simulates from `time` s after the first impact to the next contact of the pairs or the end; returns the phase
+    /// and the targets at its samples.
     fn integrate_to_contact(
         &mut self,
         pairs: &[ContactPair],

@@ -1,5 +1,5 @@
-//! Verner's pair of orders 9 and 8 with steps of its own, by the crate `differential-equations`: nothing of that crate
-//! is known outside this file.
+//! Verner's pair of orders 9 and 8 with adaptive steps, by the crate `differential-equations`, which only this file
+//! uses.
 
 use crate::error::Error;
 use differential_equations::error::Error as SolverError;
@@ -18,17 +18,16 @@ type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Vec<f64>, 9, 16, 26>;
 /// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
 ///
 /// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and
-/// go on beyond the times that are asked for: what is there between two steps comes from the interpolant. Each accepted
-/// step takes 26 evaluations, each rejected one 15. Of the crate's methods this one has an interpolant as good as its
-/// steps.
+/// continue beyond the requested times, at which x comes from the interpolant. Each accepted step takes 26 evaluations,
+/// each rejected one 15. Of the crate's methods this one has an interpolant as accurate as its steps.
 pub struct Adaptive {
     /// Some 12 kB of tables.
     solver: Box<Solver>,
     tolerance: f64,
-    /// Outboard it f may be another, s.
+    /// f may change after this time, s.
     end: f64,
-    /// Step wanted before it was cut to end at `end`, s.
-    wanted: f64,
+    /// Next step, s, before it is shortened to end at `end`.
+    next_step: f64,
 }
 
 impl fmt::Debug for Adaptive {
@@ -38,33 +37,33 @@ impl fmt::Debug for Adaptive {
 }
 
 impl Adaptive {
-    /// Smallest tolerance: beyond it rounding is larger.
+    /// Smallest tolerance: rounding errors are larger than a smaller one.
     pub const SMALLEST_TOLERANCE: f64 = 1e-14;
 
-    /// With this tolerance, relative and per unit; to be [started](Self::start).
+    /// With this tolerance, relative and absolute; to be [started](Self::start).
     #[must_use]
     pub fn new(tolerance: f64) -> Self {
         let solver = Solver::rkv989e().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-        Self { solver: Box::new(solver), tolerance, end: 0.0, wanted: 0.0 }
+        Self { solver: Box::new(solver), tolerance, end: 0.0, next_step: 0.0 }
     }
 
-    /// Tries this step first, in s, where the solver would look for one.
+    /// Sets the first step, s, in place of the solver's estimate.
     #[must_use]
     pub fn try_first(self, step: f64) -> Self {
-        Self { wanted: step, ..self }
+        Self { next_step: step, ..self }
     }
 
     /// Starts at `x`; f holds until `end`. Where it was started before, the last step's length is tried first.
     ///
     /// # Errors
-    /// What `derivative` says.
+    /// Those of `derivative`.
     pub fn start(&mut self, time: f64, end: f64, x: &[f64], derivative: &mut Derivative<'_>) -> Result<(), Error> {
         let least = f64::EPSILON * time.abs().max(end.abs()).max(f64::MIN_POSITIVE);
         self.end = end.max(time + 4.0 * least);
-        self.solver.h0 = self.wanted.min(self.end - time); // 0: the solver looks for one
+        self.solver.h0 = self.next_step.min(self.end - time); // 0: the solver estimates one
         let problem = Problem::new(derivative);
         let result = self.solver.init(&problem, time, self.end, &x.to_vec());
-        self.wanted = self.solver.h();
+        self.next_step = self.solver.h();
         problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))
     }
 
@@ -73,7 +72,7 @@ impl Adaptive {
     /// Before every step `restore` may change the x that it starts from, and says whether it did.
     ///
     /// # Errors
-    /// [`Error::Tolerance`] where steps become too short, and what `derivative` and `restore` say.
+    /// [`Error::Tolerance`] where steps become too short, and those of `derivative` and `restore`.
     pub fn advance(
         &mut self,
         time: f64,
@@ -81,7 +80,7 @@ impl Adaptive {
         derivative: &mut Derivative<'_>,
         restore: &mut dyn FnMut(&mut [f64]) -> Result<bool, Error>,
     ) -> Result<(), Error> {
-        // the end of what is held is a sum of steps, and may be its rounding before the time that is meant
+        // `end` may be a sum of steps, rounded to before the requested time
         let time = time.min(self.end);
         let rounding = 4.0 * f64::EPSILON * self.end.abs();
         while time > self.solver.t() + rounding {
@@ -112,14 +111,14 @@ impl Adaptive {
             let left = self.end - start;
             let cut = self.solver.h() > left;
             if cut {
-                self.wanted = self.solver.h();
+                self.next_step = self.solver.h();
                 self.solver.set_h(left);
             }
             let problem = Problem::new(derivative);
             let result = self.solver.step(&problem);
             problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))?;
             if self.solver.t() > start {
-                self.wanted = if cut { self.wanted.max(self.solver.h()) } else { self.solver.h() };
+                self.next_step = if cut { self.next_step.max(self.solver.h()) } else { self.solver.h() };
                 return Ok(());
             }
             if start + self.solver.h() <= start {
@@ -133,7 +132,7 @@ impl Adaptive {
     }
 }
 
-/// f as the crate wants it: it cannot fail there, so that the first failure is kept.
+/// f in the crate's form, which cannot return errors: the first error is kept.
 struct Problem<'a, 'd> {
     derivative: RefCell<&'a mut Derivative<'d>>,
     failure: Cell<Option<Error>>,
@@ -144,7 +143,7 @@ impl<'a, 'd> Problem<'a, 'd> {
         Self { derivative: RefCell::new(derivative), failure: Cell::new(None) }
     }
 
-    /// The failure of f before that of the solver, which is `None`.
+    /// The error of f, or `None` as the error of the solver.
     fn result<X>(self, result: Result<X, SolverError<f64, Vec<f64>>>) -> Result<(), Option<Error>> {
         match (self.failure.get(), result) {
             (Some(failure), _) => Err(Some(failure)),

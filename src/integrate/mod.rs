@@ -1,4 +1,4 @@
-//! The integrators of the core ([`planar_dynamics::integrate`]), and one with steps of its own.
+//! The integrators of the core ([`planar_dynamics::integrate`]), and one with adaptive steps.
 
 #[cfg(feature = "std")]
 pub mod adaptive;

@@ -1,4 +1,4 @@
-//! A control law behind limited and sampled actuators.
+//! Simulation of a phase under a control law with limited and sampled actuators.
 
 use crate::control::{Control, Limited, Sampled};
 use crate::owned::RobotState;
@@ -15,7 +15,7 @@ pub struct Actuation {
     pub steps_per_sample: Option<u32>,
 }
 
-/// Runs one phase under a law whose torques are limited, and sampled, as the scenario says; see [`simulate()`].
+/// Simulates one phase as [`simulate()`] does, with torque limits and zero-order hold around the control law.
 ///
 /// # Errors
 /// When and why it stopped.

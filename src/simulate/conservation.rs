@@ -1,4 +1,4 @@
-//! What must not change while the robot moves, watched in every run.
+//! Errors of the conservation laws of momentum, energy and centre of mass, checked in every run.
 
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
@@ -6,10 +6,10 @@ use crate::simulate::bodies::{bodies, center_of_mass, momentum_sizes, with_bodie
 use crate::simulate::system::Body;
 use crate::state::State;
 
-/// How far a phase strayed from the conservation laws, relative to what moved.
+/// Violations of the conservation laws in a phase, relative to the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ConservationErrors {
-    /// Largest change of momentum, less the impulse from outside, over the largest Σ m|v|, or the same for the angular
+    /// Largest change of momentum, less the external impulse, over the largest Σ m|v|, or the same for the angular
     /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing
     /// moves.
     pub momentum_drift: f64,
@@ -22,7 +22,7 @@ pub struct ConservationErrors {
 }
 
 impl ConservationErrors {
-    /// The worse of all, number by number.
+    /// The larger of each error.
     #[must_use]
     pub fn worse(&self, other: &Self) -> Self {
         Self {
@@ -33,19 +33,18 @@ impl ConservationErrors {
     }
 }
 
-/// What was done to the robot since the start of a phase. No force from outside is among it: the centre of mass goes
-/// its way.
+/// The input to the robot since the start of a phase. There is no external force: the centre of mass moves uniformly.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AccumulatedInput {
-    /// How long it is since the start, s.
+    /// Since the start, s.
     pub time: f64,
-    /// By joint torques and from outside, J.
+    /// Of joint torques and base torque, J.
     pub work: f64,
-    /// From outside: [l, px, py], angular momentum about the inertial origin; N m s, N s.
+    /// External impulse [l, px, py], l about the inertial origin; N m s, N s.
     pub impulse: [f64; 3],
 }
 
-/// Watches one phase.
+/// The conservation errors of a phase so far.
 pub struct ConservationAudit<'a> {
     model: &'a dyn Model<f64>,
     start: Momentum<f64>,
@@ -75,10 +74,10 @@ impl Ratio {
 }
 
 impl<'a> ConservationAudit<'a> {
-    /// Starts watching at a state; work is counted from here.
+    /// Starts at a state, from which the input is counted.
     ///
     /// # Errors
-    /// What the model says of the state.
+    /// Those of the model.
     pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let start = with_bodies(model.momentum(state)?, beside);
         let (center, _) = center_of_mass(&bodies(model, state, beside)?);
@@ -88,35 +87,34 @@ impl<'a> ConservationAudit<'a> {
         Ok(audit)
     }
 
-    /// Looks at one state, this having been done to the robot since the start. Momentum and energy are of the robot and
-    /// the bodies beside it together.
+    /// Checks one state after the input since the start; returns momentum and energy of robot and bodies together.
     ///
     /// # Errors
-    /// What the model says of the state.
+    /// Those of the model.
     pub fn record(
         &mut self,
         state: &State<'_, f64>,
         beside: &[Body],
-        done: &AccumulatedInput,
+        input: &AccumulatedInput,
     ) -> Result<Momentum<f64>, Error> {
         let now = with_bodies(self.model.momentum(state)?, beside);
         let bodies = bodies(self.model, state, beside)?;
         let [angular, linear] = momentum_sizes(&bodies);
-        let [l, px, py] = done.impulse;
+        let [l, px, py] = input.impulse;
         let [x0, y0] = self.start.linear_momentum;
         let [x1, y1] = now.linear_momentum;
         self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
-        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - done.work, now.kinetic_energy);
+        self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
         let ([x, y], mass) = center_of_mass(&bodies);
         let extent = bodies.iter().fold(0.0, |most: f64, body| most.max((body.pose[1] - x).hypot(body.pose[2] - y)));
         let [from_x, from_y] = self.center;
-        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * done.time);
+        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * input.time);
         self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);
         Ok(now)
     }
 
-    /// The phase so far.
+    /// The errors so far.
     #[must_use]
     pub fn drift(&self) -> ConservationErrors {
         ConservationErrors {

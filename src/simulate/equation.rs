@@ -1,4 +1,4 @@
-//! The differential equation of a phase, in the coordinates that are integrated.
+//! The differential equation of a phase, in full or reduced coordinates or in canonical variables.
 
 use crate::control::Control;
 use crate::error::Error;
@@ -6,7 +6,7 @@ use crate::formulation::{Canonical, Reduced};
 use crate::simulate::system::System;
 use crate::state::{CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut};
 
-/// What is integrated: full or reduced coordinates, or canonical variables.
+/// ẋ = f(t, x) of a system under a control law.
 pub(crate) struct Equation<'a> {
     system: &'a System<'a>,
     torques: Vec<f64>,
@@ -19,7 +19,7 @@ enum Form {
     Canonical(CanonicalSpace),
 }
 
-/// Of [`Reduced`].
+/// What [`Reduced`] borrows.
 struct ReducedSpace {
     momentum: [f64; 3],
     mass_matrix: Vec<f64>,
@@ -40,7 +40,7 @@ impl ReducedSpace {
     }
 }
 
-/// Of [`Canonical`], and what its derivative needs beside.
+/// What [`Canonical`] borrows, and working space of its derivative.
 struct CanonicalSpace {
     inertias: Vec<[f64; 2]>,
     poses: Vec<[f64; 3]>,
@@ -48,12 +48,12 @@ struct CanonicalSpace {
     offsets: Vec<[f64; 2]>,
     ends: Vec<bool>,
     rates: Vec<f64>,
-    /// With rates in the place of momenta.
+    /// With rates in place of momenta.
     x: Vec<f64>,
-    /// What the last step left, with rates and …
-    left: Vec<f64>,
-    /// … with momenta.
-    carried: Vec<f64>,
+    /// The vector at the end of the last step, with rates.
+    last_x: Vec<f64>,
+    /// The same, with momenta.
+    last_momenta: Vec<f64>,
     mass_matrix: Vec<f64>,
     bias: Vec<f64>,
     /// 3 + joints.
@@ -61,8 +61,7 @@ struct CanonicalSpace {
 }
 
 impl CanonicalSpace {
-    /// The working space beside it.
-    fn split(&mut self) -> (Canonical<'_, f64>, Beside<'_>) {
+    fn split(&mut self) -> (Canonical<'_, f64>, CanonicalWorkspace<'_>) {
         let canonical = Canonical {
             inertias: &mut self.inertias,
             poses: &mut self.poses,
@@ -72,11 +71,11 @@ impl CanonicalSpace {
             rates: &mut self.rates,
         };
         let Self { x, mass_matrix, bias, results, .. } = self;
-        (canonical, Beside { x, mass_matrix, bias, results })
+        (canonical, CanonicalWorkspace { x, mass_matrix, bias, results })
     }
 }
 
-struct Beside<'a> {
+struct CanonicalWorkspace<'a> {
     x: &'a mut [f64],
     mass_matrix: &'a mut [f64],
     bias: &'a mut [f64],
@@ -92,7 +91,7 @@ impl<'a> Equation<'a> {
     /// In reduced coordinates, with the momentum of `x`.
     ///
     /// # Errors
-    /// [`Error::Beside`] where there are bodies beside the robot, and what the model says.
+    /// [`Error::Beside`] where there are bodies beside the robot, and those of the model.
     pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
         let count = system.bodies.len() + system.constraints.len();
         if count > 0 {
@@ -111,10 +110,10 @@ impl<'a> Equation<'a> {
         Ok(Self { form: Form::Reduced(space), ..Self::full(system) })
     }
 
-    /// In canonical variables: between [`Self::put_momenta`] and [`Self::put_rates`].
+    /// In canonical variables, between [`Self::convert_to_momenta`] and [`Self::convert_to_rates`].
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub(crate) fn canonical(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
         let joints = system.model.joints();
         let size = 3 + joints;
@@ -126,8 +125,8 @@ impl<'a> Equation<'a> {
             ends: vec![false; joints],
             rates: vec![0.0; joints],
             x: x.to_vec(),
-            left: Vec::new(),
-            carried: Vec::new(),
+            last_x: Vec::new(),
+            last_momenta: Vec::new(),
             mass_matrix: vec![0.0; size * size],
             bias: vec![0.0; size],
             results: vec![0.0; size],
@@ -137,15 +136,14 @@ impl<'a> Equation<'a> {
         Ok(Self { form: Form::Canonical(space), ..Self::full(system) })
     }
 
-    /// What moves.
     pub(crate) fn system(&self) -> &'a System<'a> {
         self.system
     }
 
-    /// d/dt of positions, rates and effort.
+    /// d/dt of positions, rates and work.
     ///
     /// # Errors
-    /// What model and law say.
+    /// Those of model and law.
     pub(crate) fn derivative(
         &mut self,
         control: &mut dyn Control<f64>,
@@ -160,12 +158,12 @@ impl<'a> Equation<'a> {
         }
     }
 
-    /// d/dt of positions, momenta and effort: `ṗ = f + ∂T/∂q`, with the torques for f, so that what no force acts on
-    /// stays as it is to the last bit. Where there are bodies beside the robot and forces between them, these are in
-    /// the accelerations: `f = M v̇ + c`; the bodies keep twists for momenta, for their masses are constant.
+    /// d/dt of positions, momenta and work: `ṗ = f + ∂T/∂q`. Without bodies beside the robot f are the torques, so that
+    /// momenta without forces are constant to the last bit; with them `f = M v̇ + c` has the constraint forces too. The
+    /// bodies keep twists in place of momenta, as their masses are constant.
     ///
     /// # Errors
-    /// What model and law say.
+    /// Those of model and law.
     pub(crate) fn canonical_derivative(
         &mut self,
         control: &mut dyn Control<f64>,
@@ -177,68 +175,64 @@ impl<'a> Equation<'a> {
             return self.derivative(control, time, x, rate);
         };
         let (model, joints) = (system.model, system.model.joints());
-        let (mut canonical, beside) = space.split();
-        beside.x.copy_from_slice(x);
-        replace(&mut canonical, system, beside.x, beside.results, Direction::ToRates)?;
-        system.derivative(control, time, beside.x, rate, torques)?;
-        let now = State::from_vector(beside.x, joints)?;
+        let (mut canonical, workspace) = space.split();
+        workspace.x.copy_from_slice(x);
+        replace(&mut canonical, system, workspace.x, workspace.results, Direction::ToRates)?;
+        system.derivative(control, time, workspace.x, rate, torques)?;
+        let now = State::from_vector(workspace.x, joints)?;
         let StateVectorMut { rates, work: [.., base_torque], .. } = split_mut(rate)?;
         if system.bodies.is_empty() && system.constraints.is_empty() {
             let forces = CoordinatesMut::new(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
             forces.joints.copy_from_slice(torques);
-        }
-        let places = &mut rates[..3 + joints];
-        if !system.bodies.is_empty() || !system.constraints.is_empty() {
-            model.mass_matrix(&now.base_pose, now.joint_angles, beside.mass_matrix)?;
-            model.bias(&now, beside.bias)?;
-            let rows = beside.mass_matrix.chunks_exact(3 + joints).zip(beside.bias.iter());
-            for (result, (row, bias)) in beside.results.iter_mut().zip(rows) {
-                *result = row.iter().zip(places.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
+        } else {
+            model.mass_matrix(&now.base_pose, now.joint_angles, workspace.mass_matrix)?;
+            model.bias(&now, workspace.bias)?;
+            let rows = workspace.mass_matrix.chunks_exact(3 + joints).zip(workspace.bias.iter());
+            for (result, (row, bias)) in workspace.results.iter_mut().zip(rows) {
+                *result = row.iter().zip(rates.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
             }
-            places.copy_from_slice(beside.results);
+            rates[..3 + joints].copy_from_slice(workspace.results);
         }
-        canonical.add_energy_gradient(model, &now, places)
+        canonical.add_energy_gradient(model, &now, &mut rates[..3 + joints])
     }
 
-    /// Puts canonical momenta in the place of rates: those that the last step ended with, where nobody changed `x`
-    /// since, for there and back would round.
+    /// Replaces rates by canonical momenta: those at the end of the last step where `x` is unchanged since, as the
+    /// conversion there and back would round.
     ///
     /// # Errors
-    /// What the model says.
-    pub(crate) fn put_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
+    /// Those of the model.
+    pub(crate) fn convert_to_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &self.form {
-            Form::Canonical(space) if space.left == x => x.copy_from_slice(&space.carried),
+            Form::Canonical(space) if space.last_x == x => x.copy_from_slice(&space.last_momenta),
             _ => self.replace(x, Direction::ToMomenta)?,
         }
         Ok(())
     }
 
-    /// Puts rates in the place of canonical momenta, and keeps the momenta for the next step.
+    /// Replaces canonical momenta by rates, and keeps the momenta for the next step.
     ///
     /// # Errors
-    /// What the model says.
-    pub(crate) fn put_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
+    /// Those of the model.
+    pub(crate) fn convert_to_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
         let momenta = x.to_vec();
         self.replace(x, Direction::ToRates)?;
         if let Form::Canonical(space) = &mut self.form {
-            space.left.clear();
-            space.left.extend_from_slice(x);
-            space.carried = momenta;
+            (space.last_x, space.last_momenta) = (x.to_vec(), momenta);
         }
         Ok(())
     }
 
     fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {
         let Form::Canonical(space) = &mut self.form else { return Ok(()) };
-        let (mut canonical, beside) = space.split();
-        replace(&mut canonical, self.system, x, beside.results, direction)
+        let (mut canonical, workspace) = space.split();
+        replace(&mut canonical, self.system, x, workspace.results, direction)
     }
 
-    /// In reduced coordinates, writes the base twist that goes with the joint rates.
+    /// In reduced coordinates, writes the base twist of the joint rates, eq. (17).
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub(crate) fn recover(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &mut self.form {
             Form::Reduced(space) => space.borrow().recover(self.system.model, x),
@@ -246,10 +240,10 @@ impl<'a> Equation<'a> {
         }
     }
 
-    /// What follows every step.
+    /// After every step: recovers the base twist and projects onto the constraints.
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub(crate) fn restore(&mut self, x: &mut [f64]) -> Result<(), Error> {
         self.recover(x)?;
         self.system.restore(x)
@@ -262,7 +256,7 @@ enum Direction {
     ToRates,
 }
 
-/// Momenta for rates or rates for momenta, in the robot's part of `x`; `results` (3 + joints) is working space.
+/// Converts rates to momenta or back in the robot's part of `x`; `results` (3 + joints) is working space.
 fn replace(
     canonical: &mut Canonical<'_, f64>,
     system: &System<'_>,

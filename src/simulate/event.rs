@@ -1,15 +1,15 @@
-//! What can end a phase before its time.
+//! Events that end a phase before its time.
 
 use crate::error::Error;
 use crate::simulate::system::{Body, System};
 use crate::state::State;
 
-/// One instant of a phase, to be looked at.
+/// One instant of a phase.
 #[derive(Clone, Copy)]
 pub struct EventState<'a> {
     /// Since the start of the phase, s.
     pub time: f64,
-    /// What moves.
+    /// Robot, bodies and constraints.
     pub system: &'a System<'a>,
     /// The robot.
     pub state: State<'a, f64>,
@@ -20,16 +20,15 @@ pub struct EventState<'a> {
 /// Values that end a phase: an event is a value that falls from above 0 to 0 or below.
 ///
 /// A value that is 0 or below when the phase begins is no event until it has been above 0 at the end of a step. Values
-/// should be smooth in the state: they are looked at after every step, and where one has a minimum within a step,
-/// there.
+/// should be smooth in the state: they are evaluated after every step, and at a minimum within a step.
 pub trait Events {
-    /// How many there are.
+    /// Their number.
     fn count(&self) -> usize;
 
     /// Their values at an instant, in any unit.
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error>;
 }
 

@@ -1,24 +1,24 @@
-//! Looks for events while a phase runs, and locates their times.
+//! Event location: finds events within steps, and their times.
 
 use crate::error::Error;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::system::System;
 use crate::state::State;
 
-/// Event times are found to this, relative to the time or, below one second, in s.
-const ACCURACY: f64 = 1e-13;
+/// Accuracy of event times, relative to the time, or in s below one second.
+const TIME_TOLERANCE: f64 = 1e-13;
 
-/// How far before and after an instant the rates of values are taken from, relative to the step: far above rounding,
-/// and short enough for a sign.
-const NEAR: f64 = 1e-3;
+/// Half the interval of the difference quotients for the rates of values, relative to the step: far above rounding, and
+/// short enough for a sign.
+const DIFFERENCE: f64 = 1e-3;
 
-/// The part of a bracket that remains in a step of a golden section.
+/// The part of a bracket that a step of golden-section search keeps.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The integrated vector at a time within the step, into the last argument.
 pub(crate) type StateAt<'a> = dyn FnMut(f64, &mut Vec<f64>) -> Result<(), Error> + 'a;
 
-/// Watches the values of events from step to step.
+/// The values of events at the end of the last step.
 pub(crate) struct EventLocator<'a> {
     system: &'a System<'a>,
     events: &'a mut dyn Events,
@@ -40,19 +40,19 @@ impl<'a> EventLocator<'a> {
         Self { system, events, armed: vec![false; count], now }
     }
 
-    /// Whether there is nothing to watch.
+    /// Whether there are no events.
     pub(crate) fn is_idle(&self) -> bool {
         self.armed.is_empty()
     }
 
-    /// Looks at x, whose derivative is `rate`, at the start of a phase.
+    /// Evaluates the events at the start of a phase, at x with the derivative `rate`.
     pub(crate) fn start(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<(), Error> {
-        self.now = self.look(time, step, x, rate)?;
+        self.now = self.evaluate(time, step, x, rate)?;
         self.arm();
         Ok(())
     }
 
-    /// Looks at x at the end of a step: the first event within it, and when it was.
+    /// Evaluates the events at the end of a step; returns the first one within the step and its time.
     pub(crate) fn end_step(
         &mut self,
         [start, end]: [f64; 2],
@@ -60,7 +60,7 @@ impl<'a> EventLocator<'a> {
         rate: &[f64],
         state_at: &mut StateAt<'_>,
     ) -> Result<Option<(usize, f64)>, Error> {
-        let next = self.look(end, end - start, x, rate)?;
+        let next = self.evaluate(end, end - start, x, rate)?;
         let before = std::mem::replace(&mut self.now, next);
         let mut first: Option<(usize, f64)> = None;
         for event in 0..self.armed.len() {
@@ -71,7 +71,7 @@ impl<'a> EventLocator<'a> {
             let bracket = if values[1] <= 0.0 {
                 Some((end, values[1]))
             } else if before.rates[event] < 0.0 && self.now.rates[event] > 0.0 {
-                self.dip(event, [start, end], state_at)?
+                self.find_below_zero(event, [start, end], state_at)?
             } else {
                 None
             };
@@ -92,21 +92,17 @@ impl<'a> EventLocator<'a> {
         }
     }
 
-    fn look(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<EventValues, Error> {
+    fn evaluate(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<EventValues, Error> {
         let count = self.armed.len();
-        let mut look = EventValues { values: vec![0.0; count], rates: vec![0.0; count] };
-        self.values(time, x, &mut look.values)?;
-        let apart = NEAR * step;
-        let mut beside = |side: f64| {
-            let x: Vec<f64> = x.iter().zip(rate).map(|(x, rate)| x + side * apart * rate).collect();
+        let interval = DIFFERENCE * step;
+        let mut values_at = |offset: f64| {
+            let x: Vec<f64> = x.iter().zip(rate).map(|(x, rate)| x + offset * rate).collect();
             let mut values = vec![0.0; count];
-            self.values(time + side * apart, &x, &mut values).map(|()| values)
+            self.values(time + offset, &x, &mut values).map(|()| values)
         };
-        let (before, after) = (beside(-1.0)?, beside(1.0)?);
-        for (rate, (after, before)) in look.rates.iter_mut().zip(after.iter().zip(&before)) {
-            *rate = (after - before) / (2.0 * apart);
-        }
-        Ok(look)
+        let [before, values, after] = [values_at(-interval)?, values_at(0.0)?, values_at(interval)?];
+        let rates = after.iter().zip(&before).map(|(after, before)| (after - before) / (2.0 * interval)).collect();
+        Ok(EventValues { values, rates })
     }
 
     fn values(&mut self, time: f64, x: &[f64], values: &mut [f64]) -> Result<(), Error> {
@@ -123,15 +119,16 @@ impl<'a> EventLocator<'a> {
         Ok(values[event])
     }
 
-    /// A time between two at which a value that falls at first and rises at last is 0 or below, and the value.
-    fn dip(
+    /// Golden-section search for a time at which a value that falls at the start and rises at the end is 0 or below;
+    /// returns the time and the value.
+    fn find_below_zero(
         &mut self,
         event: usize,
         [mut start, mut end]: [f64; 2],
         state_at: &mut StateAt<'_>,
     ) -> Result<Option<(f64, f64)>, Error> {
-        // a value is flat at its minimum: half the digits of the time are all that shows
-        let enough = (end - start) * f64::EPSILON.sqrt();
+        // near a minimum the value resolves only half the digits of the time
+        let tolerance = (end - start) * f64::EPSILON.sqrt();
         let mut inner = [end - GOLDEN * (end - start), start + GOLDEN * (end - start)];
         let mut values = [self.value_at(event, inner[0], state_at)?, self.value_at(event, inner[1], state_at)?];
         loop {
@@ -139,7 +136,7 @@ impl<'a> EventLocator<'a> {
             if values[lower] <= 0.0 {
                 return Ok(Some((inner[lower], values[lower])));
             }
-            if end - start <= enough {
+            if end - start <= tolerance {
                 return Ok(None);
             }
             if lower == 0 {
@@ -154,8 +151,9 @@ impl<'a> EventLocator<'a> {
         }
     }
 
-    /// When a value that is above 0 at the first time and 0 or below at the second falls to 0, or just after. By the
-    /// method of Oliveira & Takahashi (2020): as good as bisection at worst, superlinear for what is smooth.
+    /// The time, or just after it, at which a value falls to 0 that is above 0 at the first time and 0 or below at the
+    /// second. By the ITP method of Oliveira & Takahashi (2020): as good as bisection at worst, superlinear for smooth
+    /// values.
     fn root(
         &mut self,
         event: usize,
@@ -163,10 +161,10 @@ impl<'a> EventLocator<'a> {
         [mut high, mut low]: [f64; 2],
         state_at: &mut StateAt<'_>,
     ) -> Result<f64, Error> {
-        let enough = ACCURACY * below.abs().max(1.0);
+        let tolerance = TIME_TOLERANCE * below.abs().max(1.0);
         let shift = 0.2 / (below - above);
-        let mut reach = enough * 2.0_f64.powi(2 + bisections(below - above, enough));
-        while below - above > enough && low < 0.0 {
+        let mut reach = tolerance * 2.0_f64.powi(2 + bisections(below - above, tolerance));
+        while below - above > tolerance && low < 0.0 {
             let middle = above + 0.5 * (below - above);
             let chord = above + (below - above) * (high / (high - low));
             let toward = (middle - chord).signum();
@@ -186,8 +184,8 @@ impl<'a> EventLocator<'a> {
     }
 }
 
-/// How many bisections make a bracket short enough.
+/// The number of bisections that reduce a bracket to the tolerance.
 #[allow(clippy::cast_possible_truncation, reason = "54 at most, for the accuracy is above rounding")]
-fn bisections(length: f64, enough: f64) -> i32 {
-    (length / enough).log2().ceil().max(0.0) as i32
+fn bisections(length: f64, tolerance: f64) -> i32 {
+    (length / tolerance).log2().ceil().max(0.0) as i32
 }

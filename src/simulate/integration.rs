@@ -1,4 +1,4 @@
-//! How a phase is integrated.
+//! The integrator and the coordinates of a phase.
 
 /// By which integrator, in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -9,7 +9,7 @@ pub struct Integration {
     pub coordinates: Formulation,
 }
 
-/// An integrator. What each is and can stands with its steps, in [`stepper`](super::stepper).
+/// An integrator; its [properties](Scheme::properties) and steps are in [`stepper`](super::stepper).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scheme {
     /// Classical Runge–Kutta steps of order 4.
@@ -17,11 +17,11 @@ pub enum Scheme {
     RungeKutta4,
     /// Rates, then positions by the new rates: order 1.
     SemiImplicitEuler,
-    /// Gauss–Legendre steps of order 6 in canonical variables: keeps both momenta, and the energy for very long times.
+    /// Gauss–Legendre steps of order 6 in canonical variables: symplectic, conserves both momenta.
     GaussLegendre,
-    /// Verner's pair of orders 9 and 8, with steps of its own.
+    /// Verner's pair of orders 9 and 8, with adaptive steps.
     Adaptive {
-        /// Relative and per unit, of each step.
+        /// Relative and absolute, of each step.
         tolerance: f64,
     },
 }

@@ -1,15 +1,15 @@
-//! How far and how fast joints may turn: watched in every run, not enforced.
+//! Limits of joint angles and rates, and their violations: checked in every run, not enforced.
 
 use crate::state::State;
 
-/// What one joint may do.
+/// The limits of one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointLimits {
     /// The joint, as in messages: `joint 2 of arm1`.
     pub name: String,
-    /// Least and largest angle, rad; `None` where any will do.
+    /// Smallest and largest angle, rad; `None` without a limit.
     pub angles: Option<[f64; 2]>,
-    /// The largest size of the rate, rad/s; `None` where any will do.
+    /// Largest absolute rate, rad/s; `None` without a limit.
     pub rate: Option<f64>,
 }
 
@@ -37,19 +37,19 @@ pub struct LimitViolation {
     pub time: f64,
     /// rad or rad/s.
     pub value: f64,
-    /// What it should not be beyond.
+    /// The limit, in the same unit.
     pub limit: f64,
 }
 
 impl LimitViolation {
-    /// By how much, more than 0.
+    /// Distance from the limit, greater than 0.
     #[must_use]
     pub fn size(&self) -> f64 {
         (self.value - self.limit).abs()
     }
 }
 
-/// The largest excesses of a phase.
+/// The largest violations of a phase.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LimitViolations {
     /// Of an angle, rad.
@@ -59,8 +59,8 @@ pub struct LimitViolations {
 }
 
 impl LimitViolations {
-    /// Looks at one state.
-    pub fn look(&mut self, limits: &[JointLimits], time: f64, state: &State<'_, f64>) {
+    /// Checks one state.
+    pub fn record(&mut self, limits: &[JointLimits], time: f64, state: &State<'_, f64>) {
         for (joint, (angle, rate)) in limits.iter().zip(state.joint_angles.iter().zip(state.joint_rates)) {
             let found = [
                 (&mut self.joint_angle, *angle, joint.angle_beyond(*angle)),
@@ -68,19 +68,19 @@ impl LimitViolations {
             ];
             for (largest, value, limit) in found {
                 let Some(limit) = limit else { continue };
-                let excess = LimitViolation { joint: joint.name.clone(), time, value, limit };
-                if largest.as_ref().is_none_or(|largest| excess.size() > largest.size()) {
-                    *largest = Some(excess);
+                let violation = LimitViolation { joint: joint.name.clone(), time, value, limit };
+                if largest.as_ref().is_none_or(|largest| violation.size() > largest.size()) {
+                    *largest = Some(violation);
                 }
             }
         }
     }
 
-    /// These, and those of a phase that goes on from the end of one of `duration` (s): the larger of each.
+    /// The larger of these violations and those of the `next` phase, which starts after this one of `duration` (s).
     #[must_use]
     pub fn then(self, next: Self, duration: f64) -> Self {
         let larger = |before: Option<LimitViolation>, after: Option<LimitViolation>| {
-            let after = after.map(|excess| LimitViolation { time: duration + excess.time, ..excess });
+            let after = after.map(|violation| LimitViolation { time: duration + violation.time, ..violation });
             match (before, after) {
                 (Some(before), Some(after)) => Some(if after.size() > before.size() { after } else { before }),
                 (before, after) => before.or(after),
@@ -92,11 +92,11 @@ impl LimitViolations {
         }
     }
 
-    /// What is beyond its limit, in words.
+    /// One sentence for each violation.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
-        let say = |excess: &Option<LimitViolation>, verb: &str, unit: &str| {
-            let LimitViolation { joint, time, value, limit } = excess.as_ref()?;
+        let say = |violation: &Option<LimitViolation>, verb: &str, unit: &str| {
+            let LimitViolation { joint, time, value, limit } = violation.as_ref()?;
             Some(format!("{joint} {verb} {value:.6} {unit} at {time:.3} s, beyond its limit of {limit} {unit}"))
         };
         [say(&self.joint_angle, "is at", "rad"), say(&self.joint_rate, "turns with", "rad/s")]

@@ -1,4 +1,5 @@
-//! One phase in time: steps of any integrator under a control law, audited at every step, up to its end or an event.
+//! Simulation of one phase of motion: integrates eq. (1), or (2) with (17), under a control law up to the phase's end
+//! or an event, and checks the conservation laws at every step.
 
 pub mod actuators;
 pub(crate) mod bodies;
@@ -26,12 +27,12 @@ use crate::simulate::stepper::Stepper;
 use crate::simulate::system::{Body, System};
 use crate::state::ActuatorWork;
 
-/// Everything that is known of one instant.
+/// State, torques, end effectors, momentum and bodies at one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// Since the start of the phase, s.
     pub time: f64,
-    /// Where and how fast.
+    /// Of the robot.
     pub state: RobotState,
     /// N m.
     pub joint_torques: Vec<f64>,
@@ -39,7 +40,7 @@ pub struct Sample {
     pub end_effector_poses: Vec<[f64; 3]>,
     /// [ω, vx, vy] of each end effector; rad/s, m/s.
     pub end_effector_twists: Vec<[f64; 3]>,
-    /// Of robot and the bodies beside it together.
+    /// Of the robot and the bodies beside it together.
     pub momentum: Momentum<f64>,
     /// Since the start of the phase.
     pub work: ActuatorWork<f64>,
@@ -49,13 +50,13 @@ pub struct Sample {
     pub bodies: Vec<Body>,
 }
 
-/// How one phase is cut into steps and samples.
+/// Duration, steps and samples of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timing {
     /// s.
     pub duration: f64,
-    /// Wanted step, s; the nearest that divides the duration is taken. An adaptive integrator has steps of its own: it
-    /// is looked at and audited so often.
+    /// Longest step, s; the phase is divided into equal steps. An adaptive integrator has other steps: for it this is
+    /// the interval of audits, events and samples.
     pub step: f64,
     /// Time between samples, s, at least one step; the last instant is always sampled.
     pub sample: f64,
@@ -83,29 +84,29 @@ impl Timing {
     }
 }
 
-/// A phase that was run.
+/// The result of one phase.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Phase {
-    /// s; up to the event where there was one.
+    /// s; up to the event where one ended the phase.
     pub duration: f64,
-    /// Which event ended it, and when, s; `None` where the time was over.
+    /// Index and time (s) of the event that ended it; `None` where the time was over.
     pub event: Option<(usize, f64)>,
-    /// The first, one per sampling time, and the last.
+    /// The first instant, one per sampling interval, and the last; at least one.
     pub samples: Vec<Sample>,
-    /// The audit of every step.
+    /// The largest of all steps.
     pub drift: ConservationErrors,
-    /// How long the actuators were at their limits.
+    /// Of the actuators.
     pub saturation: Saturation,
-    /// By how much the holds were open at most: a yaw (rad) or a coordinate (m), and their rates.
+    /// Largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate.
     pub constraint_errors: [f64; 2],
-    /// Of a law that inverts the generalized Jacobian: its smallest singular value over its largest, the smallest on
-    /// the way.
+    /// Smallest ratio of the smallest to the largest singular value of the generalized Jacobian, for a law that inverts
+    /// it.
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
 }
 
-/// How long actuators were at their limits, by what they gave when each step began.
+/// How long actuators were at their limits, by their torques at the start of each step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Saturation {
     /// One per joint, s; empty where the law has no limits.
@@ -124,7 +125,7 @@ impl Phase {
         self.samples.last().expect("a phase has samples")
     }
 
-    /// This phase and one that goes on from its end, as one: what is counted from the start of a phase goes on too.
+    /// This phase and the `next` one from its end on as one phase, with times and work from the start of this one.
     #[must_use]
     pub fn then(mut self, next: Self) -> Self {
         let work = self.end().work;
@@ -154,18 +155,18 @@ impl Phase {
     }
 }
 
-/// Why a phase stopped, and when.
+/// Time and reason of a phase that stopped.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("at t = {time} s: {source}{}", self.hint())]
 pub struct PhaseError {
     /// s, since the start of the phase.
     pub time: f64,
-    /// What could not be computed.
+    /// The reason.
     pub source: Error,
 }
 
 impl PhaseError {
-    /// Whether what was asked for cannot be, whatever the numbers.
+    /// Whether the request is invalid for any numbers.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
         matches!(self.source, Error::Beside { .. })
@@ -180,7 +181,7 @@ impl PhaseError {
     }
 }
 
-/// Runs one phase, until its time is over or the first of the events; `tick` is called once per step.
+/// Simulates one phase up to its duration or the first event; `tick` is called once per step.
 ///
 /// # Errors
 /// Time and reason of a singular matrix or a number that is not finite in model or law, and of an adaptive integrator
@@ -197,14 +198,14 @@ pub fn simulate(
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut locator = EventLocator::new(system, events);
-    let mut phase = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
+    let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
     let (mut before, mut rate) = (x.clone(), x.clone());
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
-        phase.look(control, time, &x, true, i % stride == 0).map_err(at(time))?;
+        recorder.record(control, time, &x, true, i % stride == 0).map_err(at(time))?;
         if locator.is_idle() {
             stepper.advance(control, span, &mut x).map_err(at(time))?;
         } else {
@@ -218,14 +219,14 @@ pub fn simulate(
             let mut within = |t: f64, into: &mut Vec<f64>| stepper.within(control, [time, t], &before, into);
             if let Some((event, when)) = locator.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
                 within(when, &mut x).map_err(at(when))?;
-                phase.count(when - time);
-                phase.look(control, when, &x, false, true).map_err(at(when))?;
-                return Ok(phase.end(when, Some((event, when))));
+                recorder.add_saturation(when - time);
+                recorder.record(control, when, &x, false, true).map_err(at(when))?;
+                return Ok(recorder.end(when, Some((event, when))));
             }
         }
-        phase.count(end - time);
+        recorder.add_saturation(end - time);
         tick();
     }
-    phase.look(control, timing.duration, &x, false, true).map_err(at(timing.duration))?;
-    Ok(phase.end(timing.duration, None))
+    recorder.record(control, timing.duration, &x, false, true).map_err(at(timing.duration))?;
+    Ok(recorder.end(timing.duration, None))
 }

@@ -1,4 +1,4 @@
-//! What is kept of a phase while it runs: samples, audit, saturation.
+//! Records a phase while it runs: samples, conservation errors, saturation, limit violations.
 
 use crate::control::Control;
 use crate::error::Error;
@@ -9,14 +9,14 @@ use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{ActuatorWork, State};
 
-/// Looks at a phase at the start of every step, and at its end.
+/// The record so far.
 pub(crate) struct Recorder<'a> {
     system: &'a System<'a>,
     audit: ConservationAudit<'a>,
     torques: Vec<f64>,
     samples: Vec<Sample>,
     saturation: Saturation,
-    /// What is saturated as the step begins.
+    /// Which joints are saturated at the start of the step.
     saturated: Vec<bool>,
     base_saturated: bool,
     constraint_errors: [f64; 2],
@@ -24,10 +24,10 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Of a phase that starts in this state.
+    /// For a phase that starts in this state.
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
         Ok(Self {
             system,
@@ -42,38 +42,38 @@ impl<'a> Recorder<'a> {
         })
     }
 
-    /// Audits an instant and begins a step of the control law, if one `begins`; keeps a sample if one is `wanted`.
+    /// Audits an instant, begins a step of the control law if `begins_step`, and keeps a sample if `sampled`.
     ///
     /// # Errors
-    /// What model and law say.
-    pub(crate) fn look(
+    /// Those of model and law.
+    pub(crate) fn record(
         &mut self,
         control: &mut dyn Control<f64>,
         time: f64,
         x: &[f64],
-        begins: bool,
-        wanted: bool,
+        begins_step: bool,
+        sampled: bool,
     ) -> Result<(), Error> {
         let model = self.system.model;
         let state = State::from_vector(x, model.joints())?;
         let work = ActuatorWork::from_vector(x)?;
-        let done = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
-        let open = self.system.constraint_errors(x)?;
-        self.constraint_errors = std::array::from_fn(|i| open[i].max(self.constraint_errors[i]));
-        self.limit_violations.look(self.system.joint_limits, time, &state);
+        let input = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
+        let errors = self.system.constraint_errors(x)?;
+        self.constraint_errors = std::array::from_fn(|i| errors[i].max(self.constraint_errors[i]));
+        self.limit_violations.record(self.system.joint_limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
-        let momentum = self.audit.record(&state, &bodies, &done)?;
-        if begins {
+        let momentum = self.audit.record(&state, &bodies, &input)?;
+        if begins_step {
             control.begin_step(time, model, &state)?;
         }
-        // a law with limits says with its torques whether they are reached
-        if wanted || !control.saturated().is_empty() || control.base_torque().is_some() {
+        // the law determines saturation together with its torques
+        if sampled || !control.saturated().is_empty() || control.base_torque().is_some() {
             control.joint_torques(time, model, &state, &mut self.torques)?;
             self.saturated.clear();
             self.saturated.extend_from_slice(control.saturated());
             self.base_saturated = control.base_torque().is_some_and(|base| base.saturated);
         }
-        if !wanted {
+        if !sampled {
             return Ok(());
         }
         let mut sample = Sample {
@@ -93,8 +93,8 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// Counts a step, in s, to what was saturated as it began.
-    pub(crate) fn count(&mut self, step: f64) {
+    /// Adds the length of a step, s, to the saturation of the actuators that were saturated at its start.
+    pub(crate) fn add_saturation(&mut self, step: f64) {
         self.saturation.joints.resize(self.saturated.len(), 0.0);
         for (time, saturated) in self.saturation.joints.iter_mut().zip(&self.saturated) {
             *time += if *saturated { step } else { 0.0 };
@@ -102,7 +102,7 @@ impl<'a> Recorder<'a> {
         self.saturation.base += if self.base_saturated { step } else { 0.0 };
     }
 
-    /// The phase, so long.
+    /// The phase.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
         let Self { system, samples, audit, saturation, constraint_errors, limit_violations, .. } = self;
         Phase {

@@ -1,4 +1,4 @@
-//! What moves in one phase: a robot, and the free bodies that it holds or may meet.
+//! The system of one phase: a robot, rigid bodies beside it, and the constraints between them.
 
 use crate::contact::{ConstraintSolver, ConstraintWorkspace, Contact, LoopConstraint};
 use crate::control::Control;
@@ -11,12 +11,12 @@ use crate::state::{Coordinates, CoordinatesMut, State, StateVector, StateVectorM
 /// A rigid body beside the robot.
 pub type Body = crate::body::Body<f64>;
 
-/// A robot and free bodies, as they are when a phase begins.
+/// A robot and the bodies beside it at the start of a phase.
 #[derive(Clone, Copy)]
 pub struct System<'a> {
     /// The robot.
     pub model: &'a dyn Model<f64>,
-    /// The bodies beside it: held as the closures say, free where none does.
+    /// The bodies beside it, free but for the constraints.
     pub bodies: &'a [Body],
     /// Constraints between end effectors and bodies, or between two end effectors.
     pub constraints: &'a [LoopConstraint<f64>],
@@ -59,10 +59,10 @@ impl<'a> System<'a> {
         Ok(each.map(|((body, pose), twist)| Body { pose: *pose, twist: *twist, ..*body }).collect())
     }
 
-    /// d/dt of the integrated vector under a control law; `torques` is left with its torques.
+    /// d/dt of the integrated vector under a control law, whose torques are written to `torques`.
     ///
     /// # Errors
-    /// What model and law say; [`Error::Singular`] where holds depend on each other.
+    /// Those of model and law; [`Error::Singular`] where constraints depend on each other.
     pub fn derivative(
         &self,
         control: &mut dyn Control<f64>,
@@ -72,44 +72,43 @@ impl<'a> System<'a> {
         torques: &mut [f64],
     ) -> Result<(), Error> {
         derivative(self.model, control, time, x, rate, torques)?;
-        if self.constraints.is_empty() {
-            return Ok(());
-        }
-        self.with_space(|hold, space| hold.constrain(x, rate, space))
+        self.with_constraints(|solver, workspace| solver.constrain(x, rate, workspace))
     }
 
-    /// After a step: closes what rounding and the step have opened of the holds.
+    /// Projects the vector onto the constraints, from which rounding and step error have moved it.
     ///
     /// # Errors
     /// As [`System::derivative`].
     pub fn restore(&self, x: &mut [f64]) -> Result<(), Error> {
-        if self.constraints.is_empty() {
-            return Ok(());
-        }
-        self.with_space(|hold, space| hold.restore(x, space))
+        self.with_constraints(|solver, workspace| solver.restore(x, workspace))
     }
 
-    /// By how much the holds are open: the largest error of a yaw (rad) or a coordinate (m), and of their rates.
+    /// The largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate; zeros without
+    /// constraints.
     ///
     /// # Errors
-    /// What the model says.
+    /// Those of the model.
     pub fn constraint_errors(&self, x: &[f64]) -> Result<[f64; 2], Error> {
-        if self.constraints.is_empty() {
-            return Ok([0.0; 2]);
-        }
-        self.with_space(|hold, space| hold.errors(x, space))
+        self.with_constraints(|solver, workspace| solver.errors(x, workspace))
     }
 
-    fn with_space<R>(&self, run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut ConstraintWorkspace<'_, f64>) -> R) -> R {
-        let hold = ConstraintSolver { model: self.model, bodies: self.bodies, constraints: self.constraints };
+    /// Runs the solver in its working space; the default where there are no constraints.
+    fn with_constraints<R: Default>(
+        &self,
+        run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut ConstraintWorkspace<'_, f64>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        if self.constraints.is_empty() {
+            return Ok(R::default());
+        }
+        let solver = ConstraintSolver { model: self.model, bodies: self.bodies, constraints: self.constraints };
         let (joints, arms) = (self.model.joints(), self.model.arms());
-        let mut space = ConstraintWorkspace {
+        let mut workspace = ConstraintWorkspace {
             contacts: &mut vec![Contact::any(); self.constraints.len()],
-            numbers: &mut vec![0.0; hold.workspace_length()],
-            forces: &mut vec![0.0; hold.rows()],
+            numbers: &mut vec![0.0; solver.workspace_length()],
+            forces: &mut vec![0.0; solver.rows()],
             jacobian: &mut vec![0.0; 3 * arms * (3 + joints)],
             end_effectors: &mut vec![[0.0; 3]; arms],
         };
-        run(&hold, &mut space)
+        run(&solver, &mut workspace)
     }
 }

@@ -31,8 +31,8 @@ pub struct InverseKinematics {
     pub residual: f64,
     /// How many approaches were tracked.
     pub rounds: usize,
-    /// Number of joints less number of equations. Where it is positive, every step is the shortest solution; where it is
-    /// negative, only compatible goals can be reached.
+    /// Number of joints less number of equations. Where it is positive, every step is the shortest solution; where it
+    /// is negative, only compatible goals can be reached.
     pub spare_joints: isize,
 }
 

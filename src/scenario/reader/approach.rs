@@ -44,7 +44,8 @@ pub(super) const KEYS: &[&str] = &[
     "coordinates",
 ];
 
-/// Where an approach ends, and on which trajectory; `None` for what is wrong.
+/// The trajectory of an approach and its end; `None` where a part is invalid.
+#[allow(clippy::option_option, reason = "None where it is invalid, Some(None) where it is not given")]
 struct Goal {
     trajectory: Option<TrajectoryKind>,
     final_joint_angles: Option<Vec<f64>>,
@@ -185,7 +186,7 @@ fn final_rates(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &J
 }
 
 /// The time of the trajectory, `Some(None)` where it is that of the phase. A shorter one must end with joints at rest.
-#[allow(clippy::option_option, reason = "None where it is wrong, Some(None) where it is not given")]
+#[allow(clippy::option_option, reason = "None where it is invalid, Some(None) where it is not given")]
 fn trajectory_duration(
     table: &Table<'_>,
     times: Option<(f64, f64)>,

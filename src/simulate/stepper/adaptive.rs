@@ -1,4 +1,4 @@
-//! Steps of the integrator's own length, looked at by dense output where a step of the phase ends.
+//! Adaptive steps, with dense output where a step of the phase ends.
 
 use super::{Method, Properties};
 use crate::control::Control;

@@ -27,9 +27,9 @@ impl Method for Steps {
         x: &mut [f64],
     ) -> Result<(), Error> {
         let mut integrator = GaussLegendre::new(&mut self.workspace)?;
-        equation.put_momenta(x)?;
+        equation.convert_to_momenta(x)?;
         integrator.step(time, end - time, x, |t, x, rate| equation.canonical_derivative(control, t, x, rate))?;
-        equation.put_rates(x)?;
+        equation.convert_to_rates(x)?;
         equation.restore(x)
     }
 }

@@ -1,4 +1,4 @@
-//! One step of a phase, by any scheme and in any coordinates.
+//! Steps of a phase by any scheme and in any coordinates.
 
 mod adaptive;
 mod gauss_legendre;
@@ -11,22 +11,22 @@ use crate::simulate::equation::Equation;
 use crate::simulate::integration::{Formulation, Integration, Scheme};
 use crate::simulate::system::System;
 
-/// What a scheme is and can.
+/// Name and abilities of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Properties {
     /// As scenarios have it.
     pub name: &'static str,
-    /// Whether it takes steps of its own, to a tolerance.
+    /// Whether its steps follow from a tolerance.
     pub is_adaptive: bool,
     /// Whether it integrates canonical variables, and only those.
     pub is_canonical: bool,
 }
 
 impl Scheme {
-    /// The tolerance where none is given: the paper's approach then is off by less than 1e-12 rad and m.
+    /// The default tolerance: the error of the paper's approach is then less than 1e-12 rad and m.
     pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-    /// All of them. A scheme stands in a file of its own, and here, in `properties` and in `method`.
+    /// All schemes. To add one, add its file and its line here, in `properties` and in `method`.
     pub const ALL: [Self; 4] = [
         Self::RungeKutta4,
         Self::SemiImplicitEuler,
@@ -34,7 +34,7 @@ impl Scheme {
         Self::Adaptive { tolerance: Self::DEFAULT_TOLERANCE },
     ];
 
-    /// What it is and can.
+    /// Its properties.
     #[must_use]
     pub const fn properties(self) -> Properties {
         match self {
@@ -56,12 +56,12 @@ impl Scheme {
     }
 }
 
-/// Steps of one scheme, with what it remembers between them.
+/// Steps of one scheme, with its data between them.
 trait Method {
-    /// Carries `x` on over `span` (from, to; s), the next step.
+    /// Advances `x` over the next step, `span` (from, to; s).
     ///
     /// # Errors
-    /// What model, law and scheme say.
+    /// Those of model, law and scheme.
     fn advance(
         &mut self,
         equation: &mut Equation<'_>,
@@ -70,7 +70,7 @@ trait Method {
         x: &mut [f64],
     ) -> Result<(), Error>;
 
-    /// The same for a part of a step; what the method remembers is left alone.
+    /// Advances `x` over a part of a step, without changing the data for the next one.
     ///
     /// # Errors
     /// As [`Method::advance`].
@@ -85,7 +85,7 @@ trait Method {
     }
 }
 
-/// Carries the integrated vector from one instant to another.
+/// Advances the integrated vector of a phase.
 pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
     method: Box<dyn Method>,
@@ -95,7 +95,7 @@ impl<'a> Stepper<'a> {
     /// For a phase of `duration` (s) that starts at `x`.
     ///
     /// # Errors
-    /// [`Error::Beside`] for reduced coordinates where there are bodies beside the robot, and what the model says.
+    /// [`Error::Beside`] for reduced coordinates where there are bodies beside the robot, and those of the model.
     pub(crate) fn new(
         system: &'a System<'a>,
         integration: &Integration,
@@ -110,10 +110,10 @@ impl<'a> Stepper<'a> {
         Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
     }
 
-    /// Carries `x` on from `time` to `end`, the next step.
+    /// Advances `x` over the next step.
     ///
     /// # Errors
-    /// What model, law and integrator say.
+    /// Those of model, law and integrator.
     pub(crate) fn advance(
         &mut self,
         control: &mut dyn Control<f64>,
@@ -142,10 +142,10 @@ impl<'a> Stepper<'a> {
         self.method.within(&mut self.equation, control, [start, time], into)
     }
 
-    /// d/dt of `x`, whatever is integrated.
+    /// d/dt of `x`.
     ///
     /// # Errors
-    /// What model and law say.
+    /// Those of model and law.
     pub(crate) fn rate(
         &mut self,
         control: &mut dyn Control<f64>,
