@@ -1,34 +1,38 @@
 //! Closed-form planar dynamics of free-floating multi-arm space robots, from approach through impact to post-impact.
 //!
 //! A layout of arms and links (TOML) becomes an expression graph (JSON, derived with CasADi) and the graph becomes
-//! plain Rust: [`generated`]. What it is used for follows Raina & Shah, *Impact Modeling and Estimation for Multi-Arm
-//! Space Robot while Capturing Tumbling Orbiting Objects* (2017); equation numbers are the paper's.
+//! plain Rust: [`generated`]. The phases follow Raina & Shah, *Impact Modeling and Estimation for Multi-Arm Space Robot
+//! while Capturing Tumbling Orbiting Objects* (2017).
 //!
-//! | equation | where |
+//! # Equations of the paper
+//! | equation | meaning | item |
+//! |---|---|---|
+//! | (1) | equations of motion: mass matrix, bias, forward dynamics | [`dynamics::EquationsOfMotion`], [`dynamics::ForwardDynamics`] |
+//! | (2) | reduced form: generalized inertia, bias and Jacobian; torques | [`dynamics::ReducedDynamics`], [`control::InverseDynamics`] |
+//! | (3)–(5) | target, contact Jacobian `J_t` | [`target::Target`], [`target::Target::contact_jacobian`] |
+//! | (6), (7) | approach trajectory; as printed | [`trajectory::Quartic`]; [`trajectory::QuarticAsPrinted`] |
+//! | (10), (11), (13) | momentum balance of the impact: in full coordinates; reduced | [`impact::exact`]; [`impact::paper`] |
+//! | (12) | impulse | [`target::Target::impulse`] |
+//! | (14) | target twist after the impact | [`target::Target::twist_from_contact`] |
+//! | (15), (16) | joint rates after the impact: G and H | [`dynamics::Impact::reduced_impact`], [`impact::paper`] |
+//! | (17) | base twist from the momentum | [`impact::paper`], [`formulation::Reduced`] |
+//! | (18) | PD control | [`control::ProportionalDerivative`] |
+//!
+//! # Beyond the paper
+//! | computation | item |
 //! |---|---|
-//! | (1) equations of motion | [`dynamics::EquationsOfMotion`], [`dynamics::ForwardDynamics`] |
-//! | (2) reduced form: generalized inertia, bias, Jacobian | [`dynamics::ReducedDynamics`] |
-//! | (3)–(5) target, contact Jacobian `J_t` | [`target`] |
-//! | (6), (7) approach trajectory | [`trajectory::Quartic`], [`trajectory::QuarticAsPrinted`] |
+//! | terminal joint rates from end effector twists, by the generalized Jacobian | `capture::approach::terminal_rates` |
+//! | final joint angles from end effector poses | `capture::approach::inverse_kinematics` |
 //! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
-//! | end rates from the generalized Jacobian | `capture::approach::terminal_rates` |
-//! | final joint angles from wanted end effector poses | `capture::approach::inverse_kinematics` |
-//! | (10)–(16) impact, G and H | [`dynamics::Impact`], [`impact::exact`], [`impact::paper`] |
-//! | (12) impulse | [`target::Target::impulse`] |
-//! | (17) base twist from momentum | [`impact::paper`] |
-//! | (18) PD control | [`control::ProportionalDerivative`] |
 //! | resolved motion rate control of the end effectors | [`control::ResolvedMotionRate`] |
 //! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
-//! | momentum equation (17) in place of the base's equations of motion | [`formulation::Reduced`] |
-//! | canonical momenta, for integrators that keep them | [`formulation::Canonical`], [`integrate::GaussLegendre`] |
+//! | canonical variables, for integrators that conserve momenta | [`formulation::Canonical`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
-//! | events that end a phase | `simulate::event` |
-//! | contacts of any kind at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
-//! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`] |
-//! | contacts found by detection | `study::gaps` |
-//! | post-impact: the merged robot | [`dynamics::Merge`] |
-//! | closed loops, pinned targets | [`contact::Hold`] |
-//! | stabilisation after the impact, the paper's future work | [`control::Stabilise`] |
+//! | events that end a phase; contact detection | `simulate::event`, `capture::contact_detection` |
+//! | several contacts at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
+//! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`], `capture::contact_response` |
+//! | robot with captured targets: merged links, closed loops | [`dynamics::Merge`], [`contact::ConstraintSolver`] |
+//! | stabilisation after the capture, the paper's future work | [`control::Stabilise`] |
 //!
 //! # Conventions
 //! SI units and radians. Planar twists are `[ω, vx, vy]`, wrenches and impulses `[n, fx, fy]`, poses `[yaw, x, y]`, in
@@ -36,7 +40,7 @@
 //! rates arm by arm. Joint angles are relative. End-effector wrenches and impulses act *on the robot*. Angular momentum
 //! is about the inertial origin. Matrices are row-major.
 //!
-//! # The core and the rest
+//! # Features
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as
