@@ -122,11 +122,18 @@ impl CaptureSequence<'_> {
             post_impact = post_impact.then(next);
             target_paths.extend(path);
         }
-        let remainder = match &self.after.control {
+        let residual_motion = match &self.after.control {
             PostCaptureControl::None => None,
             control => Some(moving.residual_motion(control, &post_impact)?),
         };
-        Ok(CaptureResult { impact, post_impact, targets: target_paths, further, penetration, remainder })
+        Ok(CaptureResult {
+            impact,
+            post_impact,
+            targets: target_paths,
+            further,
+            penetration,
+            remainder: residual_motion,
+        })
     }
 
     fn impact_error(self, source: Error) -> StudyError {

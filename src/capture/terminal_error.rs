@@ -30,7 +30,7 @@ impl TerminalError {
     }
 
     fn at(goal: &EndEffectorGoal, pose: &[f64; 3], reach: f64) -> Option<Self> {
-        let parts: Vec<f64> = goal.missing(pose).map(|(_, missing)| missing).collect();
+        let parts: Vec<f64> = goal.errors(pose).map(|(_, error)| error).collect();
         let (yaw, distance) = match parts.as_slice() {
             [x, y] => (None, x.hypot(*y)),
             [yaw, x, y] => (Some(yaw.abs()), x.hypot(*y)),

@@ -14,7 +14,7 @@ const OF_SCENARIOS: [&str; 8] = ["layout", "initial", "approach", "limits", "tar
 pub(super) enum Kind {
     /// A robot.
     Layout,
-    /// What a robot does.
+    /// A motion of a robot.
     Scenario,
 }
 
@@ -26,7 +26,7 @@ impl Kind {
         let keys: Vec<_> = tree.get_ref().keys().filter_map(|key| nearest(key.get_ref(), all())).collect();
         let of_layouts = keys.iter().filter(|key| OF_LAYOUTS.contains(key)).count();
         match 2 * of_layouts {
-            // the layout's reader shows what is not valid TOML
+            // the layout's reader reports invalid TOML
             0 if keys.is_empty() && !errors.is_empty() => Ok(Self::Layout),
             0 if keys.is_empty() => Err(neither(text, file)),
             twice if twice >= keys.len() => Ok(Self::Layout),

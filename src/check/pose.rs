@@ -32,7 +32,7 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
 /// The singular values do not depend on the base pose, which only rotates the twists.
 pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     if scenario.approach.final_end_effector_poses.is_some() {
-        return None; // it is designed by the run, which says the margin
+        return None; // the run computes the final pose and reports its margin
     }
     let designed = matches!(scenario.approach.end, FinalRates::EndEffectorTwists(_));
     let captures =

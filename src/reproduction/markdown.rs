@@ -24,7 +24,7 @@ pub(super) fn point([x, y]: [f64; 2], digits: usize) -> String {
     format!("({}, {})", number(x, digits), number(y, digits))
 }
 
-/// A difference that ought to be zero: what it is, or that it is rounding.
+/// A difference that should be zero; rounding errors are shown as such.
 pub(super) fn jump(value: f64) -> String {
     if value.abs() < ROUNDING { "0 (< 1e-9)".to_owned() } else { number(value, 4) }
 }

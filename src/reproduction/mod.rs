@@ -1,4 +1,4 @@
-//! The report on the paper's reproduction: every table and figure of the paper beside ours.
+//! The report on the paper's reproduction: the tables and figures of the paper and of this crate side by side.
 
 mod impacts;
 mod markdown;
@@ -60,7 +60,7 @@ pub enum ReproductionError {
     Template(#[from] tera::Error),
 }
 
-/// A scenario and what came of it.
+/// A scenario and its results.
 struct Run {
     scenario: Scenario,
     study: Study,

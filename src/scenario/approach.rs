@@ -1,39 +1,38 @@
-//! The `[approach]` table: how the arms move to the targets.
+//! The `[approach]` table: the trajectory of the arms and its tracking.
 
 use crate::simulate::actuators::Actuation;
 use crate::simulate::integration::Integration;
 use crate::trajectory::TrajectoryKind;
 use std::f64::consts::{PI, TAU};
 
-/// A joint trajectory and how it is followed.
+/// A trajectory, its final state and its tracking law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Approach {
     /// Length in s, greater than 0.
     pub duration: f64,
     /// Time step in s, at most the duration; default 0.005.
     pub step: f64,
-    /// How long the trajectory takes, in s, less than the duration, for one that ends at rest: what is wanted at its
-    /// end stays wanted. `None` where it takes the whole duration, as by default.
+    /// Duration of a trajectory that ends at rest before the phase does, s; its final state is then the setpoint.
+    /// `None`, the default, where the trajectory takes the whole phase.
     pub trajectory_duration: Option<f64>,
     /// The joint trajectories.
     pub trajectory: TrajectoryKind,
-    /// Joint angles wanted at the end, arm by arm, in rad. Where end effector poses are wanted, the first guess of the
-    /// angles that give them, by default the initial ones; for resolved motion rate control these, which it does not
-    /// look at.
+    /// Final joint angles arm by arm, rad. Where end effector poses are given, the first guess of the inverse
+    /// kinematics, by default the initial angles. Not used by resolved motion rate control.
     pub final_joint_angles: Vec<f64>,
-    /// What is wanted of the end effectors at the end, one per arm; `None` where joint angles are given.
+    /// Final poses of the end effectors, one per arm; `None` where joint angles are given.
     pub final_end_effector_poses: Option<Vec<EndEffectorGoal>>,
-    /// Rates wanted at the end.
+    /// Final rates.
     pub end: FinalRates,
-    /// How the trajectory is followed.
+    /// The tracking law.
     pub tracking: Tracking,
     /// Torque limits and sample time of the control law; none of them for exact tracking.
     pub actuation: Actuation,
-    /// By which integrator, in which coordinates.
+    /// Integrator and coordinates.
     pub integration: Integration,
 }
 
-/// Where an end effector should be at the end of an approach, inertial frame.
+/// The desired pose of an end effector at the end of an approach, inertial frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum EndEffectorGoal {
     /// Anywhere.
@@ -44,13 +43,13 @@ pub enum EndEffectorGoal {
     Pose([f64; 3]),
 }
 
-/// [ω, vx, vy] wanted of an end effector, rad/s, m/s; `None` where any will do.
+/// Desired [ω, vx, vy] of an end effector, rad/s, m/s; `None` for any value.
 pub type EndEffectorTwistGoal = [Option<f64>; 3];
 
-/// The rates wanted at the end of an approach.
+/// The desired rates at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FinalRates {
-    /// Rest: for a trajectory that ends so.
+    /// Rest, for trajectories that end at rest.
     Rest,
     /// Joint rates arm by arm, in rad/s.
     JointRates(Vec<f64>),
@@ -59,7 +58,7 @@ pub enum FinalRates {
     EndEffectorTwists(Vec<EndEffectorTwistGoal>),
 }
 
-/// How a trajectory is followed.
+/// Tracking laws.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tracking {
     /// Without error, with torques from inverse dynamics; the arms start at rest.
@@ -116,7 +115,7 @@ impl Tracking {
 }
 
 impl Approach {
-    /// How long the trajectory takes, in s.
+    /// Duration of the trajectory, s.
     #[must_use]
     pub fn trajectory_time(&self) -> f64 {
         self.trajectory_duration.unwrap_or(self.duration)
@@ -133,7 +132,7 @@ impl EndEffectorGoal {
         }
     }
 
-    /// How many numbers are wanted.
+    /// The number of given coordinates.
     #[must_use]
     pub fn len(&self) -> usize {
         match self {
@@ -143,20 +142,20 @@ impl EndEffectorGoal {
         }
     }
 
-    /// Whether nothing is wanted.
+    /// Whether no coordinate is given.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// (index in a pose, wanted less found) of what is wanted; the yaw to the nearest turn.
-    pub(crate) fn missing(&self, [yaw, x, y]: &[f64; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
+    /// (index in a pose, desired less given value) of each given coordinate; the yaw up to whole turns.
+    pub(crate) fn errors(&self, [yaw, x, y]: &[f64; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
         let turn = |angle: f64| (angle + PI).rem_euclid(TAU) - PI;
-        let [turned, right, up] = match self {
+        let errors = match self {
             Self::Any => [None; 3],
             Self::Position([to_x, to_y]) => [None, Some(to_x - x), Some(to_y - y)],
             Self::Pose([to_yaw, to_x, to_y]) => [Some(turn(to_yaw - yaw)), Some(to_x - x), Some(to_y - y)],
         };
-        [turned, right, up].into_iter().enumerate().filter_map(|(part, missing)| Some((part, missing?)))
+        errors.into_iter().enumerate().filter_map(|(part, error)| Some((part, error?)))
     }
 }

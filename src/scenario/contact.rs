@@ -1,20 +1,20 @@
-//! `[contact]`: how contacts come about and how long they last.
+//! `[contact]`: contact detection and the duration of an impact.
 
-/// When end effectors and targets meet.
+/// When contacts begin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Detection {
     /// At the end of the approach, wherever the end effectors are, as in the paper: the default.
     #[default]
     Time,
-    /// When an end effector reaches the surface of its target, which flies freely from the start on.
+    /// When an end effector reaches the outline of its target, which moves freely from the start.
     Event,
 }
 
 /// The `[contact]` table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactRules {
-    /// When end effectors and targets meet.
+    /// When contacts begin.
     pub detection: Detection,
-    /// How long an impact takes, s: what turns its impulse into a mean force, and changes nothing else.
+    /// Duration of an impact, s, which gives the mean force of its impulse and has no other effect.
     pub duration: Option<f64>,
 }

@@ -1,36 +1,36 @@
-//! The `[post_impact]` table: what follows the capture.
+//! The `[post_impact]` table: the motion after the capture.
 
 use crate::simulate::actuators::Actuation;
 use crate::simulate::integration::Integration;
 
-/// The motion of robot and targets, as one, after the capture.
+/// The motion of robot and targets after the capture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PostImpact {
     /// Length in s, greater than 0.
     pub duration: f64,
     /// Time step in s, at most the duration; default 0.005.
     pub step: f64,
-    /// What the joints do.
+    /// The control law of the joints.
     pub control: PostCaptureControl,
     /// Torque limits and sample time of the control law; none of them without a law.
     pub actuation: Actuation,
-    /// By which integrator, in which coordinates.
+    /// Integrator and coordinates.
     pub integration: Integration,
 }
 
-/// What the joints do after a capture.
+/// Post-capture control laws.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PostCaptureControl {
-    /// Nothing, as in the paper: the default.
+    /// No torques, as in the paper: the default.
     None,
-    /// τ = Kp (θ0 − θ) − Kd θ̇: they keep the angles θ0 of the capture.
+    /// τ = Kp (θ0 − θ) − Kd θ̇, with the joint angles θ0 of the capture.
     Hold {
         /// Kp for each joint in N m/rad, 0 or more; default 49.
         proportional_gain: Vec<f64>,
         /// Kd for each joint in N m s/rad, 0 or more; default 14.
         derivative_gain: Vec<f64>,
     },
-    /// τ = −Kd θ̇: they lose their rates.
+    /// τ = −Kd θ̇.
     Damping {
         /// Kd for each joint in N m s/rad, 0 or more; default 7.
         derivative_gain: Vec<f64>,

@@ -50,7 +50,7 @@ impl EndEffectorFeedback {
         let goals = scenario.approach.final_end_effector_poses.clone().unwrap_or(vec![EndEffectorGoal::Any; arms]);
         let (mut final_poses, mut wanted) = (initial_poses.clone(), vec![[false; 3]; arms]);
         for (i, (goal, initial)) in goals.iter().zip(&initial_poses).enumerate() {
-            for (part, error) in goal.missing(initial) {
+            for (part, error) in goal.errors(initial) {
                 final_poses[i][part] += error;
                 wanted[i][part] = true;
             }

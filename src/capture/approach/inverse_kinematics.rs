@@ -190,7 +190,7 @@ impl Trial {
         let arms = goals.iter().zip(&end.end_effector_poses).zip(&self.scenario.layout.arms);
         for (i, ((goal, pose), arm)) in arms.enumerate() {
             let reach = if arm.reach() > 0.0 { arm.reach() } else { 1.0 };
-            rows.extend(goal.missing(pose).map(|(part, error)| {
+            rows.extend(goal.errors(pose).map(|(part, error)| {
                 let unit = if part == 0 { 1.0 } else { reach };
                 (3 * i + part, error / unit, unit)
             }));

@@ -59,7 +59,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
     let laws = laws(joints);
     let law = read_or(table, "tracking", &laws[0], |value| value.choice(&laws.each_ref().map(|law| (law.name(), law))));
     let by_end_effectors = matches!(law, Some(Tracking::ResolvedMotionRate { .. }));
-    // nothing else is known of the angles that the end effectors' poses ask for
+    // the first guess of the inverse kinematics
     let initial = initial.map_or_else(|| joints.repeat(0.0), <[f64]>::to_vec);
     let goal =
         if by_end_effectors { end_effector_goal(table, joints, initial) } else { joint_goal(table, joints, initial) };

@@ -1,11 +1,10 @@
-//! `[[target]]`, `[contact]`, `[[case]]` and `[post_impact]`, and what they ask of each other.
+//! `[[target]]`, `[contact]`, `[[case]]` and `[post_impact]`, and the rules between them.
 
 use super::case::{self, case};
 use super::joints::Joints;
 use super::post_impact::{self, post_impact};
-use super::read_or;
-use super::reject_keys;
 use super::target::{self, NO_BOUNCE, target};
+use super::{read_or, reject_keys};
 use crate::contact::ContactKind;
 use crate::diagnostic::{NumberRule, Table, every};
 use crate::layout::Layout;
@@ -14,7 +13,7 @@ use std::collections::HashSet;
 
 const CONTACT_DURATION: NumberRule = NumberRule::positive("the duration of a contact", "s");
 
-/// What the tables hold.
+/// The contents of the tables.
 pub(super) struct Capture {
     pub(super) targets: Vec<Target>,
     pub(super) contact: ContactRules,
@@ -81,7 +80,7 @@ fn contact_rules(table: &Table<'_>) -> Option<ContactRules> {
 }
 
 /// Rejects each target that names an arm of an earlier one, where one of the two names several arms. Repeated single
-/// names are rejected as they stand.
+/// names are rejected before.
 fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout) {
     let all: Vec<_> =
         targets.iter().zip(tables).filter_map(|(target, table)| Some((target, table.get("arm")?))).collect();
