@@ -2,19 +2,19 @@
 
 mod computed_torque;
 mod inverse_dynamics;
-mod limited;
 mod proportional_derivative;
 mod resolved_motion_rate;
-mod sampled;
-mod stabilise;
+mod sampled_control;
+mod stabilisation;
+mod torque_limiter;
 
 pub use computed_torque::ComputedTorque;
 pub use inverse_dynamics::InverseDynamics;
-pub use limited::Limited;
 pub use proportional_derivative::ProportionalDerivative;
 pub use resolved_motion_rate::{EndEffectorWorkspace, ResolvedMotionRate};
-pub use sampled::Sampled;
-pub use stabilise::Stabilise;
+pub use sampled_control::Sampled;
+pub use stabilisation::Stabilise;
+pub use torque_limiter::Limited;
 
 use crate::dynamics::Model;
 use crate::error::Error;

@@ -1,11 +1,11 @@
 //! The differential equation of a controlled robot, with what its actuators do beside it: in full coordinates, in
 //! [`Reduced`] ones and in [`Canonical`] variables.
 
-mod canonical;
-mod reduced;
+mod canonical_variables;
+mod reduced_coordinates;
 
-pub use canonical::Canonical;
-pub use reduced::Reduced;
+pub use canonical_variables::Canonical;
+pub use reduced_coordinates::Reduced;
 
 use crate::control::Control;
 use crate::dynamics::Model;

@@ -10,9 +10,9 @@
 //! [canonical]: crate::formulation::Canonical
 
 pub mod gauss_legendre;
-pub mod rk4;
+pub mod runge_kutta4;
 pub mod semi_implicit_euler;
 
 pub use gauss_legendre::GaussLegendre;
-pub use rk4::RungeKutta4;
+pub use runge_kutta4::RungeKutta4;
 pub use semi_implicit_euler::SemiImplicitEuler;
