@@ -15,7 +15,7 @@
 //! | (12) | impulse | [`target::Target::impulse`] |
 //! | (14) | target twist after the impact | [`target::Target::twist_from_contact`] |
 //! | (15), (16) | joint rates after the impact: G and H | [`dynamics::Impact::reduced_impact`], [`impact::paper`] |
-//! | (17) | base twist from the momentum | [`impact::paper`], [`formulation::Reduced`] |
+//! | (17) | base twist from the momentum | [`impact::paper`], [`formulation::ReducedCoordinates`] |
 //! | (18) | PD control | [`control::ProportionalDerivative`] |
 //!
 //! # Beyond the paper
@@ -25,14 +25,14 @@
 //! | final joint angles from end effector poses | `capture::approach::inverse_kinematics` |
 //! | other trajectories | [`trajectory::Cycloidal`], [`trajectory::Quintic`] |
 //! | resolved motion rate control of the end effectors | [`control::ResolvedMotionRate`] |
-//! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::Limited`], [`control::Sampled`] |
-//! | canonical variables, for integrators that conserve momenta | [`formulation::Canonical`], [`integrate::GaussLegendre`] |
+//! | computed torque; torque limits; sampled control | [`control::ComputedTorque`], [`control::TorqueLimiter`], [`control::SampledControl`] |
+//! | canonical variables, for integrators that conserve momenta | [`formulation::CanonicalVariables`], [`integrate::GaussLegendre`] |
 //! | other integrators | [`integrate`] |
 //! | events that end a phase; contact detection | `simulate::event`, `capture::contact_detection` |
 //! | several contacts at once: rigid, pinned, bouncing | [`mod@contact`], [`contact::impact()`] |
 //! | extended inverse inertia tensor, impulse index and ellipse | [`contact::InverseInertia`], `capture::contact_response` |
 //! | robot with captured targets: merged links, closed loops | [`dynamics::Merge`], [`contact::ConstraintSolver`] |
-//! | stabilisation after the capture, the paper's future work | [`control::Stabilise`] |
+//! | stabilisation after the capture, the paper's future work | [`control::Stabilisation`] |
 //!
 //! # Conventions
 //! SI units and radians. Planar twists are `[ω, vx, vy]`, wrenches and impulses `[n, fx, fy]`, poses `[yaw, x, y]`, in

@@ -86,14 +86,14 @@ impl Assembly {
         model.merge(&state.base_pose, &state.joint_angles, &merged)?;
         let mut constraints = Vec::new();
         for attachment in attachments {
-            let (other, pose) = match places[attachment.target] {
+            let (partner, pose) = match places[attachment.target] {
                 TargetPlacement::Merged { arm, .. } if arm == attachment.arm => continue,
                 TargetPlacement::Merged { arm, .. } => (ContactPartner::EndEffector(arm), end_effectors[arm]),
                 TargetPlacement::Beside(i) => (ContactPartner::Body(i), bodies[i].pose),
             };
             let contact = Contact {
                 arm: attachment.arm,
-                other,
+                partner,
                 offset: [0.0; 2],
                 law: ContactLaw::new(attachment.kind, Default::default, 0.0),
             };
@@ -118,17 +118,17 @@ impl Assembly {
     /// The bodies that end effectors hold, of those beside the robot.
     #[must_use]
     pub fn pinned(&self, bodies: &[Body]) -> Vec<Body> {
-        let held = |i: usize| self.constraints.iter().any(|constraint| constraint.other == ContactPartner::Body(i));
+        let held = |i: usize| self.constraints.iter().any(|constraint| constraint.partner == ContactPartner::Body(i));
         bodies.iter().enumerate().filter(|(i, _)| held(*i)).map(|(_, body)| *body).collect()
     }
 
     /// The constraints as contacts, at poses of the end effectors and bodies.
     pub(crate) fn constraint_contacts(&self, end_effectors: &[[f64; 3]], bodies: &[Body]) -> Vec<Contact<f64>> {
-        let pose = |other: ContactPartner| match other {
+        let pose = |partner: ContactPartner| match partner {
             ContactPartner::Body(i) => bodies[i].pose,
             ContactPartner::EndEffector(arm) => end_effectors[arm],
         };
-        self.constraints.iter().map(|constraint| constraint.contact(&pose(constraint.other))).collect()
+        self.constraints.iter().map(|constraint| constraint.contact(&pose(constraint.partner))).collect()
     }
 
     /// All targets, from poses and twists of the end effectors and the bodies beside the robot.

@@ -163,14 +163,14 @@ fn by_contacts(
     model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut end_effectors)?;
     let bodies: Vec<Body> = assembly.beside(targets);
     let new = touching.iter().map(|touch| {
-        let (other, offset) = match assembly.places[touch.target] {
+        let (partner, offset) = match assembly.places[touch.target] {
             TargetPlacement::Merged { arm, .. } => {
                 let ([_, x, y], [_, from_x, from_y]) = (end_effectors[touch.arm], end_effectors[arm]);
                 (ContactPartner::EndEffector(arm), [x - from_x, y - from_y])
             }
             TargetPlacement::Beside(i) => (ContactPartner::Body(i), touch.offset),
         };
-        Contact { arm: touch.arm, other, offset, law: touch.law }
+        Contact { arm: touch.arm, partner, offset, law: touch.law }
     });
     let held = assembly.constraint_contacts(&end_effectors, &bodies);
     let contacts: Vec<_> = new.chain(held).collect();

@@ -1,7 +1,7 @@
 //! The motion after an impact under the scenario's post-capture control law.
 
 use crate::capture::assembly::Attachment;
-use crate::control::{Control, ProportionalDerivative, Stabilise, ZeroTorque};
+use crate::control::{Control, ProportionalDerivative, Stabilisation, ZeroTorque};
 use crate::layout::{Arm, Layout};
 use crate::owned::RobotState;
 use crate::scenario::{PostCaptureControl, PostImpact};
@@ -64,7 +64,7 @@ pub fn run_post_capture(
             &mut damped
         }
         PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
-            stabilised = Stabilise {
+            stabilised = Stabilisation {
                 joint_gain: derivative_gain,
                 base_gain: *base_gain,
                 wheels,

@@ -1,6 +1,6 @@
 //! Simulation of a phase under a control law with limited and sampled actuators.
 
-use crate::control::{Control, Limited, Sampled};
+use crate::control::{Control, SampledControl, TorqueLimiter};
 use crate::owned::RobotState;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
@@ -32,7 +32,7 @@ pub fn drive(
     let mut limited;
     let law: &mut dyn Control<f64> = match &actuation.torque_limits {
         Some(torque_limits) => {
-            limited = Limited { law, torque_limits, saturated: &mut saturated };
+            limited = TorqueLimiter { law, torque_limits, saturated: &mut saturated };
             &mut limited
         }
         None => law,
@@ -41,7 +41,7 @@ pub fn drive(
     let mut sampled;
     let law: &mut dyn Control<f64> = match actuation.steps_per_sample {
         Some(steps) => {
-            sampled = Sampled::new(law, steps, &mut held);
+            sampled = SampledControl::new(law, steps, &mut held);
             &mut sampled
         }
         None => law,

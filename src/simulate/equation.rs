@@ -2,9 +2,9 @@
 
 use crate::control::Control;
 use crate::error::Error;
-use crate::formulation::{Canonical, Reduced};
+use crate::formulation::{CanonicalVariables, ReducedCoordinates};
 use crate::simulate::system::System;
-use crate::state::{CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut};
+use crate::state::{Coordinates, State, StateVector, coordinates_mut, split, split_mut};
 
 /// ẋ = f(t, x) of a system under a control law.
 pub(crate) struct Equation<'a> {
@@ -19,7 +19,7 @@ enum Form {
     Canonical(CanonicalSpace),
 }
 
-/// What [`Reduced`] borrows.
+/// What [`ReducedCoordinates`] borrows.
 struct ReducedSpace {
     momentum: [f64; 3],
     mass_matrix: Vec<f64>,
@@ -29,8 +29,8 @@ struct ReducedSpace {
 }
 
 impl ReducedSpace {
-    fn borrow(&mut self) -> Reduced<'_, f64> {
-        Reduced {
+    fn borrow(&mut self) -> ReducedCoordinates<'_, f64> {
+        ReducedCoordinates {
             momentum: self.momentum,
             mass_matrix: &mut self.mass_matrix,
             generalized_inertia: &mut self.generalized_inertia,
@@ -40,13 +40,13 @@ impl ReducedSpace {
     }
 }
 
-/// What [`Canonical`] borrows, and working space of its derivative.
+/// What [`CanonicalVariables`] borrows, and working space of its derivative.
 struct CanonicalSpace {
     inertias: Vec<[f64; 2]>,
     poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
     offsets: Vec<[f64; 2]>,
-    ends: Vec<bool>,
+    leaves: Vec<bool>,
     rates: Vec<f64>,
     /// With rates in place of momenta.
     x: Vec<f64>,
@@ -61,13 +61,13 @@ struct CanonicalSpace {
 }
 
 impl CanonicalSpace {
-    fn split(&mut self) -> (Canonical<'_, f64>, CanonicalWorkspace<'_>) {
-        let canonical = Canonical {
+    fn split(&mut self) -> (CanonicalVariables<'_, f64>, CanonicalWorkspace<'_>) {
+        let canonical = CanonicalVariables {
             inertias: &mut self.inertias,
             poses: &mut self.poses,
             twists: &mut self.twists,
             offsets: &mut self.offsets,
-            ends: &mut self.ends,
+            leaves: &mut self.leaves,
             rates: &mut self.rates,
         };
         let Self { x, mass_matrix, bias, results, .. } = self;
@@ -91,11 +91,11 @@ impl<'a> Equation<'a> {
     /// In reduced coordinates, with the momentum of `x`.
     ///
     /// # Errors
-    /// [`Error::Beside`] where there are bodies beside the robot, and those of the model.
+    /// [`Error::UnsupportedBodies`] where there are bodies beside the robot, and those of the model.
     pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
         let count = system.bodies.len() + system.constraints.len();
         if count > 0 {
-            return Err(Error::Beside { count });
+            return Err(Error::UnsupportedBodies { count });
         }
         let (joints, arms) = (system.model.joints(), system.model.arms());
         let momentum = system.model.momentum(&State::from_vector(x, joints)?)?;
@@ -122,7 +122,7 @@ impl<'a> Equation<'a> {
             poses: vec![[0.0; 3]; joints + 1],
             twists: vec![[0.0; 3]; joints + 1],
             offsets: vec![[0.0; 2]; joints],
-            ends: vec![false; joints],
+            leaves: vec![false; joints],
             rates: vec![0.0; joints],
             x: x.to_vec(),
             last_x: Vec::new(),
@@ -180,9 +180,9 @@ impl<'a> Equation<'a> {
         replace(&mut canonical, system, workspace.x, workspace.results, Direction::ToRates)?;
         system.derivative(control, time, workspace.x, rate, torques)?;
         let now = State::from_vector(workspace.x, joints)?;
-        let StateVectorMut { rates, work: [.., base_torque], .. } = split_mut(rate)?;
+        let StateVector { rates, work: [.., base_torque], .. } = split_mut(rate)?;
         if system.bodies.is_empty() && system.constraints.is_empty() {
-            let forces = CoordinatesMut::new(rates, joints)?;
+            let forces = coordinates_mut(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
             forces.joints.copy_from_slice(torques);
         } else {
@@ -258,7 +258,7 @@ enum Direction {
 
 /// Converts rates to momenta or back in the robot's part of `x`; `results` (3 + joints) is working space.
 fn replace(
-    canonical: &mut Canonical<'_, f64>,
+    canonical: &mut CanonicalVariables<'_, f64>,
     system: &System<'_>,
     x: &mut [f64],
     results: &mut [f64],
@@ -270,12 +270,12 @@ fn replace(
         Direction::ToMomenta => canonical.momenta(system.model, &now, results)?,
         Direction::ToRates => {
             let StateVector { rates: momenta, .. } = split(x)?;
-            let CoordinatesMut { base, joints: of_joints, .. } = CoordinatesMut::new(results, joints)?;
+            let Coordinates { base, joints: of_joints, .. } = coordinates_mut(results, joints)?;
             let momenta = &momenta[..3 + joints];
             *base = canonical.velocities(system.model, now.base_pose, now.joint_angles, momenta, of_joints)?;
         }
     }
-    let StateVectorMut { rates: places, .. } = split_mut(x)?;
+    let StateVector { rates: places, .. } = split_mut(x)?;
     places[..3 + joints].copy_from_slice(results);
     Ok(())
 }

@@ -169,12 +169,12 @@ impl PhaseError {
     /// Whether the request is invalid for any numbers.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
-        matches!(self.source, Error::Beside { .. })
+        matches!(self.source, Error::UnsupportedBodies { .. })
     }
 
     fn hint(&self) -> &'static str {
         match self.source {
-            Error::Beside { .. } => "",
+            Error::UnsupportedBodies { .. } => "",
             Error::Tolerance { .. } => " (a larger one may help)",
             _ => " (a shorter step may help)",
         }

@@ -78,7 +78,7 @@ impl<'a> Recorder<'a> {
         }
         let mut sample = Sample {
             time,
-            state: RobotState::of(&state),
+            state: RobotState::from_view(&state),
             joint_torques: self.torques.clone(),
             end_effector_poses: vec![[0.0; 3]; model.arms()],
             end_effector_twists: vec![[0.0; 3]; model.arms()],

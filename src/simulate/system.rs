@@ -6,7 +6,7 @@ use crate::dynamics::Model;
 use crate::error::Error;
 use crate::formulation::derivative;
 use crate::simulate::limits::JointLimits;
-use crate::state::{Coordinates, CoordinatesMut, State, StateVector, StateVectorMut, split, split_mut, vector_length};
+use crate::state::{State, StateVector, coordinates, coordinates_mut, split, split_mut, vector_length};
 
 /// A rigid body beside the robot.
 pub type Body = crate::body::Body<f64>;
@@ -39,8 +39,8 @@ impl<'a> System<'a> {
         let joints = self.model.joints();
         let mut x = vec![0.0; vector_length(joints) + 6 * self.bodies.len()];
         state.write(&mut x)?;
-        let StateVectorMut { positions, rates, .. } = split_mut(&mut x)?;
-        let (positions, rates) = (CoordinatesMut::new(positions, joints)?, CoordinatesMut::new(rates, joints)?);
+        let StateVector { positions, rates, .. } = split_mut(&mut x)?;
+        let (positions, rates) = (coordinates_mut(positions, joints)?, coordinates_mut(rates, joints)?);
         for ((pose, twist), body) in positions.bodies.iter_mut().zip(rates.bodies).zip(self.bodies) {
             (*pose, *twist) = (body.pose, body.twist);
         }
@@ -54,7 +54,7 @@ impl<'a> System<'a> {
     pub fn bodies_at(&self, x: &[f64]) -> Result<Vec<Body>, Error> {
         let joints = self.model.joints();
         let StateVector { positions, rates, .. } = split(x)?;
-        let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
+        let (positions, rates) = (coordinates(positions, joints)?, coordinates(rates, joints)?);
         let each = self.bodies.iter().zip(positions.bodies).zip(rates.bodies);
         Ok(each.map(|((body, pose), twist)| Body { pose: *pose, twist: *twist, ..*body }).collect())
     }
@@ -80,7 +80,7 @@ impl<'a> System<'a> {
     /// # Errors
     /// As [`System::derivative`].
     pub fn restore(&self, x: &mut [f64]) -> Result<(), Error> {
-        self.with_constraints(|solver, workspace| solver.restore(x, workspace))
+        self.with_constraints(|solver, workspace| solver.project(x, workspace))
     }
 
     /// The largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate; zeros without

@@ -2,7 +2,7 @@
 
 use crate::scenario;
 use planar_capture::capture::approach::Approach;
-use planar_capture::control::{Control, Limited, ProportionalDerivative};
+use planar_capture::control::{Control, ProportionalDerivative, TorqueLimiter};
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, FinalRates, Scenario, Tracking};
 use planar_capture::simulate::Phase;
@@ -119,7 +119,7 @@ fn a_limit_is_not_saturated_until_more_is_wanted() {
         proportional_gain: &[2.0; 3],
         derivative_gain: &[0.0; 3],
     };
-    let mut limited = Limited { law, torque_limits: &[2.0, 1.5, 0.0], saturated: &mut [false; 3] };
+    let mut limited = TorqueLimiter { law, torque_limits: &[2.0, 1.5, 0.0], saturated: &mut [false; 3] };
     let mut torques = [0.0; 3];
     limited.joint_torques(0.0, &*model, &state, &mut torques).expect("torques");
     assert_eq!((torques, limited.saturated()), ([-2.0, 1.5, 0.0], &[false, true, true][..]));

@@ -3,14 +3,14 @@
 
 use crate::scenario;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, LoopConstraint};
-use planar_capture::control::{Control, ProportionalDerivative, Sampled, Stabilise, ZeroTorque};
+use planar_capture::control::{Control, ProportionalDerivative, SampledControl, Stabilisation, ZeroTorque};
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
-use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, Ends};
+use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, PointToPoint};
 use planar_proof::{assert_close, difference, tolerance};
 use std::f64::consts::PI;
 
@@ -41,9 +41,10 @@ fn run(law: &mut dyn Control<f64>, duration: f64, step: f64, scheme: Scheme, coo
 /// Under a law that knows of time, angles and rates.
 fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
     let start = tumbling();
-    let ends = Ends { initial_angles: &start.joint_angles, final_angles: &[0.2, -0.5, 0.4, 2.0, 1.0, 0.1], duration };
+    let motion =
+        PointToPoint { initial_angles: &start.joint_angles, final_angles: &[0.2, -0.5, 0.4, 2.0, 1.0, 0.1], duration };
     let (stiffness, damping) = ([2.0; 6], [1.5; 6]);
-    let trajectory = Cycloidal { ends };
+    let trajectory = Cycloidal { motion };
     let mut law = ProportionalDerivative { trajectory, proportional_gain: &stiffness, derivative_gain: &damping };
     run(&mut law, duration, step, scheme, coordinates)
 }
@@ -139,7 +140,7 @@ fn full_and_reduced_coordinates_agree() {
 fn both_coordinates_take_a_base_torque() {
     let joints = 6;
     let phases = [FULL, REDUCED].map(|coordinates| {
-        let mut law = Stabilise {
+        let mut law = Stabilisation {
             joint_gain: &[0.5; 6],
             base_gain: 0.5,
             wheels: &[false; 6],
@@ -197,7 +198,7 @@ fn a_closed_loop_by_every_scheme() {
     let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);
     let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [omega, vx - omega * ry, vy + omega * rx] };
     let hold = |arm: usize, kind| {
-        let contact = Contact { arm, other: ContactPartner::Body(0), offset: [0.0; 2], law: kind };
+        let contact = Contact { arm, partner: ContactPartner::Body(0), offset: [0.0; 2], law: kind };
         LoopConstraint::new(&contact, &tips[arm], &pose).expect("a hold")
     };
     let constraints = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
@@ -237,7 +238,7 @@ fn sampled_torques_and_adaptive_steps() {
                 ProportionalDerivative { trajectory: standing, proportional_gain: &gains.0, derivative_gain: &gains.1 };
             let mut held = [0.0; 6];
             // 0.15 s: the last sample is cut short by the end
-            run(&mut Sampled::new(law, steps, &mut held), 1.0, step, scheme, FULL)
+            run(&mut SampledControl::new(law, steps, &mut held), 1.0, step, scheme, FULL)
         },
     );
     let reference = phases[0].samples.pop().expect("an end");
@@ -259,7 +260,7 @@ fn samples_of_any_number_of_steps() {
             let law =
                 ProportionalDerivative { trajectory: standing, proportional_gain: &gains.0, derivative_gain: &gains.1 };
             let mut held = [0.0; 6];
-            run(&mut Sampled::new(law, steps, &mut held), 1.0, 0.005, scheme, FULL)
+            run(&mut SampledControl::new(law, steps, &mut held), 1.0, 0.005, scheme, FULL)
         });
         let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).state));
         assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);

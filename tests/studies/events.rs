@@ -1,7 +1,7 @@
 //! Events end a phase when a value falls to zero: at the right time, whatever integrates, however short they are.
 
 use crate::scenario;
-use planar_capture::control::{Control, ProportionalDerivative, Sampled, ZeroTorque};
+use planar_capture::control::{Control, ProportionalDerivative, SampledControl, ZeroTorque};
 use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
@@ -203,7 +203,7 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
             let law =
                 ProportionalDerivative { trajectory: standing, proportional_gain: &gains, derivative_gain: &gains };
             let mut held = [0.0; 3];
-            let mut law = Sampled::new(law, 5, &mut held);
+            let mut law = SampledControl::new(law, 5, &mut held);
             run(&tumbling(), duration, step, (scheme, coordinates), &mut law, events)
         };
         let whole = go(&mut NoEvents, 2.0, 0.01);

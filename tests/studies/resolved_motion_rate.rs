@@ -104,7 +104,7 @@ fn a_robot_with_momentum_is_steered_as_well() {
 fn errors_decay_with_the_two_gains() {
     let planned = by_poses();
     let model = generated(&planned);
-    let mut start = RobotState::of(&planned.initial.view());
+    let mut start = RobotState::from_view(&planned.initial.view());
     for (angle, by) in start.joint_angles.iter_mut().zip([0.01, -0.02, 0.01, -0.01, 0.01, 0.02]) {
         *angle += by;
     }
@@ -271,7 +271,7 @@ fn check_law(name: &str, goals: &[EndEffectorGoal], s: &RandomState) -> Result<(
     };
     let mut tips = EndEffectorFeedback::new(&*model, &planned).expect("paths");
     let mut law = tips.law(GAINS, 1e-9);
-    let (path, wanted, held) = (law.path, law.wanted, law.held);
+    let (path, wanted, held) = (law.path, law.controlled, law.locked);
     let (joints, time) = (layout.joints(), 3.0);
     let mut torques = vec![0.0; joints];
     law.joint_torques(time, &*model, &state, &mut torques).expect("torques");

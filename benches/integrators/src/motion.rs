@@ -14,7 +14,7 @@ use planar_capture::simulate::integration::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, PhaseError, Timing, simulate};
 use planar_capture::state::State;
-use planar_capture::trajectory::{Ends, Quartic};
+use planar_capture::trajectory::{PointToPoint, Quartic};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -65,17 +65,17 @@ impl Problems {
     /// The paper's approach, and its number of evaluations.
     pub fn approach(&self, (integration, step): (Integration, f64)) -> Result<(Phase, u64), PhaseError> {
         let approach = &self.scenario.approach;
-        let ends = Ends {
+        let motion = PointToPoint {
             initial_angles: &self.scenario.initial.joint_angles,
             final_angles: &approach.final_joint_angles,
             duration: approach.duration,
         };
-        let trajectory = Quartic { ends, final_rates: &self.rates };
+        let trajectory = Quartic { motion, final_rates: &self.rates };
         let Tracking::ProportionalDerivative { proportional_gain, derivative_gain } = &approach.tracking else {
             unreachable!("the paper's approach is under PD control")
         };
         let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
-        let start = RobotState::of(&self.scenario.initial.view());
+        let start = RobotState::from_view(&self.scenario.initial.view());
         let timing = Timing { duration: approach.duration, step, sample: approach.duration, integration };
         self.run(&mut law, &start, &timing)
     }

@@ -1,4 +1,4 @@
-//! A rigid body beside the robot.
+//! A free rigid body: its momentum, energy and force-free motion.
 
 use crate::scalar::Scalar;
 
@@ -26,7 +26,7 @@ impl<T: Scalar> Body<T> {
         ([angular, px, py], T::constant(0.5) * twice)
     }
 
-    /// Where it flies in a time (s) without forces.
+    /// The body after a time (s) of motion without forces.
     #[must_use]
     pub fn after(&self, time: T) -> Self {
         let ([yaw, x, y], [omega, vx, vy]) = (self.pose, self.twist);

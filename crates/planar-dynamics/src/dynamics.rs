@@ -1,7 +1,7 @@
-//! What every model of a robot can do, generated or generic. Slices; lengths are checked once per call.
+//! The traits of a robot's dynamics, eqs. (1), (2) and (10) to (16), for generated models and generic ones.
 //!
-//! Matrices are row-major. Where a number that comes in is not finite, or a system is singular, the answer is
-//! an [`Error`] with the numbers, never a NaN.
+//! Arguments are slices, whose lengths are checked once per call. Matrices are row-major. An input or result that is not
+//! finite and a singular system are an [`Error`]; no result is NaN.
 
 use crate::error::Error;
 use crate::scalar::Real;
@@ -9,7 +9,7 @@ use crate::state::{Forces, State};
 use crate::target::Target;
 use crate::with_quantities;
 
-/// Size and bodies of a robot.
+/// Number of arms and joints, and inertias of the bodies.
 pub trait Robot<T: Real> {
     /// Number of arms.
     fn arms(&self) -> usize;
@@ -68,10 +68,10 @@ macro_rules! traits {
     };
 }
 
-// `Kinematics` and `EquationsOfMotion`: the functions of the table of quantities
+// `Kinematics` and `EquationsOfMotion`, from the table of quantities
 with_quantities!(traits);
 
-/// The reduced coordinates of eq. (2).
+/// The terms of eq. (2), `I θ̈ + c = τ`.
 pub trait ReducedDynamics<T: Real> {
     /// I (joints²), c (joints) and J (3 arms × joints).
     ///
@@ -86,9 +86,9 @@ pub trait ReducedDynamics<T: Real> {
     ) -> Result<(), Error>;
 }
 
-/// Accelerations from forces.
+/// Eq. (1) solved for the accelerations.
 pub trait ForwardDynamics<T: Real> {
-    /// Returns [α, ax, ay] of the base COM and fills the joint accelerations.
+    /// Returns [α, ax, ay] of the base COM, inertial axes, and fills the joint accelerations; rad/s², m/s².
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -122,7 +122,7 @@ pub trait MomentumAndEnergy<T: Real> {
 
 /// Rigid capture of targets, one per arm at most.
 pub trait Impact<T: Real> {
-    /// The paper's reduced equations, literally: G (joints²), H (joints) and the joint rates after it, (15)–(16).
+    /// The paper's reduced equations as printed, (15) and (16): G (joints²), H (joints) and the joint rates afterwards.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -135,7 +135,7 @@ pub trait Impact<T: Real> {
         joint_rates_after: &mut [T],
     ) -> Result<(), Error>;
 
-    /// The exact impact in full coordinates: returns the base twist after it and fills the joint rates.
+    /// The exact impact in full coordinates: returns the base twist afterwards and fills the joint rates.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -147,38 +147,22 @@ pub trait Impact<T: Real> {
     ) -> Result<[T; 3], Error>;
 }
 
-/// Becoming one with what was captured.
+/// Merging of captured targets into the robot.
 pub trait Merge<T: Real> {
-    /// Merges each target, held at its contact point by the end effector, with the last link of its arm.
+    /// Makes each target, held at its contact point by the end effector, part of the last link of its arm.
     ///
     /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`]; the model is then as it was.
+    /// [`Error::Length`], [`Error::NotFinite`]; the model is then unchanged.
     fn merge(&mut self, base_pose: &[T; 3], joint_angles: &[T], targets: &[Option<Target<T>>]) -> Result<(), Error>;
 }
 
-/// Everything that a simulation from approach to post-impact asks of a robot.
-pub trait Model<T: Real>:
-    Robot<T>
-    + Kinematics<T>
-    + EquationsOfMotion<T>
-    + ReducedDynamics<T>
-    + ForwardDynamics<T>
-    + MomentumAndEnergy<T>
-    + Impact<T>
-    + Merge<T>
-{
+macro_rules! model {
+    ($($part:ident)+) => {
+        /// All traits of a robot's dynamics: what a simulation from approach to post-impact motion needs.
+        pub trait Model<T: Real>: $($part<T> +)+ {}
+
+        impl<T: Real, M: $($part<T> +)+> Model<T> for M {}
+    };
 }
 
-impl<T, M> Model<T> for M
-where
-    T: Real,
-    M: Robot<T>
-        + Kinematics<T>
-        + EquationsOfMotion<T>
-        + ReducedDynamics<T>
-        + ForwardDynamics<T>
-        + MomentumAndEnergy<T>
-        + Impact<T>
-        + Merge<T>,
-{
-}
+model!(Robot Kinematics EquationsOfMotion ReducedDynamics ForwardDynamics MomentumAndEnergy Impact Merge);

@@ -1,4 +1,6 @@
-//! What can be wrong with numbers; every variant carries them.
+//! The errors of the core's computations; every variant carries the numbers that caused it.
+
+use crate::manifest::ParameterKind;
 
 /// Why a computation of the core has no result.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -13,13 +15,21 @@ pub enum Error {
         /// The slice's number.
         found: usize,
     },
-    /// A vector that is no state: positions, as many rates, and three entries of actuator work.
+    /// More contact rows than can be solved together.
+    #[error("the contacts have {found} rows, at most {limit} can be solved together")]
+    ContactRows {
+        /// How many there may be.
+        limit: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A vector that is not an integrated one: positions, as many rates, and three entries of actuator work.
     #[error("a state vector has as many rates as positions and three entries of actuator work, not {found} entries")]
     StateVector {
         /// The vector's length.
         found: usize,
     },
-    /// An index of something that there is not.
+    /// An index out of range.
     #[error("there is no {what} {index}, there are {count}")]
     Index {
         /// What is counted.
@@ -28,6 +38,16 @@ pub enum Error {
         index: usize,
         /// How many there are.
         count: usize,
+    },
+    /// A parameter that the manifest of a generated model lacks.
+    #[error("the model has no parameter {kind:?} (arm {arm}, link {link})")]
+    Parameter {
+        /// What it is.
+        kind: ParameterKind,
+        /// From 0.
+        arm: usize,
+        /// From 0.
+        link: usize,
     },
     /// A number that is NaN or infinite.
     #[error("{quantity}[{index}] = {value} is not a finite number")]
@@ -49,38 +69,38 @@ pub enum Error {
         /// What it had to exceed.
         limit: f64,
     },
-    /// An iteration that does not come to an end.
-    #[error("{what} do not settle: they still change by {change:e} in round {rounds}")]
-    Unsettled {
+    /// An iteration that does not converge.
+    #[error("{what} do not converge: they still change by {change:e} in iteration {iterations}")]
+    NotConverged {
         /// What is iterated.
         what: &'static str,
-        /// Rounds made.
-        rounds: usize,
+        /// Iterations made.
+        iterations: u32,
         /// Largest change in the last of them.
         change: f64,
     },
-    /// A search that does not come to an end.
-    #[error("{what}: no solution after {rounds} exchanges")]
-    Exhausted {
+    /// An exchange of active constraints that does not end.
+    #[error("{what}: no solution after {exchanges} exchanges")]
+    Exchanges {
         /// What is solved.
         what: &'static str,
         /// Exchanges made.
-        rounds: u32,
+        exchanges: u32,
     },
-    /// An adaptive integrator that makes no way.
+    /// A tolerance that an adaptive integrator cannot meet.
     #[error("the tolerance {tolerance:e} cannot be kept: steps of {step:e} s are still too long")]
     Tolerance {
-        /// What was asked for, relative and per unit.
+        /// Relative, and absolute in SI units.
         tolerance: f64,
         /// s.
         step: f64,
     },
-    /// Reduced coordinates where there is more than the robot.
+    /// Reduced coordinates of a system with more than the robot.
     #[error(
         "reduced coordinates are for a robot alone, found {count} bodies or holds beside it, expected `coordinates = \"full\"`"
     )]
-    Beside {
-        /// How many bodies there are.
+    UnsupportedBodies {
+        /// How many bodies and constraints there are.
         count: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! The impact phase: rigid capture, exact and as the paper writes it.
+//! Rigid capture of targets: the exact impact in full coordinates, and the paper's equations (14) to (17).
 
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -7,22 +7,23 @@ use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::target::Target;
+use crate::validate::length;
 
-/// Where the results of an impact go: joints, and one entry per arm.
+/// Buffers for the velocities after an impact and its impulses: one entry per joint, or per arm.
 #[derive(Debug)]
 pub struct RigidImpactOutput<'a, T> {
     /// rad/s.
     pub joint_rates: &'a mut [T],
-    /// [ω, vx, vy] of each target's COM; zeros for an arm without target.
+    /// [ω, vx, vy] of each target's COM; zeros for an arm without a target.
     pub target_twists: &'a mut [[T; 3]],
-    /// [n, fx, fy] on the robot at each end effector, inertial axes, N m s, N s; zeros for an arm without target.
+    /// [n, fx, fy] on the robot at each end effector, inertial axes, N m s, N s; zeros for an arm without a target.
     pub impulses: &'a mut [[T; 3]],
 }
 
 /// The exact impact, in full coordinates: `(M + J_eᵀ N J_e) v_f = M v_i + J_eᵀ J_t⁻ᵀ I_t t_ti`. Returns the base twist.
 ///
-/// Linear and angular momentum of robot and targets together are conserved to rounding, and kinetic energy
-/// never grows.
+/// Linear and angular momentum of robot and targets together are conserved to rounding; the kinetic energy does not
+/// increase.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -35,7 +36,7 @@ pub fn exact<T: Real>(
     let base_twist = model.full_impact(state, targets, after.joint_rates)?;
     let moving = State { base_twist, joint_rates: after.joint_rates, ..*state };
     model.end_effector_twists(&moving, after.target_twists)?;
-    release(targets, after)?;
+    fill_target_results(targets, after)?;
     Ok(base_twist)
 }
 
@@ -52,11 +53,11 @@ pub struct PaperImpactWorkspace<'a, T> {
     pub mass_matrix: &'a mut [T],
 }
 
-/// The paper's literal equations: (15), (16) for the joint rates, (14) for the targets, and (17), fed with the
-/// robot's momentum before the impact, for the base twist that is returned.
+/// The paper's equations as printed: (15), (16) for the joint rates, (14) for the targets, and (17) with the robot's
+/// momentum before the impact. Returns the base twist.
 ///
-/// Not momentum-conserving: J maps joint rates to end effector twists only without robot momentum, which the impact
-/// gives.
+/// They do not conserve momentum: J maps joint rates to end effector twists only for a robot without momentum, and the
+/// impact changes its momentum.
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
@@ -69,13 +70,13 @@ pub fn paper<T: Real>(
 ) -> Result<[T; 3], Error> {
     let joints = model.joints();
     model.reduced_impact(state, targets, workspace.impact_matrix, workspace.impact_momentum, after.joint_rates)?;
-    // (14): t_t = J_t⁻¹ J joint_rates, with the generalized Jacobian
+    // eq. (14): t_t = J_t⁻¹ J θ̇, with the generalized Jacobian
     model.reduced_dynamics(state, workspace.impact_matrix, workspace.impact_momentum, workspace.jacobian)?;
     let rows = workspace.jacobian.chunks_exact(joints.max(1));
     for (value, row) in after.target_twists.as_flattened_mut().iter_mut().zip(rows) {
         *value = dot(row, &*after.joint_rates);
     }
-    release(targets, after)?;
+    fill_target_results(targets, after)?;
     let before = model.momentum(state)?;
     let [px, py] = before.linear_momentum;
     model.mass_matrix(&state.base_pose, state.joint_angles, workspace.mass_matrix)?;
@@ -83,16 +84,15 @@ pub fn paper<T: Real>(
     Ok(equation.base_twist([before.angular_momentum, px, py], &state.base_pose, after.joint_rates))
 }
 
-/// From end effector twists to target twists and impulses, arm by arm.
-fn release<T: Real>(targets: &[Option<Target<T>>], after: &mut RigidImpactOutput<'_, T>) -> Result<(), Error> {
-    let expected = targets.len();
-    for found in [after.target_twists.len(), after.impulses.len()] {
-        if found != expected {
-            return Err(Error::Length { quantity: "targets", expected: found, found: expected });
-        }
-    }
-    for ((target, twist), impulse) in targets.iter().zip(after.target_twists.iter_mut()).zip(after.impulses.iter_mut())
-    {
+/// Replaces the end effectors' twists by those of the targets, and fills the impulses.
+fn fill_target_results<T: Real>(
+    targets: &[Option<Target<T>>],
+    after: &mut RigidImpactOutput<'_, T>,
+) -> Result<(), Error> {
+    length("target_twists", targets.len(), after.target_twists.len())?;
+    length("impulses", targets.len(), after.impulses.len())?;
+    let results = after.target_twists.iter_mut().zip(after.impulses.iter_mut());
+    for (target, (twist, impulse)) in targets.iter().zip(results) {
         *twist = target.map_or([T::ZERO; 3], |t| t.twist_from_contact(twist));
         *impulse = target.map_or([T::ZERO; 3], |t| t.impulse(twist));
     }

@@ -1,8 +1,8 @@
-//! The traits of [`dynamics`](crate::dynamics) for generated models.
+//! Implements the traits of [`dynamics`](crate::dynamics) for generated models, by their inherent functions.
 
 /// The traits of [`crate::dynamics`] for the `Model` of a rendered module; for generated code only.
 ///
-/// The argument is the format of that code: what this version of the crate does not fit does not compile.
+/// The argument is the format of that code: code of another format does not compile.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_dynamics {
@@ -29,15 +29,17 @@ macro_rules! implement_dynamics {
                 }
 
                 fn body_inertias(&self, inertias: &mut [[T; 2]]) -> Result<(), Error> {
-                    let values = self.parameters().to_array();
+                    let mut values = self.parameters().to_array();
+                    let mut body = |kinds: [ParameterKind; 2], arm, link| -> Result<[T; 2], Error> {
+                        let [mass, inertia] = kinds.map(|kind| parameter(&mut values, kind, arm, link).copied());
+                        Ok([mass?, inertia?])
+                    };
                     let mut bodies = [[T::ZERO; 2]; JOINTS + 1];
-                    let body = |kind, arm, link| value(&values, kind, arm, link);
-                    bodies[0] = [body(ParameterKind::BaseMass, 0, 0), body(ParameterKind::BaseInertia, 0, 0)];
+                    bodies[0] = body([ParameterKind::BaseMass, ParameterKind::BaseInertia], 0, 0)?;
                     let links =
                         MANIFEST.links.iter().enumerate().flat_map(|(arm, n)| (0..*n).map(move |link| (arm, link)));
                     for (place, (arm, link)) in bodies.iter_mut().skip(1).zip(links) {
-                        *place =
-                            [body(ParameterKind::LinkMass, arm, link), body(ParameterKind::LinkInertia, arm, link)];
+                        *place = body([ParameterKind::LinkMass, ParameterKind::LinkInertia], arm, link)?;
                     }
                     store_rows("body_inertias", &bodies, inertias)
                 }
@@ -126,7 +128,7 @@ macro_rules! implement_dynamics {
                     joint_rates_after: &mut [T],
                 ) -> Result<(), Error> {
                     finite_state(state)?;
-                    let targets = whole(targets)?;
+                    let targets = one_per_arm(targets)?;
                     let result = Model::reduced_impact(
                         self,
                         &state.base_pose,
@@ -150,7 +152,7 @@ macro_rules! implement_dynamics {
                     joint_rates_after: &mut [T],
                 ) -> Result<[T; 3], Error> {
                     finite_state(state)?;
-                    let targets = whole(targets)?;
+                    let targets = one_per_arm(targets)?;
                     let result = Model::full_impact(
                         self,
                         &state.base_pose,
@@ -177,30 +179,29 @@ macro_rules! implement_dynamics {
                     targets: &[Option<Target<T>>],
                 ) -> Result<(), Error> {
                     finite_configuration(base_pose, joint_angles)?;
-                    whole(targets)?;
+                    one_per_arm(targets)?;
                     let end_effectors =
                         Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
                     for (arm, ((target, end_effector), links)) in
                         targets.iter().zip(&end_effectors).zip(MANIFEST.links).enumerate()
                     {
-                        let (Some(target), Some(link)) = (target, links.checked_sub(1)) else { continue };
-                        let of = |kind| value(&values, kind, arm, link);
+                        let Some(target) = target else { continue };
+                        let link = links.saturating_sub(1);
+                        let mut of = |kind| parameter(&mut values, kind, arm, link).copied();
                         let before = LinkInertia {
-                            mass: of(ParameterKind::LinkMass),
-                            inertia: of(ParameterKind::LinkInertia),
-                            com: [of(ParameterKind::LinkComX), of(ParameterKind::LinkComY)],
+                            mass: of(ParameterKind::LinkMass)?,
+                            inertia: of(ParameterKind::LinkInertia)?,
+                            com: [of(ParameterKind::LinkComX)?, of(ParameterKind::LinkComY)?],
                         };
-                        let after = target.merged_link(&before, of(ParameterKind::LinkLength), end_effector[0]);
+                        let after = target.merged_link(&before, of(ParameterKind::LinkLength)?, end_effector[0]);
                         for (kind, number) in [
                             (ParameterKind::LinkMass, after.mass),
                             (ParameterKind::LinkInertia, after.inertia),
                             (ParameterKind::LinkComX, after.com[0]),
                             (ParameterKind::LinkComY, after.com[1]),
                         ] {
-                            if let Some(place) = MANIFEST.position(kind, arm, link).and_then(|i| values.get_mut(i)) {
-                                *place = number;
-                            }
+                            *parameter(&mut values, kind, arm, link)? = number;
                         }
                     }
                     finite("merged parameters", &values)?;
@@ -209,15 +210,21 @@ macro_rules! implement_dynamics {
                 }
             }
 
-            /// A parameter's value; 0 for a structural zero.
-            fn value<T: Real>(values: &[T; PARAMETERS], kind: ParameterKind, arm: usize, link: usize) -> T {
-                MANIFEST.position(kind, arm, link).and_then(|i| values.get(i).copied()).unwrap_or(T::ZERO)
+            /// The value of a parameter that is never a structural zero: a mass, an inertia, or any of a last link.
+            fn parameter<T>(
+                values: &mut [T; PARAMETERS],
+                kind: ParameterKind,
+                arm: usize,
+                link: usize,
+            ) -> Result<&mut T, Error> {
+                let index = MANIFEST.position(kind, arm, link);
+                index.and_then(|index| values.get_mut(index)).ok_or(Error::Parameter { kind, arm, link })
             }
 
-            /// One target per arm, massless for an arm without one.
-            fn whole<T: Real>(targets: &[Option<Target<T>>]) -> Result<[Target<T>; ARMS], Error> {
+            /// One target per arm, massless for an arm without a target.
+            fn one_per_arm<T: Real>(targets: &[Option<Target<T>>]) -> Result<[Target<T>; ARMS], Error> {
                 let targets: &[Option<Target<T>>; ARMS] = array("targets", targets)?;
-                let targets = targets.map(|target| target.unwrap_or_else(Target::none));
+                let targets = targets.map(|target| target.unwrap_or_else(Target::massless));
                 for target in &targets {
                     finite("target mass and inertia", &[target.mass, target.inertia])?;
                     finite("target contact", &target.contact)?;
@@ -232,8 +239,7 @@ macro_rules! implement_dynamics {
     };
 }
 
-/// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model, by its inherent functions of the
-/// same names.
+/// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_functions {
@@ -279,7 +285,7 @@ macro_rules! implement_functions {
     (@store vector $method:ident $result:ident $into:ident) => { store(stringify!($method), &$result, $into) };
 }
 
-/// The module of a layout that [`build::render`](https://docs.rs/planar-capture) rendered in the crate's build script.
+/// The module of a layout that [`build::render`](https://docs.rs/planar-capture) wrote in the crate's build script.
 ///
 /// `include_layout!("my_robot");` is `pub mod my_robot { … }`.
 #[macro_export]

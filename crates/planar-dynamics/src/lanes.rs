@@ -1,6 +1,6 @@
-//! SIMD lanes as scalars: one instance of the robot per lane (feature `lanes`).
+//! SIMD lanes as scalars: one robot per lane (feature `lanes`).
 //!
-//! `wide` picks its width when it is compiled: `-C target-cpu=…` decides what a lane costs.
+//! `wide` selects the vector width at compile time: the cost of a lane depends on `-C target-cpu=…`.
 
 use crate::scalar::Scalar;
 use wide::{f32x8, f64x4, f64x8};

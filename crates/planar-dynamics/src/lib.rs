@@ -1,7 +1,7 @@
-//! The core of `planar-capture`: traits of a robot's dynamics, contacts, control, integration, trajectories,
-//! formulations and impacts, on slices and arrays.
+//! The core of `planar-capture`: traits of a robot's dynamics; contacts, impacts, control laws, formulations, integrators
+//! and trajectories on slices and arrays.
 //!
-//! It never contains: std, an allocation, a panic, a number type of its own choosing, a file, a text to be read.
+//! It never contains: std, an allocation, a panic, a computation for one number type alone, access to files, a parser.
 #![no_std]
 
 pub mod body;
@@ -13,6 +13,7 @@ pub mod formulation;
 pub mod impact;
 mod implement;
 pub mod integrate;
+mod jacobian_rate;
 #[cfg(feature = "lanes")]
 pub mod lanes;
 mod linear;

@@ -1,6 +1,6 @@
-//! What a generated model is made of: names, order, units and defaults of its parameters.
+//! The description of a generated model: its layout, coordinates, parameters and operation counts.
 
-/// Where one parameter of a generated model comes from in a layout. Arms and links count from 0.
+/// The number of a layout that a parameter of a generated model stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterKind {
     /// Mass of the base, kg.
@@ -11,9 +11,9 @@ pub enum ParameterKind {
     MountX,
     /// First joint of an arm in the base frame, y, m.
     MountY,
-    /// Direction of joint 1 = 0 in the base frame, rad.
+    /// Direction of the first link at joint angle 0, from the base x axis, rad.
     MountAngle,
-    /// Joint to next joint, or to the end effector, m.
+    /// From a link's joint to the next joint, or to the end effector, m.
     LinkLength,
     /// Mass of a link, kg.
     LinkMass,
@@ -32,9 +32,9 @@ pub struct Parameter {
     pub name: &'static str,
     /// What it is.
     pub kind: ParameterKind,
-    /// Which arm, 0 for the base.
+    /// The arm, from 0; 0 for the base.
     pub arm: usize,
-    /// Which link of the arm, 0 for the base and the mounts.
+    /// The link of the arm, from 0; 0 for the base and the mounts.
     pub link: usize,
     /// SI unit.
     pub unit: &'static str,
@@ -45,13 +45,13 @@ pub struct Parameter {
 /// One of the full coordinates: the base's three, then the joints arm by arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
-    /// What it is: `base yaw`, or the arm's name and the joint's number.
+    /// `base yaw`, or the arm's name and the joint's number.
     pub name: &'static str,
     /// SI unit.
     pub unit: &'static str,
 }
 
-/// What one call of a function costs, its configuration stage included.
+/// Operation counts of one call of a function, its configuration stage included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Operations {
     /// The function of the model.
@@ -64,7 +64,7 @@ pub struct Operations {
     pub divisions: usize,
     /// Pairs of a sine and a cosine.
     pub sin_cos: usize,
-    /// Sign changes, minima, roots, arctangents.
+    /// Sign changes, minima, square roots, arctangents.
     pub other: usize,
 }
 
@@ -76,7 +76,7 @@ impl Operations {
     }
 }
 
-/// What a generated model was derived from, and what it expects.
+/// The description of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Manifest {
     /// Name of the layout.
@@ -85,13 +85,13 @@ pub struct Manifest {
     pub sha256: &'static str,
     /// Number of links of each arm.
     pub links: &'static [usize],
-    /// Full coordinates in their order, which is that of velocities, accelerations and generalized forces too.
+    /// Full coordinates in their order, also that of velocities, accelerations and generalized forces.
     pub coordinates: &'static [Coordinate],
     /// Parameters in the order of `Parameters::to_array`.
     pub parameters: &'static [Parameter],
     /// Operation counts of every function.
     pub operations: &'static [Operations],
-    /// Whether the distance between the first two mounts is divided by.
+    /// Whether the model divides by the distance between the first two mounts.
     pub needs_distinct_mounts: bool,
 }
 

@@ -1,7 +1,7 @@
-//! Eq. (17): the momentum equation, solved for the base twist.
+//! Eq. (17): the base twist from the momentum and the joint rates.
 
 use crate::error::Error;
-use crate::linear::{dot, factor, substitute};
+use crate::linear::{copy, dot, factor, substitute};
 use crate::scalar::Real;
 
 /// The base's rows `[I_b I_bm]` of a mass matrix, with `I_b` factored.
@@ -14,19 +14,17 @@ pub(crate) struct MomentumEquation<'a, T> {
 }
 
 impl<'a, T: Real> MomentumEquation<'a, T> {
-    /// Of a mass matrix, (3 + joints)², row-major.
+    /// From a mass matrix, (3 + joints)².
     ///
     /// # Errors
-    /// [`Error::Singular`] for a base and arms without inertia; [`Error::Length`] for fewer than three rows.
+    /// [`Error::Singular`] for a singular `I_b`; [`Error::Length`] for fewer than three rows.
     pub(crate) fn new(mass_matrix: &'a [T], joints: usize) -> Result<Self, Error> {
         let wrong =
             Error::Length { quantity: "mass_matrix", expected: (3 + joints) * (3 + joints), found: mass_matrix.len() };
         let rows = mass_matrix.get(..3 * (3 + joints)).ok_or(wrong)?;
         let mut factors = [T::ZERO; 9];
         for (place, row) in factors.chunks_exact_mut(3).zip(rows.chunks_exact(3 + joints)) {
-            for (place, entry) in place.iter_mut().zip(row) {
-                *place = *entry;
-            }
+            copy(row, place);
         }
         factor("the base inertia I_b", &mut factors, 3)?;
         Ok(Self { rows, factors })
@@ -38,7 +36,7 @@ impl<'a, T: Real> MomentumEquation<'a, T> {
         right
     }
 
-    /// `I_b⁻¹ (right − I_bm rates)`, for rates or accelerations of the joints.
+    /// `I_b⁻¹ (right − I_bm joints)`, for rates or accelerations of the joints.
     pub(crate) fn solve_with_joints<I: Iterator<Item = T>>(&self, mut right: [T; 3], joints: impl Fn() -> I) -> [T; 3] {
         for (right, row) in right.iter_mut().zip(self.rows.chunks_exact((self.rows.len() / 3).max(1))) {
             *right -= dot(row.get(3..).unwrap_or_default(), joints());
@@ -46,8 +44,8 @@ impl<'a, T: Real> MomentumEquation<'a, T> {
         self.solve(right)
     }
 
-    /// Eq. (17), `I_b t_b = [l − c_o × p; p] − I_bm θ̇`: the base twist that goes with joint rates and the momentum
-    /// [l, px, py] about the inertial origin. It is read with the base twist as [ω; v], so with `[l − c_o × p; p]`.
+    /// Eq. (17), `I_b t_b = [l − c_o × p; p] − I_bm θ̇`: the base twist from the momentum [l, px, py] about the inertial
+    /// origin and the joint rates. The order of the right-hand side is that of the base twist, [ω; v].
     pub(crate) fn base_twist(&self, [l, px, py]: [T; 3], base_pose: &[T; 3], joint_rates: &[T]) -> [T; 3] {
         let [_, x, y] = *base_pose;
         self.solve_with_joints([l - (x * py - y * px), px, py], || joint_rates.iter().copied())

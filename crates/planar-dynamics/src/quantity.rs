@@ -1,15 +1,14 @@
-//! The one table of quantities: name, unit, shape and origin of everything that a model computes.
+//! The table of quantities: name, unit, shape and function of everything that a model computes.
 //!
-//! What follows from a row: the method of its trait and the implementations of that for generated models and the
-//! generic one, its place in `eval`, in `compare` and in the reference vectors of generated modules, and the tests that
-//! every layout's graph has it. What a row of [`with_quantities!`](crate::with_quantities) needs besides: its
-//! derivation (`codegen/`), and its formula and natural sizes in the generic implementation (`planar_build::prove`);
-//! the compiler asks for those.
+//! A row defines the method of its trait with its implementations for generated models and the generic one, its place in
+//! `eval`, in `compare` and in the reference vectors of generated modules, and the tests that every layout's graph has
+//! it. A row of [`with_quantities!`](crate::with_quantities) also needs a derivation (`codegen/`), and a formula and
+//! natural sizes in the generic implementation (`planar_build::prove`); the compiler reports those that are missing.
 
 /// Number of entries along one axis of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// As many for every robot.
+    /// The same for every robot.
     Fixed(usize),
     /// One per arm.
     Arms,
@@ -24,9 +23,9 @@ pub enum Extent {
 }
 
 impl Extent {
-    /// For a robot of so many arms and joints.
+    /// The number for a robot of so many arms and joints.
     #[must_use]
-    pub const fn of(self, arms: usize, joints: usize) -> usize {
+    pub const fn count(self, arms: usize, joints: usize) -> usize {
         match self {
             Self::Fixed(count) => count,
             Self::Arms => arms,
@@ -38,39 +37,39 @@ impl Extent {
     }
 }
 
-/// How rounding gets into a quantity.
+/// How rounding errors enter a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
     /// By sums and products alone.
     Polynomial,
-    /// By solving equations too, which magnifies it by their condition number.
+    /// Also by solving equations, which amplifies them by the condition number.
     Solved,
 }
 
 /// A row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Definition {
-    /// As `compare` prints it. `impact.G` is the entry `G` of the block `impact` in the output of `eval`.
+    /// The name in `compare`. `impact.G` is the entry `G` of the block `impact` in the output of `eval`.
     pub name: &'static str,
-    /// SI, as graphs have it.
+    /// SI unit, as written in graphs.
     pub unit: &'static str,
-    /// One entry per axis, row-major; none for a number.
+    /// One entry per axis, row-major; none for a scalar.
     pub shape: &'static [Extent],
-    /// The functions of a generated model that have it among their results, …
+    /// The functions of a generated model that return it.
     pub functions: &'static [&'static str],
-    /// … under this name.
+    /// Its name among their results.
     pub output: &'static str,
-    /// How exact it can be.
+    /// How rounding errors enter it.
     pub rounding: Rounding,
-    /// Its place in the output of `eval`; `None` where that does not show it.
+    /// Its place in the output of `eval`; `None` where it is not part of that.
     pub shown: Option<u8>,
 }
 
-/// Hands the table to a macro.
+/// Calls a macro with the table.
 ///
-/// `functions` are results of the configuration, or of the state, alone: one method each of the trait before the brace,
-/// with numbers in a `matrix`, in a `vector`, or as `triples` in a list. `results` are what the other traits' methods
-/// give. The number of `shown` is the place in the output of `eval`.
+/// `functions` depend on the configuration or the state alone: each is a method of the trait before the brace, with a
+/// `matrix`, a `vector` or a list of `triples` as its result. `results` are those of the other traits' methods. The
+/// number of `shown` is the place in the output of `eval`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_quantities {
@@ -174,7 +173,7 @@ macro_rules! quantities {
         results { $($result:ident $name:literal: $rounding:ident $shape:tt $of:literal,
             $functions:tt $output:literal, $visible:ident $rank:tt;)* }
     ) => {
-        /// Everything that a model computes at one state.
+        /// A quantity that a model computes at one state.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Quantity {
             $($($(#[$doc])* $function,)*)*
@@ -182,10 +181,10 @@ macro_rules! quantities {
         }
 
         impl Quantity {
-            /// All of them, in the order in which they are shown.
+            /// All quantities, in the order of the table.
             pub const ALL: &'static [Self] = &[$($(Self::$function,)*)* $(Self::$result,)*];
 
-            /// Its row.
+            /// Its row of the table.
             #[must_use]
             pub const fn row(self) -> &'static Definition {
                 match self {

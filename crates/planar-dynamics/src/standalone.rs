@@ -1,6 +1,6 @@
-//! What of the core's text generated modules carry that depend on no library; for the renderer alone.
+//! The source text of the core that standalone generated modules contain; for the renderer alone.
 
-/// (module, text), in the order in which they use each other.
+/// (module, text), each after those that it uses.
 pub const PARTS: [(&str, &str); 4] = [
     ("number", include_str!("scalar/number.rs")),
     ("sine", include_str!("scalar/sine.rs")),

@@ -1,9 +1,10 @@
-//! A robot's state, and the forces on it.
+//! A robot's state as structures and as the vector that is integrated, and the forces on the robot.
 
 use crate::error::Error;
+use crate::linear::copy;
 use crate::scalar::Scalar;
 
-/// Where the robot is and how it moves; J holds one number per joint: an array, a vector, a slice.
+/// Positions and velocities of a robot; J holds one number per joint: an array, a vector or a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobotState<T, J> {
     /// [yaw, x, y] of the base COM, inertial frame; rad, m.
@@ -16,11 +17,11 @@ pub struct RobotState<T, J> {
     pub joint_rates: J,
 }
 
-/// A view of a robot's state: what every function of a model takes.
+/// A view of a robot's state, the argument of every function of a model.
 pub type State<'a, T> = RobotState<T, &'a [T]>;
 
 impl<T: Copy, J> RobotState<T, J> {
-    /// The same, borrowed.
+    /// A view of this state.
     #[must_use]
     pub fn view(&self) -> State<'_, T>
     where
@@ -34,9 +35,9 @@ impl<T: Copy, J> RobotState<T, J> {
         }
     }
 
-    /// A copy of a view.
+    /// A copy of a viewed state.
     #[must_use]
-    pub fn of<'a>(state: &State<'a, T>) -> Self
+    pub fn from_view<'a>(state: &State<'a, T>) -> Self
     where
         J: From<&'a [T]>,
     {
@@ -49,7 +50,7 @@ impl<T: Copy, J> RobotState<T, J> {
     }
 }
 
-/// What acts on the robot. What is absent costs nothing.
+/// Forces on the robot; a force that is `None` costs no operations.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces<'a, T> {
     /// Joint torques, arm by arm; N m.
@@ -67,136 +68,114 @@ impl<'a, T> Forces<'a, T> {
     }
 }
 
-/// Number of entries of the vector that is integrated: `[base_pose, joint_angles, base_twist, joint_rates, work]`, the
-/// last an [`ActuatorWork`].
+/// Number of entries of the integrated vector of a robot alone: `[base_pose, joint_angles, base_twist, joint_rates,
+/// work]`; the last is an [`ActuatorWork`].
 ///
-/// A vector may be longer by 6 for each free body beside the robot, their poses after the joint angles and their twists
-/// after the joint rates: the first half are positions, the second their rates, whatever there is.
+/// Each free body beside the robot adds 6 entries: its pose after the joint angles, its twist after the joint rates. The
+/// vector without its last three entries is therefore always one half of positions and one of their rates.
 #[must_use]
 pub const fn vector_length(joints: usize) -> usize {
     2 * (3 + joints) + 3
 }
 
-/// Number of positions in an integrated vector, where it is two halves and actuator work.
-fn positions<T>(vector: &[T]) -> Result<usize, Error> {
-    let found = vector.len();
-    match found.checked_sub(3) {
-        Some(both) if both.is_multiple_of(2) => Ok(both / 2),
-        _ => Err(Error::StateVector { found }),
-    }
-}
-
-/// An integrated vector in its parts.
+/// The parts of an integrated vector: the halves H and the last three entries W, both as views.
 #[derive(Clone, Copy, Debug)]
-pub struct StateVector<'a, T> {
-    /// Of base, joints and bodies beside the robot.
-    pub positions: &'a [T],
+pub struct StateVector<H, W> {
+    /// Of the base, the joints and the free bodies.
+    pub positions: H,
     /// Of the positions.
-    pub rates: &'a [T],
+    pub rates: H,
     /// Of the actuators.
-    pub work: &'a [T; 3],
-}
-
-/// As [`StateVector`], to be changed.
-#[derive(Debug)]
-pub struct StateVectorMut<'a, T> {
-    /// Of base, joints and bodies beside the robot.
-    pub positions: &'a mut [T],
-    /// Of the positions.
-    pub rates: &'a mut [T],
-    /// Of the actuators.
-    pub work: &'a mut [T; 3],
+    pub work: W,
 }
 
 /// The parts of an integrated vector.
 ///
 /// # Errors
-/// [`Error::StateVector`] where the vector is not two halves and actuator work.
-pub fn split<T>(vector: &[T]) -> Result<StateVector<'_, T>, Error> {
-    let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
-    let (state, work) = vector.split_last_chunk::<3>().ok_or(wrong)?;
-    let (positions, rates) = state.split_at_checked(count).ok_or(wrong)?;
-    Ok(StateVector { positions, rates, work })
+/// [`Error::StateVector`] unless the vector is two halves of the same length and three entries.
+pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
+    let found = vector.len();
+    match vector.split_last_chunk::<3>() {
+        Some((state, work)) if state.len().is_multiple_of(2) => {
+            let (positions, rates) = state.split_at(state.len() / 2);
+            Ok(StateVector { positions, rates, work })
+        }
+        _ => Err(Error::StateVector { found }),
+    }
 }
 
-/// The parts of an integrated vector, to be changed.
+/// As [`split`], with mutable parts.
 ///
 /// # Errors
 /// As [`split`].
-pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVectorMut<'_, T>, Error> {
-    let (count, wrong) = (positions(vector)?, Error::StateVector { found: vector.len() });
-    let (state, work) = vector.split_last_chunk_mut::<3>().ok_or(wrong)?;
-    let (positions, rates) = state.split_at_mut_checked(count).ok_or(wrong)?;
-    Ok(StateVectorMut { positions, rates, work })
+pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVector<&mut [T], &mut [T; 3]>, Error> {
+    let found = vector.len();
+    match vector.split_last_chunk_mut::<3>() {
+        Some((state, work)) if state.len().is_multiple_of(2) => {
+            let (positions, rates) = state.split_at_mut(state.len() / 2);
+            Ok(StateVector { positions, rates, work })
+        }
+        _ => Err(Error::StateVector { found }),
+    }
 }
 
-/// One half of an integrated vector by what it belongs to.
+/// The parts of one half of an integrated vector, positions or rates: views B of the base, J of the joints and F of the
+/// free bodies.
 #[derive(Clone, Copy, Debug)]
-pub struct Coordinates<'a, T> {
-    /// Of the base: a pose or a twist.
-    pub base: &'a [T; 3],
-    /// Of the joints.
-    pub joints: &'a [T],
-    /// Of the bodies beside the robot.
-    pub bodies: &'a [[T; 3]],
+pub struct Coordinates<B, J, F> {
+    /// A pose, a twist or its rate.
+    pub base: B,
+    /// One entry per joint.
+    pub joints: J,
+    /// A pose, a twist or its rate per body.
+    pub bodies: F,
 }
 
-impl<'a, T> Coordinates<'a, T> {
-    /// The parts of a half.
-    ///
-    /// # Errors
-    /// [`Error::Length`] where there are fewer than base and joints have, or a part of a body.
-    pub fn new(half: &'a [T], joints: usize) -> Result<Self, Error> {
-        let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
-        let (base, rest) = half.split_first_chunk::<3>().ok_or(wrong)?;
-        let (joints, bodies) = rest.split_at_checked(joints).ok_or(wrong)?;
-        match bodies.as_chunks::<3>() {
-            (bodies, []) => Ok(Self { base, joints, bodies }),
-            _ => Err(wrong),
-        }
+/// The parts of one half of an integrated vector.
+///
+/// # Errors
+/// [`Error::Length`] unless it has 3 + joints entries and three more per body.
+pub fn coordinates<T>(half: &[T], joints: usize) -> Result<Coordinates<&[T; 3], &[T], &[[T; 3]]>, Error> {
+    let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
+    let (base, rest) = half.split_first_chunk::<3>().ok_or(wrong)?;
+    let (joints, bodies) = rest.split_at_checked(joints).ok_or(wrong)?;
+    match bodies.as_chunks::<3>() {
+        (bodies, []) => Ok(Coordinates { base, joints, bodies }),
+        _ => Err(wrong),
     }
 }
 
-/// As [`Coordinates`], to be changed.
-#[derive(Debug)]
-pub struct CoordinatesMut<'a, T> {
-    /// Of the base: a pose or a twist, or its rate.
-    pub base: &'a mut [T; 3],
-    /// Of the joints.
-    pub joints: &'a mut [T],
-    /// Of the bodies beside the robot.
-    pub bodies: &'a mut [[T; 3]],
-}
-
-impl<'a, T> CoordinatesMut<'a, T> {
-    /// The parts of a half.
-    ///
-    /// # Errors
-    /// As [`Coordinates::new`].
-    pub fn new(half: &'a mut [T], joints: usize) -> Result<Self, Error> {
-        let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
-        let (base, rest) = half.split_first_chunk_mut::<3>().ok_or(wrong)?;
-        let (joints, bodies) = rest.split_at_mut_checked(joints).ok_or(wrong)?;
-        match bodies.as_chunks_mut::<3>() {
-            (bodies, []) => Ok(Self { base, joints, bodies }),
-            _ => Err(wrong),
-        }
+/// As [`coordinates`], with mutable parts.
+///
+/// # Errors
+/// As [`coordinates`].
+#[expect(clippy::type_complexity, reason = "the parts of a struct")]
+pub fn coordinates_mut<T>(
+    half: &mut [T],
+    joints: usize,
+) -> Result<Coordinates<&mut [T; 3], &mut [T], &mut [[T; 3]]>, Error> {
+    let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
+    let (base, rest) = half.split_first_chunk_mut::<3>().ok_or(wrong)?;
+    let (joints, bodies) = rest.split_at_mut_checked(joints).ok_or(wrong)?;
+    match bodies.as_chunks_mut::<3>() {
+        (bodies, []) => Ok(Coordinates { base, joints, bodies }),
+        _ => Err(wrong),
     }
 }
 
-/// What the actuators have done, integrated beside the state.
+/// Work and angular impulse of the actuators, integrated with the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ActuatorWork<T> {
     /// Work of the joint torques, J.
     pub joint_work: T,
     /// Work of the base torque, J.
     pub base_work: T,
-    /// Angular momentum that the base torque gave the robot, N m s.
+    /// Time integral of the base torque: the angular momentum that it gave the robot, N m s.
     pub base_impulse: T,
 }
 
 impl<T: Scalar> ActuatorWork<T> {
-    /// Both together, of phases that follow each other.
+    /// The sum over two consecutive phases.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         Self {
@@ -206,7 +185,7 @@ impl<T: Scalar> ActuatorWork<T> {
         }
     }
 
-    /// Of all actuators together, J.
+    /// Work of all actuators, J.
     #[must_use]
     pub fn total(&self) -> T {
         self.joint_work + self.base_work
@@ -227,10 +206,10 @@ impl<'a, T: Copy> State<'a, T> {
     /// The state in an integrated vector, see [`vector_length`].
     ///
     /// # Errors
-    /// [`Error::StateVector`], [`Error::Length`] where the vector is no state of a robot with so many joints.
+    /// [`Error::StateVector`], [`Error::Length`] unless the vector is a state of a robot with so many joints.
     pub fn from_vector(vector: &'a [T], joints: usize) -> Result<Self, Error> {
         let StateVector { positions, rates, .. } = split(vector)?;
-        let (positions, rates) = (Coordinates::new(positions, joints)?, Coordinates::new(rates, joints)?);
+        let (positions, rates) = (coordinates(positions, joints)?, coordinates(rates, joints)?);
         Ok(Self {
             base_pose: *positions.base,
             joint_angles: positions.joints,
@@ -239,17 +218,17 @@ impl<'a, T: Copy> State<'a, T> {
         })
     }
 
-    /// Writes the state to its places in an integrated vector; the other entries keep their values.
+    /// Writes the state into an integrated vector; the other entries keep their values.
     ///
     /// # Errors
-    /// [`Error::StateVector`] where the vector is not two halves and actuator work.
+    /// As [`State::from_vector`].
     pub fn write(&self, vector: &mut [T]) -> Result<(), Error> {
-        let StateVectorMut { positions, rates, .. } = split_mut(vector)?;
-        let of_positions = self.base_pose.iter().chain(self.joint_angles);
-        let of_rates = self.base_twist.iter().chain(self.joint_rates);
-        for (place, value) in positions.iter_mut().zip(of_positions).chain(rates.iter_mut().zip(of_rates)) {
-            *place = *value;
-        }
+        let StateVector { positions, rates, .. } = split_mut(vector)?;
+        let positions = coordinates_mut(positions, self.joint_angles.len())?;
+        let rates = coordinates_mut(rates, self.joint_rates.len())?;
+        (*positions.base, *rates.base) = (self.base_pose, self.base_twist);
+        copy(self.joint_angles, positions.joints);
+        copy(self.joint_rates, rates.joints);
         Ok(())
     }
 }

@@ -1,9 +1,9 @@
-//! A captured object: contact Jacobian, impulse, and how it merges with the link that holds it.
+//! Eqs. (3) to (5) and (14) of a captured object, and the link that it forms with the last link of an arm.
 
 use crate::body::Body;
 use crate::scalar::Scalar;
 
-/// A free-floating rigid body that an end effector takes hold of at one point.
+/// A free-floating rigid body that an end effector captures at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target<T> {
     /// kg.
@@ -17,14 +17,13 @@ pub struct Target<T> {
 }
 
 impl<T: Scalar> Target<T> {
-    /// No target: zero mass and inertia change nothing.
+    /// A target without mass and inertia, which exerts no impulse.
     #[must_use]
-    pub fn none() -> Self {
+    pub fn massless() -> Self {
         Self { mass: T::ZERO, inertia: T::ZERO, contact: [T::ZERO; 2], twist: [T::ZERO; 3] }
     }
 
-    /// `J_t` of eq. (5), with the sign that v + ω × r asks for (the print has the other one):
-    /// contact twist = `J_t` · twist of the COM.
+    /// `J_t` of eq. (5): contact twist = `J_t` · twist of the COM. The sign is that of v + ω × r, opposite to the print.
     #[must_use]
     pub fn contact_jacobian(&self) -> [[T; 3]; 3] {
         let [rx, ry] = self.contact;
@@ -42,7 +41,7 @@ impl<T: Scalar> Target<T> {
 
     /// Impulse [n, fx, fy] on the robot at the contact point: `F̄ = −J_t⁻ᵀ I_t (t_tf − t_ti)`, from eq. (3).
     ///
-    /// The same as eq. (12), and never singular. N m s, N s, N s; inertial axes.
+    /// Equal to eq. (12), but never singular. N m s, N s, N s; inertial axes.
     #[must_use]
     pub fn impulse(&self, twist_after: &[T; 3]) -> [T; 3] {
         let [rx, ry] = self.contact;
@@ -59,16 +58,14 @@ impl<T: Scalar> Target<T> {
         Body { mass: self.mass, inertia: self.inertia, pose: [T::ZERO, x, y], twist: *twist }.momentum()
     }
 
-    /// Position of its COM when the contact point is at the end effector.
+    /// Position of its COM with the contact point at the end effector's pose.
     #[must_use]
     pub fn position(&self, end_effector: &[T; 3]) -> [T; 2] {
         [end_effector[1] - self.contact[0], end_effector[2] - self.contact[1]]
     }
 
-    /// The link that results when a link, whose end effector at `[length, 0]` of its frame holds the target, becomes
-    /// one with it.
-    ///
-    /// `yaw` is the absolute direction of the link, rad.
+    /// The rigid body of the target and a link that holds it at `[length, 0]` of its frame; `yaw` is the absolute
+    /// direction of the link, rad.
     #[must_use]
     pub fn merged_link(&self, link: &LinkInertia<T>, length: T, yaw: T) -> LinkInertia<T> {
         let (sin, cos) = yaw.sin_cos();

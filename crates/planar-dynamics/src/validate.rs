@@ -1,20 +1,20 @@
-//! Checks at the border between slices and straight-line code; public for generated code alone.
+//! Checks of lengths and numbers between slices and straight-line code; public for generated code alone.
 
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::State;
 
-/// A slice as an array, or what is wrong with its length.
+/// A slice as an array, or [`Error::Length`].
 pub fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
     slice.first_chunk().filter(|_| slice.len() == N).ok_or(Error::Length { quantity, expected: N, found: slice.len() })
 }
 
-/// Whether there are as many as the model has.
+/// [`Error::Length`] unless the numbers are equal.
 pub fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found }) }
 }
 
-/// Copies a result out, after the length and the numbers were found good.
+/// Copies a result whose length fits and whose numbers are finite.
 pub fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
     length(quantity, values.len(), into.len())?;
     finite(quantity, values)?;
@@ -34,30 +34,28 @@ pub fn store_rows<T: Real, const C: usize>(
     Ok(())
 }
 
-/// The first number that is NaN or infinite is an error.
+/// [`Error::NotFinite`] with the first number that is NaN or infinite.
 pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
-    match values.iter().position(|v| !v.is_finite()) {
+    match values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
         None => Ok(()),
-        Some(index) => {
-            Err(Error::NotFinite { quantity, index, value: values.get(index).map_or(f64::NAN, |v| v.to_f64()) })
-        }
+        Some((index, value)) => Err(Error::NotFinite { quantity, index, value: value.to_f64() }),
     }
 }
 
-/// All numbers of a state.
+/// [`finite`] of all numbers of a state.
 pub fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
     finite_configuration(&state.base_pose, state.joint_angles)?;
     finite("base_twist", &state.base_twist)?;
     finite("joint_rates", state.joint_rates)
 }
 
-/// All numbers of a configuration.
+/// [`finite`] of all numbers of a configuration.
 pub fn finite_configuration<T: Real>(base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
     finite("base_pose", base_pose)?;
     finite("joint_angles", joint_angles)
 }
 
-/// A relative pivot has to exceed a few rounding units.
+/// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.
 pub fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
     let limit = T::EPSILON.to_f64() * 8.0;
     let pivot = smallest.to_f64();

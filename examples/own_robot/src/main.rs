@@ -10,7 +10,7 @@ use planar_capture::impact::{self, RigidImpactOutput};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
 use planar_capture::target::Target;
-use planar_capture::trajectory::{Cycloidal, Ends};
+use planar_capture::trajectory::{Cycloidal, PointToPoint};
 use std::process::ExitCode;
 
 planar_capture::include_layout!("inspector");
@@ -52,9 +52,9 @@ fn capture() -> Result<f64, Error> {
     State { base_pose: [0.0; 3], joint_angles: &FOLDED, base_twist: [0.0; 3], joint_rates: &[0.0; JOINTS] }
         .write(&mut x)?;
 
-    let ends = Ends { initial_angles: &FOLDED, final_angles: &REACHED, duration: 20.0 };
+    let motion = PointToPoint { initial_angles: &FOLDED, final_angles: &REACHED, duration: 20.0 };
     let mut law = ProportionalDerivative {
-        trajectory: Cycloidal { ends },
+        trajectory: Cycloidal { motion },
         proportional_gain: &[30.0, 20.0, 8.0, 1.0, 8.0, 1.0],
         derivative_gain: &[20.0, 12.0, 4.0, 0.4, 5.0, 0.5],
     };

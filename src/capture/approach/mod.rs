@@ -12,7 +12,7 @@ use crate::simulate::actuators::drive;
 use crate::simulate::event::{Events, NoEvents};
 use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing, simulate};
-use crate::trajectory::{AnyTrajectory, Ends};
+use crate::trajectory::{AnyTrajectory, PointToPoint};
 
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
@@ -124,11 +124,11 @@ impl<'a> Approach<'a> {
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {
-        let ends = Ends {
+        let motion = PointToPoint {
             initial_angles: &self.scenario.initial.joint_angles,
             final_angles: &self.scenario.approach.final_joint_angles,
             duration: self.scenario.approach.trajectory_time(),
         };
-        self.scenario.approach.trajectory.between(ends, &self.scenario.initial.joint_rates, final_rates)
+        self.scenario.approach.trajectory.trajectory(motion, &self.scenario.initial.joint_rates, final_rates)
     }
 }

@@ -95,7 +95,7 @@ impl<'a> Stepper<'a> {
     /// For a phase of `duration` (s) that starts at `x`.
     ///
     /// # Errors
-    /// [`Error::Beside`] for reduced coordinates where there are bodies beside the robot, and those of the model.
+    /// [`Error::UnsupportedBodies`] for reduced coordinates where there are bodies beside the robot, and those of the model.
     pub(crate) fn new(
         system: &'a System<'a>,
         integration: &Integration,

@@ -4,7 +4,6 @@ use super::{Method, Properties};
 use crate::control::Control;
 use crate::error::Error;
 use crate::integrate::SemiImplicitEuler;
-use crate::integrate::semi_implicit_euler::drift;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
@@ -30,9 +29,9 @@ impl Method for Steps {
     ) -> Result<(), Error> {
         let step = end - time;
         let mut integrator = SemiImplicitEuler::new(&mut self.workspace);
-        integrator.kick(time, step, x, |t, x, rate| equation.derivative(control, t, x, rate))?;
+        integrator.update_rates(time, step, x, |t, x, rate| equation.derivative(control, t, x, rate))?;
         equation.recover(x)?;
-        drift(step, x)?;
+        SemiImplicitEuler::update_positions(step, x)?;
         equation.restore(x)
     }
 }

@@ -10,18 +10,18 @@ use planar_capture::contact::{
     LoopConstraint, workspace_length,
 };
 use planar_capture::control::{
-    ComputedTorque, Control, EndEffectorWorkspace, InverseDynamics, Limited, ProportionalDerivative,
-    ResolvedMotionRate, Sampled, Stabilise, ZeroTorque,
+    ComputedTorque, Control, EndEffectorWorkspace, InverseDynamics, ProportionalDerivative, ResolvedMotionRate,
+    SampledControl, Stabilisation, TorqueLimiter, ZeroTorque,
 };
 use planar_capture::dynamics::{Kinematics, Merge, Momentum, MomentumAndEnergy};
 use planar_capture::error::Error;
-use planar_capture::formulation::{Canonical, Reduced, derivative};
+use planar_capture::formulation::{CanonicalVariables, ReducedCoordinates, derivative};
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model, SIZE};
 use planar_capture::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
-use planar_capture::state::{State, StateVector, StateVectorMut, split, split_mut, vector_length};
+use planar_capture::state::{State, StateVector, split, split_mut, vector_length};
 use planar_capture::target::Target;
-use planar_capture::trajectory::{Cycloidal, EndEffectorPath, Ends, Quartic, Quintic};
+use planar_capture::trajectory::{Cycloidal, EndEffectorPath, PointToPoint, Quartic, Quintic};
 
 const LENGTH: usize = vector_length(JOINTS);
 const ARMS: usize = 2;
@@ -39,13 +39,13 @@ pub fn model() -> Model<f32> {
 #[inline(never)]
 pub fn approach_step(
     model: &Model<f32>,
-    ends: Ends<'_, f32>,
+    motion: PointToPoint<'_, f32>,
     final_rates: &[f32; JOINTS],
     time: f32,
     x: &mut [f32; LENGTH],
 ) -> Result<(), Error> {
     let mut law = ProportionalDerivative {
-        trajectory: Quartic { ends, final_rates },
+        trajectory: Quartic { motion, final_rates },
         proportional_gain: &[49.0; JOINTS],
         derivative_gain: &[14.0; JOINTS],
     };
@@ -57,9 +57,14 @@ pub fn approach_step(
 /// # Errors
 /// What the core says of the numbers.
 #[inline(never)]
-pub fn exact_step(model: &Model<f32>, ends: Ends<'_, f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+pub fn exact_step(
+    model: &Model<f32>,
+    motion: PointToPoint<'_, f32>,
+    time: f32,
+    x: &mut [f32; LENGTH],
+) -> Result<(), Error> {
     let mut law = InverseDynamics {
-        trajectory: Cycloidal { ends },
+        trajectory: Cycloidal { motion },
         generalized_inertia: &mut [0.0; JOINTS * JOINTS],
         generalized_bias: &mut [0.0; JOINTS],
         generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
@@ -74,14 +79,14 @@ pub fn exact_step(model: &Model<f32>, ends: Ends<'_, f32>, time: f32, x: &mut [f
 #[inline(never)]
 pub fn computed_step(
     model: &Model<f32>,
-    ends: Ends<'_, f32>,
+    motion: PointToPoint<'_, f32>,
     rates: [&[f32; JOINTS]; 2],
     time: f32,
     x: &mut [f32; LENGTH],
 ) -> Result<[bool; JOINTS], Error> {
     let mut saturated = [false; JOINTS];
     let law = ComputedTorque {
-        trajectory: Quintic { ends, initial_rates: rates[0], final_rates: rates[1] },
+        trajectory: Quintic { motion, initial_rates: rates[0], final_rates: rates[1] },
         proportional_gain: &[49.0; JOINTS],
         derivative_gain: &[14.0; JOINTS],
         generalized_inertia: &mut [0.0; JOINTS * JOINTS],
@@ -89,8 +94,8 @@ pub fn computed_step(
         generalized_jacobian: &mut [0.0; 3 * ARMS * JOINTS],
     };
     let mut held = [0.0; JOINTS];
-    let limited = Limited { law, torque_limits: &[20.0; JOINTS], saturated: &mut saturated };
-    let mut sampled = Sampled::new(limited, 1, &mut held);
+    let limited = TorqueLimiter { law, torque_limits: &[20.0; JOINTS], saturated: &mut saturated };
+    let mut sampled = SampledControl::new(limited, 1, &mut held);
     let before = *x;
     let state = State::from_vector(&before, JOINTS)?;
     sampled.begin_step(time, model, &state)?;
@@ -111,8 +116,8 @@ pub fn steered_step(
 ) -> Result<Option<f32>, Error> {
     let mut law = ResolvedMotionRate {
         path,
-        wanted: &[[true; 3]; ARMS],
-        held: &[false; JOINTS],
+        controlled: &[[true; 3]; ARMS],
+        locked: &[false; JOINTS],
         reach: &[3.0; ARMS],
         pose_gain: 2.0,
         rate_gain: 10.0,
@@ -127,7 +132,7 @@ pub fn steered_step(
             end_effector_poses: &mut [[0.0; 3]; ARMS],
             end_effector_twists: &mut [[0.0; 3]; ARMS],
             rows: &mut [0.0; 3 * ARMS * JOINTS],
-            right: &mut [0.0; 3 * ARMS],
+            right_hand_side: &mut [0.0; 3 * ARMS],
             joint_accelerations: &mut [0.0; JOINTS],
         },
     };
@@ -141,7 +146,7 @@ pub fn steered_step(
 /// What the core says of the numbers.
 #[inline(never)]
 pub fn stabilise_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    let mut law = Stabilise {
+    let mut law = Stabilisation {
         joint_gain: &[0.5; JOINTS],
         base_gain: 0.5,
         wheels: &[false; JOINTS],
@@ -211,7 +216,7 @@ pub fn integrate_to_contact(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]
 /// What the core says of the numbers.
 #[inline(never)]
 pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    let mut equation = Reduced {
+    let mut equation = ReducedCoordinates {
         momentum,
         mass_matrix: &mut [0.0; SIZE * SIZE],
         generalized_inertia: &mut [0.0; JOINTS * JOINTS],
@@ -231,12 +236,12 @@ pub fn reduced_step(model: &Model<f32>, momentum: [f32; 3], time: f32, x: &mut [
 /// What the core says of the numbers.
 #[inline(never)]
 pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
-    let mut canonical = Canonical {
+    let mut canonical = CanonicalVariables {
         inertias: &mut [[0.0; 2]; JOINTS + 1],
         poses: &mut [[0.0; 3]; JOINTS + 1],
         twists: &mut [[0.0; 3]; JOINTS + 1],
         offsets: &mut [[0.0; 2]; JOINTS],
-        ends: &mut [false; JOINTS],
+        leaves: &mut [false; JOINTS],
         rates: &mut [0.0; JOINTS],
     };
     let before = *x;
@@ -253,7 +258,7 @@ pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> 
         let now = State { base_twist, joint_rates: &joint_rates, ..at };
         rate.fill(0.0);
         now.write(rate)?;
-        let StateVectorMut { positions: velocities, rates: forces, .. } = split_mut(rate)?;
+        let StateVector { positions: velocities, rates: forces, .. } = split_mut(rate)?;
         velocities.copy_from_slice(forces);
         forces.fill(0.0);
         canonical.add_energy_gradient(model, &now, forces)
@@ -340,7 +345,7 @@ pub fn held_step(
         derivative(model, &mut ZeroTorque, t, x, rate, &mut torques)?;
         hold.constrain(x, rate, &mut space)
     })?;
-    hold.restore(x, &mut space)?;
+    hold.project(x, &mut space)?;
     hold.errors(x, &mut space)
 }
 

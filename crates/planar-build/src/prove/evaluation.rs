@@ -62,7 +62,7 @@ impl Values {
     }
 
     fn extent(&self, extent: Extent) -> usize {
-        extent.of(self.arms, self.joints)
+        extent.count(self.arms, self.joints)
     }
 
     fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {

@@ -110,7 +110,7 @@ impl Vectors {
     #[must_use]
     pub fn inputs(&self) -> [(&'static str, Vec<f64>); 11] {
         let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
-        let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::none)).collect();
+        let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::massless)).collect();
         [
             ("base_pose", state.base_pose.to_vec()),
             ("joint_angles", state.joint_angles.clone()),

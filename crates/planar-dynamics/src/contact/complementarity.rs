@@ -1,74 +1,70 @@
-//! Contacts that push but do not pull.
+//! Impulses of contacts that push but do not pull: a linear complementarity problem.
 
-use super::constraint_row::{Set, has};
+use super::constraint_row::{RowSet, contains};
 use crate::error::Error;
 use crate::linear::{dot, solve};
 use crate::scalar::Real;
 
-/// The most exchanges that are tried; a dozen rows take a handful.
-const MOST_EXCHANGES: u32 = 10_000;
+/// A dozen rows take a few exchanges.
+const MAXIMUM_EXCHANGES: u32 = 10_000;
 
-/// Finds impulses p with `u⁺ = W p + u`: for bilateral rows u⁺ = 0; for the others p ≥ 0, u⁺ ≥ 0 and p u⁺ = 0.
+/// Finds impulses p with `u⁺ = W p + u`: u⁺ = 0 for bilateral rows; p ≥ 0, u⁺ ≥ 0 and p u⁺ = 0 for the others.
 ///
 /// Murty's least-index principal pivoting, which ends because W is positive definite. `factors` is working space of W's
 /// size.
 ///
 /// # Errors
-/// [`Error::Singular`] where the rows that carry impulses depend on each other; [`Error::Exhausted`].
+/// [`Error::Singular`] where the rows with impulses depend on each other; [`Error::Exchanges`].
 pub(super) fn solve_contacts<T: Real>(
     matrix: &[T],
     velocities: &[T],
-    bilateral: Set,
+    bilateral: RowSet,
     factors: &mut [T],
     impulses: &mut [T],
 ) -> Result<(), Error> {
     let n = velocities.len();
-    // bounces join one by one: two that say the same never both do
-    let mut active: Set = bilateral;
-    for _ in 0..MOST_EXCHANGES {
+    // unilateral rows become active one by one: of two dependent rows only one does
+    let mut active = bilateral;
+    for _ in 0..MAXIMUM_EXCHANGES {
         for (impulse, velocity) in impulses.iter_mut().zip(velocities) {
             *impulse = -*velocity;
         }
         solve_rows(matrix, active, factors, impulses)?;
-        let rows = matrix.chunks_exact(n.max(1)).zip(velocities);
-        let wrong = rows.enumerate().find(|(i, (row, velocity))| {
-            let impulse = impulses.get(*i).copied().unwrap_or(T::ZERO);
-            if has(bilateral, *i) {
-                return false;
+        let rows = matrix.chunks_exact(n.max(1)).zip(velocities.iter().zip(&*impulses)).enumerate();
+        let violated = rows.filter(|(i, _)| !contains(bilateral, *i)).find(|(i, (row, (velocity, impulse)))| {
+            if contains(active, *i) {
+                return **impulse < T::ZERO;
             }
-            if has(active, *i) {
-                return impulse < T::ZERO;
-            }
-            let sizes = row.iter().zip(&*impulses).fold(velocity.abs(), |sum, (w, p)| sum + (*w * *p).abs());
-            **velocity + dot(row, &*impulses) < -(T::EPSILON * T::constant(16.0) * sizes)
+            let terms = row.iter().zip(&*impulses).fold(velocity.abs(), |sum, (w, p)| sum + (*w * *p).abs());
+            **velocity + dot(row, &*impulses) < -(T::EPSILON * T::constant(16.0) * terms)
         });
-        match wrong {
+        match violated {
             Some((i, _)) => active ^= 1 << i,
             None => return Ok(()),
         }
     }
-    Err(Error::Exhausted { what: "the impulses of the contacts", rounds: MOST_EXCHANGES })
+    Err(Error::Exchanges { what: "the impulses of the contacts", exchanges: MAXIMUM_EXCHANGES })
 }
 
-/// Solves `W x = b` for the rows and columns of a set; x is zero for the others. b becomes x, `factors` is working
-/// space of W's size.
+/// Solves `W x = b` for the rows and columns of a set; x is zero for the others. b becomes x; `factors` is working space
+/// of W's size.
 ///
 /// # Errors
 /// [`Error::Singular`] where rows depend on each other: to 1e-6 in double precision.
-pub(super) fn solve_rows<T: Real>(matrix: &[T], set: Set, factors: &mut [T], b: &mut [T]) -> Result<(), Error> {
+pub(super) fn solve_rows<T: Real>(matrix: &[T], set: RowSet, factors: &mut [T], b: &mut [T]) -> Result<(), Error> {
     let n = b.len().max(1);
-    // rows and columns outside of the set are those of the unit matrix
-    for (i, (place, row)) in factors.chunks_exact_mut(n).zip(matrix.chunks_exact(n)).enumerate() {
-        for (j, (place, entry)) in place.iter_mut().zip(row).enumerate() {
-            *place = match has(set, i) && has(set, j) {
+    // rows and columns outside the set are those of the unit matrix
+    for (i, (factors, row)) in factors.chunks_exact_mut(n).zip(matrix.chunks_exact(n)).enumerate() {
+        for (j, (factor, entry)) in factors.iter_mut().zip(row).enumerate() {
+            *factor = match contains(set, i) && contains(set, j) {
                 true => *entry,
                 false if i == j => T::ONE,
                 false => T::ZERO,
             };
         }
     }
-    for (i, b) in b.iter_mut().enumerate() {
-        *b = if has(set, i) { *b } else { T::ZERO };
+    for (_, b) in b.iter_mut().enumerate().filter(|(i, _)| !contains(set, *i)) {
+        *b = T::ZERO;
     }
     solve("the inverse inertia at the contacts", factors, b)
 }

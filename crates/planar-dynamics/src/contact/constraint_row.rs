@@ -1,34 +1,34 @@
-//! One row of a contact.
+//! The rows of a contact: wrench directions and their velocities.
 
-use super::{Contact, ContactLaw, ContactPartner};
+use super::{Contact, ContactLaw, ContactPartner, entry};
+use crate::error::Error;
 use crate::linear::dot;
 use crate::scalar::Real;
 
-/// A wrench direction between an end effector and what it touches.
+/// A wrench direction between an end effector and its contact partner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ConstraintRow<T> {
     pub(super) arm: usize,
-    pub(super) other: ContactPartner,
+    pub(super) partner: ContactPartner,
     /// [n, fx, fy] on the robot at the end effector.
     pub(super) wrench: [T; 3],
-    /// The same about the origin of what is touched, on which it acts with the other sign.
-    pub(super) at_other: [T; 3],
-    /// Of the contact point from that origin along the force, m: rx fx + ry fy.
-    pub(super) reach: T,
-    /// `None` for a row that pulls as well as it pushes.
+    /// The same wrench about the partner's origin; it acts on the partner with the opposite sign.
+    pub(super) partner_wrench: [T; 3],
+    /// Distance of the contact point from the partner's origin along the force, m: rx fx + ry fy.
+    pub(super) partner_distance: T,
+    /// `None` for a bilateral row.
     pub(super) restitution: Option<T>,
 }
 
 impl<T: Real> ConstraintRow<T> {
-    /// Its velocity u, or acceleration, for these of the end effectors and of the bodies: rad/s for a moment, m/s for a
+    /// Its velocity u, or acceleration, from those of the end effectors and the bodies: rad/s for a moment, m/s for a
     /// force.
-    pub(super) fn velocity_of(&self, end_effectors: &[[T; 3]], bodies: &[[T; 3]]) -> T {
-        let other = match self.other {
-            ContactPartner::Body(i) => bodies.get(i),
-            ContactPartner::EndEffector(arm) => end_effectors.get(arm),
-        };
-        let part = |wrench: &[T; 3], twist: Option<&[T; 3]>| twist.map_or(T::ZERO, |twist| dot(wrench, twist));
-        part(&self.wrench, end_effectors.get(self.arm)) - part(&self.at_other, other)
+    ///
+    /// # Errors
+    /// [`Error::Index`] for an arm or body that does not exist.
+    pub(super) fn velocity(&self, end_effectors: &[[T; 3]], bodies: &[[T; 3]]) -> Result<T, Error> {
+        let (own, partner) = (entry("arm", end_effectors, self.arm)?, self.partner.select(end_effectors, bodies)?);
+        Ok(dot(&self.wrench, own) - dot(&self.partner_wrench, partner))
     }
 }
 
@@ -43,25 +43,25 @@ impl<T: Real> Contact<T> {
                 ([[zero, x, y], [zero; 3], [zero; 3]], 1, Some(restitution))
             }
         };
-        let Self { arm, other, offset: [rx, ry], .. } = *self;
+        let Self { arm, partner, offset: [rx, ry], .. } = *self;
         wrenches.into_iter().take(count).map(move |wrench| {
             let [n, fx, fy] = wrench;
             ConstraintRow {
                 arm,
-                other,
+                partner,
                 wrench,
-                at_other: [n + (rx * fy - ry * fx), fx, fy],
-                reach: rx * fx + ry * fy,
+                partner_wrench: [n + (rx * fy - ry * fx), fx, fy],
+                partner_distance: rx * fx + ry * fy,
                 restitution,
             }
         })
     }
 }
 
-/// A set of rows, by their bits: no more than 64.
-pub(super) type Set = u64;
+/// A set of at most 64 rows, one bit each.
+pub(super) type RowSet = u64;
 
 /// Whether a row is in a set.
-pub(super) fn has(set: Set, row: usize) -> bool {
+pub(super) fn contains(set: RowSet, row: usize) -> bool {
     row < 64 && set >> row & 1 == 1
 }

@@ -1,59 +1,60 @@
-//! What end effectors hold after an impact, and the forces that keep it so.
+//! Constraints that last after an impact: closed loops and held bodies.
 
 use super::{Contact, ContactLaw, ContactPartner};
 use crate::scalar::{Real, Scalar};
 
-/// A hold that closes a loop, or that holds a body which is no part of the robot's tree: a contact that lasts.
+/// A lasting contact between an end effector and a free body or another end effector.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopConstraint<T> {
-    /// The arm whose end effector holds.
+    /// The arm of the end effector.
     pub arm: usize,
-    /// What it holds.
-    pub other: ContactPartner,
-    /// From the COM of the body, or from the other end effector, to the point that is held, in the frame of body or
+    /// The body or end effector that it holds.
+    pub partner: ContactPartner,
+    /// From the partner's origin, the COM of a body or an end effector, to the contact point; axes of the body or the
     /// last link, m.
     pub offset: [T; 2],
-    /// Yaw of the end effector less that of what it holds, rad; `None` for a pin, which turns freely.
+    /// Constant yaw of the end effector relative to the partner, rad; `None` for a pin.
     pub yaw: Option<T>,
 }
 
 impl<T: Real> LoopConstraint<T> {
-    /// The hold that a contact begins, from the poses of the end effector and of what it touches at that instant;
-    /// `None` for a bounce. The point that is held is where the end effector is.
+    /// The constraint that a contact begins, from the poses of the end effector and of the partner at that instant;
+    /// `None` for a bounce. The contact point is the end effector's origin.
     #[must_use]
-    pub fn new(
-        contact: &Contact<T>,
-        [end_effector_yaw, end_effector_x, end_effector_y]: &[T; 3],
-        [yaw, x, y]: &[T; 3],
-    ) -> Option<Self> {
-        let (sin, cos) = Scalar::sin_cos(*yaw);
-        let (dx, dy) = (*end_effector_x - *x, *end_effector_y - *y);
+    pub fn new(contact: &Contact<T>, end_effector: &[T; 3], partner: &[T; 3]) -> Option<Self> {
         let kind = contact.law.kind();
         if !kind.holds() {
             return None;
         }
-        let yaw = kind.holds_yaw().then_some(*end_effector_yaw - *yaw);
-        Some(Self { arm: contact.arm, other: contact.other, offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw })
+        let ([end_effector_yaw, end_effector_x, end_effector_y], [yaw, x, y]) = (*end_effector, *partner);
+        let (sin, cos) = Scalar::sin_cos(yaw);
+        let (dx, dy) = (end_effector_x - x, end_effector_y - y);
+        Some(Self {
+            arm: contact.arm,
+            partner: contact.partner,
+            offset: [cos * dx + sin * dy, cos * dy - sin * dx],
+            yaw: kind.holds_yaw().then_some(end_effector_yaw - yaw),
+        })
     }
 
-    /// The same contact where what is held has this pose.
+    /// The contact for this pose of the partner.
     #[must_use]
     pub fn contact(&self, [yaw, ..]: &[T; 3]) -> Contact<T> {
         let (sin, cos) = Scalar::sin_cos(*yaw);
         let [x, y] = self.offset;
         let law = if self.yaw.is_some() { ContactLaw::Rigid } else { ContactLaw::Pin };
-        Contact { arm: self.arm, other: self.other, offset: [cos * x - sin * y, sin * x + cos * y], law }
+        Contact { arm: self.arm, partner: self.partner, offset: [cos * x - sin * y, sin * x + cos * y], law }
     }
 
-    /// By how much the hold is open, in the order of the contact's rows: yaw (rad, rigid ones alone), x and y (m).
+    /// The constraint errors in the order of the contact's rows: yaw (rad, rigid only), x and y (m).
     pub(super) fn errors(
         &self,
         [end_effector_yaw, end_effector_x, end_effector_y]: &[T; 3],
-        held: &[T; 3],
+        partner: &[T; 3],
     ) -> impl Iterator<Item = T> + use<T> {
-        let [yaw, x, y] = held;
-        let [rx, ry] = self.contact(held).offset;
-        let turned = self.yaw.map(|between| *end_effector_yaw - *yaw - between);
-        turned.into_iter().chain([*end_effector_x - *x - rx, *end_effector_y - *y - ry])
+        let [yaw, x, y] = partner;
+        let [rx, ry] = self.contact(partner).offset;
+        let rotation = self.yaw.map(|relative| *end_effector_yaw - *yaw - relative);
+        rotation.into_iter().chain([*end_effector_x - *x - rx, *end_effector_y - *y - ry])
     }
 }

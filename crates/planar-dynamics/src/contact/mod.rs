@@ -1,19 +1,17 @@
-//! Contacts of end effectors with bodies, and with bodies that another end effector holds: impacts of any mixture of
-//! kinds, and loops that stay closed afterwards.
+//! Impacts and lasting contacts of end effectors with free bodies and with other end effectors.
 //!
-//! Every contact is one to three rows of a constraint. A row is a wrench direction w = [n, fx, fy] at the end effector;
-//! the same with the other sign acts on what the end effector touches, and the row's velocity u is that of the end
-//! effector relative to it along w.
+//! Each contact has one to three rows. A row is a wrench direction w = [n, fx, fy] at the end effector; the opposite
+//! wrench acts on the contact partner, and the row's velocity u is the component along w of the twist of the end effector
+//! relative to the partner.
 //!
 //! | kind | rows | transmits |
 //! |---|---|---|
 //! | [`ContactLaw::Rigid`] | relative twist | moment and force |
 //! | [`ContactLaw::Pin`] | relative velocity of the contact points | force |
-//! | [`ContactLaw::Bounce`] | relative velocity along the normal | force along the normal, pushing only |
+//! | [`ContactLaw::Bounce`] | relative velocity along the normal | compressive force along the normal |
 //!
-//! With W the rows' velocities per row impulses ([`DelassusMatrix`]), an impact is solved by Poisson's law with the
-//! rigid and pinned contacts closed throughout ([`impact`]); what stays held moves under the forces that keep it closed
-//! ([`ConstraintSolver`]).
+//! With the [`DelassusMatrix`] W, the change of the rows' velocities per row impulse, [`impact`] applies Poisson's law
+//! of restitution; the [`ConstraintSolver`] computes the constraint forces of lasting contacts.
 
 mod complementarity;
 mod constraint_row;
@@ -34,42 +32,50 @@ pub use loop_constraint::LoopConstraint;
 use crate::error::Error;
 use crate::scalar::Real;
 
-/// What an end effector touches.
+/// The body or end effector with which an end effector is in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactPartner {
-    /// A free body, by its index.
+    /// The free body of this index.
     Body(usize),
-    /// Something that the end effector of that arm holds rigidly, part of its last link.
+    /// A body rigidly attached to the end effector of this arm.
     EndEffector(usize),
 }
 
 impl ContactPartner {
-    /// That it is not there, among so many arms and bodies.
-    pub(crate) fn missing(self, arms: usize, bodies: usize) -> Error {
+    /// The partner's entry in lists with one entry per end effector and per body.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for an arm or body that does not exist.
+    pub fn select<'a, X>(self, end_effectors: &'a [X], bodies: &'a [X]) -> Result<&'a X, Error> {
         match self {
-            Self::Body(index) => Error::Index { what: "body that is held", index, count: bodies },
-            Self::EndEffector(index) => Error::Index { what: "arm that is held", index, count: arms },
+            Self::Body(i) => entry("body", bodies, i),
+            Self::EndEffector(arm) => entry("arm", end_effectors, arm),
         }
     }
+}
+
+/// An entry of a list per arm or per body, or [`Error::Index`].
+fn entry<'a, X>(what: &'static str, list: &'a [X], index: usize) -> Result<&'a X, Error> {
+    list.get(index).ok_or(Error::Index { what, index, count: list.len() })
 }
 
 /// One contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<T> {
-    /// The arm whose end effector touches.
+    /// The arm of the end effector.
     pub arm: usize,
-    /// What it touches.
-    pub other: ContactPartner,
-    /// From the COM of the body, or from the other end effector, to the contact point, inertial axes, m.
+    /// The body or end effector that it touches.
+    pub partner: ContactPartner,
+    /// From the partner's origin, the COM of a body or an end effector, to the contact point; inertial axes, m.
     pub offset: [T; 2],
-    /// What the contact does.
+    /// The relation between relative velocity and impulse.
     pub law: ContactLaw<T>,
 }
 
 impl<T: Real> Contact<T> {
-    /// Any contact, to fill working space with.
+    /// A contact to initialise working space with.
     #[must_use]
     pub fn any() -> Self {
-        Self { arm: 0, other: ContactPartner::EndEffector(0), offset: [T::ZERO; 2], law: ContactLaw::Pin }
+        Self { arm: 0, partner: ContactPartner::EndEffector(0), offset: [T::ZERO; 2], law: ContactLaw::Pin }
     }
 }

@@ -1,4 +1,4 @@
-//! Inverse dynamics with feedback.
+//! Joint torques by inverse dynamics with feedback.
 
 use super::{Control, desired, inverse_dynamics};
 use crate::dynamics::Model;
@@ -10,8 +10,8 @@ use crate::validate::length;
 
 /// Computed torque in the reduced equations: `τ = I (θ̈_d + K_v (θ̇_d − θ̇) + K_p (θ_d − θ)) + c`.
 ///
-/// I and c are those of the measured state, momentum of the robot included, so that every joint's error obeys
-/// `ë + K_v ė + K_p e = 0` on its own, whatever the base does. The slices `generalized_…` are working space.
+/// I and c are evaluated at the measured state, including the robot's momentum, so that the error of every joint obeys
+/// `ë + K_v ė + K_p e = 0` independently of the base. The slices `generalized_…` are working space.
 #[derive(Debug)]
 pub struct ComputedTorque<'a, T, R> {
     /// Desired angles, rates and accelerations.
@@ -42,13 +42,11 @@ impl<T: Real, R: Trajectory<T>> Control<T> for ComputedTorque<'_, T, R> {
         length("derivative_gain", joints, self.derivative_gain.len())?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
-        let mut feedback = gains.zip(state.joint_angles.iter().zip(state.joint_rates));
-        inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques, |joint| {
+        let measured = state.joint_angles.iter().zip(state.joint_rates);
+        let accelerations = gains.zip(measured).enumerate().map(|(joint, ((kp, kv), (angle, rate)))| {
             let desired = desired(&self.trajectory, joint, time, joints)?;
-            let feedback = feedback.next().map_or(T::ZERO, |((kp, kv), (angle, rate))| {
-                *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate)
-            });
-            Ok(desired.acceleration + feedback)
-        })
+            Ok(desired.acceleration + (*kp * (desired.angle - *angle) + *kv * (desired.rate - *rate)))
+        });
+        inverse_dynamics(self.generalized_inertia, self.generalized_bias, accelerations, torques)
     }
 }

@@ -1,4 +1,4 @@
-//! Inverse dynamics without feedback.
+//! Joint torques by inverse dynamics without feedback.
 
 use super::{Control, desired, inverse_dynamics};
 use crate::dynamics::Model;
@@ -8,9 +8,9 @@ use crate::state::State;
 use crate::trajectory::Trajectory;
 use crate::validate::length;
 
-/// Exact tracking by inverse dynamics: `τ = I θ̈_d + c` gives `θ̈ = θ̈_d`, whatever the base does.
+/// Exact tracking by inverse dynamics: `τ = I θ̈_d + c` gives `θ̈ = θ̈_d`, whatever the motion of the base.
 ///
-/// For a robot that starts on the trajectory. The slices are working space: joints², joints, 3 arms × joints.
+/// For a robot that starts on the trajectory. The slices are working space.
 #[derive(Debug)]
 pub struct InverseDynamics<'a, T, R> {
     /// Desired accelerations.
@@ -34,8 +34,7 @@ impl<T: Real, R: Trajectory<T>> Control<T> for InverseDynamics<'_, T, R> {
         let joints = model.joints();
         length("joint_torques", joints, torques.len())?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;
-        inverse_dynamics(self.generalized_inertia, self.generalized_bias, torques, |joint| {
-            Ok(desired(&self.trajectory, joint, time, joints)?.acceleration)
-        })
+        let accelerations = (0..joints).map(|joint| Ok(desired(&self.trajectory, joint, time, joints)?.acceleration));
+        inverse_dynamics(self.generalized_inertia, self.generalized_bias, accelerations, torques)
     }
 }

@@ -1,4 +1,4 @@
-//! Joint torques of the approach and after the impact, and the torque of a base actuator.
+//! Control laws: joint torques, and the torque of a base actuator, from the state.
 
 mod computed_torque;
 mod inverse_dynamics;
@@ -12,23 +12,24 @@ pub use computed_torque::ComputedTorque;
 pub use inverse_dynamics::InverseDynamics;
 pub use proportional_derivative::ProportionalDerivative;
 pub use resolved_motion_rate::{EndEffectorWorkspace, ResolvedMotionRate};
-pub use sampled_control::Sampled;
-pub use stabilisation::Stabilise;
-pub use torque_limiter::Limited;
+pub use sampled_control::SampledControl;
+pub use stabilisation::Stabilisation;
+pub use torque_limiter::TorqueLimiter;
 
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::{add_scaled, copy};
 use crate::scalar::Real;
 use crate::state::State;
-use crate::trajectory::{Desired, Trajectory};
+use crate::trajectory::{DesiredJoint, Trajectory};
 
-/// A law for the joint torques. It is asked at every stage of a step, so that it acts continuously in time, unless it
-/// is [`Sampled`].
+/// A law for the joint torques. It is evaluated at every stage of a step, and so acts continuously in time, unless it is a
+/// [`SampledControl`].
 pub trait Control<T: Real> {
     /// Fills the torques (N m) for a robot in `state` at `time` (s).
     ///
     /// # Errors
-    /// What the model says, and [`Error::Length`] where the law is for another number of joints.
+    /// Those of the model, and [`Error::Length`] for a law of another number of joints.
     fn joint_torques(
         &mut self,
         time: T,
@@ -37,8 +38,8 @@ pub trait Control<T: Real> {
         torques: &mut [T],
     ) -> Result<(), Error>;
 
-    /// Called once at the start of every step, before the torques of the step are asked for: where a sampled law looks
-    /// at the robot. A continuous law has nothing to do.
+    /// Called once at the start of every step, before its torques are evaluated: a sampled law takes its sample here, a
+    /// continuous law does nothing.
     ///
     /// # Errors
     /// As [`Control::joint_torques`].
@@ -46,29 +47,29 @@ pub trait Control<T: Real> {
         Ok(())
     }
 
-    /// For how many steps from now on the torques are held, asked after [`Control::begin_step`]; `None` for a law that
-    /// acts continuously. An integrator with steps of its own starts anew where they change.
+    /// For how many steps from now the torques are constant, valid after [`Control::begin_step`]; `None` for a continuous
+    /// law. An adaptive integrator restarts where they change.
     fn held_steps(&self) -> Option<u32> {
         None
     }
 
-    /// The torque on the base that goes with the joint torques last asked for; `None` where there is no such actuator.
+    /// The base torque that belongs to the last joint torques; `None` without such an actuator.
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         None
     }
 
-    /// Which joints were at their limits in the torques last asked for; empty for a law without limits.
+    /// Which joints the last torques saturated; empty for a law without limits.
     fn saturated(&self) -> &[bool] {
         &[]
     }
 }
 
-/// A moment on the base from outside the robot: thrusters, magnetic torquers.
+/// An external moment on the base, from thrusters or magnetic torquers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BaseTorque<T> {
     /// N m.
     pub torque: T,
-    /// Whether more was wanted than there is.
+    /// Whether the command exceeded the limit.
     pub saturated: bool,
 }
 
@@ -111,31 +112,28 @@ impl<T: Real> Control<T> for ZeroTorque {
     }
 }
 
+/// The desired motion of a joint, or [`Error::Length`] for a trajectory of fewer than `expected` joints.
 fn desired<T: Real>(
     trajectory: &impl Trajectory<T>,
     joint: usize,
     time: T,
     expected: usize,
-) -> Result<Desired<T>, Error> {
+) -> Result<DesiredJoint<T>, Error> {
     trajectory.joint(joint, time).ok_or(Error::Length { quantity: "trajectory", expected, found: joint })
 }
 
-/// Eq. (2): `τ = I θ̈ + c`, the torques that give the joints these accelerations, whatever the base does.
+/// Eq. (2): `τ = I θ̈ + c`, the torques for these joint accelerations.
 fn inverse_dynamics<T: Real>(
     generalized_inertia: &[T],
     generalized_bias: &[T],
+    joint_accelerations: impl Iterator<Item = Result<T, Error>>,
     torques: &mut [T],
-    mut acceleration: impl FnMut(usize) -> Result<T, Error>,
 ) -> Result<(), Error> {
-    for (torque, bias) in torques.iter_mut().zip(generalized_bias) {
-        *torque = *bias;
-    }
-    for (joint, column) in generalized_inertia.chunks_exact(torques.len().max(1)).enumerate() {
-        // I is symmetric: its rows are its columns
-        let acceleration = acceleration(joint)?;
-        for (torque, entry) in torques.iter_mut().zip(column) {
-            *torque += *entry * acceleration;
-        }
+    copy(generalized_bias, torques);
+    // I is symmetric: its rows are its columns
+    let columns = generalized_inertia.chunks_exact(torques.len().max(1));
+    for (acceleration, column) in joint_accelerations.zip(columns) {
+        add_scaled(torques, acceleration?, column);
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! The paper's control law.
+//! Eq. (18): the paper's control law.
 
 use super::{Control, desired};
 use crate::dynamics::Model;
@@ -8,7 +8,7 @@ use crate::state::State;
 use crate::trajectory::Trajectory;
 use crate::validate::length;
 
-/// Eq. (18): `τ = K_p (θ_d − θ) + K_v (θ̇_d − θ̇)`, gains per joint.
+/// Eq. (18), PD control: `τ = K_p (θ_d − θ) + K_v (θ̇_d − θ̇)`, gains per joint.
 #[derive(Clone, Copy, Debug)]
 pub struct ProportionalDerivative<'a, T, R> {
     /// Desired angles and rates.

@@ -1,4 +1,4 @@
-//! A law in a computer that runs at a fixed rate.
+//! Sampled-data control: the torques of another law at a fixed rate, with a zero-order hold.
 
 use super::{BaseTorque, Control};
 use crate::dynamics::Model;
@@ -7,27 +7,26 @@ use crate::scalar::Real;
 use crate::state::State;
 use crate::validate::length;
 
-/// Another law, asked at the start of every so many steps; its torques are held in between (zero-order hold).
+/// Another law, evaluated at the start of every n-th step; its torques are constant in between (zero-order hold).
 ///
-/// Counting steps and not comparing times keeps the samples where they belong, whatever the rounding of the time.
+/// Steps are counted, so that rounding of the time cannot shift a sample.
 #[derive(Debug)]
-pub struct Sampled<'a, T, C> {
+pub struct SampledControl<'a, T, C> {
     law: C,
     steps_per_sample: u32,
     steps_left: u32,
     held: &'a mut [T],
 }
 
-impl<'a, T: Real, C: Control<T>> Sampled<'a, T, C> {
-    /// `held` (joints) keeps the torques; they are zero until the first step begins. Less than one step per sample is
-    /// one.
+impl<'a, T: Real, C: Control<T>> SampledControl<'a, T, C> {
+    /// `held` (joints) stores the torques; they are zero until the first step begins. No step per sample counts as one.
     pub fn new(law: C, steps_per_sample: u32, held: &'a mut [T]) -> Self {
         held.fill(T::ZERO);
         Self { law, steps_per_sample: steps_per_sample.max(1), steps_left: 0, held }
     }
 }
 
-impl<T: Real, C: Control<T>> Control<T> for Sampled<'_, T, C> {
+impl<T: Real, C: Control<T>> Control<T> for SampledControl<'_, T, C> {
     fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         length("joint_torques", self.held.len(), torques.len())?;
         torques.copy_from_slice(self.held);

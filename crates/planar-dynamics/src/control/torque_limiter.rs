@@ -1,4 +1,4 @@
-//! Actuators that give no more than they can.
+//! Joint torques of another law, saturated at the actuators' limits.
 
 use super::{BaseTorque, Control};
 use crate::dynamics::Model;
@@ -7,18 +7,18 @@ use crate::scalar::Real;
 use crate::state::State;
 use crate::validate::length;
 
-/// Another law's joint torques, each cut to its limit: `|τ| ≤ limit`. A base torque is left as it is.
+/// The joint torques of another law, each limited to `|τ| ≤ limit`; its base torque is unchanged.
 #[derive(Debug)]
-pub struct Limited<'a, T, C> {
-    /// What is wanted.
+pub struct TorqueLimiter<'a, T, C> {
+    /// The law whose torques are limited.
     pub law: C,
     /// One per joint, N m, 0 or more.
     pub torque_limits: &'a [T],
-    /// One per joint: whether more was wanted than the limit, in the torques last asked for.
+    /// One per joint: whether the last torque exceeded its limit.
     pub saturated: &'a mut [bool],
 }
 
-impl<T: Real, C: Control<T>> Control<T> for Limited<'_, T, C> {
+impl<T: Real, C: Control<T>> Control<T> for TorqueLimiter<'_, T, C> {
     fn joint_torques(
         &mut self,
         time: T,
@@ -32,9 +32,7 @@ impl<T: Real, C: Control<T>> Control<T> for Limited<'_, T, C> {
         let limits = self.torque_limits.iter().zip(self.saturated.iter_mut());
         for (torque, (limit, saturated)) in torques.iter_mut().zip(limits) {
             *saturated = torque.abs() > *limit;
-            if *saturated {
-                *torque = if *torque < T::ZERO { -*limit } else { *limit };
-            }
+            *torque = torque.limit_magnitude(*limit);
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! The equation of motion in reduced coordinates: the base twist follows from the momentum.
+//! The equation of motion in reduced coordinates: the base twist from the momentum by eq. (17).
 
 use crate::control::Control;
 use crate::dynamics::Model;
@@ -6,22 +6,22 @@ use crate::error::Error;
 use crate::linear::{copy, dot, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
-use crate::state::{ActuatorWork, CoordinatesMut, State, StateVectorMut, split_mut, vector_length};
+use crate::state::{ActuatorWork, State, StateVector, coordinates_mut, split_mut, vector_length};
 use crate::validate::length;
 
-/// d/dt of joint angles, joint rates and base pose; the base twist is recovered at every evaluation from eq. (17),
+/// d/dt of joint angles, joint rates and base pose; every evaluation computes the base twist from eq. (17),
 ///
 /// `I_b t_b = [l − c_o × p; p] − I_bm θ̇`,
 ///
-/// with the momentum of the start and what a base torque gave since, so that the momentum strays by rounding alone,
-/// whatever the integrator does. Joints accelerate by eq. (2), `I θ̈ + c = τ − I_bmᵀ I_b⁻¹ F_b`: the generalized bias c
-/// at the recovered twist has all that a momentum does.
+/// with the initial momentum and the impulse of a base torque since, so that the momentum is conserved to rounding by
+/// any integrator. The joint accelerations follow from eq. (2), `I θ̈ + c = τ − I_bmᵀ I_b⁻¹ F_b`, where the generalized
+/// bias c at that twist includes the effects of the momentum.
 ///
 /// Vectors are those of [`vector_length`], of a robot alone; the entries of the base twist are not integrated but
-/// written by [`recover`](Self::recover) after every step. Everything but the momentum is working space.
+/// written by [`recover`](Self::recover) after every step. All slices are working space.
 #[derive(Debug)]
-pub struct Reduced<'a, T> {
-    /// [l, px, py] when the work was zero, about the inertial origin; N m s, N s.
+pub struct ReducedCoordinates<'a, T> {
+    /// The initial [l, px, py], about the inertial origin; N m s, N s.
     pub momentum: [T; 3],
     /// (3 + joints)².
     pub mass_matrix: &'a mut [T],
@@ -33,12 +33,12 @@ pub struct Reduced<'a, T> {
     pub generalized_jacobian: &'a mut [T],
 }
 
-impl<T: Real> Reduced<'_, T> {
-    /// As [`derivative`](super::derivative) does in full coordinates; `torques` (joints) is left with the torques at
-    /// this time.
+impl<T: Real> ReducedCoordinates<'_, T> {
+    /// As [`derivative`](super::derivative) in full coordinates; `torques` (joints) holds the torques at this time
+    /// afterwards.
     ///
     /// # Errors
-    /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and what model and law say.
+    /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and those of the model and the law.
     pub fn derivative(
         &mut self,
         model: &dyn Model<T>,
@@ -55,38 +55,36 @@ impl<T: Real> Reduced<'_, T> {
         model.reduced_dynamics(&state, generalized_inertia, generalized_bias, generalized_jacobian)?;
 
         length("state vector", x.len(), rate.len())?;
-        let StateVectorMut { positions: velocities, rates: accelerations, work } = split_mut(rate)?;
-        let velocities = CoordinatesMut::new(velocities, torques.len())?;
+        let StateVector { positions: velocities, rates: accelerations, work } = split_mut(rate)?;
+        let velocities = coordinates_mut(velocities, torques.len())?;
         *velocities.base = state.base_twist;
         copy(state.joint_rates, velocities.joints);
-        let CoordinatesMut { base, joints: joint_accelerations, .. } =
-            CoordinatesMut::new(accelerations, torques.len())?;
-        *base = [T::ZERO; 3];
+        let accelerations = coordinates_mut(accelerations, torques.len())?;
+        *accelerations.base = [T::ZERO; 3];
         let by_base = equation.solve([base_torque, T::ZERO, T::ZERO]);
         let rows = mass_matrix.chunks_exact(3 + torques.len()).skip(3);
         let known = torques.iter().zip(generalized_bias.iter());
-        for ((place, row), (torque, bias)) in joint_accelerations.iter_mut().zip(rows).zip(known) {
-            *place = *torque - *bias - dot(row, by_base);
+        for ((acceleration, row), (torque, bias)) in accelerations.joints.iter_mut().zip(rows).zip(known) {
+            *acceleration = *torque - *bias - dot(row, by_base);
         }
-        solve("the generalized inertia I", generalized_inertia, joint_accelerations)?;
+        solve("the generalized inertia I", generalized_inertia, accelerations.joints)?;
         let [omega, ..] = state.base_twist;
         *work = [dot(torques, state.joint_rates), base_torque * omega, base_torque];
         Ok(())
     }
 
-    /// Writes the base twist to its place.
+    /// Writes the base twist into an integrated vector.
     ///
     /// # Errors
     /// As [`Self::derivative`].
     pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
         let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
-        let StateVectorMut { rates, .. } = split_mut(x)?;
-        *CoordinatesMut::new(rates, model.joints())?.base = base_twist;
+        *coordinates_mut(split_mut(x)?.rates, model.joints())?.base = base_twist;
         Ok(())
     }
 }
 
-/// The state with the base twist that the momentum asks for, and the equation that gave it.
+/// The state with the base twist that follows from the momentum, and the equation it follows from.
 fn recovered<'x, 'm, T: Real>(
     model: &dyn Model<T>,
     [l, px, py]: &[T; 3],

@@ -1,26 +1,26 @@
-//! The Gauss–Legendre method of three stages: implicit, symmetric, symplectic.
+//! The Gauss–Legendre method with three stages: implicit, symmetric, symplectic.
 
 use crate::error::Error;
-use crate::linear::copy;
+use crate::linear::{add_scaled, copy};
 use crate::scalar::Real;
 use crate::validate::length;
 
 const STAGES: usize = 3;
 
-/// Rounds of iteration before giving up; a step that is short enough takes ten.
-const MOST_ROUNDS: usize = 60;
+/// A step that is short enough takes ten.
+const MAXIMUM_ITERATIONS: u32 = 60;
 
-/// ẋ = f(t, x) by Gauss–Legendre steps of three stages (Kuntzmann, Butcher 1964); the global error is O(step⁶).
+/// ẋ = f(t, x) by Gauss–Legendre steps with three stages (Kuntzmann, Butcher 1964); the global error is O(step⁶).
 ///
-/// Every invariant of f that is linear or quadratic in x is one of the steps, and where x are canonical variables the
-/// steps are symplectic, so that the energy error stays bounded over very long times: Hairer, Lubich, Wanner,
-/// *Geometric Numerical Integration*, theorems IV.2.1 and VI.4.2. The momenta of a robot are linear and bilinear in
-/// canonical variables, see [`Canonical`](crate::formulation::Canonical); in others, such as rates, this is just a
+/// The steps preserve every invariant of f that is linear or quadratic in x. Where x are canonical variables they are
+/// symplectic, so that the energy error stays bounded over very long times: Hairer, Lubich, Wanner, *Geometric Numerical
+/// Integration*, theorems IV.2.1 and VI.4.2. The momenta of a robot are linear and bilinear in
+/// [canonical variables](crate::formulation::CanonicalVariables); in other variables, such as rates, this is only a
 /// method of order 6.
 ///
-/// The stages are solved by iteration until they no longer change but by rounding: a looser stop would be an error of
-/// one sign, which grows with time. It contracts for steps that are short beside the fastest motion; that of a stiff
-/// control law counts. The result depends on nothing but `x`.
+/// The stages are iterated until their change is rounding: an earlier stop would leave an error of one sign, which grows
+/// with time. The iteration contracts for steps that are short relative to the fastest motion, that of a stiff control
+/// law included. The result depends on `x` alone, not on earlier steps.
 #[derive(Debug)]
 pub struct GaussLegendre<'a, T> {
     slopes: [&'a mut [T]; STAGES],
@@ -28,7 +28,7 @@ pub struct GaussLegendre<'a, T> {
     next: &'a mut [T],
 }
 
-/// Nodes, and the matrix of the method: c and a; the weights are 5/18, 4/9, 5/18.
+/// Nodes c, matrix a and weights b of the method.
 struct Tableau<T> {
     nodes: [T; STAGES],
     matrix: [[T; STAGES]; STAGES],
@@ -52,13 +52,13 @@ impl<T: Real> Tableau<T> {
 }
 
 impl<'a, T: Real> GaussLegendre<'a, T> {
-    /// How many times its vectors' length the workspace is long.
+    /// The length of the workspace over that of the vectors.
     pub const WORKSPACE: usize = STAGES + 2;
 
     /// An integrator for vectors of a fifth of the workspace's length.
     ///
     /// # Errors
-    /// [`Error::Length`] where that is not whole.
+    /// [`Error::Length`] unless the workspace's length is a multiple of 5.
     pub fn new(workspace: &'a mut [T]) -> Result<Self, Error> {
         let n = workspace.len() / Self::WORKSPACE;
         length("integrator workspace", n * Self::WORKSPACE, workspace.len())?;
@@ -72,8 +72,8 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
     /// One step from `time` to `time + step`.
     ///
     /// # Errors
-    /// [`Error::Length`] where `x` is not as long as the integrator's vectors, [`Error::Unsettled`] where the iteration
-    /// does not contract, and what `derivative` says; `x` is then as it was.
+    /// [`Error::Length`] for an `x` of another length than the integrator's vectors, [`Error::NotConverged`] where the
+    /// iteration does not contract, and those of `derivative`; `x` is then unchanged.
     pub fn step(
         &mut self,
         time: T,
@@ -87,33 +87,32 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
         for slope in &mut self.slopes {
             copy(self.next, slope);
         }
-        let scale = largest(x.iter().copied()) + largest(self.next.iter().map(|slope| step * *slope));
+        let scale =
+            largest_magnitude(x.iter().copied()) + largest_magnitude(self.next.iter().map(|slope| step * *slope));
         let limit = T::constant(1e3) * T::EPSILON * scale;
-        let mut before = None;
-        for round in 1.. {
-            let change = self.round(&tableau, time, step, x, &mut derivative)?;
-            let stalled = before.is_some_and(|before| change >= before);
-            if change == T::ZERO || (change <= limit && stalled) {
+        let (mut previous, mut iterations) = (None, 0);
+        loop {
+            let change = self.iterate(&tableau, time, step, x, &mut derivative)?;
+            iterations += 1;
+            let last = iterations == MAXIMUM_ITERATIONS;
+            let stalled = previous.is_some_and(|previous| change >= previous);
+            if change == T::ZERO || (change <= limit && (stalled || last)) {
                 break;
             }
-            if round == MOST_ROUNDS {
-                if change <= limit {
-                    break;
-                }
+            if last {
                 let what = "the stages of a Gauss–Legendre step";
-                return Err(Error::Unsettled { what, rounds: round, change: change.to_f64() });
+                return Err(Error::NotConverged { what, iterations, change: change.to_f64() });
             }
-            before = Some(change);
+            previous = Some(change);
         }
-        let slopes = self.slopes.iter().zip(&tableau.weights);
-        for (slope, weight) in slopes {
-            add(x, step * *weight, slope);
+        for (slope, weight) in self.slopes.iter().zip(&tableau.weights) {
+            add_scaled(x, step * *weight, slope);
         }
         Ok(())
     }
 
-    /// One round of iteration, each stage with the newest slopes; the largest change of the step.
-    fn round(
+    /// One iteration, each stage with the newest slopes; returns the largest change of the step.
+    fn iterate(
         &mut self,
         tableau: &Tableau<T>,
         time: T,
@@ -125,24 +124,18 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
         for (i, (node, row)) in tableau.nodes.iter().zip(&tableau.matrix).enumerate() {
             copy(x, self.stage);
             for (slope, entry) in self.slopes.iter().zip(row) {
-                add(self.stage, step * *entry, slope);
+                add_scaled(self.stage, step * *entry, slope);
             }
             derivative(time + *node * step, self.stage, self.next)?;
             let Some(slope) = self.slopes.get_mut(i) else { continue };
-            let of_stage = largest(self.next.iter().zip(slope.iter()).map(|(new, old)| step * (*new - *old)));
-            change = if of_stage > change { of_stage } else { change };
+            let of_stage = largest_magnitude(self.next.iter().zip(slope.iter()).map(|(new, old)| step * (*new - *old)));
+            change = change.maximum(of_stage);
             copy(self.next, slope);
         }
         Ok(change)
     }
 }
 
-fn add<T: Real>(sum: &mut [T], factor: T, part: &[T]) {
-    for (sum, part) in sum.iter_mut().zip(part) {
-        *sum += factor * *part;
-    }
-}
-
-fn largest<T: Real>(values: impl Iterator<Item = T>) -> T {
-    values.fold(T::ZERO, |most, value| if value.abs() > most { value.abs() } else { most })
+fn largest_magnitude<T: Real>(values: impl Iterator<Item = T>) -> T {
+    values.fold(T::ZERO, |largest, value| largest.maximum(value.abs()))
 }

@@ -1,17 +1,17 @@
-//! Integrators of ordinary differential equations, on slices.
+//! Integrators of ordinary differential equations with a fixed step, on slices.
 //!
-//! | scheme | order | evaluations per step | keeps |
+//! | method | order | evaluations per step | conserves |
 //! |---|---|---|---|
 //! | [`RungeKutta4`] | 4 | 4 | nothing; its error at 5 ms is below most others |
-//! | [`SemiImplicitEuler`] | 1 | 1 | nothing in these coordinates: for quick looks |
-//! | [`GaussLegendre`] | 6 | 3 per round of iteration | both momenta and symplecticity, on [canonical] variables |
+//! | [`SemiImplicitEuler`] | 1 | 1 | nothing in these coordinates; for fast, rough results |
+//! | [`GaussLegendre`] | 6 | 3 per iteration | both momenta and symplecticity, in [canonical variables] |
 //! | `Adaptive` (feature `std`) | 9 | 16, and 10 for dense output | nothing; its error is the tolerance |
 //!
-//! [canonical]: crate::formulation::Canonical
+//! [canonical variables]: crate::formulation::CanonicalVariables
 
-pub mod gauss_legendre;
-pub mod runge_kutta4;
-pub mod semi_implicit_euler;
+mod gauss_legendre;
+mod runge_kutta4;
+mod semi_implicit_euler;
 
 pub use gauss_legendre::GaussLegendre;
 pub use runge_kutta4::RungeKutta4;

@@ -1,6 +1,7 @@
-//! The classical Runge–Kutta method of fourth order with a fixed step.
+//! The classical Runge–Kutta method of fourth order.
 
 use crate::error::Error;
+use crate::linear::{add_scaled, copy};
 use crate::scalar::Real;
 use crate::validate::length;
 
@@ -13,13 +14,13 @@ pub struct RungeKutta4<'a, T> {
 }
 
 impl<'a, T: Real> RungeKutta4<'a, T> {
-    /// How many times its vectors' length the workspace is long.
+    /// The length of the workspace over that of the vectors.
     pub const WORKSPACE: usize = 3;
 
     /// An integrator for vectors of a third of the workspace's length.
     ///
     /// # Errors
-    /// [`Error::Length`] where that is not whole.
+    /// [`Error::Length`] unless the workspace's length is a multiple of 3.
     pub fn new(workspace: &'a mut [T]) -> Result<Self, Error> {
         let n = workspace.len() / Self::WORKSPACE;
         length("integrator workspace", n * Self::WORKSPACE, workspace.len())?;
@@ -31,8 +32,8 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
     /// One step from `time` to `time + step`.
     ///
     /// # Errors
-    /// [`Error::Length`] where `x` is not as long as the integrator's vectors, and what `derivative` says;
-    /// `x` is then as it was.
+    /// [`Error::Length`] for an `x` of another length than the integrator's vectors, and those of `derivative`; `x` is
+    /// then unchanged.
     pub fn step(
         &mut self,
         time: T,
@@ -45,20 +46,14 @@ impl<'a, T: Real> RungeKutta4<'a, T> {
         let half = step * T::constant(0.5);
         let two = T::constant(2.0);
         derivative(time, x, slope)?;
-        sum.copy_from_slice(slope);
+        copy(slope, sum);
         for (advance, weight) in [(half, two), (half, two), (step, T::ONE)] {
-            for (s, (x, k)) in stage.iter_mut().zip(x.iter().zip(slope.iter())) {
-                *s = *x + advance * *k;
-            }
+            copy(x, stage);
+            add_scaled(stage, advance, slope);
             derivative(time + advance, stage, slope)?;
-            for (s, k) in sum.iter_mut().zip(slope.iter()) {
-                *s += weight * *k;
-            }
+            add_scaled(sum, weight, slope);
         }
-        let sixth = step / T::constant(6.0);
-        for (x, s) in x.iter_mut().zip(sum.iter()) {
-            *x += sixth * *s;
-        }
+        add_scaled(x, step / T::constant(6.0), sum);
         Ok(())
     }
 }

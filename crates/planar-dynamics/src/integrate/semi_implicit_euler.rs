@@ -1,16 +1,16 @@
-//! Euler's method with the new rates in the positions.
+//! Semi-implicit Euler: explicit in the rates, then the positions with the new rates.
 
 use crate::error::Error;
+use crate::linear::add_scaled;
 use crate::scalar::Real;
-use crate::state::{StateVectorMut, split, split_mut};
+use crate::state::{StateVector, split, split_mut};
 use crate::validate::length;
 
-/// Rates by their derivatives, then positions by the *new* rates; the global error is O(step).
+/// A step changes the rates by their derivatives, then the positions by the *new* rates; the global error is O(step).
 ///
 /// For vectors of positions, their rates and an [`ActuatorWork`](crate::state::ActuatorWork), see
-/// [`vector_length`](crate::state::vector_length). One evaluation per step. Where the mass matrix is constant the
-/// method is symplectic (symplectic Euler, the method of most game engines); the mass matrix of an arm is not, so that
-/// momentum and energy stray by O(step).
+/// [`vector_length`](crate::state::vector_length). One evaluation per step. The method is symplectic where the mass matrix
+/// is constant; that of an arm is not, so that momentum and energy have errors of O(step).
 #[derive(Debug)]
 pub struct SemiImplicitEuler<'a, T> {
     slope: &'a mut [T],
@@ -25,7 +25,8 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
     /// One step from `time` to `time + step`.
     ///
     /// # Errors
-    /// [`Error::Length`] where `x` is not as long as the workspace, and what `derivative` says; `x` is then as it was.
+    /// [`Error::Length`] for an `x` of another length than the workspace, and those of `derivative`; `x` is then
+    /// unchanged.
     pub fn step(
         &mut self,
         time: T,
@@ -33,15 +34,15 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
         x: &mut [T],
         derivative: impl FnMut(T, &[T], &mut [T]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        self.kick(time, step, x, derivative)?;
-        drift(step, x)
+        self.update_rates(time, step, x, derivative)?;
+        Self::update_positions(step, x)
     }
 
-    /// The first half of a step: rates and work. What may be done to the rates then comes before [`drift`].
+    /// The first part of a step: rates and work. The rates may be corrected before [`Self::update_positions`].
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn kick(
+    pub fn update_rates(
         &mut self,
         time: T,
         step: T,
@@ -50,22 +51,19 @@ impl<'a, T: Real> SemiImplicitEuler<'a, T> {
     ) -> Result<(), Error> {
         length("state vector", self.slope.len(), x.len())?;
         derivative(time, x, self.slope)?;
-        let positions = split(x)?.positions.len();
-        for (x, slope) in x.iter_mut().zip(self.slope.iter()).skip(positions) {
-            *x += step * *slope;
-        }
+        let (StateVector { rates, work, .. }, slope) = (split_mut(x)?, split(self.slope)?);
+        add_scaled(rates, step, slope.rates);
+        add_scaled(work, step, slope.work);
         Ok(())
     }
-}
 
-/// The second half of a step: positions by the rates in `x`.
-///
-/// # Errors
-/// [`Error::StateVector`] where `x` is no state.
-pub fn drift<T: Real>(step: T, x: &mut [T]) -> Result<(), Error> {
-    let StateVectorMut { positions, rates, .. } = split_mut(x)?;
-    for (position, rate) in positions.iter_mut().zip(rates.iter()) {
-        *position += step * *rate;
+    /// The second part of a step: positions by the rates in `x`.
+    ///
+    /// # Errors
+    /// [`Error::StateVector`] unless `x` is an integrated vector.
+    pub fn update_positions(step: T, x: &mut [T]) -> Result<(), Error> {
+        let StateVector { positions, rates, .. } = split_mut(x)?;
+        add_scaled(positions, step, rates);
+        Ok(())
     }
-    Ok(())
 }

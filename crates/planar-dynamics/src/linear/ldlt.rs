@@ -1,19 +1,19 @@
-//! Symmetric positive definite systems of equations, `A = L D Lᵀ`.
+//! Solves symmetric positive definite systems of equations by the factors `A = L D Lᵀ`.
 
-use super::dot;
+use super::{add_scaled, dot};
 use crate::error::Error;
 use crate::scalar::Real;
 
-/// The smallest pivot beside its own diagonal entry, in roundings: with less, a solution keeps fewer than three digits
-/// of what rounding leaves. Rows that depend on each other leave pivots of a few roundings, for the entries of most
-/// matrices here are solutions of other systems.
-const LEAST_PIVOT: f64 = 4096.0;
+/// The smallest pivot relative to its own diagonal entry, in units of ε: with a smaller one a solution may have fewer than
+/// three correct digits. Linearly dependent rows leave pivots of a few ε, because the entries of most matrices here are
+/// solutions of other systems.
+const SMALLEST_PIVOT: f64 = 4096.0;
 
-/// Factors a symmetric matrix of `size` rows in place: D on the diagonal, L below it, and what was above it stays
-/// there. Entries above the diagonal are not read.
+/// Factors a symmetric matrix of `size` rows in place: D on the diagonal, L below it. Entries above the diagonal are
+/// neither read nor changed.
 ///
 /// # Errors
-/// [`Error::Singular`] where a pivot is not larger than 4096 ε times its diagonal entry, or that is not positive; the
+/// [`Error::Singular`] unless every pivot is larger than 4096 ε times its diagonal entry, and that is positive; the
 /// matrix is then partly factored.
 pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize) -> Result<(), Error> {
     for i in 0..size {
@@ -48,14 +48,13 @@ pub(crate) fn substitute<T: Real>(factors: &[T], right: &mut [T]) {
         *value /= *divisor;
     }
     for (i, row) in rows().rev() {
-        let Some((open, [value, ..])) = right.split_at_mut_checked(i) else { continue };
-        for (open, entry) in open.iter_mut().zip(row) {
-            *open -= *entry * *value;
+        if let Some((unsolved, [value, ..])) = right.split_at_mut_checked(i) {
+            add_scaled(unsolved, -*value, row);
         }
     }
 }
 
-/// [`factor`] and [`substitute`]: solves `A x = b`, A having as many rows as b; A becomes its factors, b becomes x.
+/// Solves `A x = b` by [`factor`] and [`substitute`]; A becomes its factors, b becomes x.
 ///
 /// # Errors
 /// As [`factor`].
@@ -66,7 +65,7 @@ pub(crate) fn solve<T: Real>(what: &'static str, matrix: &mut [T], right: &mut [
 }
 
 fn check<T: Real>(what: &'static str, relative: T) -> Result<(), Error> {
-    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * LEAST_PIVOT);
+    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * SMALLEST_PIVOT);
     if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
 }
 
@@ -77,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_small_system() {
-        // what is above the diagonal is not read
+        // the entries above the diagonal are not read
         let (mut matrix, mut right) = ([4.0, 0.0, 0.0, 2.0, 5.0, 0.0, 1.0, 3.0, 6.0], [7.0, 10.0, 10.0_f64]);
         assert_eq!(solve("A", &mut matrix, &mut right), Ok(()));
         for x in right {
@@ -86,15 +85,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_positive_definite() {
-        let refused = |mut matrix: [f64; 4]| {
+    fn matrices_that_are_not_positive_definite_are_rejected() {
+        let assert_singular = |mut matrix: [f64; 4]| {
             let result = solve("A", &mut matrix, &mut [1.0, 1.0]);
             assert!(matches!(result, Err(Error::Singular { what: "A", .. })), "{matrix:?}: {result:?}");
         };
-        refused([1.0, 2.0, 2.0, 4.0]);
-        refused([1.0, 1.0, 1.0, 1.0 + 1e-13]);
-        refused([-1.0, 0.0, 0.0, -1.0]);
-        refused([0.0, 0.0, 0.0, 1.0]);
-        refused([f64::NAN, 0.0, 0.0, 1.0]);
+        assert_singular([1.0, 2.0, 2.0, 4.0]);
+        assert_singular([1.0, 1.0, 1.0, 1.0 + 1e-13]);
+        assert_singular([-1.0, 0.0, 0.0, -1.0]);
+        assert_singular([0.0, 0.0, 0.0, 1.0]);
+        assert_singular([f64::NAN, 0.0, 0.0, 1.0]);
     }
 }

@@ -1,10 +1,10 @@
-//! Damped least squares by singular values, without allocation.
+//! Solves damped least-squares problems by one-sided Jacobi rotations.
 
-use super::dot;
+use super::{add_scaled, dot};
 use crate::scalar::{Real, Scalar};
 
-/// More than orthogonalisation ever takes: it converges quadratically, in six to ten sweeps.
-const MOST_SWEEPS: u32 = 30;
+/// Orthogonalisation converges quadratically, in six to ten sweeps.
+const MAXIMUM_SWEEPS: u32 = 30;
 
 /// Makes the rows of A (each `columns` long) orthogonal by rotations Q that are applied to b (`right`, one per row)
 /// too, so that `Q A = Σ Vᵀ`; then fills `solution` (columns) with the damped least-squares solution of `A x = b`,
@@ -13,13 +13,13 @@ const MOST_SWEEPS: u32 = 30;
 /// x = Σᵢ vᵢ (Q b)ᵢ σᵢ / (σᵢ² + λᵢ²),   λᵢ² = (threshold σ_max)² − σᵢ² where that is positive, otherwise 0
 /// ```
 ///
-/// which is the shortest solution where no singular value is below `threshold` (0 to 1) times the largest, and at most
-/// |b| over that bound in any case. Returns the smallest singular value over the largest; 0 where A is.
+/// It is the shortest solution where no singular value is below `threshold` (0 to 1) times the largest; otherwise its
+/// norm is at most |b| over that bound. Returns the ratio of the smallest singular value to the largest, 0 for A = 0.
 ///
 /// One-sided Jacobi rotations (M. R. Hestenes, *Inversion of matrices by biorthogonalization and related results*,
-/// 1958): no squares of the matrix are formed, so that small singular values keep their digits in `f32` too. The
-/// damping that begins at a threshold is Y. Nakamura's and H. Hanafusa's (*Inverse kinematic solutions with singularity
-/// robustness*, 1986), for each singular direction alone.
+/// 1958) do not form `A Aᵀ`, so that small singular values keep their digits in `f32` too. The damping below a threshold
+/// follows Y. Nakamura and H. Hanafusa (*Inverse kinematic solutions with singularity robustness*, 1986), but acts on
+/// each singular direction separately.
 pub(crate) fn least_squares<T: Real>(
     rows: &mut [T],
     right: &mut [T],
@@ -28,34 +28,30 @@ pub(crate) fn least_squares<T: Real>(
     solution: &mut [T],
 ) -> T {
     let columns = columns.max(1);
-    for _ in 0..MOST_SWEEPS {
+    for _ in 0..MAXIMUM_SWEEPS {
         if !sweep(rows, right, columns) {
             break;
         }
     }
     let size = |row: &[T]| dot(row, row);
     let sizes = || rows.chunks_exact(columns).map(size);
-    let largest = sizes().fold(T::ZERO, |most, size| if size > most { size } else { most });
-    let smallest = sizes().fold(largest, |least, size| if size < least { size } else { least });
+    let largest = sizes().fold(T::ZERO, T::maximum);
+    let smallest = sizes().fold(largest, T::minimum);
     solution.fill(T::ZERO);
     let floor = threshold * threshold * largest;
     if largest == T::ZERO {
         return T::ZERO;
     }
     for (row, right) in rows.chunks_exact(columns).zip(right.iter()) {
-        let size = size(row);
-        let bounded = if size > floor { size } else { floor };
+        let bounded = floor.maximum(size(row));
         if bounded > T::ZERO {
-            let part = *right / bounded;
-            for (place, entry) in solution.iter_mut().zip(row) {
-                *place += *entry * part;
-            }
+            add_scaled(solution, *right / bounded, row);
         }
     }
     Scalar::sqrt(smallest / largest)
 }
 
-/// Rotates every pair of rows into orthogonality once; says whether there was anything to do.
+/// Makes every pair of rows orthogonal by a rotation, once; returns whether any pair was not.
 fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
     let mut changed = false;
     for i in 0..right.len() {
@@ -64,12 +60,7 @@ fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
         let Some((b_before, b_rest)) = right.split_at_mut_checked(i + 1) else { return changed };
         let Some(b_first) = b_before.last_mut() else { return changed };
         for (second, b_second) in rest.chunks_exact_mut(columns.max(1)).zip(b_rest) {
-            let (mut alpha, mut beta, mut gamma) = (T::ZERO, T::ZERO, T::ZERO);
-            for (a, b) in first.iter().zip(second.iter()) {
-                alpha += *a * *a;
-                beta += *b * *b;
-                gamma += *a * *b;
-            }
+            let (alpha, beta, gamma) = (dot(first, &*first), dot(second, &*second), dot(first, &*second));
             let oblique = gamma.abs() > T::EPSILON * Scalar::sqrt(alpha * beta);
             if !oblique {
                 continue;

@@ -1,10 +1,10 @@
-//! Numbers that are one real number.
+//! The trait of scalars that are a single real number.
 
 use super::Scalar;
 use core::fmt::{Debug, Display};
 use core::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 
-/// A [`Scalar`] that is one real number, so that it can be compared and reported: `f32`, `f64`.
+/// A [`Scalar`] that is a single real number, which can be compared and reported: `f32`, `f64`.
 pub trait Real:
     Scalar + PartialOrd + AddAssign + SubAssign + MulAssign + DivAssign + Debug + Display + Default + 'static
 {
@@ -20,6 +20,22 @@ pub trait Real:
     /// Absolute value.
     #[must_use]
     fn abs(self) -> Self;
+
+    /// The larger of two values; `self` where one is NaN.
+    #[must_use]
+    fn maximum(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+
+    /// The value, or where its magnitude exceeds `limit`, `limit` with the value's sign.
+    #[must_use]
+    fn limit_magnitude(self, limit: Self) -> Self {
+        match self.abs() > limit {
+            true if self < Self::ZERO => -limit,
+            true => limit,
+            false => self,
+        }
+    }
 
     /// 1 over the value.
     #[must_use]

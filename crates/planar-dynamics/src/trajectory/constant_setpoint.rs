@@ -1,9 +1,9 @@
-//! Staying where one is.
+//! Constant joint angles.
 
-use super::{Desired, Trajectory};
+use super::{DesiredJoint, Trajectory};
 use crate::scalar::Real;
 
-/// No motion: these angles, at any time.
+/// The same angles at any time.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstantSetpoint<'a, T> {
     /// One per joint, rad.
@@ -11,7 +11,7 @@ pub struct ConstantSetpoint<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for ConstantSetpoint<'_, T> {
-    fn joint(&self, joint: usize, _: T) -> Option<Desired<T>> {
-        Some(Desired { angle: *self.angles.get(joint)?, rate: T::ZERO, acceleration: T::ZERO })
+    fn joint(&self, joint: usize, _: T) -> Option<DesiredJoint<T>> {
+        Some(DesiredJoint { angle: *self.angles.get(joint)?, rate: T::ZERO, acceleration: T::ZERO })
     }
 }

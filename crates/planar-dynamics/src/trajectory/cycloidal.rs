@@ -1,24 +1,23 @@
-//! Joint rates as cycloids, from rest to rest.
+//! Cycloidal joint motion from rest to rest.
 
-use super::kind::{JointTrajectory, Properties};
-use super::{Desired, Ends, Trajectory, part};
+use super::{DesiredJoint, JointTrajectory, PointToPoint, Trajectory, TrajectoryProperties, normalized_time};
 use crate::scalar::{Real, Scalar};
 
-/// Cycloidal motion from rest to rest: `θ(t) = θ(0) + Δθ (τ − sin(2πτ)/2π)`.
+/// Cycloidal motion from rest to rest: `θ(t) = θ(0) + Δθ (τ − sin(2πτ)/2π)`, τ = t/T.
 #[derive(Clone, Copy, Debug)]
 pub struct Cycloidal<'a, T> {
     /// Angles and duration.
-    pub ends: Ends<'a, T>,
+    pub motion: PointToPoint<'a, T>,
 }
 
 impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
-    fn joint(&self, joint: usize, time: T) -> Option<Desired<T>> {
-        let ([from, to], duration) = (self.ends.angles(joint)?, self.ends.duration);
-        let (change, tau) = (to - from, part(time, duration));
+    fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
+        let ([from, to], duration) = (self.motion.angles(joint)?, self.motion.duration);
+        let (change, tau) = (to - from, normalized_time(time, duration));
         let turn = T::constant(core::f64::consts::TAU);
         let (sin, cos) = Scalar::sin_cos(turn * tau);
         let mean_rate = change / duration;
-        Some(Desired {
+        Some(DesiredJoint {
             angle: from + change * (tau - sin / turn),
             rate: mean_rate * (T::ONE - cos),
             acceleration: mean_rate * turn * sin / duration,
@@ -27,10 +26,10 @@ impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
 }
 
 impl<'a, T: Real> JointTrajectory<'a, T> for Cycloidal<'a, T> {
-    const PROPERTIES: Properties =
-        Properties { name: "cycloidal", starts_at_rest: true, ends_at_rest: true, peak_factor: 2.0 };
+    const PROPERTIES: TrajectoryProperties =
+        TrajectoryProperties { name: "cycloidal", starts_at_rest: true, ends_at_rest: true, peak_factor: 2.0 };
 
-    fn between(ends: Ends<'a, T>, _: &'a [T], _: &'a [T]) -> Self {
-        Self { ends }
+    fn new(motion: PointToPoint<'a, T>, _: &'a [T], _: &'a [T]) -> Self {
+        Self { motion }
     }
 }

@@ -1,29 +1,10 @@
-//! The kinds of joint trajectories that can be named.
+//! The list of the kinds of joint trajectories.
 
-use super::{Cycloidal, Desired, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory};
+use super::{
+    Cycloidal, DesiredJoint, JointTrajectory, PointToPoint, Quartic, QuarticAsPrinted, Quintic, Trajectory,
+    TrajectoryProperties,
+};
 use crate::scalar::Real;
-
-/// What a kind of joint trajectory is and can.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Properties {
-    /// As scenarios have it.
-    pub name: &'static str,
-    /// Whether it starts at rest, whatever the initial rates are.
-    pub starts_at_rest: bool,
-    /// Whether it ends at rest, and takes no final rates.
-    pub ends_at_rest: bool,
-    /// The largest rate from rest to rest over the mean rate.
-    pub peak_factor: f64,
-}
-
-/// A joint trajectory that follows from angles and rates at its ends.
-pub trait JointTrajectory<'a, T>: Trajectory<T> {
-    /// What the kind is.
-    const PROPERTIES: Properties;
-
-    /// The trajectory between these ends, rad/s; rates that the kind does not take are not looked at.
-    fn between(ends: Ends<'a, T>, initial_rates: &'a [T], final_rates: &'a [T]) -> Self;
-}
 
 macro_rules! kinds {
     ($($kind:ident),*) => {
@@ -34,27 +15,27 @@ macro_rules! kinds {
         }
 
         impl TrajectoryKind {
-            /// All of them.
+            /// All kinds.
             pub const ALL: &'static [Self] = &[$(Self::$kind),*];
 
-            /// What it is and can.
+            /// The properties of this kind.
             #[must_use]
-            pub const fn properties(self) -> Properties {
+            pub const fn properties(self) -> TrajectoryProperties {
                 match self {
                     $(Self::$kind => <$kind<'static, f64> as JointTrajectory<'static, f64>>::PROPERTIES,)*
                 }
             }
 
-            /// The trajectory between these ends, rad/s.
+            /// The trajectory of a motion with these initial and final rates, rad/s.
             #[must_use]
-            pub fn between<'a, T: Real>(
+            pub fn trajectory<'a, T: Real>(
                 self,
-                ends: Ends<'a, T>,
+                motion: PointToPoint<'a, T>,
                 initial_rates: &'a [T],
                 final_rates: &'a [T],
             ) -> AnyTrajectory<'a, T> {
                 match self {
-                    $(Self::$kind => AnyTrajectory::$kind($kind::between(ends, initial_rates, final_rates)),)*
+                    $(Self::$kind => AnyTrajectory::$kind($kind::new(motion, initial_rates, final_rates)),)*
                 }
             }
         }
@@ -66,7 +47,7 @@ macro_rules! kinds {
         }
 
         impl<T: Real> Trajectory<T> for AnyTrajectory<'_, T> {
-            fn joint(&self, joint: usize, time: T) -> Option<Desired<T>> {
+            fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
                 match self {
                     $(Self::$kind(trajectory) => trajectory.joint(joint, time),)*
                 }
@@ -75,5 +56,5 @@ macro_rules! kinds {
     };
 }
 
-// a kind stands in a file of its own, and here
+// a new kind has a file of its own, and an entry here
 kinds!(Quartic, QuarticAsPrinted, Cycloidal, Quintic);

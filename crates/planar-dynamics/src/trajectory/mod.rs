@@ -1,6 +1,6 @@
 //! Joint trajectories of the approach, from the initial angles to the final ones, and paths of the end effectors.
 //!
-//! Outside 0 ≤ t ≤ duration a trajectory stays at the nearer end.
+//! Before t = 0 and after the duration a trajectory has the values at its nearer end.
 
 mod constant_setpoint;
 mod cycloidal;
@@ -12,15 +12,15 @@ mod quintic;
 pub use constant_setpoint::ConstantSetpoint;
 pub use cycloidal::Cycloidal;
 pub use end_effector_path::{DesiredEndEffector, EndEffectorPath};
-pub use kind::{AnyTrajectory, JointTrajectory, Properties, TrajectoryKind};
+pub use kind::{AnyTrajectory, TrajectoryKind};
 pub use quartic::{Quartic, QuarticAsPrinted};
 pub use quintic::{Quintic, quintic};
 
 use crate::scalar::Real;
 
-/// What one joint should do at one time.
+/// Desired motion of one joint at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Desired<T> {
+pub struct DesiredJoint<T> {
     /// rad.
     pub angle: T,
     /// rad/s.
@@ -31,13 +31,36 @@ pub struct Desired<T> {
 
 /// Desired motion of every joint.
 pub trait Trajectory<T> {
-    /// What `joint` should do at `time` (s); `None` for a joint that the trajectory does not have.
-    fn joint(&self, joint: usize, time: T) -> Option<Desired<T>>;
+    /// The desired motion of `joint` at `time` (s); `None` for a joint that the trajectory does not have.
+    fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>>;
 }
 
-/// Ends of a joint motion, in slices of one value per joint.
+/// The properties of a kind of joint trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectoryProperties {
+    /// Its name in scenarios.
+    pub name: &'static str,
+    /// Whether it starts at rest and ignores the initial rates.
+    pub starts_at_rest: bool,
+    /// Whether it ends at rest and takes no final rates.
+    pub ends_at_rest: bool,
+    /// The largest rate of a motion from rest to rest over its mean rate.
+    pub peak_factor: f64,
+}
+
+/// A joint trajectory that is determined by angles and rates at its ends.
+pub trait JointTrajectory<'a, T>: Trajectory<T> {
+    /// The properties of the kind.
+    const PROPERTIES: TrajectoryProperties;
+
+    /// The trajectory of a motion with these initial and final rates, rad/s; rates that the kind does not take are
+    /// ignored.
+    fn new(motion: PointToPoint<'a, T>, initial_rates: &'a [T], final_rates: &'a [T]) -> Self;
+}
+
+/// A point-to-point motion in joint space: slices of one value per joint.
 #[derive(Clone, Copy, Debug)]
-pub struct Ends<'a, T> {
+pub struct PointToPoint<'a, T> {
     /// Angles at time 0, rad.
     pub initial_angles: &'a [T],
     /// Angles at the end, rad.
@@ -46,16 +69,19 @@ pub struct Ends<'a, T> {
     pub duration: T,
 }
 
-impl<T: Real> Ends<'_, T> {
+impl<T: Real> PointToPoint<'_, T> {
     /// Initial and final angle of a joint.
     fn angles(&self, joint: usize) -> Option<[T; 2]> {
         Some([*self.initial_angles.get(joint)?, *self.final_angles.get(joint)?])
     }
+
+    /// [`quintic()`] of a joint with these initial and final rates.
+    fn quintic(&self, joint: usize, rates: [T; 2], time: T) -> Option<DesiredJoint<T>> {
+        Some(quintic(self.angles(joint)?, rates, self.duration, normalized_time(time, self.duration)))
+    }
 }
 
-/// τ = t/T, in 0..=1.
-fn part<T: Real>(time: T, duration: T) -> T {
-    let tau = time / duration;
-    let tau = if tau > T::ONE { T::ONE } else { tau };
-    if tau < T::ZERO { T::ZERO } else { tau }
+/// τ = t/T, limited to 0..=1.
+fn normalized_time<T: Real>(time: T, duration: T) -> T {
+    (time / duration).minimum(T::ONE).maximum(T::ZERO)
 }

@@ -1,10 +1,9 @@
-//! Joint angles as polynomials of fifth order, between two angles and rates.
+//! Joint angles as fifth-order polynomials of time, from the angles and rates at both ends.
 
-use super::kind::{JointTrajectory, Properties};
-use super::{Desired, Ends, Trajectory, part};
+use super::{DesiredJoint, JointTrajectory, PointToPoint, Trajectory, TrajectoryProperties};
 use crate::scalar::{Real, Scalar};
 
-/// The fifth-order polynomial of the angle with given angles and rates at both ends, and no acceleration there.
+/// The fifth-order polynomial of the angle with given angles and rates and zero acceleration at both ends.
 ///
 /// ```text
 /// θ(t) = θ(0) + Δθ(10τ³ − 15τ⁴ + 6τ⁵) + T θ̇(0)(τ − 6τ³ + 8τ⁴ − 3τ⁵) + T θ̇(T)(−4τ³ + 7τ⁴ − 3τ⁵),  τ = t/T
@@ -14,7 +13,7 @@ use crate::scalar::{Real, Scalar};
 #[derive(Clone, Copy, Debug)]
 pub struct Quintic<'a, T> {
     /// Angles and duration.
-    pub ends: Ends<'a, T>,
+    pub motion: PointToPoint<'a, T>,
     /// θ̇(0), rad/s.
     pub initial_rates: &'a [T],
     /// θ̇(T), rad/s.
@@ -22,25 +21,23 @@ pub struct Quintic<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for Quintic<'_, T> {
-    fn joint(&self, joint: usize, time: T) -> Option<Desired<T>> {
-        let rates = [*self.initial_rates.get(joint)?, *self.final_rates.get(joint)?];
-        let duration = self.ends.duration;
-        Some(quintic(self.ends.angles(joint)?, rates, duration, part(time, duration)))
+    fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
+        self.motion.quintic(joint, [*self.initial_rates.get(joint)?, *self.final_rates.get(joint)?], time)
     }
 }
 
 impl<'a, T: Real> JointTrajectory<'a, T> for Quintic<'a, T> {
-    const PROPERTIES: Properties =
-        Properties { name: "quintic", starts_at_rest: false, ends_at_rest: false, peak_factor: 1.875 };
+    const PROPERTIES: TrajectoryProperties =
+        TrajectoryProperties { name: "quintic", starts_at_rest: false, ends_at_rest: false, peak_factor: 1.875 };
 
-    fn between(ends: Ends<'a, T>, initial_rates: &'a [T], final_rates: &'a [T]) -> Self {
-        Self { ends, initial_rates, final_rates }
+    fn new(motion: PointToPoint<'a, T>, initial_rates: &'a [T], final_rates: &'a [T]) -> Self {
+        Self { motion, initial_rates, final_rates }
     }
 }
 
-/// The polynomial of [`Quintic`], for one joint and any scalar: angles (rad) and rates (rad/s) at the start and the
-/// end, the duration (s), and the part τ of it that has passed, not cut to 0..=1.
-pub fn quintic<T: Scalar>([from, to]: [T; 2], [start, end]: [T; 2], duration: T, tau: T) -> Desired<T> {
+/// The polynomial of [`Quintic`] for one joint and any scalar, from the initial and final angles (rad) and rates (rad/s),
+/// the duration T (s) and τ = t/T, not limited to 0..=1.
+pub fn quintic<T: Scalar>([from, to]: [T; 2], [start, end]: [T; 2], duration: T, tau: T) -> DesiredJoint<T> {
     let n = T::constant;
     let (tau2, tau3) = (tau * tau, tau * tau * tau);
     let change = to - from;
@@ -54,5 +51,5 @@ pub fn quintic<T: Scalar>([from, to]: [T; 2], [start, end]: [T; 2], duration: T,
         + start * tau * (n(-36.0) + n(96.0) * tau - n(60.0) * tau2)
         + end * tau * (n(-24.0) + n(84.0) * tau - n(60.0) * tau2))
         / duration;
-    Desired { angle: from + angle, rate, acceleration }
+    DesiredJoint { angle: from + angle, rate, acceleration }
 }

@@ -156,7 +156,7 @@ fn strike_singly(
     };
     let contact = |c: &contact::Contact<f64>| contact::Contact {
         arm: c.arm,
-        other: c.other,
+        partner: c.partner,
         offset: c.offset.map(|value| value as f32),
         law: match c.law {
             contact::ContactLaw::Rigid => contact::ContactLaw::Rigid,
@@ -250,11 +250,11 @@ proptest! {
         let point = |arm: usize| held.before.position(&held.before.tips[arm]);
         let from_tip = |arm: usize| (point(arm) - point(1)).into();
         let free = held.before.bodies[held.bodies[1]].com();
-        let (second_other, second_offset) =
+        let (second_partner, second_offset) =
             if same { (ContactPartner::EndEffector(1), from_tip(2)) } else { (ContactPartner::Body(0), (point(2) - free).into()) };
         let contacts = [
-            contact::Contact { arm: 0, other: ContactPartner::EndEffector(1), offset: from_tip(0), law: law(first) },
-            contact::Contact { arm: 2, other: second_other, offset: second_offset, law: law(second) },
+            contact::Contact { arm: 0, partner: ContactPartner::EndEffector(1), offset: from_tip(0), law: law(first) },
+            contact::Contact { arm: 2, partner: second_partner, offset: second_offset, law: law(second) },
         ];
         let [first, second] = held.targets()[..] else { unreachable!() };
         let motion = held.motion(&s);

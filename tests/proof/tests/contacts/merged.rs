@@ -61,8 +61,12 @@ fn rigid_contacts_are_the_rigid_capture() {
         .flatten()
         .map(|t| Body { mass: t.mass, inertia: t.inertia, pose: [0.0; 3], twist: t.twist })
         .collect();
-    let contacts =
-        [0, 1].map(|i| Contact { arm: i, other: ContactPartner::Body(i), offset: [0.3, -0.4], law: ContactLaw::Rigid });
+    let contacts = [0, 1].map(|i| Contact {
+        arm: i,
+        partner: ContactPartner::Body(i),
+        offset: [0.3, -0.4],
+        law: ContactLaw::Rigid,
+    });
     let found = solve(&model, &state, &bodies, &contacts);
     assert_close("base twist", &found.0, &base, tolerance::SAME_IMPACT);
     assert_close("joint rates", &found.1, &rates, tolerance::SAME_IMPACT);
@@ -75,12 +79,12 @@ fn rigid_contacts_are_the_rigid_capture() {
 fn a_rigid_hold_is_a_merged_link() {
     let state = state();
     let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
-    let contact = Contact { arm: 1, other: ContactPartner::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
+    let contact = Contact { arm: 1, partner: ContactPartner::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
     let tip = tips(&state)[1];
     let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
     let model = Model::<f64>::default();
     let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
-    let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
+    let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::from_view(&state) };
     let held = [Body { twist: twists[0], ..body }];
     let constraints = [LoopConstraint::new(&contact, &tip, &body.pose).expect("a hold")];
     let system = System { model: &model, bodies: &held, constraints: &constraints, joint_limits: &[] };
@@ -113,14 +117,14 @@ fn a_loop_stays_closed() {
         let contacts: Vec<_> = touching
             .map(|(arm, (tip, kind))| Contact {
                 arm,
-                other: ContactPartner::Body(0),
+                partner: ContactPartner::Body(0),
                 offset: [tip[1] - com[0], tip[2] - com[1]],
                 law: kind,
             })
             .collect();
         let model = Model::<f64>::default();
         let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
-        let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::of(&state) };
+        let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::from_view(&state) };
         let held = [Body { twist: twists[0], ..body }];
         let constraint = |(contact, tip)| LoopConstraint::new(contact, tip, &body.pose).expect("a hold");
         let constraints: Vec<_> = contacts.iter().zip(&both).map(constraint).collect();

@@ -48,7 +48,7 @@ pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
         |target: &Object| Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist };
     let contact = |touch: &PlannedContact| Contact {
         arm: touch.arm,
-        other: ContactPartner::Body(touch.target),
+        partner: ContactPartner::Body(touch.target),
         offset: touch.offset,
         law: law(touch.kind),
     };

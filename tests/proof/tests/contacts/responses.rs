@@ -133,7 +133,7 @@ proptest! {
         let speed = Vector2::from(closing);
         let both = of_end_effector(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
         let hit = |law| {
-            let contact = Contact { arm: 1, other: ContactPartner::Body(0), offset: [rx, ry], law };
+            let contact = Contact { arm: 1, partner: ContactPartner::Body(0), offset: [rx, ry], law };
             strike(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]
         };
         let [fx, fy] = both.stopping_impulse(&closing);

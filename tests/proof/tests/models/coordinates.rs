@@ -3,7 +3,7 @@
 use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
-use planar_capture::formulation::{Canonical, Reduced, derivative};
+use planar_capture::formulation::{CanonicalVariables, ReducedCoordinates, derivative};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::state::{State, vector_length};
@@ -75,15 +75,15 @@ fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
 fn with_canonical(
     model: &dyn Model<f64>,
     s: &RandomState,
-    work: impl FnOnce(&mut Canonical<'_, f64>) -> Result<(), Error>,
+    work: impl FnOnce(&mut CanonicalVariables<'_, f64>) -> Result<(), Error>,
 ) {
     let joints = model.joints();
-    let mut canonical = Canonical {
+    let mut canonical = CanonicalVariables {
         inertias: &mut vec![[0.0; 2]; joints + 1],
         poses: &mut vec![[0.0; 3]; joints + 1],
         twists: &mut vec![[0.0; 3]; joints + 1],
         offsets: &mut vec![[0.0; 2]; joints],
-        ends: &mut vec![false; joints],
+        leaves: &mut vec![false; joints],
         rates: &mut vec![0.0; joints],
     };
     // measured in another pose than it is used in
@@ -122,7 +122,7 @@ fn reduced_coordinates_accelerate_as_full_ones() {
         derivative(model, &mut law, 0.0, &x, &mut full, &mut torques).expect("full coordinates");
         let momentum = model.momentum(&state).expect("a momentum");
         let [px, py] = momentum.linear_momentum;
-        let mut equation = Reduced {
+        let mut equation = ReducedCoordinates {
             momentum: [momentum.angular_momentum, px, py],
             mass_matrix: &mut vec![0.0; (3 + joints) * (3 + joints)],
             generalized_inertia: &mut vec![0.0; joints * joints],

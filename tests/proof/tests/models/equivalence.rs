@@ -79,7 +79,7 @@ fn every_result_of_every_graph_is_in_the_table_of_quantities() {
             .iter()
             .flat_map(|quantity| {
                 let row = quantity.row();
-                let shape: Vec<usize> = row.shape.iter().map(|extent| extent.of(arms, joints)).collect();
+                let shape: Vec<usize> = row.shape.iter().map(|extent| extent.count(arms, joints)).collect();
                 row.functions.iter().map(move |function| format!("{function}.{} {shape:?} {}", row.output, row.unit))
             })
             .collect();
@@ -150,7 +150,7 @@ macro_rules! inherent {
                 let state = instant.state.view();
                 let angles: &[f64; JOINTS] = state.joint_angles.try_into().expect("joints");
                 let rates: &[f64; JOINTS] = state.joint_rates.try_into().expect("joints");
-                let targets: Vec<_> = instant.targets.iter().map(|t| t.unwrap_or_else(Target::none)).collect();
+                let targets: Vec<_> = instant.targets.iter().map(|t| t.unwrap_or_else(Target::massless)).collect();
                 let targets: [Target<f64>; ARMS] = targets.try_into().expect("arms");
 
                 let found = model.generalized_jacobian(&state.base_pose, angles).generalized_jacobian;

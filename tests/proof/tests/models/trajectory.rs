@@ -2,7 +2,7 @@
 
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::trajectory::{
-    Cycloidal, EndEffectorPath, Ends, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic,
+    Cycloidal, EndEffectorPath, PointToPoint, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic,
 };
 use planar_proof::dual::Dual;
 use planar_proof::{assert_close, tolerance};
@@ -12,8 +12,8 @@ const TO: [f64; 3] = [-0.524, -1.5, 2.0]; // the second joint does not move
 const RATES: [f64; 3] = [0.014, -0.12, 0.09];
 const DURATION: f64 = 20.0;
 
-fn ends() -> Ends<'static, f64> {
-    Ends { initial_angles: &FROM, final_angles: &TO, duration: DURATION }
+fn motion() -> PointToPoint<'static, f64> {
+    PointToPoint { initial_angles: &FROM, final_angles: &TO, duration: DURATION }
 }
 
 /// Starts at rest, ends with these rates and without acceleration, and is differentiable in between.
@@ -49,35 +49,39 @@ fn check_from(trajectory: &impl Trajectory<f64>, initial_rates: &[f64; 3], final
 
 #[test]
 fn quartic_reaches_its_end_rates() {
-    check(&Quartic { ends: ends(), final_rates: &RATES }, &RATES);
+    check(&Quartic { motion: motion(), final_rates: &RATES }, &RATES);
 }
 
 /// The printed eq. (7) reaches θ̇(T)/T.
 #[test]
 fn printed_quartic_reaches_a_twentieth() {
-    check(&QuarticAsPrinted { ends: ends(), final_rates: &RATES }, &RATES.map(|rate| rate / DURATION));
+    check(&QuarticAsPrinted { motion: motion(), final_rates: &RATES }, &RATES.map(|rate| rate / DURATION));
 }
 
 #[test]
 fn cycloidal_ends_at_rest() {
-    check(&Cycloidal { ends: ends() }, &[0.0; 3]);
+    check(&Cycloidal { motion: motion() }, &[0.0; 3]);
 }
 
 #[test]
 fn quintic_goes_from_its_first_rates_to_its_last() {
     let initial_rates = [0.1, 0.03, -0.2];
-    check_from(&Quintic { ends: ends(), initial_rates: &initial_rates, final_rates: &RATES }, &initial_rates, &RATES);
+    check_from(
+        &Quintic { motion: motion(), initial_rates: &initial_rates, final_rates: &RATES },
+        &initial_rates,
+        &RATES,
+    );
 }
 
 /// The rate of a quintic is a quartic, and from rest both are held to the same six conditions.
 #[test]
 fn quintic_from_rest_is_eq_6() {
-    let quartic = Quartic { ends: ends(), final_rates: &RATES };
-    let quintic = Quintic { ends: ends(), initial_rates: &[0.0; 3], final_rates: &RATES };
+    let quartic = Quartic { motion: motion(), final_rates: &RATES };
+    let quintic = Quintic { motion: motion(), initial_rates: &[0.0; 3], final_rates: &RATES };
     for (joint, i) in (0..3).flat_map(|joint| (0..=10).map(move |i| (joint, i))) {
         let time = f64::from(i) * DURATION / 10.0;
         let [a, b] = [quartic.joint(joint, time), quintic.joint(joint, time)].map(|d| d.expect("a joint"));
-        let values = |d: planar_capture::trajectory::Desired<f64>| [d.angle, d.rate, d.acceleration];
+        let values = |d: planar_capture::trajectory::DesiredJoint<f64>| [d.angle, d.rate, d.acceleration];
         assert_close("eq. (6)", &values(a), &values(b), tolerance::POLYNOMIAL);
     }
 }
@@ -108,9 +112,9 @@ fn quartic_is_the_polynomial_of_eq_6() {
             let corrected = literal(DURATION * RATES[joint] / change, tau);
             let printed = literal(RATES[joint] / change, tau);
             let time = tau * DURATION;
-            let rate = |found: Option<planar_capture::trajectory::Desired<f64>>| found.expect("a joint").rate;
-            let quartic = rate(Quartic { ends: ends(), final_rates: &RATES }.joint(joint, time));
-            let as_printed = rate(QuarticAsPrinted { ends: ends(), final_rates: &RATES }.joint(joint, time));
+            let rate = |found: Option<planar_capture::trajectory::DesiredJoint<f64>>| found.expect("a joint").rate;
+            let quartic = rate(Quartic { motion: motion(), final_rates: &RATES }.joint(joint, time));
+            let as_printed = rate(QuarticAsPrinted { motion: motion(), final_rates: &RATES }.joint(joint, time));
             assert_close("eq. (6)", &[quartic, as_printed], &[corrected, printed], 10.0 * tolerance::POLYNOMIAL);
         }
     }
