@@ -7,7 +7,7 @@ use crate::generic::Generic;
 use crate::layout::Layout;
 use crate::manifest::Manifest;
 use crate::owned::CloneModel;
-use crate::structure::{Difference, Mismatch, in_words, parameters};
+use crate::structure::{Mismatch, StructuralDifference, in_words, parameters};
 
 /// A generated structure, and its model with given values of the parameters.
 struct Candidate {
@@ -85,7 +85,7 @@ pub fn manifest(layout: &Layout) -> Result<&'static Manifest, NoModel> {
 /// The generated structure with the fewest parameters that the layout fits, and their values.
 fn fitting(layout: &Layout) -> Result<(&'static Candidate, Vec<f64>), NoModel> {
     let mut fitting: Option<(&'static Candidate, Vec<f64>)> = None;
-    let mut nearest: Option<(&str, Vec<Difference>)> = None;
+    let mut nearest: Option<(&str, Vec<StructuralDifference>)> = None;
     for candidate in CANDIDATES {
         match parameters(candidate.manifest, layout) {
             Ok(values) if fitting.as_ref().is_none_or(|(_, best)| values.len() < best.len()) => {

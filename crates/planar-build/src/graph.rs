@@ -3,7 +3,6 @@
 use crate::renderer::camel;
 use crate::renderer::json::{list, text};
 use planar_layout::layout::Layout;
-use planar_layout::structure::layout_parameters;
 use serde_json::{Value, json};
 
 /// The format of the graphs that are read.
@@ -57,7 +56,7 @@ pub fn read(graph_text: &str, layout: &Layout) -> Result<Value, GraphError> {
     let arms: Vec<Value> = layout.arms.iter().map(|arm| json!({"name": arm.name, "links": arm.links.len()})).collect();
     same("name", &graph["layout"]["name"], &json!(layout.name))?;
     same("arms", &graph["layout"]["arms"], &json!(arms))?;
-    let parameters = layout_parameters(layout);
+    let parameters = layout.parameters();
     for parameter in list(&graph["parameters"])? {
         let name = text(&parameter["name"])?;
         let place = |key: &str| parameter[key].as_u64().and_then(|place| usize::try_from(place).ok()).unwrap_or(0);

@@ -135,6 +135,7 @@ pub struct Coordinates<B, J, F> {
 ///
 /// # Errors
 /// [`Error::Length`] unless it has 3 + joints entries and three more per body.
+#[expect(clippy::type_complexity, reason = "the parts of a struct")]
 pub fn coordinates<T>(half: &[T], joints: usize) -> Result<Coordinates<&[T; 3], &[T], &[[T; 3]]>, Error> {
     let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
     let (base, rest) = half.split_first_chunk::<3>().ok_or(wrong)?;

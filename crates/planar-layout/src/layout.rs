@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
+use planar_dynamics::manifest::ParameterKind;
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
@@ -69,15 +70,15 @@ impl Layout {
     /// Reads a layout file.
     ///
     /// # Errors
-    /// All that is wrong with the file or its content.
+    /// A report of everything wrong with the file or its content.
     pub fn read(path: &Path) -> Result<Self, Report> {
         Self::parse(&read_text(path, "TOML")?, &path.display().to_string())
     }
 
-    /// Reads a layout from TOML text; `file` is the name that problems are reported under.
+    /// Reads a layout from TOML text; `file` is its name in reports.
     ///
     /// # Errors
-    /// All that is wrong with the content.
+    /// A report of everything wrong with the content.
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
         read_document(text, file, &["name", "base", "arm"], |root| {
             let name = root.require("name", MODULE_NAME).and_then(|value| module_name(&value));
@@ -94,29 +95,27 @@ impl Layout {
         })
     }
 
-    /// Whether a reference to a layout is a path, and not the name of a shipped one: it ends in `.toml` or has a `/`.
+    /// Whether a reference to a layout is a path, not the name of a shipped one: it ends in `.toml` or contains a `/`.
     #[must_use]
     pub fn is_path(reference: &str) -> bool {
         reference.contains('/') || Path::new(reference).extension().is_some_and(|extension| extension == "toml")
     }
 
-    /// Whether this can be the name of a layout: of a Rust module and of a file.
+    /// Whether this is a valid name of a layout, and so of a Rust module and of a file.
     #[must_use]
     pub fn is_name(name: &str) -> bool {
-        has_letters_of_a_module(name) && !is_keyword(name)
+        has_module_letters(name) && !is_keyword(name)
     }
 
-    /// `joint 2 of arm1`, by the index over all arms.
+    /// `joint 2 of arm1`, from the index over all arms.
+    ///
+    /// # Panics
+    /// For an index that is not less than the number of joints.
     #[must_use]
     pub fn joint_name(&self, index: usize) -> String {
-        let mut left = index;
-        for arm in &self.arms {
-            if left < arm.links.len() {
-                return format!("joint {} of {}", left + 1, arm.name);
-            }
-            left -= arm.links.len();
-        }
-        format!("joint {}", index + 1)
+        let mut joints = self.arms.iter().flat_map(|arm| (1..=arm.links.len()).map(|number| (&arm.name, number)));
+        let (arm, number) = joints.nth(index).expect("an index of a joint");
+        format!("joint {number} of {arm}")
     }
 
     /// The number of joints of all arms together.
@@ -131,22 +130,20 @@ impl Layout {
         self.base.mass + self.arms.iter().map(Arm::mass).sum::<f64>()
     }
 
-    /// Hash of the content, in hexadecimal: comments, spacing, the writing of numbers and written-out
-    /// defaults do not change it.
+    /// Hash of the content, in hexadecimal; comments, spacing, number formats and explicit defaults do not change it.
     ///
-    /// It is the SHA-256 of this UTF-8 text: lines `key=value`, each ended by a newline, in the order
-    /// `name`, `base.mass`, `base.inertia`, then for each arm i from 0 `arm[i].name`,
-    /// `arm[i].mount[0]`, `arm[i].mount[1]`, `arm[i].mount_angle`, and for each of its links j from 0
-    /// `arm[i].link[j].length`, `.mass`, `.inertia`, `.com[0]`, `.com[1]`. Names stand as they are;
-    /// numbers are the 16 lower-case hexadecimal digits of their IEEE-754 binary64 bits, most
-    /// significant first, with −0 written as 0.
+    /// It is the SHA-256 of this UTF-8 text: lines `key=value`, each ended by a newline, in the order `name`,
+    /// `base.mass`, `base.inertia`, then for each arm i from 0 `arm[i].name`, `arm[i].mount[0]`, `arm[i].mount[1]`,
+    /// `arm[i].mount_angle`, and for each of its links j from 0 `arm[i].link[j].length`, `.mass`, `.inertia`, `.com[0]`,
+    /// `.com[1]`. Names are unchanged; numbers are the 16 lower-case hexadecimal digits of their IEEE-754 binary64 bits,
+    /// most significant first, with −0 written as 0.
     #[must_use]
     pub fn sha256(&self) -> String {
         let digest: [u8; 32] = Sha256::digest(self.canonical_text()).into();
         digest.map(|byte| format!("{byte:02x}")).concat()
     }
 
-    /// TOML text that reads back as the same numbers.
+    /// TOML text from which [`Self::parse`] reads the same numbers.
     #[must_use]
     pub fn to_toml(&self) -> String {
         let text = |key: &str, text: &str| format!("{key} = {}\n", toml::Value::from(text));
@@ -173,36 +170,58 @@ impl Layout {
         lines.concat()
     }
 
-    fn canonical_text(&self) -> String {
-        // Adding +0 turns −0 into +0 and leaves every other number as it is.
-        let number = |key: &str, value: f64| format!("{key}={:016x}\n", (value + 0.0).to_bits());
-        let mut lines = vec![
-            format!("name={}\n", self.name),
-            number("base.mass", self.base.mass),
-            number("base.inertia", self.base.inertia),
-        ];
+    /// The layout's numbers in the order of the canonical text, with their arms and links; 0 where there is none.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<(ParameterKind, usize, usize, f64)> {
+        use ParameterKind as Kind;
+        let mut all = vec![(Kind::BaseMass, 0, 0, self.base.mass), (Kind::BaseInertia, 0, 0, self.base.inertia)];
         for (i, arm) in self.arms.iter().enumerate() {
-            lines.push(format!("arm[{i}].name={}\n", arm.name));
-            lines.push(number(&format!("arm[{i}].mount[0]"), arm.mount[0]));
-            lines.push(number(&format!("arm[{i}].mount[1]"), arm.mount[1]));
-            lines.push(number(&format!("arm[{i}].mount_angle"), arm.mount_angle));
-            for (j, link) in arm.links.iter().enumerate() {
-                let entries = [
-                    ("length", link.length),
-                    ("mass", link.mass),
-                    ("inertia", link.inertia),
-                    ("com[0]", link.com[0]),
-                    ("com[1]", link.com[1]),
-                ];
-                lines.extend(entries.map(|(key, value)| number(&format!("arm[{i}].link[{j}].{key}"), value)));
+            let [x, y] = arm.mount;
+            all.extend([(Kind::MountX, i, 0, x), (Kind::MountY, i, 0, y), (Kind::MountAngle, i, 0, arm.mount_angle)]);
+            for (k, link) in arm.links.iter().enumerate() {
+                all.extend([
+                    (Kind::LinkLength, i, k, link.length),
+                    (Kind::LinkMass, i, k, link.mass),
+                    (Kind::LinkInertia, i, k, link.inertia),
+                    (Kind::LinkComX, i, k, link.com[0]),
+                    (Kind::LinkComY, i, k, link.com[1]),
+                ]);
             }
+        }
+        all
+    }
+
+    fn canonical_text(&self) -> String {
+        let mut lines = vec![format!("name={}\n", self.name)];
+        for (kind, arm, link, value) in self.parameters() {
+            if kind == ParameterKind::MountX {
+                lines.push(format!("arm[{arm}].name={}\n", self.arms[arm].name));
+            }
+            // adding +0 turns −0 into +0
+            lines.push(format!("{}={:016x}\n", parameter_key(kind, arm, link), (value + 0.0).to_bits()));
         }
         lines.concat()
     }
 }
 
+/// The key of a parameter in a layout file: `arm[1].link[0].mass`.
+pub(crate) fn parameter_key(kind: ParameterKind, arm: usize, link: usize) -> String {
+    match kind {
+        ParameterKind::BaseMass => "base.mass".to_owned(),
+        ParameterKind::BaseInertia => "base.inertia".to_owned(),
+        ParameterKind::MountX => format!("arm[{arm}].mount[0]"),
+        ParameterKind::MountY => format!("arm[{arm}].mount[1]"),
+        ParameterKind::MountAngle => format!("arm[{arm}].mount_angle"),
+        ParameterKind::LinkLength => format!("arm[{arm}].link[{link}].length"),
+        ParameterKind::LinkMass => format!("arm[{arm}].link[{link}].mass"),
+        ParameterKind::LinkInertia => format!("arm[{arm}].link[{link}].inertia"),
+        ParameterKind::LinkComX => format!("arm[{arm}].link[{link}].com[0]"),
+        ParameterKind::LinkComY => format!("arm[{arm}].link[{link}].com[1]"),
+    }
+}
+
 impl Base {
-    /// √(inertia / mass), in m: how far out its mass is.
+    /// √(inertia / mass), in m.
     #[must_use]
     pub fn radius_of_gyration(&self) -> f64 {
         (self.inertia / self.mass).sqrt()
@@ -264,14 +283,14 @@ impl Link {
 
 const MODULE_NAME: &str = "a name for a Rust module (lower-case letters, digits and `_`, a letter first)";
 
-/// A name that can be a Rust module and a file.
+/// A valid name of a Rust module and a file.
 fn module_name(value: &Value<'_>) -> Option<String> {
     let name = value.text(MODULE_NAME)?;
-    if !has_letters_of_a_module(name) {
-        let plain: String =
+    if !has_module_letters(name) {
+        let suggestion: String =
             name.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
-        let help = plain.starts_with(|c: char| c.is_ascii_lowercase()) && plain.len() <= 64;
-        value.expected(&format!("{MODULE_NAME}, at most 64 of them"), help.then(|| format!("`{plain}` would do")));
+        let help = has_module_letters(&suggestion).then(|| format!("`{suggestion}` would do"));
+        value.expected(&format!("{MODULE_NAME}, at most 64 of them"), help);
         return None;
     }
     if is_keyword(name) {
@@ -281,7 +300,7 @@ fn module_name(value: &Value<'_>) -> Option<String> {
     Some(name.to_owned())
 }
 
-fn has_letters_of_a_module(name: &str) -> bool {
+fn has_module_letters(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_lowercase())
         && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
         && name.len() <= 64
