@@ -1,34 +1,32 @@
-//! One TOML document and the problems met while reading it.
+//! The source text of one TOML document and the problems found in it.
 
 use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-use toml::de::DeTable;
+use super::{Diagnostic, Report, Severity, Source, printable};
 
-use super::table::{Table, place};
-use super::{Problem, Report, Severity, Source, printable, syntax};
-
-/// The source that a tree's spans point into, and where its readers leave what they find wrong.
+/// A source text, to which the spans of its tree refer, and the problems that its readers find.
 #[derive(Debug)]
 pub(super) struct Document {
     source: Arc<Source>,
-    problems: RefCell<Vec<Problem>>,
-    /// Path and keys of the tables met so far.
+    problems: RefCell<Vec<Diagnostic>>,
+    /// Path and keys of the tables read so far.
     tables: RefCell<Vec<(String, Vec<String>)>>,
-    /// Problems, by index, that are unknown tables, and the tables' names.
-    strays: RefCell<Vec<(usize, String)>>,
+    /// Indices of the problems that are unknown tables, with the tables' names.
+    unknown_tables: RefCell<Vec<(usize, String)>>,
 }
 
 impl Document {
-    /// A document without problems; `file` is the name that they are shown under.
+    /// A document without problems; `file` is its name in the report. A byte order mark is dropped.
     pub(super) fn new(text: &str, file: &str) -> Self {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source { file: printable(file), text: text.to_owned() };
         Self {
             source: Arc::new(source),
             problems: RefCell::default(),
             tables: RefCell::default(),
-            strays: RefCell::default(),
+            unknown_tables: RefCell::default(),
         }
     }
 
@@ -37,18 +35,23 @@ impl Document {
         &self.source.text
     }
 
+    /// Whether no problem was found.
+    pub(super) fn is_valid(&self) -> bool {
+        self.problems.borrow().is_empty()
+    }
+
     /// The source text of a span.
     pub(super) fn text(&self, span: &Range<usize>) -> &str {
-        self.source.text.get(span.clone()).unwrap_or_default()
+        &self.source.text[span.clone()]
     }
 
-    /// Notes a problem at a span.
+    /// Adds an error at a span.
     pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
-        self.note(Severity::Error, span, message, label, help);
+        self.add(Severity::Error, span, message, label, help);
     }
 
-    /// Notes what is wrong or odd at a span.
-    pub(super) fn note(
+    /// Adds a problem at a span.
+    pub(super) fn add(
         &self,
         severity: Severity,
         span: &Range<usize>,
@@ -57,29 +60,30 @@ impl Document {
         help: Option<String>,
     ) {
         let place = Some((Arc::clone(&self.source), span.clone()));
-        self.problems.borrow_mut().push(Problem { severity, place, message, label, help });
+        self.problems.borrow_mut().push(Diagnostic { severity, place, message, label, help });
     }
 
-    /// Remembers the keys of a table.
-    pub(super) fn open(&self, path: &str, keys: &[&str]) {
+    /// Stores the path and keys of a table.
+    pub(super) fn add_table(&self, path: &str, keys: &[&str]) {
         let keys = keys.iter().map(|&key| key.to_owned()).collect();
         self.tables.borrow_mut().push((path.to_owned(), keys));
     }
 
-    /// Remembers that the last problem is an unknown table, which may belong into another that comes later.
-    pub(super) fn remember_stray(&self, name: &str) {
-        let index = self.problems.borrow().len().saturating_sub(1);
-        self.strays.borrow_mut().push((index, name.to_owned()));
+    /// Marks the last problem as an unknown table, which may belong to a table that is read later.
+    pub(super) fn mark_unknown_table(&self, name: &str) {
+        let index = self.problems.borrow().len() - 1;
+        self.unknown_tables.borrow_mut().push((index, name.to_owned()));
     }
 
-    /// Says of the unknown tables where they belong, now that all tables are known.
-    fn place_strays(&self) {
+    /// Labels the unknown tables with the tables that they belong to, once all are known.
+    fn label_unknown_tables(&self) {
         let (mut problems, tables) = (self.problems.borrow_mut(), self.tables.borrow());
-        for (index, name) in self.strays.borrow().iter() {
+        for (index, name) in self.unknown_tables.borrow().iter() {
             let owner = tables.iter().find(|(_, keys)| keys.contains(name));
-            if let (Some((owner, _)), Some(Problem { label: label @ None, .. })) = (owner, problems.get_mut(*index)) {
-                *label =
-                    Some(format!("this belongs into {}: write `[[{}.{name}]]`", place(owner), without_indices(owner)));
+            let label = &mut problems[*index].label;
+            if let (Some((owner, _)), None) = (owner, &label) {
+                let (table, header) = (table_name(owner), without_indices(owner));
+                *label = Some(format!("this belongs into {table}: write `[[{header}.{name}]]`"));
             }
         }
     }
@@ -93,66 +97,42 @@ impl Document {
             let inside = inside.is_some_and(|rest| outer.is_empty() || rest.starts_with('.'));
             inside && keys.iter().any(|known| known == key)
         });
-        owner.map(|(outer, _)| place(outer))
+        owner.map(|(outer, _)| table_name(outer))
     }
 
-    /// Takes over the problems of a file that the value at `span` names. Those without a place get
-    /// this one, and a message that starts with `value`.
+    /// Adds the problems of a file that the value at `span` names. Those without a place get this one, and a message that
+    /// starts with `value`.
     pub(super) fn adopt(&self, span: &Range<usize>, value: &str, report: Report) {
         let here = (Arc::clone(&self.source), span.clone());
         let adopted = report.problems.into_iter().map(|problem| match problem.place {
             Some(_) => problem,
-            None => {
-                Problem { place: Some(here.clone()), message: format!("{value}, but {}", problem.message), ..problem }
-            }
+            None => Diagnostic {
+                place: Some(here.clone()),
+                message: format!("{value}, but {}", problem.message),
+                ..problem
+            },
         });
         self.problems.borrow_mut().extend(adopted);
     }
 
     /// The problems in the order of the source, those of other files last.
     pub(super) fn into_report(self) -> Report {
-        self.place_strays();
+        self.label_unknown_tables();
         let mut problems = self.problems.into_inner();
         problems.sort_by_key(|problem| match &problem.place {
-            Some((source, span)) if Arc::ptr_eq(source, &self.source) => span.start,
-            _ => usize::MAX,
+            Some((source, span)) if Arc::ptr_eq(source, &self.source) => (false, span.start),
+            _ => (true, 0),
         });
         Report { problems }
     }
 }
 
-/// Parses `text` and reads its root table, which may hold `keys` and no others, with `read`.
-///
-/// `read` returns `None` where it has noted problems; it should look at all it can before it does.
-///
-/// # Errors
-/// The syntax errors (one per line; the content is then not looked at), or all problems noted.
-pub fn read_document<T>(
-    text: &str,
-    file: &str,
-    keys: &[&str],
-    read: impl FnOnce(&Table<'_>) -> Option<T>,
-) -> Result<T, Report> {
-    let text = without_mark(text);
-    let document = Document::new(text, file);
-    let (tree, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        syntax::report(&document, &errors);
-        return Err(document.into_report());
-    }
-    let content = read(&Table::new(&document, tree.get_ref(), 0..0, String::new(), keys));
-    match content {
-        Some(content) if document.problems.borrow().is_empty() => Ok(content),
-        _ => Err(document.into_report()),
-    }
+/// A table as named in a sentence.
+pub(super) fn table_name(path: &str) -> String {
+    if path.is_empty() { "the top level".to_owned() } else { format!("`{path}`") }
 }
 
-/// A path as headers have it: `arm.link` of `arm[0].link[1]`.
+/// A path as in headers: `arm.link` of `arm[0].link[1]`.
 fn without_indices(path: &str) -> String {
     path.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect()
-}
-
-/// The text without the byte order mark that some editors put first.
-pub(super) fn without_mark(text: &str) -> &str {
-    text.strip_prefix('\u{feff}').unwrap_or(text)
 }

@@ -4,58 +4,58 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-use super::{Problem, Report, nearest, printable};
+use super::{Diagnostic, Report, nearest, printable};
 
-/// No layout or scenario comes near this size, in bytes; a device or a data file may.
-const LARGEST: u64 = 16 << 20;
+/// Maximum size of an input file in bytes, far above that of any layout or scenario.
+const MAXIMUM_SIZE: u64 = 16 << 20;
 
 /// Reads a UTF-8 text file of at most 16 MiB; `kind` is what it should be, "TOML", and in lower case its extension.
 ///
 /// # Errors
-/// A report of what is wrong with the path: no such file (with the nearest name beside it), a
-/// directory, unreadable, too large, or not UTF-8 (with the line and column of the first bad byte).
+/// A report for a path that does not exist (with the most similar name), a directory, and a file that is unreadable, too
+/// large or not UTF-8 (with the line and column of the first invalid byte).
 pub fn read_text(path: &Path, kind: &str) -> Result<String, Report> {
     let bytes = read_bytes(path).map_err(|error| unreadable(path, kind, &error))?;
     let name = shown(path);
-    if bytes.len() as u64 > LARGEST {
+    if bytes.len() as u64 > MAXIMUM_SIZE {
         let message = format!("`{name}` is larger than 16 MiB");
-        return Err(Problem::with_file(message, format!("expected a small {kind} file")).into());
+        return Err(Diagnostic::with_file(message, format!("expected a small {kind} file")).into());
     }
     String::from_utf8(bytes).map_err(|error| {
-        let good = error.utf8_error().valid_up_to();
-        let before = String::from_utf8_lossy(error.as_bytes().get(..good).unwrap_or_default());
+        let valid = error.utf8_error().valid_up_to();
+        let before = String::from_utf8_lossy(&error.as_bytes()[..valid]);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-        let byte = error.as_bytes().get(good).copied().unwrap_or_default();
+        let byte = error.as_bytes()[valid];
         let message = format!("{name}:{line}:{column}: byte 0x{byte:02x} is not UTF-8 text");
-        Problem::with_file(message, "save the file with the encoding UTF-8".to_owned()).into()
+        Diagnostic::with_file(message, "save the file with the encoding UTF-8".to_owned()).into()
     })
 }
 
 fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    File::open(path)?.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
 fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Report {
     let name = shown(path);
     match error.kind() {
-        ErrorKind::NotFound => Problem::with_file(format!("there is no file `{name}`"), elsewhere(path)),
-        ErrorKind::IsADirectory => Problem::with_file(
+        ErrorKind::NotFound => Diagnostic::with_file(format!("there is no file `{name}`"), missing_file_hint(path)),
+        ErrorKind::IsADirectory => Diagnostic::with_file(
             format!("`{name}` is a directory, expected a {kind} file"),
             names_in(path)
                 .into_iter()
                 .find(|entry| has_extension(entry, kind))
                 .map(|entry| format!("name a file in it, such as `{}`", shown(&path.join(entry)))),
         ),
-        _ => Problem::with_file(format!("cannot read `{name}`: {error}"), None),
+        _ => Diagnostic::with_file(format!("cannot read `{name}`: {error}"), None),
     }
     .into()
 }
 
-/// Where a missing file may be instead.
-fn elsewhere(path: &Path) -> Option<String> {
+/// A hint for a file that does not exist.
+fn missing_file_hint(path: &Path) -> Option<String> {
     let parent = path.parent()?;
     let folder = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
     if !folder.is_dir() {
@@ -78,7 +78,7 @@ fn has_extension(name: &str, kind: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case(kind))
 }
 
-/// A path as shown to the user: whole, but without characters that a terminal would act on.
+/// A path without control characters.
 fn shown(path: &Path) -> String {
     printable(&path.display().to_string())
 }

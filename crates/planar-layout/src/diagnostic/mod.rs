@@ -1,15 +1,14 @@
-//! Problems in input files, shown the way a compiler shows them.
+//! Reports of the problems in input files, in the form of a compiler's diagnostics.
 //!
-//! [`read_text`] reads a file, [`read_document`] parses it and hands its root [`Table`] to a reader. Readers note every
-//! problem they meet and carry on, so that one [`Report`] shows all. What can be read but is odd, somebody else finds
-//! in the content; [`report_warnings`] shows it at its place in the file.
+//! [`read_text`] reads a file; [`read_document`] parses it and passes its root [`Table`] to a reader. Readers continue
+//! after a problem, so that one [`Report`] shows all. [`report_warnings`] shows warnings about the content at their places
+//! in the file.
 
 mod document;
 mod file;
-mod quantity;
+mod number_rule;
 mod syntax;
 mod table;
-mod value;
 mod warning;
 
 use std::error::Error;
@@ -18,15 +17,15 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use document::Document;
+use toml::de::DeTable;
 
-pub use document::read_document;
 pub use file::read_text;
-pub use quantity::NumberRule;
-pub use table::{Table, every};
-pub use value::Value;
+pub use number_rule::NumberRule;
+pub use table::{Table, Value, every};
 pub use warning::{Warning, report_warnings};
 
-/// How many problems a report shows before it only counts them: about one screen.
+/// Number of problems that a report shows, about one screen; it counts the others.
 const SHOWN: usize = 8;
 
 /// A file's name as shown to the user, and its text.
@@ -36,18 +35,18 @@ struct Source {
     text: String,
 }
 
-/// How bad it is.
+/// The severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Severity {
-    /// The file cannot be worked with.
+    /// The file cannot be used.
     Error,
-    /// The file can be worked with, but may not say what was meant.
+    /// The file can be used, but may contain a mistake.
     Warning,
 }
 
-/// One thing that is wrong or odd, where it is and what would be right.
+/// One problem, its place, and a hint.
 #[derive(Clone, Debug)]
-struct Problem {
+struct Diagnostic {
     severity: Severity,
     place: Option<(Arc<Source>, Range<usize>)>,
     message: String,
@@ -55,7 +54,7 @@ struct Problem {
     help: Option<String>,
 }
 
-impl Problem {
+impl Diagnostic {
     /// A problem with a whole file, or with one that cannot be read at all.
     fn with_file(message: String, help: impl Into<Option<String>>) -> Self {
         Self { severity: Severity::Error, place: None, message, label: None, help: help.into() }
@@ -78,20 +77,19 @@ impl Problem {
     }
 }
 
-/// The part of a span on its first line: a long array is pointed at, not reprinted.
+/// The part of a span on its first line, so that a long array is not printed.
 fn first_line(text: &str, span: &Range<usize>) -> Range<usize> {
-    let length = text.get(span.clone()).and_then(|part| part.find(['\r', '\n']));
+    let length = text[span.clone()].find(['\r', '\n']);
     span.start..length.map_or(span.end, |length| span.start + length)
 }
 
-/// All that is wrong with an input: the error of every reader here. Or all that is odd about one: see
-/// [`report_warnings`].
+/// All problems of an input, the error of every reader here, or all warnings, see [`report_warnings`].
 ///
-/// `Display` is [`render`](Self::render) without colour: for each problem (the first eight; the
-/// rest are counted) what is wrong, the file, line and column, the line itself, and a hint.
+/// `Display` is [`render`](Self::render) without colour: for each of the first eight problems the message, the file, line
+/// and column, the line itself, and a hint; the others are counted.
 #[derive(Clone, Debug)]
 pub struct Report {
-    problems: Vec<Problem>,
+    problems: Vec<Diagnostic>,
 }
 
 impl Report {
@@ -101,7 +99,7 @@ impl Report {
         let renderer = if color { Renderer::styled() } else { Renderer::plain() };
         let mut parts: Vec<_> = self.problems.iter().take(SHOWN).map(|problem| problem.render(&renderer)).collect();
         let noun = match self.problems.first() {
-            Some(Problem { severity: Severity::Warning, .. }) => "warning",
+            Some(Diagnostic { severity: Severity::Warning, .. }) => "warning",
             _ => "problem",
         };
         match self.problems.len().saturating_sub(SHOWN) {
@@ -119,7 +117,7 @@ impl Report {
         self.problems.len()
     }
 
-    /// This report and, after it, another.
+    /// This report followed by another.
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.problems.extend(other.problems);
@@ -127,8 +125,8 @@ impl Report {
     }
 }
 
-impl From<Problem> for Report {
-    fn from(problem: Problem) -> Self {
+impl From<Diagnostic> for Report {
+    fn from(problem: Diagnostic) -> Self {
         Self { problems: vec![problem] }
     }
 }
@@ -141,8 +139,28 @@ impl Display for Report {
 
 impl Error for Report {}
 
-/// The candidate that `name` is most likely a misspelling of, ignoring case; `None` if none is
-/// close (Jaro–Winkler similarity below 0.8).
+/// Parses `text` and reads its root table, which may hold `keys` and no others, with `read`. `read` returns `None` where
+/// it has found problems.
+///
+/// # Errors
+/// The syntax errors, one per line, or all problems of the content.
+pub fn read_document<T>(
+    text: &str,
+    file: &str,
+    keys: &[&str],
+    read: impl FnOnce(&Table<'_>) -> Option<T>,
+) -> Result<T, Report> {
+    let document = Document::new(text, file);
+    let content = {
+        let (tree, errors) = DeTable::parse_recoverable(document.source());
+        syntax::report(&document, &errors);
+        let root = || Table::new(&document, tree.get_ref(), 0..0, String::new(), keys);
+        if errors.is_empty() { read(&root()) } else { None }
+    };
+    content.filter(|_| document.is_valid()).ok_or_else(|| document.into_report())
+}
+
+/// The candidate that is most similar to `name`, ignoring case; `None` if all have a Jaro–Winkler similarity below 0.8.
 #[must_use]
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = name.to_lowercase();
@@ -154,8 +172,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// The names in backticks as an English list, such as `` `a`, `b` or `c` `` with the conjunction
-/// "or".
+/// The names in backticks as an English list, such as `` `a`, `b` or `c` `` with the conjunction "or".
 #[must_use]
 pub fn listing(names: &[&str], conjunction: &str) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
@@ -166,18 +183,18 @@ pub fn listing(names: &[&str], conjunction: &str) -> String {
     }
 }
 
-/// Text from an input as one short line that is safe to print.
+/// Text from an input as one short printable line.
 #[must_use]
 pub fn excerpt(text: &str) -> String {
     const LONGEST: usize = 48;
     let line = printable(&text.split_whitespace().collect::<Vec<_>>().join(" "));
     match line.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", line.get(..end).unwrap_or_default()),
+        Some((end, _)) => format!("{}…", &line[..end]),
         None => line,
     }
 }
 
-/// The text without characters that a terminal would act on instead of showing them.
+/// The text with control characters replaced.
 pub fn printable(text: &str) -> String {
     text.replace(char::is_control, "\u{fffd}")
 }

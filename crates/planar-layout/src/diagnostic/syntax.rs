@@ -1,21 +1,21 @@
-//! What is not valid TOML, and what to write instead.
+//! Syntax errors of TOML, with hints.
 
 use super::document::Document;
 use super::excerpt;
 
-/// Notes the syntax errors, the first of each line and none after an array that is left open: those only follow.
+/// Adds the first syntax error of each line; errors after an unclosed array are omitted as its consequences.
 pub(super) fn report(document: &Document, errors: &[toml::de::Error]) {
     let text = document.source();
     let mut last_line = None;
     let mut errors: Vec<_> = errors.iter().map(|e| (e.span().unwrap_or_default(), e.message())).collect();
     errors.sort_by_key(|(span, _)| span.start);
     for (span, message) in errors {
-        let before = text.get(..span.start).unwrap_or_default();
+        let before = &text[..span.start];
         let line = before.matches('\n').count();
         if last_line.replace(line) != Some(line) {
             let shown = excerpt(text.lines().nth(line).unwrap_or_default());
             let title = format!("`{shown}` is not valid TOML: {message}");
-            document.report(&span, title, None, hint(message, document.text(&span)));
+            document.report(&span, title, None, hint(message, document.text(&span)).map(str::to_owned));
         }
         let begins_line = before.rsplit('\n').next().is_some_and(|start| start.trim().is_empty());
         if begins_line && message.contains(BETWEEN_ELEMENTS) {
@@ -24,36 +24,35 @@ pub(super) fn report(document: &Document, errors: &[toml::de::Error]) {
     }
 }
 
-/// In the parser's message, where an array does not go on as it should.
+/// Part of the parser's message for an array without a separator or an end.
 const BETWEEN_ELEMENTS: &str = "between array elements";
 
-/// What to write instead of the text at an error, for the mistakes that people make most.
-fn hint(message: &str, found: &str) -> Option<String> {
-    let number = found.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-    let hint = if message.contains("must be quoted") && number {
-        "numbers stand alone, separated by commas, without units or formulas: `[0.5, 10]`"
-    } else if message.contains("must be quoted") && found.starts_with(['“', '”', '„', '‘', '’', '`', '«']) {
-        "text stands in straight quotes: `\"arm1\"`"
-    } else if message.contains("must be quoted") {
-        "text stands in quotes, `\"arm1\"`; formulas are not evaluated"
-    } else if message.contains("duplicate key") {
-        "each key is given once; every entry of a list, the first too, starts with `[[...]]`"
-    } else if message.contains(BETWEEN_ELEMENTS) {
-        "the elements of an array are separated by commas; or its `]` is missing on a line above"
-    } else if message.contains("invalid basic string") || message.contains("invalid literal string") {
-        "text ends with the quote that it starts with, on the same line: `\"arm1\"`"
-    } else if message.contains("mantissa") || message.contains("fraction") {
-        "write digits on both sides of the point: `0.5`, `5.0`"
-    } else if message.contains("leading zero") {
-        "write the number without the leading zero"
-    } else if message.contains("unexpected key or value") {
-        "write one `key = value` per line, and numbers with a decimal point: `1.5`"
-    } else if message.contains("key with no value") || message.contains("invalid unquoted key") {
-        "write `key = value`"
-    } else if message.contains("expected key") {
-        "write lines `key = value` and headers `[table]`"
-    } else {
-        return None;
-    };
-    Some(hint.to_owned())
+/// Parts of the parser's messages, and what to write instead; the first that matches counts.
+const HINTS: [(&str, &str); 12] = [
+    ("must be quoted", "text stands in quotes, `\"arm1\"`; formulas are not evaluated"),
+    ("duplicate key", "each key is given once; every entry of a list, the first too, starts with `[[...]]`"),
+    (BETWEEN_ELEMENTS, "the elements of an array are separated by commas; or its `]` is missing on a line above"),
+    ("invalid basic string", CLOSING_QUOTE),
+    ("invalid literal string", CLOSING_QUOTE),
+    ("mantissa", DIGITS_AROUND_POINT),
+    ("fraction", DIGITS_AROUND_POINT),
+    ("leading zero", "write the number without the leading zero"),
+    ("unexpected key or value", "write one `key = value` per line, and numbers with a decimal point: `1.5`"),
+    ("key with no value", KEY_AND_VALUE),
+    ("invalid unquoted key", KEY_AND_VALUE),
+    ("expected key", "write lines `key = value` and headers `[table]`"),
+];
+const CLOSING_QUOTE: &str = "text ends with the quote that it starts with, on the same line: `\"arm1\"`";
+const DIGITS_AROUND_POINT: &str = "write digits on both sides of the point: `0.5`, `5.0`";
+const KEY_AND_VALUE: &str = "write `key = value`";
+
+/// What to write instead of the text at an error, for the most frequent mistakes.
+fn hint(message: &str, found: &str) -> Option<&'static str> {
+    if message.contains("must be quoted") && found.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
+        return Some("numbers stand alone, separated by commas, without units or formulas: `[0.5, 10]`");
+    }
+    if message.contains("must be quoted") && found.starts_with(['“', '”', '„', '‘', '’', '`', '«']) {
+        return Some("text stands in straight quotes: `\"arm1\"`");
+    }
+    HINTS.iter().find(|(part, _)| message.contains(part)).map(|(_, hint)| *hint)
 }

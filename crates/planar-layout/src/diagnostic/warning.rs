@@ -1,31 +1,29 @@
-//! Warnings: what a reader accepts, and a person should look at.
+//! Warnings about values that are valid but probably mistakes, shown at their places in the source.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::document::{Document, without_mark};
-use super::value::Value;
-use super::{Report, Severity};
+use super::document::Document;
+use super::{Report, Severity, Value};
 
-/// Something in a file that can be worked with, but is probably not what was meant.
+/// A value that is valid but probably a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// Path of the key: `arm[1].link[0].mass`.
     pub key: String,
-    /// What is odd about its value, as it reads after "`key` is value:".
+    /// The reason, as it reads after "`key` is value:".
     pub why: String,
-    /// What would be right.
+    /// A hint.
     pub help: String,
 }
 
-/// The oddities as warnings at their places in the text; `file` is the name that it is shown under.
+/// The report of warnings at their places in the text; `file` is its name in the report.
 ///
-/// A key that is left out is shown at the table that could hold it.
+/// A key that is not given is shown at the table that may hold it.
 #[must_use]
 pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
-    let text = without_mark(text);
     let document = Document::new(text, file);
-    let (tree, _) = DeTable::parse_recoverable(text);
+    let (tree, _) = DeTable::parse_recoverable(document.source());
     for Warning { key, why, help } in warnings {
         let found = follow(tree.get_ref(), key);
         let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
@@ -36,12 +34,12 @@ pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
             }
             _ => (format!("`{key}` is left at its default: {why}"), Some("it could stand here".to_owned())),
         };
-        document.note(Severity::Warning, &span, message, label, Some(help.clone()));
+        document.add(Severity::Warning, &span, message, label, Some(help.clone()));
     }
     document.into_report()
 }
 
-/// The value that a path leads to, or the last there is on the way and what remains of the path.
+/// The value at a path, or the innermost value around it and the rest of the path.
 fn follow<'a, 'p>(table: &'a DeTable<'a>, path: &'p str) -> Option<(&'a Spanned<DeValue<'a>>, &'p str)> {
     let after = |key: &str| path.strip_prefix(key).filter(|rest| rest.is_empty() || rest.starts_with(['.', '[']));
     let (value, rest) = table.iter().find_map(|(key, value)| Some((value, after(key.get_ref())?)))?;

@@ -1,14 +1,14 @@
-//! Walking the tree of a TOML document: every accessor notes what is wrong and returns `None`.
+//! Values of a TOML document: every accessor returns `None` and adds a problem where the value is not valid.
 
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::document::Document;
-use super::quantity::form;
-use super::table::{Table, every, table_of};
-use super::{NumberRule, Report, excerpt, listing, nearest};
+use super::{Table, every};
+use crate::diagnostic::document::Document;
+use crate::diagnostic::number_rule::{NumberRule, form};
+use crate::diagnostic::{Report, excerpt, listing, nearest};
 
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct Value<'a> {
 }
 
 impl<'a> Value<'a> {
-    pub(super) fn new(document: &'a Document, value: &'a Spanned<DeValue<'a>>, path: String) -> Self {
+    pub(in crate::diagnostic) fn new(document: &'a Document, value: &'a Spanned<DeValue<'a>>, path: String) -> Self {
         Self { document, tree: value.get_ref(), span: value.span(), path }
     }
 
@@ -30,25 +30,25 @@ impl<'a> Value<'a> {
         &self.path
     }
 
-    /// The text, if this is a string; notes nothing.
+    /// The text, if this is a string; adds no problem.
     #[must_use]
     pub fn as_str(&self) -> Option<&'a str> {
         self.tree.as_str()
     }
 
-    /// Whether this is an array; notes nothing.
+    /// Whether this is an array.
     #[must_use]
     pub fn is_array(&self) -> bool {
         self.tree.is_array()
     }
 
-    /// Notes that the value is not what is wanted.
+    /// Adds a problem: the value is not what is wanted.
     pub fn expected(&self, wanted: &str, help: Option<String>) {
         let message = format!("`{}` is {}, expected {wanted}", self.path, self.shown());
         self.document.report(&self.span, message, None, help);
     }
 
-    /// Notes that the value is none of the names, with the nearest one.
+    /// Adds a problem: the value is none of the names; it shows the most similar one.
     pub fn expected_one_of(&self, names: &[&str], help: Option<&str>) {
         let (path, shown, wanted) = (&self.path, self.shown(), listing(names, "or"));
         let message = format!("`{path}` is {shown}, expected {wanted}");
@@ -57,20 +57,20 @@ impl<'a> Value<'a> {
         self.document.report(&self.span, message, label, help);
     }
 
-    /// Notes why the value cannot be accepted.
+    /// Adds a problem with the reason for which the value is not valid.
     pub fn reject(&self, why: &str) {
         let message = format!("`{}` is {}: {why}", self.path, self.shown());
         self.document.report(&self.span, message, None, None);
     }
 
-    /// Notes the problems of a file that this value names.
+    /// Adds the problems of a file that this value names.
     pub fn adopt(&self, report: Report) {
         let value = format!("`{}` is {}", self.path, self.shown());
         self.document.adopt(&self.span, &value, report);
     }
 
-    /// The value as in the source, where it is not the header of a table.
-    pub(super) fn shown(&self) -> String {
+    /// The value as in the source, or the kind of a table with a header.
+    pub(in crate::diagnostic) fn shown(&self) -> String {
         match (self.tree, self.document.text(&self.span)) {
             (DeValue::Table(_), text) if !text.starts_with('{') => "a table".to_owned(),
             (DeValue::Array(_), _) if self.is_list_of_tables() => "a list of tables".to_owned(),
@@ -84,7 +84,7 @@ impl<'a> Value<'a> {
         items.first().is_some_and(|item| item.span() == self.span)
     }
 
-    /// A number, integer or not, that makes sense as this quantity.
+    /// A number, integer or not, in the range of this quantity.
     #[must_use]
     pub fn number(&self, quantity: &NumberRule) -> Option<f64> {
         let number = match self.tree {
@@ -100,7 +100,7 @@ impl<'a> Value<'a> {
         outcome.map_err(|help| self.expected(&quantity.to_string(), help)).ok()
     }
 
-    /// The elements of an array; `wanted` says of what.
+    /// The elements of an array; `wanted` describes the array.
     #[must_use]
     pub fn items(&self, wanted: &str) -> Option<Vec<Self>> {
         let DeValue::Array(items) = self.tree else {
@@ -111,7 +111,7 @@ impl<'a> Value<'a> {
         Some(items.iter().enumerate().map(item).collect())
     }
 
-    /// An array with one number for each component, `[x, y]`; notes the first that is wrong.
+    /// An array with one number for each component, `[x, y]`.
     #[must_use]
     pub fn vector<const N: usize>(&self, components: &[NumberRule; N]) -> Option<[f64; N]> {
         let items = self.items(&form(components))?;
@@ -124,7 +124,7 @@ impl<'a> Value<'a> {
         numbers?.try_into().ok()
     }
 
-    /// A string that shows on one line.
+    /// A string of one line that is not blank.
     #[must_use]
     pub fn text(&self, wanted: &str) -> Option<&'a str> {
         let text = self.as_str().filter(|text| !text.trim().is_empty() && !text.contains(char::is_control));
@@ -146,12 +146,12 @@ impl<'a> Value<'a> {
         chosen.map(|(_, choice)| *choice)
     }
 
-    /// A table that may hold these keys and no others; unknown ones are noted.
+    /// A table that may hold these keys and no others.
     #[must_use]
     pub fn table(&self, keys: &[&'a str]) -> Option<Table<'a>> {
         let DeValue::Table(entries) = self.tree else {
             let header = (!self.path.contains('[')).then(|| format!("write `[{}]`", self.path));
-            self.expected(&table_of(keys), header);
+            self.expected(&format!("a table with {}", listing(keys, "and")), header);
             return None;
         };
         let (path, span) = (self.path.clone(), self.span.clone());
@@ -167,11 +167,10 @@ impl<'a> Value<'a> {
             let message = format!("`{path}` is a single table, expected a list of tables");
             let label = match header.strip_prefix('[') {
                 Some(header) => format!("write `[[{}]]`", header.trim_end_matches(']')),
-                // no header of its own, only ones further in: `[[arm.link]]`
+                // a table without a header: it has inner ones, such as `[[arm.link]]`
                 None => format!("write `[[{path}]]` further up"),
             };
-            let label = Some(label);
-            self.document.report(&self.span, message, label, None);
+            self.document.report(&self.span, message, Some(label), None);
             return None;
         }
         let items = self.items(&format!("a list of tables with {}", listing(keys, "and")))?;

@@ -1,13 +1,17 @@
-//! Tables of a TOML document: looking up keys, and noting those missing or unknown.
+//! Tables and values of a TOML document: access by key with a problem for each missing, unknown or invalid one.
+
+mod value;
 
 use std::ops::Range;
 
 use toml::de::DeTable;
 
-use super::document::Document;
-use super::quantity::form;
-use super::value::{Value, did_you_mean};
-use super::{NumberRule, listing, nearest};
+use super::document::{Document, table_name};
+use super::number_rule::{NumberRule, form};
+use super::{listing, nearest};
+use value::did_you_mean;
+
+pub use value::Value;
 
 /// A table in a document, with the keys it may hold.
 #[derive(Clone, Debug)]
@@ -20,7 +24,7 @@ pub struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    /// The table, after noting the keys that it may not hold.
+    /// The table; adds a problem for each key that it may not hold.
     pub(super) fn new(
         document: &'a Document,
         entries: &'a DeTable<'a>,
@@ -28,7 +32,7 @@ impl<'a> Table<'a> {
         path: String,
         keys: &[&'a str],
     ) -> Self {
-        document.open(&path, keys);
+        document.add_table(&path, keys);
         let table = Self { document, entries, span, path, keys: keys.to_vec() };
         table.report_unknown_keys();
         table
@@ -40,7 +44,7 @@ impl<'a> Table<'a> {
         self.entries.get(key).map(|value| Value::new(self.document, value, self.path_of(key)))
     }
 
-    /// The value of a key; notes that it is missing, unless it is there misspelt.
+    /// The value of a key; a problem if it is missing, unless an unknown key is a misspelling of it.
     #[must_use]
     pub fn require(&self, key: &str, wanted: &str) -> Option<Value<'a>> {
         let value = self.get(key);
@@ -64,7 +68,7 @@ impl<'a> Table<'a> {
         self.get(key).map_or(Some(default), |value| value.number(quantity))
     }
 
-    /// A string that must be given; `wanted` says of what.
+    /// A string that must be given; `wanted` describes it.
     #[must_use]
     pub fn text(&self, key: &str, wanted: &str) -> Option<&'a str> {
         self.require(key, wanted)?.text(wanted)
@@ -100,12 +104,12 @@ impl<'a> Table<'a> {
         self.get(key).map_or(Some(Vec::new()), |value| value.tables(keys))
     }
 
-    /// Notes a problem of the table as a whole.
+    /// Adds a problem of the table as a whole.
     pub fn reject(&self, message: String, label: &str) {
         self.document.report(&self.span, message, Some(label.to_owned()), None);
     }
 
-    /// Notes every string under `key` that is the `same` as an earlier table's.
+    /// Adds a problem for every string under `key` that is the `same` as that of an earlier table.
     pub fn reject_repeats(tables: &[Self], key: &str, same: impl Fn(&str, &str) -> bool, why: &str) {
         let values: Vec<_> = tables.iter().filter_map(|table| table.get(key)).collect();
         for (index, value) in values.iter().enumerate() {
@@ -116,20 +120,15 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Whether an unknown key, noted already, was probably meant to be this one.
+    /// Whether an unknown key is probably a misspelling of this one.
     #[must_use]
     pub fn is_misspelt(&self, key: &str) -> bool {
-        let mut unknown = self.unknown_keys();
-        unknown.any(|unknown| self.meant_by(unknown) == Some(key))
-    }
-
-    fn unknown_keys(&self) -> impl Iterator<Item = &'a str> {
         let keys = self.entries.keys().map(|key| key.get_ref().as_ref());
-        keys.filter(|key| !self.keys.contains(key))
+        keys.filter(|name| !self.keys.contains(name)).any(|unknown| self.similar_key(unknown) == Some(key))
     }
 
-    /// The key that an unknown one stands for: first among those not given.
-    fn meant_by(&self, unknown: &str) -> Option<&'a str> {
+    /// The key most similar to an unknown one, preferably one that is not given.
+    fn similar_key(&self, unknown: &str) -> Option<&'a str> {
         let missing = self.keys.iter().copied().filter(|key| !self.entries.contains_key(*key));
         nearest(unknown, missing).or_else(|| nearest(unknown, self.keys.iter().copied()))
     }
@@ -145,12 +144,12 @@ impl<'a> Table<'a> {
             let owner = self.document.owner_of(name, &self.path);
             let label = match owner {
                 Some(owner) => Some(format!("this is a key of {owner}: write it further up")),
-                None => self.meant_by(name).map(did_you_mean),
+                None => self.similar_key(name).map(did_you_mean),
             };
-            let help = format!("keys of {}: {}", place(&self.path), listing(&self.keys, "and"));
+            let help = format!("keys of {}: {}", table_name(&self.path), listing(&self.keys, "and"));
             self.document.report(&key.span(), message, label, Some(help));
             if value.is_list_of_tables() {
-                self.document.remember_stray(name);
+                self.document.mark_unknown_table(name);
             }
         }
     }
@@ -165,14 +164,4 @@ impl<'a> Table<'a> {
 /// All results, or `None` if one is `None`; unlike `collect`, it computes each of them first.
 pub fn every<T>(results: impl IntoIterator<Item = Option<T>>) -> Option<Vec<T>> {
     results.into_iter().collect::<Vec<_>>().into_iter().collect()
-}
-
-/// A table as named in a sentence.
-pub(super) fn place(path: &str) -> String {
-    if path.is_empty() { "the top level".to_owned() } else { format!("`{path}`") }
-}
-
-/// What a table must hold, as named in a sentence.
-pub(super) fn table_of(keys: &[&str]) -> String {
-    format!("a table with {}", listing(keys, "and"))
 }

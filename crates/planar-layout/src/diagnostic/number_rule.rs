@@ -1,4 +1,4 @@
-//! What a number means and which numbers make sense.
+//! The quantity that a number stands for, and the range of its values.
 
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
@@ -10,21 +10,21 @@ use std::fmt::{self, Display, Formatter};
 pub struct NumberRule {
     what: &'static str,
     unit: &'static str,
-    least: Least,
-    suspect: Option<Suspect>,
+    minimum: Minimum,
+    wrong_unit: Option<WrongUnit>,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Least {
+enum Minimum {
     None,
     Zero,
     AboveZero,
 }
 
-/// Outboard this size the number is surely in another unit, worth `factor` of the right one.
+/// A number above the limit is in another unit, `factor` times the right one.
 #[derive(Clone, Copy, Debug)]
-struct Suspect {
-    beyond: f64,
+struct WrongUnit {
+    limit: f64,
     unit: &'static str,
     factor: f64,
 }
@@ -33,50 +33,50 @@ impl NumberRule {
     /// Any finite number; `what` is the name with its article, "a mass", and `unit` empty for a number without one.
     #[must_use]
     pub const fn any(what: &'static str, unit: &'static str) -> Self {
-        Self { what, unit, least: Least::None, suspect: None }
+        Self { what, unit, minimum: Minimum::None, wrong_unit: None }
     }
 
     /// A finite number greater than zero.
     #[must_use]
     pub const fn positive(what: &'static str, unit: &'static str) -> Self {
-        Self { least: Least::AboveZero, ..Self::any(what, unit) }
+        Self { minimum: Minimum::AboveZero, ..Self::any(what, unit) }
     }
 
     /// A finite number, zero or greater.
     #[must_use]
     pub const fn non_negative(what: &'static str, unit: &'static str) -> Self {
-        Self { least: Least::Zero, ..Self::any(what, unit) }
+        Self { minimum: Minimum::Zero, ..Self::any(what, unit) }
     }
 
-    /// Refuses sizes beyond `radians` as degrees.
+    /// Rejects magnitudes above `radians` as degrees.
     #[must_use]
     pub const fn not_degrees(self, radians: f64) -> Self {
-        self.suspect(radians, "degrees", PI / 180.0)
+        self.reject_unit(radians, "degrees", PI / 180.0)
     }
 
-    /// Refuses sizes beyond `metres` as millimetres.
+    /// Rejects magnitudes above `metres` as millimetres.
     #[must_use]
     pub const fn not_millimetres(self, metres: f64) -> Self {
-        self.suspect(metres, "millimetres", 1e-3)
+        self.reject_unit(metres, "millimetres", 1e-3)
     }
 
-    const fn suspect(self, beyond: f64, unit: &'static str, factor: f64) -> Self {
-        Self { suspect: Some(Suspect { beyond, unit, factor }), ..self }
+    const fn reject_unit(self, limit: f64, unit: &'static str, factor: f64) -> Self {
+        Self { wrong_unit: Some(WrongUnit { limit, unit, factor }), ..self }
     }
 
-    /// Whether the number is finite and within the range; if not, a hint where there is one.
+    /// Checks that the number is finite and in range; the error is a hint, if there is one.
     pub(super) fn check(&self, number: f64) -> Result<(), Option<String>> {
         if !number.is_finite() {
             return Err(Some("the number must be finite and fit in 64 bits".to_owned()));
         }
-        let low = match self.least {
-            Least::None => false,
-            Least::Zero => number < 0.0,
-            Least::AboveZero => number <= 0.0,
+        let too_small = match self.minimum {
+            Minimum::None => false,
+            Minimum::Zero => number < 0.0,
+            Minimum::AboveZero => number <= 0.0,
         };
-        match self.suspect {
-            _ if low => Err(None),
-            Some(Suspect { beyond, unit, factor }) if number.abs() > beyond => {
+        match self.wrong_unit {
+            _ if too_small => Err(None),
+            Some(WrongUnit { limit, unit, factor }) if number.abs() > limit => {
                 let converted = number * factor;
                 Err(Some(format!("this looks like {unit}: {number:?} {unit} = {converted:?} {}", self.unit)))
             }
@@ -87,10 +87,10 @@ impl NumberRule {
 
 impl Display for NumberRule {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let range = match self.least {
-            Least::None => "",
-            Least::Zero => " of 0 or more",
-            Least::AboveZero => " greater than 0",
+        let range = match self.minimum {
+            Minimum::None => "",
+            Minimum::Zero => " of 0 or more",
+            Minimum::AboveZero => " greater than 0",
         };
         let unit = if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) };
         write!(f, "{}{unit}{range}", self.what)
