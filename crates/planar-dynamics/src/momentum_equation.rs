@@ -39,7 +39,9 @@ impl<'a, T: Real> MomentumEquation<'a, T> {
     /// `I_b⁻¹ (right − I_bm joints)`, for rates or accelerations of the joints.
     pub(crate) fn solve_with_joints<I: Iterator<Item = T>>(&self, mut right: [T; 3], joints: impl Fn() -> I) -> [T; 3] {
         for (right, row) in right.iter_mut().zip(self.rows.chunks_exact((self.rows.len() / 3).max(1))) {
-            *right -= dot(row.get(3..).unwrap_or_default(), joints());
+            if let Some((_, row)) = row.split_first_chunk::<3>() {
+                *right -= dot(row, joints());
+            }
         }
         self.solve(right)
     }

@@ -2,7 +2,7 @@
 
 use super::complementarity::solve_rows;
 use super::constraint_row::{ConstraintRow, RowSet};
-use super::{Contact, ContactPartner, entry};
+use super::{Contact, ContactPartner, entry, entry_mut};
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -161,10 +161,4 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
             }
         }
     }
-}
-
-/// An entry of a list per arm or per body, or [`Error::Index`].
-fn entry_mut<'a, X>(what: &'static str, list: &'a mut [X], index: usize) -> Result<&'a mut X, Error> {
-    let count = list.len();
-    list.get_mut(index).ok_or(Error::Index { what, index, count })
 }

@@ -1,8 +1,8 @@
-//! How an end effector answers impulses: the extended inverse inertia tensor and what follows from it.
+//! The extended inverse inertia tensor of an end effector or a body, and the effective mass and impulses that follow.
 
+use super::{entry, entry_mut};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::dot;
 use crate::scalar::{Real, Scalar};
 use crate::state::{Forces, State};
 use crate::validate::length;
@@ -15,52 +15,48 @@ use crate::validate::length;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InverseInertia<T>(pub [[T; 3]; 3]);
 
-/// The impulses at a point contact that a closing speed of 1 m/s can ask for, from any side: an ellipse,
-/// `F̄ᵀ G² F̄ = 1` with G the force part of the sum of both inverse inertias.
+/// The impulses that stop relative velocities of 1 m/s in all directions at a point contact: the ellipse `F̄ᵀ G² F̄ = 1`
+/// with the force part G of the sum of both inverse inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImpulseEllipse<T> {
-    /// The longer and the shorter one, N s per m/s, so kg.
+    /// The longer and the shorter one, N s per m/s = kg.
     pub semi_axes: [T; 2],
     /// Direction of the longer one, inertial frame, rad, in (−π/2, π/2].
     pub direction: T,
 }
 
 impl<T: Real> InverseInertia<T> {
-    /// Of the end effector of an arm.
+    /// The inverse inertia of the end effector of an arm.
     ///
     /// # Errors
-    /// [`Error::Index`] where there is no such arm, [`Error::Length`] where the slices do not fit the model: `wrenches`
-    /// has one per arm, `scratch` twice as many numbers as there are joints; what the model says.
+    /// [`Error::Index`] for an arm that does not exist; [`Error::Length`] unless `wrenches` has one entry per arm and
+    /// `workspace` two per joint; those of the model.
     pub fn of_end_effector(
         model: &dyn Model<T>,
         base_pose: &[T; 3],
         joint_angles: &[T],
         arm: usize,
         wrenches: &mut [[T; 3]],
-        scratch: &mut [T],
+        workspace: &mut [T],
     ) -> Result<Self, Error> {
-        length("scratch", 2 * model.joints(), scratch.len())?;
-        let (still, joint_rates) = scratch.split_at_mut(model.joints());
-        still.fill(T::ZERO);
-        let at_rest = State { base_pose: *base_pose, joint_angles, base_twist: [T::ZERO; 3], joint_rates: still };
-        let mut columns = [[T::ZERO; 3]; 3];
-        for (i, column) in columns.iter_mut().enumerate() {
-            wrenches.fill([T::ZERO; 3]);
-            let arms = wrenches.len();
-            let missing = Error::Index { what: "arm", index: arm, count: arms };
-            let wrench = wrenches.get_mut(arm).ok_or(missing)?;
-            for (j, part) in wrench.iter_mut().enumerate() {
-                *part = if i == j { T::ONE } else { T::ZERO };
-            }
-            let forces = Forces { end_effector_wrenches: Some(wrenches), ..Forces::torques(still) };
+        length("workspace", 2 * model.joints(), workspace.len())?;
+        let (zero_rates, joint_rates) = workspace.split_at_mut(model.joints());
+        zero_rates.fill(T::ZERO);
+        let at_rest = State { base_pose: *base_pose, joint_angles, base_twist: [T::ZERO; 3], joint_rates: zero_rates };
+        let (zero, one) = (T::ZERO, T::ONE);
+        let mut columns = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        for column in &mut columns {
+            wrenches.fill([zero; 3]);
+            *entry_mut("arm", wrenches, arm)? = *column;
+            let forces = Forces { end_effector_wrenches: Some(wrenches), ..Forces::torques(zero_rates) };
             let base_twist = model.forward_dynamics(&at_rest, &forces, joint_rates)?;
             model.end_effector_twists(&State { base_twist, joint_rates, ..at_rest }, wrenches)?;
-            *column = wrenches.get(arm).copied().unwrap_or([T::ZERO; 3]);
+            *column = *entry("arm", wrenches, arm)?;
         }
         Ok(Self(columns))
     }
 
-    /// Of a free body at a point with this offset from its COM, inertial axes; kg, kg m², m.
+    /// The inverse inertia of a free body at a point with this offset from its COM, inertial axes; kg, kg m², m.
     #[must_use]
     pub fn of_body(mass: T, inertia: T, [rx, ry]: [T; 2]) -> Self {
         let (m, i) = (mass.recip(), inertia.recip());
@@ -71,7 +67,7 @@ impl<T: Real> InverseInertia<T> {
         ])
     }
 
-    /// Of two in contact: twists of one relative to the other.
+    /// The sum for two bodies in contact: the change of the twist of one relative to the other.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let mut sum = self.0;
@@ -81,14 +77,15 @@ impl<T: Real> InverseInertia<T> {
         Self(sum)
     }
 
-    /// The mass that an impulse along this unit direction meets at a point contact, kg: `1/(nᵀ G n)`.
+    /// The effective mass at a point contact along this unit direction, kg: `1/(nᵀ G n)`.
     #[must_use]
     pub fn effective_mass(&self, direction: &[T; 2]) -> T {
-        dot(direction, self.change(direction)).recip()
+        let ([nx, ny], [_, [_, xx, xy], [_, _, yy]]) = (*direction, self.0);
+        (nx * (xx * nx + xy * ny) + ny * (xy * nx + yy * ny)).recip()
     }
 
-    /// The impulse at a point contact, [fx, fy] on the first of the two, that ends their relative velocity [vx, vy]
-    /// without restitution: `F̄ = −G⁻¹ v`. Its size for a unit velocity is the impulse index of that direction.
+    /// The impulse [fx, fy] at a point contact, on the first of the two, that stops their relative velocity [vx, vy]
+    /// without restitution: `F̄ = −G⁻¹ v`. Its magnitude for a unit velocity is the impulse index of that direction.
     #[must_use]
     pub fn stopping_impulse(&self, [vx, vy]: &[T; 2]) -> [T; 2] {
         let [_, [_, a, b], [_, _, c]] = self.0;
@@ -96,26 +93,21 @@ impl<T: Real> InverseInertia<T> {
         [(b * *vy - c * *vx) / determinant, (b * *vx - a * *vy) / determinant]
     }
 
-    /// The ellipse of those impulses.
+    /// See [`ImpulseEllipse`].
     #[must_use]
     pub fn impulse_ellipse(&self) -> ImpulseEllipse<T> {
         let [_, [_, a, b], [_, _, c]] = self.0;
         let half = T::constant(0.5);
-        let (middle, difference) = ((a + c) * half, (a - c) * half);
+        let (mean, difference) = ((a + c) * half, (a - c) * half);
         let radius = Scalar::sqrt(difference * difference + b * b);
-        let larger = middle + radius;
-        // the product of both is the determinant: no cancellation in the smaller one
+        let larger = mean + radius;
+        // from the determinant, the product of both eigenvalues, without cancellation
         let smaller = (a * c - b * b) / larger;
         // the longer axis is the eigenvector of the smaller eigenvalue
         let direction = half * Scalar::atan2(-b, -difference);
-        // along y from either side of it: b may be −0, or too small to show
-        let end = T::constant(core::f64::consts::FRAC_PI_2);
-        let direction = if direction > -end { direction } else { end };
+        // −π/2 arises for b = −0 and for a very small b
+        let right_angle = T::constant(core::f64::consts::FRAC_PI_2);
+        let direction = if direction > -right_angle { direction } else { right_angle };
         ImpulseEllipse { semi_axes: [smaller.recip(), larger.recip()], direction }
-    }
-
-    fn change(&self, [fx, fy]: &[T; 2]) -> [T; 2] {
-        let [_, [_, a, b], [_, _, c]] = self.0;
-        [a * *fx + b * *fy, b * *fx + c * *fy]
     }
 }

@@ -59,6 +59,12 @@ fn entry<'a, X>(what: &'static str, list: &'a [X], index: usize) -> Result<&'a X
     list.get(index).ok_or(Error::Index { what, index, count: list.len() })
 }
 
+/// As [`entry`], mutable.
+fn entry_mut<'a, X>(what: &'static str, list: &'a mut [X], index: usize) -> Result<&'a mut X, Error> {
+    let count = list.len();
+    list.get_mut(index).ok_or(Error::Index { what, index, count })
+}
+
 /// One contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact<T> {

@@ -1,11 +1,11 @@
 //! `f32` and `f64` as scalars, with `core` alone.
 //!
-//! Roots and arctangents are taken of parameters, once per model: they are written for digits, not for speed.
+//! Square roots and arctangents are those of parameters, once per model: they are accurate rather than fast.
 
 use super::number::Scalar;
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
-/// Square root by Newton's iteration, rounded to the nearest but where that is nearly a tie; NaN of what is negative.
+/// Square root by Newton's iteration, correctly rounded except near a tie; NaN for a negative value.
 fn sqrt(value: f64) -> f64 {
     if value == 0.0 || value == f64::INFINITY {
         return value;
@@ -24,16 +24,16 @@ fn sqrt(value: f64) -> f64 {
     for _ in 0..4 {
         root = 0.5 * (root + part / root);
     }
-    // what the square of the root misses, without rounding: its upper half has few enough digits
+    // the residual part − root², without rounding: the square of the root's upper half is exact
     let upper = f64::from_bits(root.to_bits() & !0x7ff_ffff);
     let lower = root - upper;
     let missing = ((part - upper * upper) - 2.0 * upper * lower) - lower * lower;
-    // below 2 as the part is below 4: the largest part's root is nearly a tie
+    // below 2 because the part is below 4: the root of the largest part is near a tie
     let root = (root + missing / (2.0 * root)).min(2.0 - f64::EPSILON);
     f64::from_bits(root.to_bits().wrapping_add(half))
 }
 
-/// Angle of the vector (x, y): each step turns it by the tangent of what is left, which leaves the cube of that.
+/// Angle of the vector (x, y) by three steps that add the tangent of the remaining angle; each leaves its cube.
 fn atan2(y: f64, x: f64) -> f64 {
     let size = x.abs().max(y.abs());
     if size == 0.0 {
@@ -44,7 +44,7 @@ fn atan2(y: f64, x: f64) -> f64 {
     }
     let (x, y) = (x / size, y / size);
     let half = if y < 0.0 { -core::f64::consts::PI } else { core::f64::consts::PI };
-    // within 0.1 rad: 45° where the sides are equal, the rest in proportion
+    // within 0.1 rad: linear between multiples of 45°
     let quarter = 0.5 * half;
     let mut angle = match (x.abs() < y.abs(), x < 0.0) {
         (true, _) => quarter - x * half / 4.0,
@@ -58,59 +58,43 @@ fn atan2(y: f64, x: f64) -> f64 {
     angle
 }
 
-impl Scalar for f64 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
+macro_rules! scalar {
+    ($float:ident, $sin_cos:ident) => {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_lossless,
+            clippy::unnecessary_cast,
+            reason = "rounding to the scalar, which is f64 in one of the two"
+        )]
+        impl Scalar for $float {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
 
-    #[inline]
-    fn constant(value: f64) -> Self {
-        value
-    }
+            #[inline]
+            fn constant(value: f64) -> Self {
+                value as $float
+            }
 
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        sin_cos_f64(self)
-    }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
 
-    fn sqrt(self) -> Self {
-        sqrt(self)
-    }
+            fn sqrt(self) -> Self {
+                sqrt(self as f64) as $float
+            }
 
-    fn atan2(self, x: Self) -> Self {
-        atan2(self, x)
-    }
+            fn atan2(self, x: Self) -> Self {
+                atan2(self as f64, x as f64) as $float
+            }
 
-    #[inline]
-    fn minimum(self, other: Self) -> Self {
-        if other < self { other } else { self }
-    }
+            #[inline]
+            fn minimum(self, other: Self) -> Self {
+                if other < self { other } else { self }
+            }
+        }
+    };
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "rounding to the scalar is what is asked for")]
-impl Scalar for f32 {
-    const ZERO: Self = 0.0;
-    const ONE: Self = 1.0;
-
-    #[inline]
-    fn constant(value: f64) -> Self {
-        value as f32
-    }
-
-    #[inline]
-    fn sin_cos(self) -> (Self, Self) {
-        sin_cos_f32(self)
-    }
-
-    fn sqrt(self) -> Self {
-        sqrt(f64::from(self)) as f32
-    }
-
-    fn atan2(self, x: Self) -> Self {
-        atan2(f64::from(self), f64::from(x)) as f32
-    }
-
-    #[inline]
-    fn minimum(self, other: Self) -> Self {
-        if other < self { other } else { self }
-    }
-}
+scalar!(f32, sin_cos_f32);
+scalar!(f64, sin_cos_f64);

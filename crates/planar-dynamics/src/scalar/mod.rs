@@ -1,4 +1,4 @@
-//! What generated code needs of a number.
+//! Scalars: the traits of the numbers that the core and generated code compute with, and their implementations.
 
 mod float;
 mod number;

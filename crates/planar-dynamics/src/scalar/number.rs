@@ -4,7 +4,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that generated code computes with: `f32`, `f64`, SIMD lanes, dual numbers.
 ///
-/// Straight-line code needs no comparison but [`Scalar::minimum`], so lanes do.
+/// The code is free of branches and compares by [`Scalar::minimum`] alone, so that SIMD lanes can implement it.
 pub trait Scalar:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
@@ -27,7 +27,7 @@ pub trait Scalar:
     #[must_use]
     fn atan2(self, x: Self) -> Self;
 
-    /// The smaller of two values. Which of them where one is NaN is open.
+    /// The smaller of two values; either one where one is NaN.
     #[must_use]
     fn minimum(self, other: Self) -> Self;
 }

@@ -1,14 +1,13 @@
-//! Sine and cosine together, with `core` alone: the same bits on every target, and no call for the optimiser to stop
-//! at.
+//! Sine and cosine together, with `core` alone: the same bits on every target, and inlined.
 //!
-//! The angle is brought to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products
-//! with the multiple are exact; two polynomials follow, in which no branch depends on the quadrant.
+//! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products with
+//! the multiple are exact; two polynomials follow, without a branch that depends on the quadrant.
 
 use core::f32::consts as single;
 use core::f64::consts as double;
 
-/// (sine, cosine) of an angle in rad; off by less than 2·10⁻¹⁶ up to 1.6·10⁶ rad, beyond that by no more than the
-/// rounding of the angle makes. NaN for what is not finite.
+/// (sine, cosine) of an angle in rad with an error below 2·10⁻¹⁶ up to 1.6·10⁶ rad, and beyond that at most that of
+/// rounding the angle. NaN for an angle that is not finite.
 #[inline]
 #[must_use]
 pub fn sin_cos_f64(angle: f64) -> (f64, f64) {
@@ -44,8 +43,8 @@ pub fn sin_cos_f64(angle: f64) -> (f64, f64) {
     (sign(a, quadrant), sign(b, quadrant.wrapping_add(1)))
 }
 
-/// (sine, cosine) of an angle in rad; off by less than 1·10⁻⁷ up to 6·10³ rad, beyond that by no more than the
-/// rounding of the angle makes. NaN for what is not finite. In `f32` throughout: a core without double precision
+/// (sine, cosine) of an angle in rad with an error below 1·10⁻⁷ up to 6·10³ rad, and beyond that at most that of
+/// rounding the angle. NaN for an angle that is not finite. It uses `f32` only: a processor without double precision
 /// computes it in hardware.
 #[inline]
 #[must_use]
