@@ -19,6 +19,8 @@ pub mod lanes;
 mod linear;
 pub mod manifest;
 mod momentum_equation;
+#[cfg(feature = "nalgebra")]
+pub mod nalgebra;
 pub mod quantity;
 pub mod scalar;
 #[doc(hidden)]

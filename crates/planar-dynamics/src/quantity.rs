@@ -98,14 +98,11 @@ macro_rules! with_quantities {
                 }
             }
             results {
-                BodyInertias "body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2",
-                    [] "", hidden();
+                BodyInertias "body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", hidden();
                 LinearMomentum "linear_momentum": Polynomial [Fixed(2)] "N s",
                     ["momentum"] "linear_momentum", shown(10);
-                AngularMomentum "angular_momentum": Polynomial [] "N m s",
-                    ["momentum"] "angular_momentum", shown(11);
-                KineticEnergy "kinetic_energy": Polynomial [] "J",
-                    ["momentum"] "kinetic_energy", shown(12);
+                AngularMomentum "angular_momentum": Polynomial [] "N m s", ["momentum"] "angular_momentum", shown(11);
+                KineticEnergy "kinetic_energy": Polynomial [] "J", ["momentum"] "kinetic_energy", shown(12);
                 GeneralizedInertia "generalized_inertia": Solved [Joints, Joints] "kg m^2",
                     ["reduced_dynamics"] "generalized_inertia", shown(3);
                 GeneralizedBias "generalized_bias": Solved [Joints] "N m",
@@ -120,8 +117,7 @@ macro_rules! with_quantities {
                     "joint_accelerations", shown(9);
                 ImpactMatrix "impact.G": Solved [Joints, Joints] "kg m^2",
                     ["reduced_impact"] "impact_matrix", shown(13);
-                ImpactMomentum "impact.H": Solved [Joints] "N m s",
-                    ["reduced_impact"] "impact_momentum", shown(14);
+                ImpactMomentum "impact.H": Solved [Joints] "N m s", ["reduced_impact"] "impact_momentum", shown(14);
                 ImpactJointRates "impact.joint_rates_after": Solved [Joints] "rad/s",
                     ["reduced_impact"] "joint_rates_after", shown(15);
                 CaptureBaseTwist "capture.base_twist_after": Solved [Fixed(3)] "rad/s, m/s, m/s",
@@ -130,18 +126,15 @@ macro_rules! with_quantities {
                     ["full_impact"] "joint_rates_after", shown(17);
                 CaptureTargetTwists "capture.target_twists_after": Solved [Arms, Fixed(3)] "rad/s, m/s, m/s",
                     [] "", shown(18);
-                CaptureImpulses "capture.impulses": Solved [Arms, Fixed(3)] "N m s, N s, N s",
-                    [] "", shown(19);
+                CaptureImpulses "capture.impulses": Solved [Arms, Fixed(3)] "N m s, N s, N s", [] "", shown(19);
                 CaptureMomentum "capture momentum": Polynomial [Coordinates] "N m s, N s, N s, then N m s",
                     ["full_impact"] "impact_momentum", hidden();
-                MergedBodyInertias "merged body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2",
-                    [] "", hidden();
+                MergedBodyInertias "merged body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", hidden();
                 MergedMassMatrix "merged mass_matrix": Polynomial [Coordinates, Coordinates] "kg m^2, kg m, kg",
                     ["full_impact"] "impact_matrix", hidden();
                 MergedBaseAcceleration "merged base_acceleration": Solved [Fixed(3)] "rad/s^2, m/s^2, m/s^2",
                     [] "", hidden();
-                MergedJointAccelerations "merged joint_accelerations": Solved [Joints] "rad/s^2",
-                    [] "", hidden();
+                MergedJointAccelerations "merged joint_accelerations": Solved [Joints] "rad/s^2", [] "", hidden();
             }
         }
     };

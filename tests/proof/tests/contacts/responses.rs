@@ -1,7 +1,7 @@
-//! How a tip answers impulses: the extended inverse inertia and what follows from it, by dense algebra and by impacts.
+//! How an end effector answers impulses: the extended inverse inertia and what follows from it, by dense algebra and by impacts.
 
 use crate::product::{both_models, strike};
-use nalgebra::{DMatrix, Matrix2, Matrix3, SMatrix, Vector2};
+use nalgebra::{DMatrix, Matrix2, Matrix3, Vector2};
 use planar_capture::body::Body;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, InverseInertia};
 use planar_capture::dynamics::Model;
@@ -9,6 +9,7 @@ use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::target::Target;
+use planar_dynamics::nalgebra::matrix;
 use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, close, layout, tolerance};
 use proptest::prelude::*;
@@ -90,7 +91,7 @@ proptest! {
     fn a_free_body_answers_by_its_jacobian(s in sample(1, 3)) {
         let ([mass, inertia, rx, ry], twist) = s.targets[0];
         let target = Target { mass, inertia, contact: [rx, ry], twist };
-        let jacobian = Matrix3::from_row_slice(target.contact_jacobian().as_flattened());
+        let jacobian = matrix(&target.contact_jacobian());
         let inverse = Matrix3::from_diagonal(&[1.0 / inertia, 1.0 / mass, 1.0 / mass].into());
         let wanted = jacobian * inverse * jacobian.transpose();
         close("J I⁻¹ Jᵀ", InverseInertia::of_body(mass, inertia, [rx, ry]).0.as_flattened(), wanted.as_slice(), tolerance::POLYNOMIAL);
@@ -105,8 +106,7 @@ proptest! {
         let of_end_effector = of_end_effector(&*model, &s, 0).expect("an inverse inertia");
         let of_body = InverseInertia::of_body(mass, inertia, [rx, ry]);
         let both = of_end_effector.plus(&of_body);
-        let sum = SMatrix::<f64, 3, 3>::from_row_slice(of_end_effector.0.as_flattened())
-            + SMatrix::<f64, 3, 3>::from_row_slice(of_body.0.as_flattened());
+        let sum = matrix(&of_end_effector.0) + matrix(&of_body.0);
         close("sum", both.0.as_flattened(), sum.as_slice(), tolerance::POLYNOMIAL);
         for inertia in [of_end_effector, of_body, both] {
             let g = force_part(&inertia);
