@@ -137,22 +137,22 @@ FAULTS = [
     Fault(
         "structural zero ignored",
         "crates/planar-layout/src/structure.rs",
-        'None => differ("an exact zero, which costs no operations"),',
+        'None => differ(key(), value, "an exact zero, which costs no operations"),',
         "None => {}",
     ),
     Fault(
         "layout hash without the COM's y",
         "crates/planar-layout/src/layout.rs",
         """\
-                    ("com[1]", link.com[1]),
+                    (Kind::LinkComY, i, k, link.com[1]),
 """,
         "",
     ),
     Fault(
         "link of one arm merged at the angle of another",
         "crates/planar-dynamics/src/implement.rs",
-        "targets.iter().zip(&tips).zip(MANIFEST.links)",
-        "targets.iter().zip(tips.iter().rev()).zip(MANIFEST.links)",
+        "targets.iter().zip(&end_effectors).zip(MANIFEST.links)",
+        "targets.iter().zip(end_effectors.iter().rev()).zip(MANIFEST.links)",
     ),
     Fault(
         "merged inertia without the parallel axis term",
@@ -180,10 +180,9 @@ FAULTS = [
     ),
     Fault(
         "eq. (7) without the factor T",
-        "crates/planar-dynamics/src/trajectory/mod.rs",
-        "Some(quartic(initial, change, *self.final_rates.get(joint)?, self.ends.duration, tau))",
-        "let rate = *self.final_rates.get(joint)? / self.ends.duration;\n"
-        "        Some(quartic(initial, change, rate, self.ends.duration, tau))",
+        "crates/planar-dynamics/src/trajectory/quartic.rs",
+        "[T::ZERO, *self.final_rates.get(joint)?]",
+        "[T::ZERO, *self.final_rates.get(joint)? / self.motion.duration]",
     ),
     Fault(
         "gains of the controller exchanged",
@@ -193,7 +192,7 @@ FAULTS = [
     ),
     Fault(
         "weights of the Runge–Kutta stages",
-        "crates/planar-dynamics/src/integrate/rk4.rs",
+        "crates/planar-dynamics/src/integrate/runge_kutta4.rs",
         "[(half, two), (half, two), (step, T::ONE)]",
         "[(half, two), (half, T::ONE), (step, two)]",
     ),
@@ -248,27 +247,27 @@ FAULTS = [
     # contacts
     Fault(
         "sign of the moment arm of a contact",
-        "crates/planar-dynamics/src/contact/row.rs",
+        "crates/planar-dynamics/src/contact/constraint_row.rs",
         "n + (rx * fy - ry * fx)",
         "n - (rx * fy - ry * fx)",
     ),
     Fault(
         "holds without the centripetal acceleration of the arms",
-        "crates/planar-dynamics/src/contact/hold.rs",
-        "        add_centripetal(&state, jacobian, rows.tips);\n",
-        "",
+        "crates/planar-dynamics/src/contact/constraint_solver.rs",
+        "(*ax + x, *ay + y)",
+        "(*ax + T::ZERO * x, *ay + T::ZERO * y)",
     ),
     Fault(
         "holds without the centripetal acceleration of what is held",
-        "crates/planar-dynamics/src/contact/hold.rs",
-        "accelerations) + omega * omega * row.reach)",
-        "accelerations) + T::ZERO * omega * row.reach)",
+        "crates/planar-dynamics/src/contact/constraint_solver.rs",
+        "? + omega * omega * row.partner_distance)",
+        "? + T::ZERO * omega * row.partner_distance)",
     ),
     Fault(
         "offset of a hold turned the wrong way",
-        "crates/planar-dynamics/src/contact/closure.rs",
-        "offset: [cos * dx + sin * dy, cos * dy - sin * dx], yaw",
-        "offset: [cos * dx - sin * dy, cos * dy + sin * dx], yaw",
+        "crates/planar-dynamics/src/contact/loop_constraint.rs",
+        "offset: [cos * dx + sin * dy, cos * dy - sin * dx]",
+        "offset: [cos * dx - sin * dy, cos * dy + sin * dx]",
     ),
     Fault(
         "restitution ignored",

@@ -71,7 +71,7 @@ impl<'a, T> Forces<'a, T> {
 /// Number of entries of the integrated vector of a robot alone: `[base_pose, joint_angles, base_twist, joint_rates,
 /// work]`; the last is an [`ActuatorWork`].
 ///
-/// Each free body beside the robot adds 6 entries: its pose after the joint angles, its twist after the joint rates. The
+/// Each free body adds 6 entries: its pose after the joint angles, its twist after the joint rates. The
 /// vector without its last three entries is therefore always one half of positions and one of their rates.
 #[must_use]
 pub const fn vector_length(joints: usize) -> usize {
@@ -195,10 +195,9 @@ impl<T: Scalar> ActuatorWork<T> {
     /// The last three entries of an integrated vector.
     ///
     /// # Errors
-    /// [`Error::StateVector`] where there are not so many.
+    /// As [`split`].
     pub fn from_vector(vector: &[T]) -> Result<Self, Error> {
-        let wrong = Error::StateVector { found: vector.len() };
-        let [joint_work, base_work, base_impulse] = *vector.last_chunk::<3>().ok_or(wrong)?;
+        let [joint_work, base_work, base_impulse] = *split(vector)?.work;
         Ok(Self { joint_work, base_work, base_impulse })
     }
 }

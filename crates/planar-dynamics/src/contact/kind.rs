@@ -1,21 +1,21 @@
-//! The kinds of contacts: what each transmits, and what lasts of it.
+//! The kinds of contacts, their constraints and their laws of impact.
 
 /// A kind of contact, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactKind {
-    /// The end effector takes hold: no relative twist after the impact.
+    /// A rigid grasp: no relative twist after the impact.
     Rigid,
-    /// The contact points move together after the impact, and turn freely about each other.
+    /// The contact points coincide after the impact; the relative rotation is free.
     Pin,
-    /// The end effector is pushed away without friction.
+    /// A frictionless unilateral contact, which separates.
     Bounce,
 }
 
 impl ContactKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 3] = [Self::Rigid, Self::Pin, Self::Bounce];
 
-    /// As scenarios have it.
+    /// The name in scenarios.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -25,7 +25,7 @@ impl ContactKind {
         }
     }
 
-    /// Number of constraints that last after the impact: of the relative yaw and of two coordinates.
+    /// Number of constraints after the impact: on the relative yaw and two coordinates.
     #[must_use]
     pub const fn constraints(self) -> usize {
         match self {
@@ -35,32 +35,31 @@ impl ContactKind {
         }
     }
 
-    /// Whether the contact lasts.
+    /// Whether the contact continues after the impact.
     #[must_use]
     pub const fn holds(self) -> bool {
         self.constraints() > 0
     }
 
-    /// Whether a contact that lasts keeps the relative yaw too.
+    /// Whether the relative yaw is constant after the impact.
     #[must_use]
     pub const fn holds_yaw(self) -> bool {
         self.constraints() == 3
     }
 }
 
-/// What a contact does to the motion of an end effector relative to what it touches.
+/// The relation between the impulse of a contact and the motion of the end effector relative to its partner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactLaw<T> {
     /// See [`ContactKind::Rigid`].
     Rigid,
     /// See [`ContactKind::Pin`].
     Pin,
-    /// Poisson's restitution along the normal. It is a law for contacts that do not hold; a holding contact with
-    /// restitution could create energy.
+    /// Poisson's restitution along the normal. Other contacts have no restitution, which could increase their energy.
     Bounce {
-        /// Of the surface that the end effector touches, outwards, unit length, inertial axes.
+        /// Outward unit normal of the partner's surface, inertial axes.
         normal: [T; 2],
-        /// 0, nothing is given back, to 1, all of it.
+        /// From 0, no impulse in the restitution phase, to 1, that of the compression.
         restitution: T,
     },
 }
@@ -76,7 +75,7 @@ impl<T: Copy> ContactLaw<T> {
         }
     }
 
-    /// Normal and restitution, where forces act along a normal alone.
+    /// Normal and restitution of a bounce.
     #[must_use]
     pub fn bounce(&self) -> Option<([T; 2], T)> {
         match self {
@@ -85,7 +84,7 @@ impl<T: Copy> ContactLaw<T> {
         }
     }
 
-    /// The law of a kind; `normal` and `restitution` are for those that have them.
+    /// The law of a kind; only a bounce uses `normal` and `restitution`.
     #[must_use]
     pub fn new(kind: ContactKind, normal: impl FnOnce() -> [T; 2], restitution: T) -> Self {
         match kind {

@@ -8,7 +8,7 @@ use crate::state::State;
 use crate::trajectory::Trajectory;
 use crate::validate::length;
 
-/// Exact tracking by inverse dynamics: `τ = I θ̈_d + c` gives `θ̈ = θ̈_d`, whatever the motion of the base.
+/// Exact tracking by inverse dynamics: `τ = I θ̈_d + c` gives `θ̈ = θ̈_d`, for any motion of the base.
 ///
 /// For a robot that starts on the trajectory. The slices are working space.
 #[derive(Debug)]

@@ -21,7 +21,7 @@ use crate::validate::length;
 /// All terms are evaluated at the measured state. b is the part of the end effectors' twists t due to the robot's
 /// momentum, `J_b I_b⁻¹ h`, and zero for a robot that started at rest; a is the end effectors' acceleration at constant
 /// joint rates, `J̇ θ̇ + ḃ`. Where J has full row rank and nothing is damped, every component of e obeys
-/// `ë + (K + k) ė + K k e = 0`: it decays with exp(−K t) and exp(−k t), whatever the motion of the base. An error
+/// `ë + (K + k) ė + K k e = 0`: it decays with exp(−K t) and exp(−k t), for any motion of the base. An error
 /// beyond the `error_limit` decreases at the constant speed K times that.
 ///
 /// J⁺ is the pseudoinverse of all controlled rows together, because the arms are coupled through the base. It gives the

@@ -101,7 +101,7 @@ mod tests {
         assert!((margin - ((half - root) / (half + root)).sqrt()).abs() < 1e-15, "{margin}");
     }
 
-    /// Rows that are nearly the same: what only their difference can give is held back, the rest is not.
+    /// Rows that are nearly equal: the component along their difference is damped, the other is not.
     #[test]
     fn a_singular_direction_is_damped_alone() {
         let small = 1e-4;
