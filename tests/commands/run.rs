@@ -308,7 +308,7 @@ fn integrators_say_what_they_cannot_do() {
     let stiff = paper().replacen("step = 0.005", "step = 0.5\nintegrator = \"gauss_legendre\"", 1);
     let (code, _, err, _) = run_text(&stiff);
     assert_eq!(code, 1, "{err}");
-    assert!(err.contains("do not settle") && err.contains("a shorter step may help"), "{err}");
+    assert!(err.contains("do not converge") && err.contains("a shorter step may help"), "{err}");
 }
 
 /// Steps that are far too long: the audit objects, and the exit code says so.
