@@ -39,13 +39,13 @@ class Child:
 class CollinearBody:
     """COM and the joint of the only child on the x axis, the joint at l.
 
-    One division, and no cancellation however short l is. With l alpha as the unknown, J = I_P / l^2, mu = m c / l and
-    D = J + A'_yy,
+    Across its axis the body has the mass matrix [[J', mu - J], [mu - J, J]] for the accelerations of its two joints,
+    with J = I_P / l^2, J' = (I + m (l - c)^2) / l^2, mu = m c / l and determinant m I / l^2. One division, and no
+    cancellation however short l is: with l alpha as the unknown and D = J + A'_yy,
 
         A_xx = m + A'_xx - A'_xy^2 / D,  A_xy = A'_xy e,  A_yy = (m I / l^2 + J' A'_yy) / D,  e = (J - mu) / D,
 
-    where J' = (I + m (l - c)^2) / l^2 belongs to the inertia about the child's joint. (A_yy = J' - (J - mu) e would
-    save an operation, but its rounding error grows with 1 / l^2.)
+    (A_yy = J' - (J - mu) e would save an operation, but its rounding error grows with 1 / l^2.)
     """
 
     def __init__(self, symbols: Symbols, own: RigidBodyInertia, child: Child) -> None:
@@ -53,28 +53,40 @@ class CollinearBody:
         self.length, self.child = child.position[0], child.inertia
         self.inverse_length = symbols.reciprocal_constant(f"{label}_inverse_length", self.length, "1/m", "1 / l")
         square = self.inverse_length * self.inverse_length
-        about_joint = constant(f"{label}_near_mass", own.about_joint(symbols) * square, "kg", "J = (I + m c^2) / l^2")
-        first = constant(f"{label}_first_mass", own.mass * com * self.inverse_length, "kg", "mu = m c / l")
-        coupling = constant(f"{label}_coupling_mass", about_joint - first, "kg", "J - mu")
+        distal = constant(
+            f"{label}_distal_mass", own.about_joint(symbols) * square, "kg", "mass at the child's joint, J = I_P / l^2"
+        )
+        first_moment = constant(
+            f"{label}_first_moment_ratio", own.mass * com * self.inverse_length, "kg", "mu = m c / l"
+        )
+        coupling = constant(f"{label}_coupling_mass", distal - first_moment, "kg", "J - mu")
         to_child = self.length - com
-        about_child = constant(
-            f"{label}_far_mass",
+        proximal = constant(
+            f"{label}_proximal_mass",
             (own.inertia + own.mass * (to_child * to_child)) * square,
             "kg",
-            "J' = (I + m (l - c)^2) / l^2",
+            "mass at the own joint, J' = (I + m (l - c)^2) / l^2",
         )
-        product = constant(f"{label}_turning_mass", own.mass * (own.inertia * square), "kg^2", "m I / l^2")
+        determinant = constant(
+            f"{label}_mass_determinant", own.mass * (own.inertia * square), "kg^2", "m I / l^2 = J J' - (J - mu)^2"
+        )
         self.inverse = symbols.reciprocal(
-            self.child.yy_times_plus(symbols, f"{label}_near_mass", ca.SX(1), about_joint, "J + A'_yy")
+            self.child.yy_times_plus(symbols, f"{label}_distal_mass", ca.SX(1), distal, "J + A'_yy")
         )
         self.xy_ratio = self.child.xy * self.inverse
         self.coupling_ratio = coupling * self.inverse  # e
         xx = self.child.xx_plus(symbols, f"{label}_mass", own.mass, "m")
-        yy = self.child.yy_times_plus(symbols, f"{label}_turning_mass", about_child, product, "m I / l^2 + J' A'_yy")
+        yy = self.child.yy_times_plus(
+            symbols, f"{label}_mass_determinant", proximal, determinant, "m I / l^2 + J' A'_yy"
+        )
         self.inertia = ArticulatedInertia(
             xx - self.child.xy * self.xy_ratio, self.child.xy * self.coupling_ratio, yy * self.inverse
         )
-        self.centripetal_mass = self.child.xx_plus(symbols, f"{label}_first_mass", first, "mu")
+        self.centripetal_mass = self.child.xx_plus(symbols, f"{label}_first_moment_ratio", first_moment, "mu")
+
+    @property
+    def configuration_values(self) -> list[ca.SX]:
+        return [*self.inertia.elements, self.xy_ratio, self.coupling_ratio, self.centripetal_mass]
 
     def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         x, y = child_forces[0]
@@ -104,23 +116,23 @@ class LeafBody:
         r = perpendicular(self.first_moment)
         about_joint = own.about_joint(symbols)
         self.inverse = symbols.reciprocal_constant(
-            f"{label}_inverse_pivot", about_joint, "1/(kg m^2)", "1 / (I + m |c|^2)"
+            f"{label}_inverse_joint_inertia", about_joint, "1/(kg m^2)", "1 / (I + m |c|^2)"
         )
-        self.gain = (
-            constant(f"{label}_gain_x", r[0] * self.inverse, "1/m", "-m c_y / (I + m |c|^2)"),
-            constant(f"{label}_gain_y", r[1] * self.inverse, "1/m", "m c_x / (I + m |c|^2)"),
+        self.angular_response = (
+            constant(f"{label}_angular_response_x", r[0] * self.inverse, "1/m", "-m c_y / (I + m |c|^2)"),
+            constant(f"{label}_angular_response_y", r[1] * self.inverse, "1/m", "m c_x / (I + m |c|^2)"),
         )
-        share = constant(f"{label}_mass_share", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
+        ratio = constant(f"{label}_mass_ratio", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
         (x, y), (mx, my) = own.com, self.first_moment
         what = "articulated inertia at the joint"
-        xx = own.mass if y.is_zero() else share * (own.inertia + mx * x)
+        xx = own.mass if y.is_zero() else ratio * (own.inertia + mx * x)
         self.inertia = ArticulatedInertia(
-            constant(f"{label}_articulated_mass_xx", xx, "kg", what),
-            constant(f"{label}_articulated_mass_xy", share * (mx * y), "kg", what),
-            constant(f"{label}_articulated_mass_yy", share * (own.inertia + my * y), "kg", what),
+            constant(f"{label}_articulated_inertia_xx", xx, "kg", what),
+            constant(f"{label}_articulated_inertia_xy", ratio * (mx * y), "kg", what),
+            constant(f"{label}_articulated_inertia_yy", ratio * (own.inertia + my * y), "kg", what),
             constant(
-                f"{label}_articulated_mass_difference",
-                share * (mx * x - my * y),
+                f"{label}_articulated_inertia_difference",
+                ratio * (mx * x - my * y),
                 "kg",
                 "xx - yy of the articulated inertia at the joint",
             ),
@@ -129,15 +141,19 @@ class LeafBody:
         for child in children:
             self.inertia = self.inertia.plus(child.inertia)
 
+    @property
+    def configuration_values(self) -> list[ca.SX]:
+        return self.inertia.elements
+
     def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         self.alpha_0 = moment * self.inverse  # for a = 0
         total = scale(-angular_velocity_squared, self.first_moment)
         for force in child_forces:
             total = add(total, force)
-        return add(total, scale(moment, self.gain))
+        return add(total, scale(moment, self.angular_response))
 
     def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        return angular_acceleration(self.alpha_0, self.gain, a), [a] * self.children
+        return angular_acceleration(self.alpha_0, self.angular_response, a), [a] * self.children
 
 
 class GeneralBody:
@@ -157,10 +173,15 @@ class GeneralBody:
             pivot = pivot + dot(lever, reaction)
         r = self.coupling
         self.inverse = symbols.reciprocal(pivot)
-        self.gain = scale(self.inverse, r)
+        response = self.angular_response = scale(self.inverse, r)
         self.inertia = ArticulatedInertia(
-            total.xx - r[0] * self.gain[0], total.xy - r[0] * self.gain[1], total.yy - r[1] * self.gain[1]
+            total.xx - r[0] * response[0], total.xy - r[0] * response[1], total.yy - r[1] * response[1]
         )
+
+    @property
+    def configuration_values(self) -> list[ca.SX]:
+        centripetal = [force for child in self.children for force in child.inertia.times(child.position)]
+        return [*self.inertia.elements, *self.angular_response, *self.coupling, *centripetal]
 
     def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         self.angular_velocity_squared = angular_velocity_squared
@@ -173,7 +194,7 @@ class GeneralBody:
         return add(total, scale(self.alpha_0, self.coupling))
 
     def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        alpha = angular_acceleration(self.alpha_0, self.gain, a)
+        alpha = angular_acceleration(self.alpha_0, self.angular_response, a)
         points = []
         for child in self.children:
             tangential = scale(alpha, perpendicular(child.position))
@@ -182,9 +203,9 @@ class GeneralBody:
         return alpha, points
 
 
-def angular_acceleration(alpha_0: ca.SX, gain: Vector, a: Vector) -> ca.SX:
+def angular_acceleration(alpha_0: ca.SX, angular_response: Vector, a: Vector) -> ca.SX:
     """alpha from that for a = 0."""
-    return alpha_0 - gain[0] * a[0] - gain[1] * a[1]
+    return alpha_0 - angular_response[0] * a[0] - angular_response[1] * a[1]
 
 
 ArticulatedBody = CollinearBody | LeafBody | GeneralBody
@@ -195,9 +216,10 @@ def articulated_body(
 ) -> ArticulatedBody:
     """A body with its angular acceleration eliminated.
 
-    ``inertia`` is its articulated inertia A. ``bias_force(omega^2, n, bias forces of the children)`` gives b; after it,
-    ``accelerations(a)`` gives alpha and the accelerations of the children's joints. ``general`` excludes the form that
-    divides by the distance of the child.
+    ``inertia`` is its articulated inertia A, and ``configuration_values`` are all that the passes use of the
+    configuration. ``bias_force(omega^2, n, bias forces of the children)`` gives b; after it, ``accelerations(a)`` gives
+    alpha and the accelerations of the children's joints. ``general`` excludes the form that divides by the distance of
+    the child.
     """
     if all(child.at_joint for child in children):
         return LeafBody(symbols, own, children)

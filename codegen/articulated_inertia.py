@@ -24,6 +24,10 @@ class ArticulatedInertia:
     constant: Vector | None = None
     change: ca.SX | None = None
 
+    @property
+    def elements(self) -> list[ca.SX]:
+        return [self.xx, self.xy, self.yy]
+
     def rotate(self, rotation: Rotation) -> "ArticulatedInertia":
         """R A R^T in 10 operations, 5 where xy is zero; the trace is invariant."""
         c, s = rotation

@@ -8,6 +8,8 @@ import casadi as ca
 
 from .functions import Functions
 from .inputs import CONFIGURATION, element, input_shapes
+from .signatures import Section
+from .statements import NodeSection
 from .value_numbering import DerivationError, Stage, ValueNumbering
 
 BINARY = {
@@ -63,6 +65,11 @@ class CasadiImport:
             else:
                 work[targets[0]] = self._operation(op, [work[a] for a in args])
         return results
+
+    def section_nodes(self, parts: list[list[Section]]) -> list[list[NodeSection]]:
+        """The nodes of all sections' values, imported at once: (section, nodes) part by part."""
+        nodes = iter(self.nodes_of([value for sections in parts for section in sections for value in section.values]))
+        return [[(section.name, [next(nodes) for _ in section.values]) for section in sections] for sections in parts]
 
     def _number(self, value: float) -> int:
         return self.numbering.leaf("number", value, Stage.PARAMETERS)

@@ -4,11 +4,11 @@ from functools import cached_property
 
 import casadi as ca
 
-from .composite_inertia import CompositeInertia
+from .composite_inertia import ArmBias, CompositeInertia
 from .inputs import CONFIGURATION, STATE
 from .kinematics import Kinematics, angular_velocities
 from .plane_vectors import ZERO, ZERO_VECTOR, Vector, add, dot, perpendicular, rotate
-from .signatures import Family, Function, matrix, vector
+from .signatures import Family, Function, Section, matrix, vector
 from .symbols import Symbols
 
 
@@ -31,7 +31,7 @@ class EquationsOfMotion:
             mount_x, mount_y = arm.positions.symbols.mount
             base_inertia = base_inertia + arm.mass[0] * (mount_x * mount_x + mount_y * mount_y)
             mount_moment = symbols.constant_vector(
-                f"{arm.positions.symbols.label}_mount_moment",
+                f"{arm.positions.symbols.label}_mount_first_moment",
                 (arm.mass[0] * mount_x, arm.mass[0] * mount_y),
                 "kg m",
                 f"(mass of arm {i}) mount, base frame",
@@ -47,6 +47,12 @@ class EquationsOfMotion:
             "inertia about the base COM of the base and the arms' masses at their mounts",
         )
         self.inertia = augmented_inertia + inertia
+
+    @property
+    def sections(self) -> list[Section]:
+        """The parts that depend on the configuration alone."""
+        positions, arms = self.kinematics.position_sections, [arm.section for arm in self.arms]
+        return [*positions, *arms, Section("robot about the base COM", self.first_moment, self.inertia)]
 
     def mass_matrix(self) -> ca.SX:
         """M of eq. (1)."""
@@ -70,18 +76,25 @@ class EquationsOfMotion:
         return ca.vertcat(moment, *force, *joints)
 
     @cached_property
-    def bias_terms(self) -> tuple[list[ca.SX], Vector, ca.SX]:
-        """(c_m, force of c_b, moment of c_b about the base COM)."""
+    def arm_biases(self) -> list[ArmBias]:
         inputs = self.kinematics.inputs
         base_rate = inputs.base_twist[0]
+        velocities = [angular_velocities(arm, inputs) for arm in self.symbols.arms]
+        return [ArmBias(arm, rates, base_rate * base_rate) for arm, rates in zip(self.arms, velocities, strict=True)]
+
+    @property
+    def bias_sections(self) -> list[Section]:
+        return [part for arm in self.arm_biases for part in arm.sections]
+
+    @property
+    def bias_terms(self) -> tuple[list[ca.SX], Vector, ca.SX]:
+        """(c_m, force of c_b, moment of c_b about the base COM)."""
         joints: list[ca.SX] = []
         force, moment = ZERO_VECTOR, ZERO
-        for arm in self.arms:
-            velocities = angular_velocities(arm.positions.symbols, inputs)
-            arm_bias, arm_force, arm_moment = arm.bias(velocities, base_rate * base_rate)
-            joints += arm_bias
-            force = add(force, arm_force)
-            moment = moment + arm_moment
+        for arm in self.arm_biases:
+            joints += arm.joints
+            force = add(force, arm.force)
+            moment = moment + arm.moment
         return joints, force, moment
 
 
@@ -102,9 +115,11 @@ def equations_of_motion_family(equations: EquationsOfMotion) -> Family:
         source,
         [*STATE],
         [vector("bias", "N m, N, N, then N m", "base, then joints", equations.bias())],
+        equations.bias_sections,
     )
     return Family(
         "equations_of_motion",
         "Mass matrix by composite rigid bodies and bias by a Newton-Euler recursion, in the full coordinates.",
         [mass_matrix, bias],
+        equations.sections,
     )

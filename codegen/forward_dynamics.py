@@ -4,6 +4,8 @@
 arm: a 2 x 2 balance of forces remains there.
 """
 
+from itertools import chain
+
 import casadi as ca
 
 from .articulated_body import ArticulatedBody, Child, CollinearBody, articulated_body
@@ -25,7 +27,7 @@ from .plane_vectors import (
     subtract,
 )
 from .rigid_body_inertia import RigidBodyInertia
-from .signatures import Family, Function, smallest_pivot, vector
+from .signatures import Family, Function, Section, smallest_pivot, vector
 from .symbols import ArmSymbols, Symbols
 
 
@@ -54,6 +56,8 @@ class ArticulatedArm:
             position = (arm.links[k - 1].length, ZERO) if k > 0 else arm.mount
             children = [Child(position, self.bodies[0].inertia.rotate(self.rotations[0]))]
         self.child = children[0]  # of the base
+        values = [body.configuration_values for body in self.bodies]
+        self.inertia_section = Section(f"{arm.title}, articulated inertia", values, self.child.inertia.elements)
 
     @property
     def links(self) -> int:
@@ -105,13 +109,13 @@ def com_frame(symbols: Symbols, arm: ArmSymbols) -> tuple[ca.SX, Vector, Vector]
         f"{arm.label}_com_distance", ca.sqrt(com_x * com_x + com_y * com_y), "m", "|c| of the last link"
     )
     x = symbols.constant(
-        f"{arm.label}_tip_x",
+        f"{arm.label}_end_effector_x",
         link.length * ca.cos(angle),
         "m",
         "end effector along the direction of the last link's COM",
     )
     y = symbols.constant(
-        f"{arm.label}_tip_y",
+        f"{arm.label}_end_effector_y",
         -link.length * ca.sin(angle),
         "m",
         "end effector across the direction of the last link's COM",
@@ -142,15 +146,22 @@ class ForwardDynamics:
         self.factor = self.inertia.xy * self.inverse_xx
         self.pivot = self.inertia.yy - self.factor * self.inertia.xy
         self.inverse_pivot = symbols.reciprocal(self.pivot)
+        self.base_rotation = rotation(inputs.base_pose[0])
+
+    @property
+    def sections(self) -> list[Section]:
+        """The parts that depend on the configuration alone."""
+        solution = [self.factor, self.inverse_xx, self.inverse_pivot, self.smallest_pivot()]
+        base = Section("base, articulated inertia", self.base.configuration_values, solution)
+        return [*(arm.inertia_section for arm in self.arms), base, Section("base, rotation", self.base_rotation)]
 
     def smallest_pivot(self) -> ca.SX:
         """The last pivot relative to its diagonal entry; those before it are bounded by the parameters."""
         return self.pivot / self.inertia.yy
 
-    def accelerations(self, base_wrench: bool, end_effector_wrenches: bool) -> tuple[ca.SX, ca.SX]:
-        """(base acceleration, joint accelerations) of eq. (1), without the operations of absent wrenches."""
-        inputs = self.inputs
-        base_rotation = rotation(inputs.base_pose[0])
+    def accelerations(self, base_wrench: bool, end_effector_wrenches: bool) -> tuple[ca.SX, ca.SX, list[Section]]:
+        """(base acceleration, joint accelerations, sections) of eq. (1), without the operations of absent wrenches."""
+        inputs, base_rotation = self.inputs, self.base_rotation
         forces = [arm.bias_force(base_rotation, end_effector_wrenches) for arm in self.arms]
         moment = -inputs.joint_torques[self.arms[0].symbols.first_joint]
         for arm in self.arms[1:]:
@@ -168,12 +179,16 @@ class ForwardDynamics:
         y = (self.factor * b[0] - b[1]) * self.inverse_pivot
         x = -(b[0] * self.inverse_xx) - self.factor * y
         alpha, points = self.base.accelerations((x, y))
-        accelerations = []
-        for arm, point in zip(self.arms, [(x, y), *points], strict=True):
-            accelerations += arm.accelerations(point, alpha)
+        points = [(x, y), *points]
         tangential, centripetal = scale(alpha, perpendicular(self.com)), scale(base_rate_squared, self.com)
         linear = rotate(base_rotation, add((x, y), subtract(tangential, centripetal)))
-        return ca.vertcat(alpha, *linear), ca.vertcat(*accelerations)
+        accelerations = [arm.accelerations(point, alpha) for arm, point in zip(self.arms, points, strict=True)]
+        sections = [
+            *(Section(f"arm {i}, inward pass", force) for i, force in enumerate(forces, start=1)),
+            Section("base, acceleration", alpha, points, linear),
+            *(Section(f"arm {i}, outward pass", values) for i, values in enumerate(accelerations, start=1)),
+        ]
+        return ca.vertcat(alpha, *linear), ca.vertcat(*chain(*accelerations)), sections
 
 
 def mounts_coincide(layout: Layout) -> bool:
@@ -195,7 +210,7 @@ def forward_dynamics_family(dynamics: ForwardDynamics) -> Family:
     ]
     functions = []
     for suffix, forces, present, right in cases:
-        base, joints = dynamics.accelerations(*(wrench in present for wrench in wrenches))
+        base, joints, sections = dynamics.accelerations(*(wrench in present for wrench in wrenches))
         base_text = "[alpha, ax, ay] of the base COM, inertial axes"
         outputs = [
             vector("base_acceleration", "rad/s^2, m/s^2, m/s^2", base_text, base),
@@ -210,6 +225,8 @@ def forward_dynamics_family(dynamics: ForwardDynamics) -> Family:
                 "Raina & Shah (2017), eq. (1)",
                 [*STATE, "joint_torques", *present],
                 outputs,
+                sections,
             )
         )
-    return Family("forward_dynamics", "Forward dynamics by the articulated-body algorithm, in link frames.", functions)
+    description = "Forward dynamics by the articulated-body algorithm, in link frames."
+    return Family("forward_dynamics", description, functions, dynamics.sections)

@@ -1,10 +1,11 @@
 """Builds the graph of a layout, as plain data for JSON, from the outputs of its functions.
 
 The graph has single assignments in three stages: constants from parameters, then for each family the values that
-depend on the configuration, then for each function the rest.
+depend on the configuration, then for each function the rest. Those of the last two stand in named sections.
 """
 
 from collections.abc import Iterable
+from itertools import chain
 
 import casadi as ca
 
@@ -13,11 +14,11 @@ from .functions import Functions
 from .inputs import INPUTS, input_shapes
 from .layout import content_hash
 from .signatures import Family, Function
-from .statements import Statements, count
+from .statements import NodeSection, Statements, count, evaluation_order
 from .symbols import Symbols
 from .value_numbering import Stage, ValueNumbering
 
-FORMAT = 1
+FORMAT = 2
 
 
 def build(functions: Functions, command: str | None = None) -> dict:
@@ -57,32 +58,38 @@ def build(functions: Functions, command: str | None = None) -> dict:
 
 
 def constants_graph(imported: CasadiImport, symbols: Symbols, families: list[dict]) -> dict:
-    """Statements of the constants that the families use."""
-    statements = Statements(imported.numbering, "p", {})
-    used = used_constants(imported, families)
+    """Statements of the constants that the families need; ``values`` are those that they read."""
+    numbering, statements = imported.numbering, Statements(imported.numbering, "p", {})
+    stages = [stage for family in families for stage in (family["configuration"], *family["functions"])]
+    read = {name for stage in stages for name in operands(stage["statements"], stage.get("outputs", []))}
+    needed, pending = set(), [*(read & imported.constants.keys())]
+    while pending:
+        name = pending.pop()
+        if name not in needed:
+            needed.add(name)
+            below = [numbering[i] for i in numbering.reachable([imported.constants[name]])]
+            pending += [node.args[0] for node in below if node.op == "constant"]
     values = []
     for variable in symbols.auxiliary_variables:
-        if variable.name in used:
+        if variable.name in needed:
             statements.assign_constant(variable.name, imported.constants[variable.name])
+        if variable.name in read:
             values.append({"name": variable.name, "unit": variable.unit, "description": variable.description})
-    return {"statements": statements.lines, "values": values, "operations": count(statements.lines)}
+    return {"statements": statements.lines, "values": values, "operations": count(numbering, statements.nodes)}
 
 
 def family_graph(imported: CasadiImport, family: Family) -> dict:
     """Statements of one family: those of the configuration, which its functions share, and those of each call."""
     numbering = imported.numbering
+    shared, *own = imported.section_nodes([family.sections, *(function.sections for function in family.functions)])
     results = [
-        imported.nodes_of([element for output in function.outputs for element in output.elements])
-        for function in family.functions
+        [i for _, values in sections[-len(function.outputs) :] for i in values]
+        for sections, function in zip(own, family.functions, strict=True)
     ]
-    configuration = Statements(numbering, "c", {})
-    for roots in results:
-        for root in roots:
-            for node in configuration_values(numbering, root):
-                configuration.assign_for_call(node)
+    configuration = configuration_statements(numbering, [*shared, *chain(*own)], [*chain(*results)])
     functions = [
-        function_graph(numbering, configuration.names, function, roots)
-        for function, roots in zip(family.functions, results, strict=True)
+        function_graph(numbering, configuration.names, function, [*shared, *sections], roots)
+        for function, sections, roots in zip(family.functions, own, results, strict=True)
     ]
     used = {name for function in functions for name in operands(function["statements"], function["outputs"])}
     targets = [name for line in configuration.lines for name in (line[0] if line[1] == "sin_cos" else [line[0]])]
@@ -90,28 +97,52 @@ def family_graph(imported: CasadiImport, family: Family) -> dict:
         "name": family.name,
         "description": family.description,
         "configuration": {
+            "sections": configuration.sections,
             "statements": configuration.lines,
             "values": [name for name in targets if name in used],
-            "operations": count(configuration.lines),
+            "operations": count(numbering, configuration.nodes),
         },
         "functions": functions,
     }
 
 
-def function_graph(numbering: ValueNumbering, known: dict[int, str], function: Function, roots: list[int]) -> dict:
+def configuration_statements(
+    numbering: ValueNumbering, sections: Iterable[NodeSection], results: Iterable[int]
+) -> Statements:
+    """Statements of what the calls need of the configuration; the inputs that they need are copied."""
+    reached = numbering.reachable(results)
+    used = {a for i in reached if numbering[i].stage == Stage.CALL for a in numbering.operands(i)}.union(results)
+    needed = numbering.reachable(i for i in used if numbering[i].stage < Stage.CALL)
+    statements = Statements(numbering, "c", {})
+    for section, i in evaluation_order(numbering, sections):
+        if i in needed and numbering[i].stage == Stage.CONFIGURATION:
+            if not numbering[i].is_leaf:
+                statements.assign(i, section)
+            elif i in used:
+                statements.copy_input(i, section)
+    return statements
+
+
+def function_graph(
+    numbering: ValueNumbering,
+    known: dict[int, str],
+    function: Function,
+    sections: list[NodeSection],
+    results: list[int],
+) -> dict:
     """Statements of one call, where values of the configuration are known."""
-    call = Statements(numbering, "t", known)
-    alone = Statements(numbering, "x", {})  # for the operations that the results depend on
-    for root in roots:
-        call.assign(root, (Stage.CALL,))
-        alone.assign(root, (Stage.CONFIGURATION, Stage.CALL))
-    elements = iter(roots)
+    call, reached = Statements(numbering, "t", known), numbering.reachable(results)
+    for section, i in evaluation_order(numbering, sections):
+        if i in reached and numbering[i].stage == Stage.CALL and not numbering[i].is_leaf:
+            call.assign(i, section)
+    elements = iter(results)
     return {
         "name": function.name,
         "description": function.description,
         "equation": function.equation,
         "source": function.source,
         "inputs": function.inputs,
+        "sections": call.sections,
         "statements": call.lines,
         "outputs": [
             {
@@ -123,23 +154,8 @@ def function_graph(numbering: ValueNumbering, known: dict[int, str], function: F
             }
             for output in function.outputs
         ],
-        "operations": count(alone.lines),
+        "operations": count(numbering, (i for i in reached if numbering[i].stage > Stage.PARAMETERS)),
     }
-
-
-def configuration_values(numbering: ValueNumbering, root: int) -> list[int]:
-    """Nodes of the configuration or earlier that a root is, or that its call uses, in a fixed order."""
-    found, seen, stack = [], set(), [root]
-    while stack:
-        i = stack.pop()
-        if i in seen:
-            continue
-        seen.add(i)
-        if numbering[i].stage <= Stage.CONFIGURATION:
-            found.append(i)
-        elif not numbering[i].is_leaf:
-            stack.extend(reversed(numbering[i].args))
-    return found
 
 
 def operands(statements: Iterable[list], outputs: Iterable[dict] = ()) -> list[str]:
@@ -147,31 +163,3 @@ def operands(statements: Iterable[list], outputs: Iterable[dict] = ()) -> list[s
     used = [operand for line in statements for operand in line[2:]]
     used += [element for output in outputs for element in output["elements"]]
     return [name for name in used if isinstance(name, str)]
-
-
-def used_constants(imported: CasadiImport, families: list[dict]) -> set[str]:
-    """Constants that a family or another used constant uses."""
-    pending = []
-    for family in families:
-        pending += operands(family["configuration"]["statements"])
-        for function in family["functions"]:
-            pending += operands(function["statements"], function["outputs"])
-    used = set()
-    while pending:
-        name = pending.pop()
-        if name in imported.constants and name not in used:
-            used.add(name)
-            pending += constants_below(imported, imported.constants[name])
-    return used
-
-
-def constants_below(imported: CasadiImport, root: int) -> list[str]:
-    """Names of the constants in an expression."""
-    names, stack = [], [root]
-    while stack:
-        node = imported.numbering[stack.pop()]
-        if node.op == "constant":
-            names.append(node.args[0])
-        elif not node.is_leaf:
-            stack.extend(node.args)
-    return names

@@ -12,7 +12,7 @@ from .equations_of_motion import EquationsOfMotion
 from .inputs import CONFIGURATION, STATE, TARGETS, Inputs
 from .linear_algebra import ldlt_solve, matrix_times
 from .reduced_dynamics import ReducedDynamics
-from .signatures import Family, Function, matrix, smallest_pivot, vector
+from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
 
 
 def target_jacobian(jacobian: ca.SX, arm: int, contact: tuple[ca.SX, ca.SX]) -> list[ca.SX]:
@@ -21,14 +21,17 @@ def target_jacobian(jacobian: ca.SX, arm: int, contact: tuple[ca.SX, ca.SX]) -> 
     return [angular, x + contact[1] * angular, y - contact[0] * angular]
 
 
-def impact_equations(jacobian: ca.SX, inertia: ca.SX, momentum: ca.SX, inputs: Inputs) -> tuple[ca.SX, ca.SX]:
-    """(G, H) of eq. (16), as G = inertia + sum K^T I_t K and H = momentum + sum K^T I_t t_ti.
+def impact_equations(
+    jacobian: ca.SX, inertia: ca.SX, momentum: ca.SX, inputs: Inputs
+) -> tuple[ca.SX, ca.SX, list[Section]]:
+    """(G, H, sections) of eq. (16), as G = inertia + sum K^T I_t K and H = momentum + sum K^T I_t t_ti.
 
     An arm whose target has no mass and no inertia captures nothing.
     """
     size = inertia.shape[0]
     g = ca.SX(ca.tril(inertia))
     h = ca.SX(momentum)
+    sections = [Section("momentum before the impact", momentum)]
     for arm in range(inputs.contacts.shape[1]):
         rows = target_jacobian(jacobian, arm, (inputs.contacts[0, arm], inputs.contacts[1, arm]))
         weights = [inputs.target_inertias[arm], inputs.target_masses[arm], inputs.target_masses[arm]]  # I_t
@@ -41,14 +44,16 @@ def impact_equations(jacobian: ca.SX, inertia: ca.SX, momentum: ca.SX, inputs: I
                 for j in range(k + 1):
                     if row.sparsity().has_nz(0, j):
                         g[k, j] = g[k, j] + weighted * row[0, j]
-    return ca.tril2symm(g), h
+        sections.append(Section(f"target of arm {arm + 1}", g, h))
+    return ca.tril2symm(g), h, sections
 
 
 def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
     """Eqs. (15) and (16) in the reduced coordinates, as the paper has them."""
-    inertia = reduced.generalized_inertia()
-    g, h = impact_equations(reduced.generalized_jacobian(), inertia, matrix_times(inertia, inputs.joint_rates), inputs)
-    rates, pivot = ldlt_solve(reduced.symbols, g, h, [*reversed(range(reduced.symbols.joints))])
+    inertia, jacobian = reduced.generalized_inertia(), reduced.generalized_jacobian()
+    reduced_sections = [Section("generalized inertia", inertia), Section("generalized Jacobian", jacobian)]
+    g, h, equations = impact_equations(jacobian, inertia, matrix_times(inertia, inputs.joint_rates), inputs)
+    rates, pivot, solution = ldlt_solve(reduced.symbols, g, h, [*reversed(range(reduced.symbols.joints))])
     return Function(
         "reduced_impact",
         "Impact by the paper's equations; exact only if the robot has no momentum after it.",
@@ -61,6 +66,7 @@ def reduced_impact(reduced: ReducedDynamics, inputs: Inputs) -> Function:
             vector("joint_rates_after", "rad/s", "arm by arm", rates),
             smallest_pivot(pivot),
         ],
+        [*reduced_sections, *equations, *solution],
     )
 
 
@@ -68,10 +74,11 @@ def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
     """Eqs. (15) and (16) in the full coordinates, where they are exact."""
     jacobian, mass = equations.kinematics.end_effector_jacobian(), equations.mass_matrix()
     velocity = ca.vertcat(inputs.base_twist, inputs.joint_rates)
-    g, h = impact_equations(jacobian, mass, matrix_times(mass, velocity), inputs)
+    full_sections = [Section("mass matrix", mass), Section("end-effector Jacobian", jacobian)]
+    g, h, impact = impact_equations(jacobian, mass, matrix_times(mass, velocity), inputs)
     # from the last links to the base, small pivots first
     order = [*reversed(range(3, 3 + equations.symbols.joints)), 1, 2, 0]
-    after, pivot = ldlt_solve(equations.symbols, g, h, order)
+    after, pivot, solution = ldlt_solve(equations.symbols, g, h, order)
     matrix_text = "G, symmetric, row-major: mass matrix of the merged robot"
     base_text = "[omega, vx, vy] of the base COM, inertial axes"
     return Function(
@@ -87,9 +94,10 @@ def full_impact(equations: EquationsOfMotion, inputs: Inputs) -> Function:
             vector("joint_rates_after", "rad/s", "arm by arm", after[3:]),
             smallest_pivot(pivot),
         ],
+        [*full_sections, *impact, *solution],
     )
 
 
 def impact_family(reduced: ReducedDynamics, inputs: Inputs) -> Family:
     functions = [reduced_impact(reduced, inputs), full_impact(reduced.equations, inputs)]
-    return Family("impact", "Rigid capture of one target per arm.", functions)
+    return Family("impact", "Rigid capture of one target per arm.", functions, reduced.sections)

@@ -9,7 +9,7 @@ import casadi as ca
 
 from .inputs import CONFIGURATION, STATE, Inputs
 from .plane_vectors import ZERO_VECTOR, Rotation, Vector, add, perpendicular, rotate, rotation, scale
-from .signatures import Family, Function, list_of_vectors, matrix
+from .signatures import Family, Function, Section, list_of_vectors, matrix
 from .symbols import ArmSymbols, Symbols
 
 
@@ -45,6 +45,11 @@ class ArmPositions:
     def links(self) -> int:
         return len(self.symbols.links)
 
+    @property
+    def section(self) -> Section:
+        values = [self.mount, self.rotation, self.link, self.joint, self.end_effector, self.to_end_effector]
+        return Section(f"{self.symbols.title}, positions", values)
+
     def com_offset(self, k: int) -> Vector:
         """From joint k to the COM of link k."""
         return rotate(self.rotation[k], self.symbols.links[k].com)
@@ -63,6 +68,11 @@ class ArmVelocities:
             self.joint.append(velocity)
             velocity = add(velocity, scale(angular, perpendicular(link)))
         self.end_effector = velocity
+
+    @property
+    def section(self) -> Section:
+        values = [self.angular, self.joint, self.end_effector]
+        return Section(f"{self.positions.symbols.title}, velocities", values)
 
     def com(self, k: int) -> Vector:
         """Velocity of the COM of link k."""
@@ -90,6 +100,14 @@ class Kinematics:
     @cached_property
     def velocities(self) -> list[ArmVelocities]:
         return [ArmVelocities(arm, self.inputs) for arm in self.arms]
+
+    @property
+    def position_sections(self) -> list[Section]:
+        return [Section("base, rotation", self.base_rotation), *(arm.section for arm in self.arms)]
+
+    @property
+    def sections(self) -> list[Section]:
+        return [*self.position_sections, *(arm.section for arm in self.velocities)]
 
     @property
     def base_position(self) -> Vector:
@@ -171,7 +189,8 @@ def end_effectors_family(kinematics: Kinematics) -> Family:
             [list_of_vectors("end_effector_twists", "rad/s, m/s, m/s", twists_text, twists)],
         ),
     ]
-    return Family("end_effectors", "Poses, Jacobian and twists of the end effectors.", functions)
+    description = "Poses, Jacobian and twists of the end effectors."
+    return Family("end_effectors", description, functions, kinematics.sections)
 
 
 def bodies_family(kinematics: Kinematics) -> Family:
@@ -196,4 +215,5 @@ def bodies_family(kinematics: Kinematics) -> Family:
             [list_of_vectors("body_twists", "rad/s, m/s, m/s", twists_text, twists)],
         ),
     ]
-    return Family("bodies", "Motion of every body's COM: the base, then the links arm by arm.", functions)
+    description = "Motion of every body's COM: the base, then the links arm by arm."
+    return Family("bodies", description, functions, kinematics.sections)

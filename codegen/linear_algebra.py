@@ -3,11 +3,12 @@
 import casadi as ca
 
 from .plane_vectors import ZERO
+from .signatures import Section
 from .symbols import Symbols
 
 
-def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) -> tuple[ca.SX, ca.SX]:
-    """(x, smallest pivot relative to its diagonal entry) of matrix x = right, by L D L^T in the given order.
+def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) -> tuple[ca.SX, ca.SX, list[Section]]:
+    """(x, smallest pivot relative to its diagonal entry, sections) of matrix x = right, by L D L^T in the given order.
 
     With the joints before the base, blocks of different arms do not fill in.
     """
@@ -34,6 +35,7 @@ def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) 
             x[i] = x[i] - factor[i] * x[k]
         for i in column:
             work[i, k] = factor[i]
+    sections = [Section("factorization", list(work.values()), inverse), Section("forward substitution", x)]
     for k in reversed(range(size)):
         x[k] = x[k] * inverse[k]
         for i in range(k + 1, size):
@@ -42,7 +44,8 @@ def ldlt_solve(symbols: Symbols, matrix: ca.SX, right: ca.SX, order: list[int]) 
     solution = ca.SX(size, 1)
     for i, value in zip(order, x, strict=True):
         solution[i] = value
-    return solution, ca.SX(1) if smallest is None else smallest
+    sections.append(Section("back substitution", x))
+    return solution, ca.SX(1) if smallest is None else smallest, sections
 
 
 def matrix_times(matrix: ca.SX, vector: ca.SX) -> ca.SX:

@@ -5,7 +5,7 @@ import casadi as ca
 from .equations_of_motion import EquationsOfMotion
 from .inputs import CONFIGURATION, STATE
 from .plane_vectors import add, cross, dot, scale, subtract
-from .signatures import Family, Function, matrix, smallest_pivot, vector
+from .signatures import Family, Function, Section, matrix, smallest_pivot, vector
 from .symbols import Symbols
 
 
@@ -32,6 +32,12 @@ class ReducedDynamics:
             entry - dot(self.com, moment) for entry, moment in zip(base_coupling, self.first_moment, strict=True)
         ]
         self.rotation_response = [coupling * inverse_inertia for coupling in self.coupling]
+
+    @property
+    def sections(self) -> list[Section]:
+        """The parts that depend on the configuration alone."""
+        about_com = Section("robot about its COM", self.com, self.inertia, self.com_lever, self.coupling)
+        return [*self.equations.sections, about_com, Section("elimination of the base", self.rotation_response)]
 
     def smallest_pivot(self) -> ca.SX:
         """Inertia about the robot's COM relative to that about the base COM."""
@@ -103,6 +109,7 @@ def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
         source,
         [*STATE],
         [inertia, bias, jacobian, pivot],
+        reduced.equations.bias_sections,
     )
     jacobian_alone = Function(
         "generalized_jacobian",
@@ -116,4 +123,5 @@ def reduced_dynamics_family(reduced: ReducedDynamics) -> Family:
         "reduced_dynamics",
         "Dynamics of the free-floating robot in joint coordinates alone, with the base eliminated.",
         [all_together, jacobian_alone],
+        reduced.sections,
     )

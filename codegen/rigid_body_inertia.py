@@ -20,7 +20,7 @@ class RigidBodyInertia:
     def about_joint(self, symbols: Symbols) -> ca.SX:
         inertia = self.inertia + self.mass * (self.com[0] * self.com[0] + self.com[1] * self.com[1])
         text = "I + m |c|^2, about the joint"
-        return symbols.constant(f"{self.label}_pivot_inertia", inertia, "kg m^2", text)
+        return symbols.constant(f"{self.label}_joint_inertia", inertia, "kg m^2", text)
 
     def first_moment(self, symbols: Symbols) -> Vector:
         return (

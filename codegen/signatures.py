@@ -1,8 +1,22 @@
-"""Records the signature of each function: its texts, its inputs, and its outputs with shapes, units and expressions."""
+"""Records the signature of each function: its texts, inputs, outputs with shapes and units, and sections."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import casadi as ca
+
+Values = ca.SX | list["Values"] | tuple["Values", ...]
+
+
+class Section:
+    """A named part of a computation: its values, and all that they depend on and no earlier section has."""
+
+    def __init__(self, name: str, *values: Values) -> None:
+        self.name, self.values = name, scalars(values)
+
+
+def scalars(values: Values) -> list[ca.SX]:
+    """The scalar expressions in nested lists and tuples, and the elements of matrices."""
+    return values.nonzeros() if isinstance(values, ca.SX) else [scalar for part in values for scalar in scalars(part)]
 
 
 @dataclass(frozen=True)
@@ -15,6 +29,10 @@ class Output:
     description: str
     elements: list[ca.SX]
 
+    @property
+    def section(self) -> Section:
+        return Section(self.name.replace("_", " ").replace("jacobian", "Jacobian"), self.elements)
+
 
 @dataclass(frozen=True)
 class Function:
@@ -26,6 +44,12 @@ class Function:
     source: str
     inputs: list[str]
     outputs: list[Output]
+    own_sections: list[Section] = field(default_factory=list)  # after those of the family
+
+    @property
+    def sections(self) -> list[Section]:
+        """The sections of this function alone; those of its outputs are the last."""
+        return [*self.own_sections, *(output.section for output in self.outputs)]
 
 
 @dataclass(frozen=True)
@@ -35,6 +59,7 @@ class Family:
     name: str
     description: str
     functions: list[Function]
+    sections: list[Section]  # which the functions have in common, in their order
 
 
 def matrix(name: str, unit: str, description: str, expression: ca.SX) -> Output:

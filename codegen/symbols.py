@@ -51,9 +51,13 @@ class LinkSymbols:
 
 @dataclass(frozen=True)
 class ArmSymbols:
-    """Parameters of one arm; ``first_joint`` is the index of its first joint among all joints."""
+    """Parameters of one arm; ``first_joint`` is the index of its first joint among all joints.
+
+    ``label`` starts the names of its constants and ``title`` those of its sections.
+    """
 
     label: str
+    title: str
     first_joint: int
     mount: Vector
     mount_angle: ca.SX
@@ -112,7 +116,7 @@ class Symbols:
         )
         links = [self._link(i, k) for k in range(len(arm.links))]
         self.joints += len(links)
-        return ArmSymbols(label, first_joint, (mount_x, mount_y), mount_angle, links)
+        return ArmSymbols(label, f"arm {i + 1}", first_joint, (mount_x, mount_y), mount_angle, links)
 
     def _link(self, i: int, k: int) -> LinkSymbols:
         link = self.layout.arms[i].links[k]

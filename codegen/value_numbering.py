@@ -4,6 +4,7 @@ Negations move outwards until a sum or difference absorbs them. Each node belong
 which it can be computed: from parameters, from the configuration, or in the call.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -44,6 +45,21 @@ class ValueNumbering:
 
     def __getitem__(self, number: int) -> Node:
         return self.nodes[number]
+
+    def operands(self, number: int) -> tuple[int, ...]:
+        """The nodes that an operation is on; none of a leaf."""
+        node = self.nodes[number]
+        return () if node.is_leaf else node.args
+
+    def reachable(self, numbers: Iterable[int]) -> set[int]:
+        """The nodes and all that they depend on."""
+        found, stack = set(), [*numbers]
+        while stack:
+            i = stack.pop()
+            if i not in found:
+                found.add(i)
+                stack.extend(self.operands(i))
+        return found
 
     def find(self, op: str, *args: int) -> int | None:
         """The number of an operation that exists."""

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from collections import Counter
+from itertools import pairwise
 
 import pytest
 
@@ -101,6 +102,33 @@ def test_the_header_names_the_layout_and_the_command(name):
     assert found["layout"]["sha256"] == content_hash(layout)
     assert found["layout"]["arms"] == [{"name": arm.name, "links": len(arm.links)} for arm in layout.arms]
     assert found["command"] == f"python -m codegen {name}"
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_every_statement_is_in_a_section(name):
+    """Sections divide the statements of a stage in order, none is empty and none comes twice."""
+    for family in derived(LAYOUTS[name])["families"]:
+        for stage in [family["configuration"], *family["functions"]]:
+            names, starts = [[section[k] for section in stage["sections"]] for k in (0, 1)]
+            assert all(names) and len(set(names)) == len(names), names
+            assert starts[:1] == [0][: len(stage["statements"])]
+            assert all(start < end for start, end in pairwise([*starts, len(stage["statements"])])), starts
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_sections_are_named_after_the_passes(name):
+    """Each arm has the passes of each algorithm, in the order in which they use each other."""
+    layout, found = LAYOUTS[name], derived(LAYOUTS[name])
+    arms = [f"arm {i + 1}" for i in range(len(layout.arms))]
+    forward, equations = found["families"][0], found["families"][1]
+    expected = [f"{arm}, articulated inertia" for arm in arms] + ["base, articulated inertia", "base, rotation"]
+    assert [section for section, _ in forward["configuration"]["sections"]] == expected
+    passes = [f"{arm}, inward pass" for arm in arms] + ["base, acceleration"]
+    passes += [f"{arm}, outward pass" for arm in arms]
+    assert [section for section, _ in forward["functions"][0]["sections"]] == passes
+    bias = next(function for function in equations["functions"] if function["name"] == "bias")
+    recursion = [f"{arm}, {direction} pass" for arm in arms for direction in ("outward", "inward")]
+    assert [section for section, _ in bias["sections"]][: len(recursion)] == recursion
 
 
 @pytest.mark.parametrize("name", LAYOUTS)

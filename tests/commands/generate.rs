@@ -183,7 +183,7 @@ fn a_graph_of_ones_own_is_rendered_without_python() {
     assert!(name.contains("has to be the file's own name, \"other\""), "{name}");
     fs::remove_file(at("other.json")).expect("removed");
     let missing = render().expect_err("no graph");
-    assert!(missing.contains("other.json") && missing.contains("derive it again"), "{missing}");
+    assert!(missing.contains("other.json") && missing.contains("generate it again"), "{missing}");
     fs::remove_file(at("other.toml")).expect("removed");
     let empty = render().expect_err("nothing");
     assert!(empty.contains("no layout NAME.toml"), "{empty}");

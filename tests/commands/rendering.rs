@@ -126,10 +126,11 @@ fn what_stops_the_build_says_how_to_mend_it() {
     assert!(missing.contains("dual_arm_3r.json") && missing.contains(mend), "{missing}");
     let orphan = broken(|dir| fs::remove_file(dir.join("layouts/dual_arm_3r.toml")).expect("removed"));
     assert!(orphan.contains("has no layout"), "{orphan}");
-    let cut = broken(|dir| fs::write(dir.join("graphs/dual_arm_3r.json"), "{\"format\": 1").expect("written"));
+    let cut = broken(|dir| fs::write(dir.join("graphs/dual_arm_3r.json"), "{\"format\": 2").expect("written"));
     assert!(cut.contains("not JSON") && cut.contains(mend), "{cut}");
-    let newer = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"format\": 1", "\"format\": 2"));
-    assert!(newer.contains("format 2") && newer.contains(mend), "{newer}");
+    let older = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"format\": 2", "\"format\": 1"));
+    assert!(older.contains("it has format 1, this version reads format 2; generate it again"), "{older}");
+    assert!(older.contains(mend), "{older}");
     let unknown = broken(|dir| edit(&dir.join("graphs/dual_arm_3r.json"), "\"mul\", ", "\"mull\", "));
     assert!(unknown.contains("`mull`") && unknown.contains(mend), "{unknown}");
     let layout = broken(|dir| edit(&dir.join("layouts/dual_arm_3r.toml"), "inertia", "inertai"));

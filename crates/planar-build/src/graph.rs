@@ -6,7 +6,7 @@ use planar_layout::layout::Layout;
 use serde_json::{Value, json};
 
 /// The format of the graphs that are read.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 
 /// Why a graph cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,7 +47,7 @@ impl From<String> for GraphError {
 pub fn read(graph_text: &str, layout: &Layout) -> Result<Value, GraphError> {
     let graph: Value = serde_json::from_str(graph_text).map_err(|e| format!("not JSON: {e}"))?;
     if graph["format"] != json!(FORMAT) {
-        return Err(format!("format {} where {FORMAT} is read", graph["format"]).into());
+        return Err(format!("it has format {}, this version reads format {FORMAT}", graph["format"]).into());
     }
     let (found, wanted) = (text(&graph["layout"]["sha256"])?, layout.sha256());
     if found != wanted {

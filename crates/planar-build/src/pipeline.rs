@@ -55,7 +55,7 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
     let (_, value) = fresh(&layout, &graph, &command)?;
     let source = format!("codegen/graphs/{name}.json");
     let module = Module { standalone: false, item: true, source: &source, command: &command };
-    module.render(&value).map_err(|e| format!("{}: {e}; derive it again: {command}", graph.display()))
+    module.render(&value).map_err(|e| format!("{}: {e}; generate it again: {command}", graph.display()))
 }
 
 /// A layout and the graph that was derived from it; `command` makes the graph again.
@@ -65,12 +65,12 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
 pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Value), String> {
     let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
     let (shown, from) = (graph_path.display(), layout_path.display());
-    let mend = |e: &dyn std::fmt::Display| format!("{shown}: {e}; derive it again: {command}");
+    let mend = |e: &dyn std::fmt::Display| format!("{shown}: {e}; generate it again: {command}");
     let text = fs::read_to_string(graph_path).map_err(|e| mend(&e))?;
     match graph::read(&text, &layout) {
         Ok(graph) => Ok((layout, graph)),
         Err(GraphError::Stale { found, wanted }) => Err(format!(
-            "{shown} is stale: it was derived from a layout with sha256 {found}, {from} has {wanted}; derive it again: {command}"
+            "{shown} is stale: it was derived from a layout with sha256 {found}, {from} has {wanted}; generate it again: {command}"
         )),
         Err(other) => Err(mend(&other)),
     }
