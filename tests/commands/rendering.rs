@@ -1,4 +1,4 @@
-//! From graph to Rust: the same text every time, no more operations than the header says, and what stops the build.
+//! From graph to Rust: the same text every time, no more operations than its table says, and what stops the build.
 
 use planar_build::pipeline;
 use planar_capture::{diagnostic, layout};
@@ -40,11 +40,8 @@ fn body<'a>(text: &'a str, signature: &str) -> &'a str {
 
 /// Binary operations of a body, counted in the rendered text: what the compiler is given.
 fn operations(body: &str) -> usize {
-    let is_statement = |line: &&str| line.trim_start().starts_with("let ");
     let binary = |line: &str| [" + ", " - ", " * ", " / "].iter().map(|op| line.matches(op).count()).sum::<usize>();
-    // a long statement is broken over lines: join what belongs together
-    let joined = body.replace(['\n'], " ").replace(';', ";\n");
-    joined.lines().map(str::trim).filter(is_statement).map(binary).sum()
+    body.lines().filter(|line| line.trim_start().starts_with("let ")).map(binary).sum()
 }
 
 /// The targets for the paper's robot, counted in the rendered text.
@@ -66,8 +63,10 @@ fn paper_robot_is_within_its_operation_targets() {
     ] {
         let total = forward + call("ForwardDynamics", function);
         assert!((least..=most).contains(&total), "{function}: {total} operations, at most {most} are wanted");
-        let header = text.lines().find(|line| line.starts_with(&format!("//     {function}  "))).expect("a count");
-        assert!(header.contains(&format!(" {total} flops")), "the header says `{header}`, the text has {total}");
+        let row = text.lines().find_map(|line| line.trim().strip_prefix(&format!("//! | [`Model::{function}`] | ")));
+        let counts =
+            row.expect("a row of the table").split(" | ").take(3).map(|count| count.parse::<usize>().expect("a count"));
+        assert_eq!(counts.sum::<usize>(), total, "{function}: the table and the text");
     }
     let reduced = staged("reduced_dynamics") + call("ReducedDynamics", "reduced_dynamics");
     assert!((400..=560).contains(&reduced), "reduced dynamics: {reduced} operations");
@@ -93,7 +92,7 @@ fn no_block_is_too_long_for_a_compiler_that_describes_its_variables() {
             longest = longest.max(open.iter().sum());
         }
     }
-    assert!((450..=510).contains(&longest), "{longest} variables in scope");
+    assert!((250..=310).contains(&longest), "{longest} variables in scope");
 }
 
 /// A copy of `codegen/` in which something is wrong.

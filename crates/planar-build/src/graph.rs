@@ -1,9 +1,12 @@
 //! Graphs as files: read, and compared with the layout that they were derived from.
 
-use crate::renderer::camel;
-use crate::renderer::json::{list, text};
+pub use crate::format::Graph;
+
+use crate::renderer::camel_case;
 use planar_layout::layout::Layout;
-use serde_json::{Value, json};
+use serde::Deserialize;
+use serde_json::Value;
+use std::fmt::Debug;
 
 /// The format of the graphs that are read.
 const FORMAT: u64 = 2;
@@ -22,7 +25,7 @@ pub enum GraphError {
         /// The layout's.
         wanted: String,
     },
-    /// It says that it is of the layout, but has another name, arm or number.
+    /// It has the layout's hash, but another name, arm or number.
     #[error("{what} is {found}, the layout has {wanted}")]
     Differs {
         /// What differs.
@@ -34,45 +37,59 @@ pub enum GraphError {
     },
 }
 
-impl From<String> for GraphError {
-    fn from(problem: String) -> Self {
-        Self::Format(problem)
-    }
-}
-
 /// Parses a graph and compares it with a layout: hash, names, number of links and the defaults of all parameters.
 ///
 /// # Errors
 /// [`GraphError`].
-pub fn read(graph_text: &str, layout: &Layout) -> Result<Value, GraphError> {
-    let graph: Value = serde_json::from_str(graph_text).map_err(|e| format!("not JSON: {e}"))?;
-    if graph["format"] != json!(FORMAT) {
-        return Err(format!("it has format {}, this version reads format {FORMAT}", graph["format"]).into());
+pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
+    let Header { format } = parse(text)?;
+    if format != FORMAT {
+        return Err(GraphError::Format(format!("it has format {format}, this version reads format {FORMAT}")));
     }
-    let (found, wanted) = (text(&graph["layout"]["sha256"])?, layout.sha256());
-    if found != wanted {
-        return Err(GraphError::Stale { found: found.to_owned(), wanted });
+    let graph: Graph = parse(text)?;
+    let (found, wanted) = (&graph.layout.sha256, layout.sha256());
+    if *found != wanted {
+        return Err(GraphError::Stale { found: found.clone(), wanted });
     }
-    let arms: Vec<Value> = layout.arms.iter().map(|arm| json!({"name": arm.name, "links": arm.links.len()})).collect();
-    same("name", &graph["layout"]["name"], &json!(layout.name))?;
-    same("arms", &graph["layout"]["arms"], &json!(arms))?;
+    equal("name", &graph.layout.name, &layout.name)?;
+    let found: Vec<_> = graph.layout.arms.iter().map(|arm| (&arm.name, arm.links)).collect();
+    equal("arms", &found, &layout.arms.iter().map(|arm| (&arm.name, arm.links.len())).collect())?;
+    for function in graph.families.iter().flat_map(|family| &family.functions) {
+        let declared = |name: &&String| graph.inputs.iter().any(|input| input.name == **name);
+        if let Some(input) = function.inputs.iter().find(|name| !declared(name)) {
+            return Err(GraphError::Format(format!("input `{input}` of `{}` is not declared", function.name)));
+        }
+        if function.outputs.is_empty() {
+            return Err(GraphError::Format(format!("`{}` has no output", function.name)));
+        }
+    }
     let parameters = layout.parameters();
-    for parameter in list(&graph["parameters"])? {
-        let name = text(&parameter["name"])?;
-        let place = |key: &str| parameter[key].as_u64().and_then(|place| usize::try_from(place).ok()).unwrap_or(0);
-        let (arm, link) = (place("arm"), place("link"));
-        let kind = camel(text(&parameter["quantity"])?);
-        let value = parameters.iter().find(|(k, a, l, _)| format!("{k:?}") == kind && (*a, *l) == (arm, link));
-        let (.., value) = value.ok_or_else(|| format!("parameter `{name}` is no parameter of the layout"))?;
-        same(&format!("the default of `{name}`"), &parameter["default"], &json!(value))?;
+    for parameter in &graph.parameters {
+        let (name, kind) = (&parameter.name, camel_case(&parameter.quantity));
+        let place = (parameter.arm.unwrap_or(0), parameter.link.unwrap_or(0));
+        let value = parameters.iter().find(|(k, a, l, _)| format!("{k:?}") == kind && (*a, *l) == place);
+        let unknown = || GraphError::Format(format!("parameter `{name}` is no parameter of the layout"));
+        let (.., value) = value.ok_or_else(unknown)?;
+        equal(&format!("the default of `{name}`"), &parameter.default, value)?;
     }
     Ok(graph)
 }
 
-fn same(what: &str, found: &Value, wanted: &Value) -> Result<(), GraphError> {
-    let numbers = found.as_f64().zip(wanted.as_f64());
-    if found == wanted || numbers.is_some_and(|(found, wanted)| (found + 0.0).to_bits() == (wanted + 0.0).to_bits()) {
+/// What every format has.
+#[derive(Deserialize)]
+struct Header {
+    #[serde(default)]
+    format: Value,
+}
+
+fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, GraphError> {
+    let problem = |e: serde_json::Error| if e.is_data() { e.to_string() } else { format!("not JSON: {e}") };
+    serde_json::from_str(text).map_err(|e| GraphError::Format(problem(e)))
+}
+
+fn equal<T: PartialEq + Debug>(what: &str, found: &T, wanted: &T) -> Result<(), GraphError> {
+    if found == wanted {
         return Ok(());
     }
-    Err(GraphError::Differs { what: what.to_owned(), found: found.to_string(), wanted: wanted.to_string() })
+    Err(GraphError::Differs { what: what.to_owned(), found: format!("{found:?}"), wanted: format!("{wanted:?}") })
 }

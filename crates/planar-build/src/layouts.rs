@@ -28,7 +28,7 @@
 
 use crate::command::command;
 use crate::pipeline::{fresh, names};
-use crate::renderer::{self, Module, VECTORS};
+use crate::renderer::{self, Module};
 use planar_layout::layout::Layout;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -127,7 +127,7 @@ impl Layouts {
             let found = &layout.name;
             return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
         }
-        if graph.get(VECTORS).is_none() {
+        if graph.self_test.is_none() {
             return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
         }
         let source = shown.to_string();

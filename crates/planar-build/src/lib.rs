@@ -4,6 +4,7 @@
 //! It never contains: a scenario, a simulation, a command line, the text of the Python package.
 
 mod command;
+mod format;
 pub mod graph;
 mod layouts;
 pub mod pipeline;

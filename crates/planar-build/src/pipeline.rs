@@ -1,9 +1,8 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
-use crate::graph::{self, GraphError};
+use crate::graph::{self, Graph, GraphError};
 use crate::renderer::Module;
 use planar_layout::layout::Layout;
-use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
@@ -62,7 +61,7 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
 ///
 /// # Errors
 /// What is wrong with either, or that the graph is not the layout's, with the command.
-pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Value), String> {
+pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Graph), String> {
     let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
     let (shown, from) = (graph_path.display(), layout_path.display());
     let mend = |e: &dyn std::fmt::Display| format!("{shown}: {e}; generate it again: {command}");

@@ -1,8 +1,7 @@
 //! A graph computed in `f64` as it stands, without being compiled: what the rendered code will say.
 
-use crate::renderer::json::{list, size, text};
+use crate::format::{Binary, Graph, Operand, Operation, Statement, Unary};
 use planar_dynamics::scalar::Scalar;
-use serde_json::Value;
 use std::collections::HashMap;
 
 /// One result of one function.
@@ -20,38 +19,31 @@ pub struct Found {
 /// each input, row-major, by the input's name.
 ///
 /// # Errors
-/// A graph that does not follow its own format: where.
-pub fn interpret(graph: &Value, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found>, String> {
+/// A name that is used before it has a value, or an input that is missing: which.
+pub fn interpret(graph: &Graph, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found>, String> {
     let mut known = Known::default();
-    for input in list(&graph["inputs"])? {
-        let name = text(&input["name"])?;
-        let values = inputs.iter().find(|(input, _)| *input == name).map(|(_, values)| values);
-        let values = values.ok_or_else(|| format!("input `{name}` has no value"))?;
-        let element = |i: usize| match list(&input["shape"])?.as_slice() {
-            [_] => Ok::<_, String>(format!("{name}[{i}]")),
-            [_, columns] => size(columns).map(|n| format!("{name}[{}][{}]", i / n.max(1), i % n.max(1))),
-            other => Err(format!("input `{name}` has {} dimensions", other.len())),
-        };
+    for input in &graph.inputs {
+        let name = &input.name;
+        let (_, values) =
+            inputs.iter().find(|(given, _)| given == name).ok_or(format!("input `{name}` has no value"))?;
+        let columns = input.shape.get(1).copied();
         for (i, value) in values.iter().enumerate() {
-            known.own.insert(element(i)?, *value);
+            let place = columns.map_or_else(|| format!("[{i}]"), |n| format!("[{}][{}]", i / n, i % n));
+            known.own.insert(format!("{name}{place}"), *value);
         }
     }
-    for parameter in list(&graph["parameters"])? {
-        let default = parameter["default"].as_f64().ok_or("a parameter without a default")?;
-        known.set(&parameter["name"], default)?;
-    }
-    known.run(&graph["constants"]["statements"])?;
+    known.own.extend(graph.parameters.iter().map(|parameter| (parameter.name.clone(), parameter.default)));
+    known.run(&graph.constants.statements)?;
     let mut found = Vec::new();
-    for family in list(&graph["families"])? {
-        let mut of_family = known.inside();
-        of_family.run(&family["configuration"]["statements"])?;
-        for function in list(&family["functions"])? {
-            let mut call = of_family.inside();
-            call.run(&function["statements"])?;
-            for output in list(&function["outputs"])? {
-                let values = list(&output["elements"])?.iter().map(|e| call.get(e)).collect::<Result<_, _>>()?;
-                let (function, output) = (text(&function["name"])?.to_owned(), text(&output["name"])?.to_owned());
-                found.push(Found { function, output, values });
+    for family in &graph.families {
+        let mut configuration = known.next_stage();
+        configuration.run(&family.configuration.statements)?;
+        for function in &family.functions {
+            let mut call = configuration.next_stage();
+            call.run(&function.statements)?;
+            for output in &function.outputs {
+                let values = output.elements.iter().map(|element| call.get(element)).collect::<Result<_, _>>()?;
+                found.push(Found { function: function.name.clone(), output: output.name.clone(), values });
             }
         }
     }
@@ -66,8 +58,7 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The next stage.
-    fn inside(&self) -> Known<'_> {
+    fn next_stage(&self) -> Known<'_> {
         Known { before: Some(self), own: HashMap::new() }
     }
 
@@ -75,48 +66,38 @@ impl Known<'_> {
         self.own.get(name).copied().or_else(|| self.before?.find(name))
     }
 
-    fn set(&mut self, name: &Value, value: f64) -> Result<(), String> {
-        self.own.insert(text(name)?.to_owned(), value);
-        Ok(())
-    }
-
-    fn get(&self, operand: &Value) -> Result<f64, String> {
-        match operand.as_f64() {
-            Some(number) => Ok(number),
-            None => self.find(text(operand)?).ok_or_else(|| format!("{operand} is used before it is known")),
+    fn get(&self, operand: &Operand) -> Result<f64, String> {
+        match operand {
+            Operand::Number(number) => Ok(*number),
+            Operand::Name(name) => self.find(name).ok_or_else(|| format!("`{name}` is used before it is known")),
         }
     }
 
-    fn run(&mut self, statements: &Value) -> Result<(), String> {
-        for line in list(statements)? {
-            let [target, operation, arguments @ ..] = list(line)?.as_slice() else {
-                return Err(format!("{line} is not a statement"));
-            };
-            let arguments = arguments.iter().map(|a| self.get(a)).collect::<Result<Vec<_>, _>>()?;
-            let value = match (text(operation)?, arguments.as_slice()) {
-                ("add", [a, b]) => a + b,
-                ("sub", [a, b]) => a - b,
-                ("mul", [a, b]) => a * b,
-                ("div", [a, b]) => a / b,
-                ("neg", [a]) => -a,
-                ("copy", [a]) => *a,
-                ("min", [a, b]) => Scalar::minimum(*a, *b),
-                ("atan2", [y, x]) => Scalar::atan2(*y, *x),
-                ("sqrt", [a]) => Scalar::sqrt(*a),
-                ("sin_cos", [angle]) => {
-                    let [sine, cosine] = list(target)?.as_slice() else {
-                        return Err(format!("{line} has not two results"));
-                    };
-                    let (s, c) = Scalar::sin_cos(*angle);
-                    self.set(sine, s)?;
-                    self.set(cosine, c)?;
-                    continue;
+    fn run(&mut self, statements: &[Statement]) -> Result<(), String> {
+        for Statement { targets, operation } in statements {
+            let values = match operation {
+                Operation::Unary(operation, a) => {
+                    let a = self.get(a)?;
+                    match operation {
+                        Unary::Copy => vec![a],
+                        Unary::Neg => vec![-a],
+                        Unary::Sqrt => vec![Scalar::sqrt(a)],
+                        Unary::SinCos => <[f64; 2]>::from(Scalar::sin_cos(a)).into(),
+                    }
                 }
-                (operation, arguments) => {
-                    return Err(format!("operation `{operation}` with {} arguments is unknown", arguments.len()));
+                Operation::Binary(operation, [a, b]) => {
+                    let (a, b) = (self.get(a)?, self.get(b)?);
+                    vec![match operation {
+                        Binary::Add => a + b,
+                        Binary::Sub => a - b,
+                        Binary::Mul => a * b,
+                        Binary::Div => a / b,
+                        Binary::Min => Scalar::minimum(a, b),
+                        Binary::Atan2 => Scalar::atan2(a, b),
+                    }]
                 }
             };
-            self.set(target, value)?;
+            self.own.extend(targets.iter().cloned().zip(values));
         }
         Ok(())
     }

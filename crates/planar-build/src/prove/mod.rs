@@ -11,13 +11,12 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive};
 
-use crate::graph::{self, GraphError};
+use crate::format::ReferenceState;
+use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
-use crate::renderer::VECTORS;
 use interpreter::interpret;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
-use serde_json::Value;
 use vectors::Vectors;
 
 /// States of each regime that a graph is proved at.
@@ -76,7 +75,7 @@ pub struct Proof {
 #[derive(Clone, Debug)]
 pub struct Proved {
     /// The graph, with reference vectors.
-    pub graph: Value,
+    pub graph: Graph,
     /// The same as text, as it is to be kept.
     pub text: String,
     /// What it was found to be.
@@ -91,17 +90,18 @@ pub struct Proved {
 pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateError> {
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
-    let vectors = (0..CARRIED).map(|index| {
+    let states = (0..CARRIED).map(|index| {
         let vectors = at(layout, Regime::Moving, index)?;
-        let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::from)?;
-        Ok(vectors.to_json(&found))
+        let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::Format)?;
+        Ok(vectors.reference_state(&found))
     });
-    let vectors = vectors.collect::<Result<Vec<_>, GenerateError>>()?;
+    let states = states.collect::<Result<Vec<ReferenceState>, GenerateError>>()?;
     // a state a line, after what the derivation wrote
-    let lines: Vec<String> = vectors.iter().map(|vectors| format!("  {vectors}")).collect();
+    let lines: Result<Vec<String>, _> = states.iter().map(serde_json::to_string).collect();
+    let lines = lines.expect("numbers and names are written as JSON").join(",\n  ");
     let end = graph_text.trim_end().strip_suffix('}').unwrap_or(graph_text).trim_end();
-    let text = format!("{end},\n \"{VECTORS}\": [\n{}\n ]\n}}\n", lines.join(",\n"));
-    graph[VECTORS] = Value::Array(vectors);
+    let text = format!("{end},\n \"self_test\": [\n  {lines}\n ]\n}}\n");
+    graph.self_test = Some(states);
     Ok(Proved { graph, text, proof })
 }
 
@@ -110,17 +110,16 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
 ///
 /// # Errors
 /// [`GenerateError`], with the first result that is off.
-pub fn prove(layout: &Layout, graph: &Value) -> Result<Proof, GenerateError> {
+pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
             let vectors = at(layout, regime, index)?;
-            let found = interpret(graph, &vectors.inputs()).map_err(GraphError::from)?;
+            let found = interpret(graph, &vectors.inputs()).map_err(GraphError::Format)?;
             let found = || found.iter().filter(|found| found.output != "smallest_pivot");
             if found().count() != vectors.expected.len() {
-                return Err(
-                    GraphError::Format("it has other results than the generic implementation".to_owned()).into()
-                );
+                let problem = "it has other results than the generic implementation";
+                return Err(GraphError::Format(problem.to_owned()).into());
             }
             for found in found() {
                 let error = vectors.expected(found).map_or(f64::INFINITY, |expected| expected.error(found));

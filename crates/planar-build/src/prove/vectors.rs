@@ -1,6 +1,7 @@
 //! Reference vectors: what the generic implementation says of a state, for every result of every generated function.
 
 use super::interpreter::Found;
+use crate::format::{Expected, Given, ReferenceState};
 use crate::prove::evaluation::{EvaluationInput, evaluate_all};
 use crate::prove::generic::Generic;
 use crate::prove::quantities::{NaturalSize, natural_sizes};
@@ -9,26 +10,12 @@ use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
-use serde_json::{Value, json};
 
 /// Rounding units that a result computed by sums and products may be off, in natural sizes.
 const ROUNDINGS: f64 = 64.0;
 
 /// Rounding units that a pivot relative to its scale may be off.
 const PIVOT_ROUNDINGS: f64 = 1024.0;
-
-/// What one result has to be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expected {
-    /// The function.
-    pub function: String,
-    /// Which of its results.
-    pub output: String,
-    /// Row-major.
-    pub values: Vec<f64>,
-    /// How many rounding units each element may be off.
-    pub sizes: Vec<f64>,
-}
 
 impl Expected {
     /// Largest difference over what is allowed in `f64`; infinite where something is missing or not a number.
@@ -126,12 +113,10 @@ impl Vectors {
         ]
     }
 
-    /// As a graph keeps them: the elements of each input and of each expected result, row-major, in the graph's order.
-    /// Pivots, which the generic implementation does not have, are those that were `found`.
+    /// As a graph keeps them. Pivots, which the generic implementation does not have, are those that were `found`.
     #[must_use]
-    pub fn to_json(&self, found: &[Found]) -> Value {
-        let inputs: Vec<Value> =
-            self.inputs().iter().map(|(name, values)| json!({"name": name, "values": values})).collect();
+    pub fn reference_state(&self, found: &[Found]) -> ReferenceState {
+        let inputs = self.inputs().map(|(name, values)| Given { name: name.to_owned(), values }).into();
         let pivot = |found: &Found| Expected {
             function: found.function.clone(),
             output: found.output.clone(),
@@ -139,13 +124,18 @@ impl Vectors {
             sizes: vec![PIVOT_ROUNDINGS; found.values.len()],
         };
         let expected = found.iter().map(|found| self.expected(found).cloned().unwrap_or_else(|| pivot(found)));
-        let expected = expected.map(|Expected { function, output, values, sizes }| {
-            // two digits of a size are enough
-            let sizes: Vec<f64> = sizes.iter().map(|size| format!("{size:.1e}").parse().unwrap_or(*size)).collect();
-            json!({"function": function, "output": output, "values": values, "sizes": sizes})
-        });
-        json!({"inputs": inputs, "expected": expected.collect::<Vec<_>>()})
+        // two digits of a size are enough
+        let shortened = |mut expected: Expected| {
+            expected.sizes.iter_mut().for_each(|size| *size = rounded(*size, 1));
+            expected
+        };
+        ReferenceState { inputs, expected: expected.map(shortened).collect() }
     }
+}
+
+/// A number with so many decimals in scientific notation.
+fn rounded(number: f64, decimals: usize) -> f64 {
+    format!("{number:.decimals$e}").parse().expect("a number that was written is read")
 }
 
 /// A quantity by the generic implementation.
@@ -175,7 +165,7 @@ fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<Known>, Err
 
 /// Four digits of every number.
 fn readable(mut instant: EvaluationInput) -> EvaluationInput {
-    let round = |x: &mut f64| *x = format!("{x:.3e}").parse().unwrap_or(*x);
+    let round = |x: &mut f64| *x = rounded(*x, 3);
     let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &mut instant;
     state.base_pose.iter_mut().chain(&mut state.base_twist).for_each(round);
     state.joint_angles.iter_mut().chain(&mut state.joint_rates).chain(joint_torques).for_each(round);

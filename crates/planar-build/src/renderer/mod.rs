@@ -1,30 +1,23 @@
-//! Graph JSON to Rust text: decides names, types and operands; the templates hold the layout.
+//! Renders a graph as Rust text: decides names, types and operands; the templates hold the layout.
 
 mod doc_text;
-pub mod json;
-mod operands;
+mod statements;
 mod wrap;
 
-use json::{list, names, size, text};
-pub use operands::camel;
-use operands::{Known, Scope, array_type, collect_uses, prelude};
+use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use planar_dynamics::standalone::PARTS;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
-use std::collections::BTreeSet;
+use statements::{Scope, bindings, nested};
 use tera::{Context, Tera};
 
 /// The templates, by the names under which they include each other.
-const TEMPLATES: [(&str, &str); 5] = [
+const TEMPLATES: [(&str, &str); 4] = [
     ("header.rs", include_str!("../../templates/header.rs.tera")),
     ("module.rs", include_str!("../../templates/module.rs.tera")),
     ("model.rs", include_str!("../../templates/model.rs.tera")),
     ("self_test.rs", include_str!("../../templates/self_test.rs.tera")),
-    ("runtime.rs", include_str!("../../templates/runtime.rs.tera")),
 ];
-
-/// The key of a graph's reference vectors.
-pub const VECTORS: &str = "self_test";
 
 /// What is to be made of a graph: a module of another crate.
 #[derive(Clone, Copy, Debug)]
@@ -44,22 +37,38 @@ impl Module<'_> {
     /// same graph and the same choices give the same bytes on every machine.
     ///
     /// # Errors
-    /// A graph that is not of the format, or a template that does not render: what and where.
-    pub fn render(&self, graph: &Value) -> Result<String, String> {
-        let mut context = Context::from_serialize(&context(graph, self)?).map_err(|e| e.to_string())?;
+    /// A template that does not render: which and where.
+    pub fn render(&self, graph: &Graph) -> Result<String, String> {
         let mut tera = Tera::default();
-        tera.add_raw_templates(TEMPLATES.to_vec()).map_err(|e| format!("{e:?}"))?;
-        let body = tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?;
-        let file = syn::parse_file(&body).map_err(|e| format!("rendered text is not Rust: {e}"))?;
-        let formatted = wrap::names(&prettyplease::unparse(&file));
-        let text = match graph.get(VECTORS) {
-            Some(vectors) => wrap::fill(&formatted, vectors),
-            None => formatted,
-        };
-        context.insert("text_sha256", &sha256(&text));
+        let templates = TEMPLATES.map(|(name, text)| (name, without_lines_of_tags(text)));
+        tera.add_raw_templates(templates).map_err(|e| format!("{e:?}"))?;
+        let mut context = Context::from_serialize(&context(graph, self)).map_err(|e| e.to_string())?;
+        let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?);
+        if self.standalone {
+            PARTS.iter().for_each(|(name, text)| body += &format!("\nmod {name} {{\n{}}}\n", indented(text, 4)));
+        }
+        if self.item {
+            body = format!("pub mod {} {{\n{}}}\n", graph.layout.name, indented(&body, 4));
+        }
+        context.insert("text_sha256", &sha256(&body));
         let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;
-        Ok(format!("{}\n\n{text}", header.trim_end()))
+        Ok(format!("{}\n\n{body}", header.trim_end()))
     }
+}
+
+/// A template in which a line that is a tag alone leaves no line.
+fn without_lines_of_tags(template: &str) -> String {
+    let is_tag = |line: &str| ["{%", "{#"].iter().any(|tag| line.starts_with(tag) && line.matches(tag).count() == 1);
+    let lines = template.lines().map(|line| match line.trim() {
+        tag if is_tag(tag) && tag.ends_with('}') => tag.to_owned(),
+        _ => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
+fn indented(text: &str, columns: usize) -> String {
+    let line = |line: &str| if line.is_empty() { "\n".to_owned() } else { format!("{:columns$}{line}\n", "") };
+    text.lines().map(line).collect()
 }
 
 /// In hexadecimal.
@@ -68,194 +77,159 @@ pub fn sha256(text: &str) -> String {
     digest.iter().fold(String::new(), |hash, byte| hash + &format!("{byte:02x}"))
 }
 
-fn context(graph: &Value, module: &Module<'_>) -> Result<Value, String> {
-    let arms = list(&graph["layout"]["arms"])?;
-    let joints = arms.iter().map(|arm| size(&arm["links"])).sum::<Result<usize, _>>()?;
-    let known = Known::of(graph)?;
-    let families = list(&graph["families"])?
-        .iter()
-        .map(|family| render_family(graph, family, &known))
-        .collect::<Result<Vec<_>, _>>()?;
-    let set_up = Scope { known: &known, staged: BTreeSet::new(), constants: false };
-    let parts: Vec<Value> = PARTS.iter().map(|(name, text)| json!({"name": name, "text": text})).collect();
-    Ok(json!({
+/// `joint_rates` as `JointRates`.
+pub fn camel_case(name: &str) -> String {
+    let mut starts = true;
+    let letter = |c: char| {
+        let shown = if starts { c.to_ascii_uppercase() } else { c };
+        starts = c == '_';
+        (c != '_').then_some(shown)
+    };
+    name.chars().filter_map(letter).collect()
+}
+
+/// What the templates show.
+fn context(graph: &Graph, module: &Module<'_>) -> Value {
+    let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
+    let joints: usize = links.iter().sum();
+    let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
+    let set_up = Scope::parameters(graph).lines(&[], &graph.constants.statements, &constants);
+    json!({
         "source": module.source,
         "command": module.command,
-        "item": module.item,
         "standalone": module.standalone,
-        "parts": parts,
-        "self_test": graph.get(VECTORS).map(|vectors| self_test(graph, vectors)).transpose()?,
-        "layout": graph["layout"],
-        "casadi": graph["casadi"],
-        "arms": arms.len(),
+        "self_test": graph.self_test.as_ref().map(|states| self_test(graph, states)),
+        "layout": graph.layout,
+        "casadi": graph.casadi,
+        "arms": graph.layout.arms.len(),
+        "links": links,
         "joints": joints,
         "size": joints + 3,
         "bodies": joints + 1,
-        "coordinates": doc_text::coordinates(graph)?,
-        "costs": doc_text::costs(graph)?,
-        "parameters": list(&graph["parameters"])?.iter().map(parameter).collect::<Result<Vec<_>, _>>()?,
-        "constants": {
-            "statements": constants(graph, &set_up)?,
-            "values": graph["constants"]["values"],
-            "operations": doc_text::operations(&graph["constants"]["operations"])?,
-        },
-        "families": families,
-        "table": doc_text::table(graph)?,
-    }))
+        "coordinates": doc_text::coordinates(graph),
+        "operations": doc_text::operations(graph),
+        "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
+        "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "constants": {"statements": body(&set_up), "values": graph.constants.values, "names": constants},
+        "families": graph.families.iter().map(|family| render_family(graph, family)).collect::<Vec<_>>(),
+    })
 }
 
-fn render_family(graph: &Value, family: &Value, known: &Known) -> Result<Value, String> {
-    let name = text(&family["name"])?;
-    let configuration = &family["configuration"];
-    let functions = list(&family["functions"])?;
-    let staged: BTreeSet<String> =
-        list(&configuration["values"])?.iter().filter_map(|v| v.as_str().map(str::to_owned)).collect();
-    let mut used = staged.clone();
-    collect_uses(list(&configuration["statements"])?, &mut used)?;
-    let scope = Scope { known, staged: BTreeSet::new(), constants: true };
-    let lines = scope.blocks(&configuration["statements"], &used, &staged)?;
-    let call = Scope { known, staged, constants: true };
-    let rendered = functions.iter().map(|f| render_function(graph, f, &call)).collect::<Result<Vec<_>, _>>()?;
-    let needs_model = rendered.iter().any(|f| f["prelude"].as_array().is_some_and(|p| !p.is_empty()));
-    Ok(json!({
+/// Lines in the body of a method.
+fn body(lines: &[String]) -> String {
+    indented(&lines.join("\n"), 8).trim_end().to_owned()
+}
+
+fn render_family(graph: &Graph, family: &Family) -> Value {
+    let Family { name, description, configuration, functions } = family;
+    let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
+    let lines = Scope::constants(graph).lines(&configuration.sections, &configuration.statements, &values);
+    let call = Scope::call(graph, &configuration.values);
+    let functions: Vec<Value> = functions.iter().map(|function| render_function(graph, function, &call)).collect();
+    let needs_model = functions.iter().any(|function| function["needs_model"] == true);
+    json!({
         "name": name,
-        "type": format!("{}Configuration", camel(name)),
-        "description": family["description"],
-        "operations": doc_text::operations(&configuration["operations"])?,
-        "base_pose": doc_text::item(input(graph, "base_pose")?)?,
-        "joint_angles": doc_text::item(input(graph, "joint_angles")?)?,
-        "prelude": prelude(&lines, "self."),
-        "statements": lines,
-        "values": configuration["values"],
+        "type": format!("{}Configuration", camel_case(name)),
+        "description": description,
+        "statements": body(&[bindings(&lines, "self"), lines].concat()),
+        "values": values,
         "needs_model": needs_model,
-        "functions": rendered,
-    }))
+        "functions": functions,
+    })
 }
 
-fn render_function(graph: &Value, function: &Value, scope: &Scope) -> Result<Value, String> {
-    let name = text(&function["name"])?;
-    let outputs = list(&function["outputs"])?;
-    let mut results = BTreeSet::new();
-    for output in outputs {
-        results.extend(list(&output["elements"])?.iter().filter_map(|e| e.as_str().map(str::to_owned)));
-    }
-    let mut used = results.clone();
-    collect_uses(list(&function["statements"])?, &mut used)?;
-    let mut lines = scope.blocks(&function["statements"], &used, &results)?;
-    let values = outputs.iter().map(|o| scope.array(o)).collect::<Result<Vec<_>, _>>()?;
+fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'a>) -> Value {
+    let Function { name, outputs, sections, statements, .. } = function;
+    let results: Vec<&str> = outputs.iter().flat_map(|output| &output.elements).filter_map(|e| e.name()).collect();
+    let mut lines = scope.lines(sections, statements, &results);
+    let arrays = outputs.iter().map(|output| (output, scope.array(output)));
     let single = outputs.len() == 1;
-    let result = if single {
-        values.concat()
+    if single {
+        lines.extend(arrays.map(|(_, array)| array));
     } else {
-        let fields = outputs.iter().zip(&values).map(|(o, v)| Ok(format!("{}: {v}", text(&o["name"])?)));
-        format!("{} {{ {} }}", camel(name), fields.collect::<Result<Vec<_>, String>>()?.join(", "))
-    };
-    lines.push(result);
-    let bindings = prelude(&lines, "self.model.");
-    let result = lines.pop().unwrap_or_default();
-    let types = outputs.iter().map(|o| array_type(&o["shape"], "T")).collect::<Result<Vec<_>, _>>()?;
-    let rendered_outputs = outputs
-        .iter()
-        .zip(&types)
-        .map(|(o, t)| Ok(json!({"name": o["name"], "type": t, "text": doc_text::item(o)?})))
-        .collect::<Result<Vec<_>, String>>()?;
-    let arguments = list(&function["inputs"])?
-        .iter()
-        .map(text)
-        .filter(|name| !matches!(name, Ok("base_pose" | "joint_angles")))
-        .map(|name| {
-            let input = input(graph, name?)?;
-            let array = array_type(&input["shape"], "T")?;
-            Ok(json!({"name": input["name"], "type": array, "text": doc_text::item(input)?}))
-        })
-        .collect::<Result<Vec<_>, String>>()?;
-    Ok(json!({
-        "name": name,
-        "docs": doc_text::function(function)?,
-        "struct": if single { Value::Null } else { json!(camel(name)) },
-        "result_type": if single { types.concat() } else { format!("{}<T>", camel(name)) },
-        "outputs": rendered_outputs,
-        "arguments": arguments,
-        "prelude": bindings,
-        "statements": lines,
-        "result": result,
-    }))
-}
-
-/// Inputs and outputs of the module's own test, as the templates want them; `vectors` holds the numbers.
-fn self_test(graph: &Value, vectors: &Value) -> Result<Value, String> {
-    let inputs = list(&graph["inputs"])?.iter().map(|input| {
-        let map = match list(&input["shape"])?.len() {
-            1 => "map(T::constant)",
-            _ => "map(|row| row.map(T::constant))",
-        };
-        Ok(json!({"name": input["name"], "type": array_type(&input["shape"], "f64")?, "map": map}))
-    });
-    let mut functions = Vec::new();
-    for family in list(&graph["families"])? {
-        for function in list(&family["functions"])? {
-            let outputs = list(&function["outputs"])?;
-            let found = |output: &Value| {
-                let field = if outputs.len() == 1 { String::new() } else { format!(".{}", text(&output["name"])?) };
-                Ok::<_, String>(match list(&output["shape"])?.len() {
-                    0 => format!("core::slice::from_ref(&result{field})"),
-                    1 => format!("&result{field}"),
-                    _ => format!("result{field}.as_flattened()"),
-                })
-            };
-            let compared: Vec<Value> = outputs
-                .iter()
-                .map(|output| Ok(json!({"name": output["name"], "found": found(output)?})))
-                .collect::<Result<_, String>>()?;
-            functions.push(json!({"name": function["name"], "inputs": function["inputs"], "outputs": compared}));
-        }
+        lines.push(format!("{} {{", camel_case(name)));
+        lines.extend(arrays.map(|(output, array)| format!("    {}: {array},", output.name)));
+        lines.push("}".to_owned());
     }
-    let instants = list(vectors)?.iter().map(|instant| {
-        let inputs = list(&instant["inputs"])?.iter().map(|given| {
-            let name = text(&given["name"])?;
-            let value = literal(list(&input(graph, name)?["shape"])?, list(&given["values"])?)?;
-            Ok::<_, String>(json!({"name": name, "value": value}))
-        });
-        Ok(json!({"inputs": inputs.collect::<Result<Vec<_>, String>>()?, "expected": instant["expected"]}))
-    });
-    let instants = instants.collect::<Result<Vec<_>, String>>()?;
-    Ok(json!({"inputs": inputs.collect::<Result<Vec<_>, String>>()?, "functions": functions, "instants": instants}))
-}
-
-/// Numbers as a nested array literal of a shape.
-fn literal(shape: &[Value], values: &[Value]) -> Result<String, String> {
-    let Some((_, inner)) = shape.split_first() else {
-        return values.first().ok_or("no number".to_owned()).and_then(wrap::number);
+    let bindings = bindings(&lines, "self.model");
+    let described = |variable: &Variable| {
+        json!({
+            "name": variable.name,
+            "type": array_type(&variable.shape, "T"),
+            "text": doc_text::variable(variable),
+        })
     };
-    let part: usize = inner.iter().map(size).product::<Result<_, _>>()?;
-    let parts = values.chunks(part.max(1)).map(|values| literal(inner, values));
-    Ok(format!("[{}]", parts.collect::<Result<Vec<_>, _>>()?.join(", ")))
+    let inputs: Vec<Value> = function.inputs.iter().map(|name| described(input(graph, name))).collect();
+    let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
+    let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();
+    let call_names: Vec<&Value> = call_inputs.iter().map(|input| &input["name"]).collect();
+    json!({
+        "name": name,
+        "docs": doc_text::function(function),
+        "struct": (!single).then(|| camel_case(name)),
+        "result_type": if single { array_type(&outputs[0].shape, "T") } else { format!("{}<T>", camel_case(name)) },
+        "outputs": outputs.iter().map(described).collect::<Vec<_>>(),
+        "inputs": inputs,
+        "call_inputs": call_inputs,
+        "call_names": call_names,
+        "needs_model": !bindings.is_empty(),
+        "statements": body(&[bindings, lines].concat()),
+    })
 }
 
-fn input<'a>(graph: &'a Value, name: &str) -> Result<&'a Value, String> {
-    list(&graph["inputs"])?
-        .iter()
-        .find(|i| i["name"] == json!(name))
-        .ok_or_else(|| format!("input `{name}` is not declared"))
+/// Inputs, functions and states of the module's own test.
+fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
+    let inputs = graph.inputs.iter().map(|input| {
+        let map = if input.shape.len() == 1 { "map(T::constant)" } else { "map(|row| row.map(T::constant))" };
+        json!({"name": input.name, "type": array_type(&input.shape, "f64"), "map": map})
+    });
+    let functions = graph.families.iter().flat_map(|family| &family.functions).map(|function| {
+        let slices = function.outputs.iter().map(|output| {
+            let field = if function.outputs.len() == 1 { String::new() } else { format!(".{}", output.name) };
+            match output.shape.len() {
+                0 => format!("core::slice::from_ref(&result{field})"),
+                1 => format!("&result{field}"),
+                _ => format!("result{field}.as_flattened()"),
+            }
+        });
+        json!({"name": function.name, "inputs": function.inputs, "slices": slices.collect::<Vec<_>>()})
+    });
+    let states = states.iter().map(|ReferenceState { inputs, expected }| {
+        let inputs = inputs.iter().map(|given| {
+            let numbers: Vec<String> = given.values.iter().map(|number| format!("{number:?}")).collect();
+            json!({"name": given.name, "value": nested(&input(graph, &given.name).shape, &numbers)})
+        });
+        let expected = expected.iter().map(|expected| {
+            let values: Vec<String> = expected.values.iter().map(|number| format!("{number:?}")).collect();
+            let sizes: Vec<String> = expected.sizes.iter().map(|size| format!("{size:.1e}")).collect();
+            json!({"function": expected.function, "output": expected.output, "values": values, "sizes": sizes})
+        });
+        json!({"inputs": inputs.collect::<Vec<_>>(), "expected": expected.collect::<Vec<_>>()})
+    });
+    json!({
+        "inputs": inputs.collect::<Vec<_>>(),
+        "functions": functions.collect::<Vec<_>>(),
+        "states": states.collect::<Vec<_>>(),
+    })
 }
 
-fn parameter(p: &Value) -> Result<Value, String> {
-    let default = p["default"].as_f64().ok_or("a parameter without a default")?;
-    Ok(json!({
-        "name": p["name"],
-        "quantity": camel(text(&p["quantity"])?),
-        "arm": p["arm"].as_u64().unwrap_or(0),
-        "link": p["link"].as_u64().unwrap_or(0),
-        "unit": p["unit"],
-        "default": format!("{default:?}"),
-        "description": doc_text::escaped(text(&p["description"])?),
-    }))
+/// The declaration of an input.
+fn input<'a>(graph: &'a Graph, name: &str) -> &'a Variable {
+    graph.inputs.iter().find(|input| input.name == name).expect("a graph declares the inputs of its functions")
 }
 
-/// The statements of the constants' stage.
-fn constants(graph: &Value, scope: &Scope) -> Result<Vec<String>, String> {
-    let values: BTreeSet<String> = names(&graph["constants"]["values"])?.map(str::to_owned).collect();
-    let mut used = values.clone();
-    collect_uses(list(&graph["constants"]["statements"])?, &mut used)?;
-    scope.blocks(&graph["constants"]["statements"], &used, &values)
+fn parameter(parameter: &Parameter) -> Value {
+    json!({
+        "name": parameter.name,
+        "quantity": camel_case(&parameter.quantity),
+        "arm": parameter.arm.unwrap_or(0),
+        "link": parameter.link.unwrap_or(0),
+        "unit": parameter.unit,
+        "default": format!("{:?}", parameter.default),
+        "description": doc_text::escaped(&parameter.description),
+    })
+}
+
+fn array_type(shape: &[usize], scalar: &str) -> String {
+    shape.iter().rev().fold(scalar.to_owned(), |inner, n| format!("[{inner}; {n}]"))
 }

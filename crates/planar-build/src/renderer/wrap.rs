@@ -1,93 +1,92 @@
-//! Long lists of names and numbers, wrapped: formatting gives each entry a line.
-
-use serde_json::Value;
-use std::fmt::Write;
+//! Lines that are too long, broken at the commas of a list.
 
 /// Columns of a line.
 const WIDTH: usize = 120;
 
-/// The text with as many names of a list on a line as fit, where formatting gave each a line.
-pub fn names(text: &str) -> String {
-    let is_name = |line: &str| {
-        let name = line.trim_start().strip_suffix(',');
-        name.is_some_and(|name| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'))
-    };
+/// The text with its long lists broken: one entry a line where an entry is a list itself, else as many as fit. A matrix
+/// is always broken into its rows. No blank line begins or ends a block.
+pub fn wrap(text: &str) -> String {
     let mut wrapped = String::with_capacity(text.len());
-    let mut column = 0; // of a line of names that may go on, else 0
-    for line in text.lines() {
-        let (name, goes_on) = (line.trim_start(), is_name(line));
-        if goes_on && column > 0 && column + 1 + name.len() <= WIDTH {
-            wrapped.push(' ');
-            wrapped.push_str(name);
-            column += 1 + name.len();
-        } else {
-            if !wrapped.is_empty() {
-                wrapped.push('\n');
-            }
-            wrapped.push_str(line);
-            column = if goes_on { line.len() } else { 0 };
+    for line in text.lines().map(str::trim_end) {
+        if line.is_empty() && (wrapped.ends_with("{\n") || wrapped.ends_with("\n\n")) {
+            continue;
         }
+        if line.trim_start().starts_with('}') && wrapped.ends_with("\n\n") {
+            wrapped.pop();
+        }
+        push(&mut wrapped, line);
     }
-    wrapped.push('\n');
     wrapped
 }
 
-/// The text with the lists of `vectors` in place of `[VALUES_i_j]` and `[SIZES_i_j]`: state i, result j.
-pub fn fill(text: &str, vectors: &Value) -> String {
-    let mut filled = String::with_capacity(2 * text.len());
-    for line in text.lines() {
-        match list_of(line, vectors) {
-            Some((before, numbers, after)) => wrap(&mut filled, before, &numbers, after),
-            None => filled.push_str(line),
-        }
-        filled.push('\n');
-    }
-    filled
-}
-
-/// The numbers that belong into a line, with what stands before and after them.
-fn list_of<'a>(line: &'a str, vectors: &Value) -> Option<(&'a str, Vec<String>, &'a str)> {
-    for (mark, key) in [("[VALUES_", "values"), ("[SIZES_", "sizes")] {
-        let Some((before, rest)) = line.split_once(mark) else { continue };
-        let (place, after) = rest.split_once(']')?;
-        let (state, result) = place.split_once('_')?;
-        let [state, result] = [state, result].map(|number| number.parse::<usize>().ok());
-        let numbers = vectors.get(state?)?["expected"].get(result?)?[key].as_array()?;
-        let literal = |value: &Value| match key {
-            "sizes" => value.as_f64().map(|size| format!("{size:.1e}")),
-            _ => number(value).ok(),
-        };
-        return Some((before, numbers.iter().filter_map(literal).collect(), after));
-    }
-    None
-}
-
-/// A number as a literal that reads back as the same.
-pub fn number(value: &Value) -> Result<String, String> {
-    let number = value.as_f64().ok_or_else(|| format!("a number was expected, not {value}"))?;
-    Ok(format!("{number:?}"))
-}
-
-/// One line where they fit, else as many to a line as fit.
-fn wrap(to: &mut String, before: &str, numbers: &[String], after: &str) {
-    let whole = format!("{before}[{}]{after}", numbers.join(", "));
-    if whole.chars().count() <= WIDTH {
-        to.push_str(&whole);
+fn push(text: &mut String, line: &str) {
+    let breaks = line.chars().count() > WIDTH || line.contains("], [");
+    let list = if breaks && !line.trim_start().starts_with("//") { longest_list(line) } else { None };
+    let Some(List { before, items, after }) = list else {
+        text.push_str(line);
+        text.push('\n');
         return;
-    }
-    let indent = before.len() - before.trim_start().len();
-    let _ = write!(to, "{before}[");
-    let mut column = WIDTH;
-    for number in numbers {
-        if column + number.len() + 2 > WIDTH {
-            let _ = write!(to, "\n{:width$}", "", width = indent + 4);
-            column = indent + 4;
-        } else {
-            to.push(' ');
-            column += 1;
+    };
+    let outside = " ".repeat(line.len() - line.trim_start().len());
+    let inside = format!("{outside}    ");
+    text.push_str(before);
+    text.push('\n');
+    if items.iter().any(|item| item.ends_with([']', '}'])) {
+        items.iter().for_each(|item| push(text, &format!("{inside}{item},")));
+    } else {
+        let mut current = inside.clone();
+        for item in items {
+            if current.len() > inside.len() && current.len() + item.len() >= WIDTH {
+                text.push_str(current.trim_end());
+                text.push('\n');
+                current.clone_from(&inside);
+            }
+            current = format!("{current}{item}, ");
         }
-        let _ = write!(to, "{number},");
-        column += number.len() + 1;
+        text.push_str(current.trim_end());
+        text.push('\n');
     }
-    let _ = write!(to, "\n{:indent$}]{after}", "");
+    text.push_str(&outside);
+    text.push_str(after);
+    text.push('\n');
+}
+
+/// A bracket of a line: what ends with it, what it holds, what begins with its end.
+struct List<'a> {
+    before: &'a str,
+    items: Vec<&'a str>,
+    after: &'a str,
+}
+
+/// The longest outermost bracket that has a comma.
+fn longest_list(line: &str) -> Option<List<'_>> {
+    let (mut depth, mut in_string, mut commas) = (0, false, Vec::new());
+    let mut longest: Option<Vec<usize>> = None; // its start, its commas, its end
+    for (i, c) in line.char_indices() {
+        match c {
+            '"' if !line[..i].ends_with('\\') => in_string = !in_string,
+            _ if in_string => {}
+            '(' | '[' | '{' => {
+                depth += 1;
+                if depth == 1 {
+                    commas = vec![i];
+                }
+            }
+            ',' if depth == 1 => commas.push(i),
+            ')' | ']' | '}' if depth > 0 => {
+                depth -= 1;
+                if depth == 0 && commas.len() > 1 {
+                    commas.push(i);
+                    let extent = |places: &[usize]| places[places.len() - 1] - places[0];
+                    if longest.as_ref().is_none_or(|longest| extent(longest) < extent(&commas)) {
+                        longest = Some(commas.clone());
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    let places = longest?;
+    let items = places.windows(2).map(|ends| line[ends[0] + 1..ends[1]].trim()).filter(|item| !item.is_empty());
+    Some(List { before: &line[..=places[0]], items: items.collect(), after: &line[places[places.len() - 1]..] })
 }

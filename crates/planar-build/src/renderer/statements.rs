@@ -1,0 +1,233 @@
+//! Statements of a graph as Rust: how a name is reached from the body of a function, and what is written as one line.
+
+use crate::format::{Binary, Graph, Operand, Operation, Statement, Unary, Variable};
+use std::collections::{HashMap, HashSet};
+
+/// Most `let` statements of a block. Each opens a scope inside the one before it; a compiler that follows thousands of
+/// them exhausts its stack.
+const BLOCK: usize = 300;
+
+/// Longest text of an operand that is itself an expression.
+const OPERAND: usize = 44;
+
+/// How names are reached in the body of a function.
+#[derive(Default)]
+pub struct Scope<'a> {
+    parameters: HashSet<&'a str>,
+    /// Fields of the model; empty where they are computed.
+    constants: HashSet<&'a str>,
+    /// Fields of the configuration; empty where they are computed.
+    configuration: HashSet<&'a str>,
+}
+
+/// An expression, and how tightly its outermost operator binds.
+struct Expression<'a> {
+    text: String,
+    precedence: Precedence,
+    /// The names in it.
+    names: Vec<&'a str>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Precedence {
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+/// A `let` statement.
+struct Line<'a> {
+    section: &'a str,
+    targets: Vec<&'a str>,
+    names: Vec<&'a str>,
+    text: String,
+}
+
+impl<'a> Scope<'a> {
+    /// Of the constants.
+    pub fn parameters(graph: &'a Graph) -> Self {
+        Self { parameters: graph.parameters.iter().map(|p| p.name.as_str()).collect(), ..Self::default() }
+    }
+
+    /// Of a family's configuration.
+    pub fn constants(graph: &'a Graph) -> Self {
+        Self { constants: graph.constants.values.iter().map(|c| c.name.as_str()).collect(), ..Self::parameters(graph) }
+    }
+
+    /// Of a call, with the values that it reads of the configuration.
+    pub fn call(graph: &'a Graph, configuration: &'a [String]) -> Self {
+        Self { configuration: configuration.iter().map(String::as_str).collect(), ..Self::constants(graph) }
+    }
+
+    /// A stage's lines, with the name of each section before it, in blocks of [`BLOCK`] statements where there are
+    /// more. `results` are the names that are used after it.
+    ///
+    /// A value without a name of its own that is used once, in the same section, is written where it is used.
+    pub fn lines(
+        &self,
+        sections: &'a [(String, usize)],
+        statements: &'a [Statement],
+        results: &[&'a str],
+    ) -> Vec<String> {
+        let lines = self.statements(sections, statements, results);
+        if lines.len() <= BLOCK {
+            return texts(&lines);
+        }
+        let mut later: HashSet<&str> = results.iter().copied().collect();
+        let mut blocks = Vec::new();
+        // from the last, so that what is used later is known
+        for block in lines.chunks(BLOCK).rev() {
+            let leaving: Vec<&str> =
+                block.iter().flat_map(|l| &l.targets).copied().filter(|n| later.contains(n)).collect();
+            let leaving = leaving.join(", ");
+            let inside = texts(block).into_iter().map(|line| format!("    {line}"));
+            let first = format!("let [{leaving}] = {{");
+            let last = [format!("    [{leaving}]"), "};".to_owned()];
+            blocks.push([first].into_iter().chain(inside).chain(last).collect::<Vec<_>>());
+            later.extend(block.iter().flat_map(|line| &line.names));
+        }
+        blocks.into_iter().rev().flatten().collect()
+    }
+
+    fn statements(
+        &self,
+        sections: &'a [(String, usize)],
+        statements: &'a [Statement],
+        results: &[&'a str],
+    ) -> Vec<Line<'a>> {
+        let section =
+            |index: usize| sections.iter().rev().find(|(_, start)| *start <= index).map_or("", |(name, _)| name);
+        let mut uses: HashMap<&str, Vec<&str>> = HashMap::new(); // the sections, "results" aside, that use a name
+        for (index, statement) in statements.iter().enumerate() {
+            for name in statement.operation.operands().iter().filter_map(Operand::name) {
+                uses.entry(name).or_default().push(section(index));
+            }
+        }
+        let results: HashSet<&str> = results.iter().copied().collect();
+        let mut inlined = HashMap::new();
+        let mut lines = Vec::new();
+        for (index, Statement { targets, operation }) in statements.iter().enumerate() {
+            let expression = self.expression(operation, &mut inlined);
+            let (section, first) = (section(index), targets[0].as_str());
+            let once = uses.get(first).is_some_and(|uses| *uses == [section]) && !results.contains(first);
+            if once && is_numbered(first) && targets.len() == 1 && expression.text.len() <= OPERAND {
+                inlined.insert(first, expression);
+                continue;
+            }
+            let is_used = |name: &&str| uses.contains_key(name) || results.contains(name);
+            let bound: Vec<&str> =
+                targets.iter().map(|name| Some(name.as_str()).filter(is_used).unwrap_or("_")).collect();
+            let target = if bound.len() == 1 { first.to_owned() } else { format!("({})", bound.join(", ")) };
+            let text = format!("let {target} = {};", expression.text);
+            lines.push(Line { section, targets: bound, names: expression.names, text });
+        }
+        lines
+    }
+
+    fn expression(&self, operation: &'a Operation, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+        let mut operand = |operand: &'a Operand| {
+            operand.name().and_then(|name| inlined.remove(name)).unwrap_or_else(|| Expression {
+                text: self.operand(operand),
+                precedence: Precedence::Atom,
+                names: operand.name().into_iter().collect(),
+            })
+        };
+        match operation {
+            Operation::Unary(operation, a) => {
+                let a = operand(a);
+                let (text, precedence) = match operation {
+                    Unary::Copy => (a.text, a.precedence),
+                    Unary::Neg => (format!("-{}", a.within(Precedence::Sign)), Precedence::Sign),
+                    Unary::Sqrt => (format!("{}.sqrt()", a.within(Precedence::Atom)), Precedence::Atom),
+                    Unary::SinCos => (format!("{}.sin_cos()", a.within(Precedence::Atom)), Precedence::Atom),
+                };
+                Expression { text, precedence, names: a.names }
+            }
+            Operation::Binary(operation, [a, b]) => {
+                let (a, b) = (operand(a), operand(b));
+                let (text, precedence) = match operation {
+                    Binary::Add => infix(&a, '+', &b, Precedence::Sum),
+                    Binary::Sub => infix(&a, '-', &b, Precedence::Sum),
+                    Binary::Mul => infix(&a, '*', &b, Precedence::Product),
+                    Binary::Div => infix(&a, '/', &b, Precedence::Product),
+                    // not as methods: a lint of clippy's follows the receiver of a method with an argument through all
+                    // its assignments, again at every use, which takes hours for long functions
+                    Binary::Min => (format!("T::minimum({}, {})", a.text, b.text), Precedence::Atom),
+                    Binary::Atan2 => (format!("T::atan2({}, {})", a.text, b.text), Precedence::Atom),
+                };
+                Expression { text, precedence, names: [a.names, b.names].concat() }
+            }
+        }
+    }
+
+    fn operand(&self, operand: &Operand) -> String {
+        let name = match operand {
+            Operand::Number(0.0) => return "T::ZERO".to_owned(),
+            Operand::Number(1.0) => return "T::ONE".to_owned(),
+            Operand::Number(number) => return format!("T::constant({number:?})"),
+            Operand::Name(name) => name.as_str(),
+        };
+        let fields =
+            [(&self.parameters, "parameters."), (&self.constants, "constants."), (&self.configuration, "self.")];
+        let path = fields.iter().find(|(names, _)| names.contains(name)).map_or("", |(_, path)| path);
+        format!("{path}{name}")
+    }
+
+    /// The elements of an output as an array of its shape, a matrix row by row.
+    pub fn array(&self, output: &Variable) -> String {
+        let elements: Vec<String> = output.elements.iter().map(|element| self.operand(element)).collect();
+        nested(&output.shape, &elements)
+    }
+}
+
+impl Expression<'_> {
+    /// As an operand that has to bind at least so tightly.
+    fn within(&self, precedence: Precedence) -> String {
+        if self.precedence < precedence { format!("({})", self.text) } else { self.text.clone() }
+    }
+}
+
+/// A binary operation. The operators of a precedence are evaluated from the left: on the right they are in parentheses.
+fn infix(a: &Expression<'_>, operator: char, b: &Expression<'_>, precedence: Precedence) -> (String, Precedence) {
+    let tighter = if precedence == Precedence::Sum { Precedence::Product } else { Precedence::Sign };
+    (format!("{} {operator} {}", a.within(precedence), b.within(tighter)), precedence)
+}
+
+/// The lines of statements, with the name of each section before its first.
+fn texts(lines: &[Line<'_>]) -> Vec<String> {
+    let mut section = "";
+    let mut texts = Vec::new();
+    for line in lines {
+        if line.section != section {
+            section = line.section;
+            texts.push(format!("// {section}"));
+        }
+        texts.push(line.text.clone());
+    }
+    texts
+}
+
+/// Whether a name is a letter and a number, and not one that says what it is.
+fn is_numbered(name: &str) -> bool {
+    name.len() > 1 && name.chars().skip(1).all(|c| c.is_ascii_digit())
+}
+
+/// Elements as a nested array literal of a shape; a scalar is itself.
+pub fn nested(shape: &[usize], elements: &[String]) -> String {
+    match shape {
+        [] => elements.concat(),
+        [_] => format!("[{}]", elements.join(", ")),
+        [_, columns, ..] => {
+            let rows = elements.chunks((*columns).max(1)).map(|row| format!("[{}]", row.join(", ")));
+            format!("[{}]", rows.collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+/// References to the model's fields that lines use.
+pub fn bindings(lines: &[String], model: &str) -> Vec<String> {
+    let used = |field: &&&str| lines.iter().any(|line| line.contains(&format!("{field}.")));
+    let fields = ["parameters", "constants"];
+    fields.iter().filter(used).map(|field| format!("let {field} = &{model}.{field};")).collect()
+}
