@@ -3,10 +3,11 @@
 //! There are three stages: constants from the parameters, the configuration of a family, the call of a function. A
 //! stage reads what earlier ones assign. Sections are (name, index of the first statement).
 
-use serde::de::IntoDeserializer;
-use serde::de::value::{Error, StrDeserializer};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use std::collections::HashMap;
+
+/// Number of operations of each kind.
+pub type Operations = HashMap<String, u64>;
 
 /// The graph of a layout.
 #[derive(Clone, Debug, Deserialize)]
@@ -33,18 +34,18 @@ pub struct Source {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Arm {
     pub name: String,
-    /// How many.
     pub links: usize,
 }
 
-/// An input, or an output with its elements, which are row-major.
-#[derive(Clone, Debug, Deserialize)]
+/// An input, a constant, or an output with its elements, which are row-major.
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Variable {
     pub name: String,
+    #[serde(default)]
     pub shape: Vec<usize>,
     pub unit: String,
     pub description: String,
-    #[serde(default)]
+    #[serde(default, skip_serializing)]
     pub elements: Vec<Operand>,
 }
 
@@ -64,15 +65,8 @@ pub struct Parameter {
 #[derive(Clone, Debug, Deserialize)]
 pub struct Constants {
     pub statements: Vec<Statement>,
-    pub values: Vec<Constant>,
+    pub values: Vec<Variable>,
     pub operations: Operations,
-}
-
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Constant {
-    pub name: String,
-    pub unit: String,
-    pub description: String,
 }
 
 /// Functions that share the stage of the configuration.
@@ -108,47 +102,31 @@ pub struct Function {
     pub operations: Operations,
 }
 
-/// Number of operations of each kind.
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
-#[serde(default)]
-pub struct Operations {
-    pub mul: u64,
-    pub add: u64,
-    pub sub: u64,
-    pub div: u64,
-    pub sin_cos: u64,
-    pub neg: u64,
-    pub min: u64,
-    pub sqrt: u64,
-    pub atan2: u64,
-}
-
-/// A single assignment: to one name, or to the two of sine and cosine.
+/// A single assignment, written as a list.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(try_from = "Vec<Value>")]
 pub struct Statement {
-    pub targets: Vec<String>,
+    pub targets: Targets,
     pub operation: Operation,
+    pub a: Operand,
+    /// Not a number where the operation has one operand.
+    #[serde(default = "Operand::none")]
+    pub b: Operand,
 }
 
-#[derive(Clone, Debug)]
-pub enum Operation {
-    Unary(Unary, Operand),
-    Binary(Binary, [Operand; 2]),
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Targets {
+    Value(String),
+    SinCos(String, String),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Unary {
+pub enum Operation {
     Copy,
     Neg,
     SinCos,
     Sqrt,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Binary {
     Add,
     Sub,
     Mul,
@@ -168,7 +146,7 @@ pub enum Operand {
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct ReferenceState {
     pub inputs: Vec<Given>,
-    pub expected: Vec<Expected>,
+    pub expected: Vec<FunctionResult>,
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -177,59 +155,33 @@ pub struct Given {
     pub values: Vec<f64>,
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-pub struct Expected {
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct FunctionResult {
     pub function: String,
     pub output: String,
     pub values: Vec<f64>,
-    /// How many rounding units each value may be off.
+    /// How many rounding units each value may be off; none where the graph was computed.
     pub sizes: Vec<f64>,
 }
 
-impl Operation {
-    pub fn operands(&self) -> &[Operand] {
+impl Targets {
+    pub fn names(&self) -> Vec<&str> {
         match self {
-            Self::Unary(_, operand) => std::slice::from_ref(operand),
-            Self::Binary(_, operands) => operands,
+            Self::Value(name) => vec![name],
+            Self::SinCos(sine, cosine) => vec![sine, cosine],
         }
     }
 }
 
 impl Operand {
+    fn none() -> Self {
+        Self::Number(f64::NAN)
+    }
+
     pub fn name(&self) -> Option<&str> {
         match self {
             Self::Number(_) => None,
             Self::Name(name) => Some(name),
-        }
-    }
-}
-
-/// For enums without data, which are deserialized from their names.
-fn spelled(name: &str) -> StrDeserializer<'_, Error> {
-    name.into_deserializer()
-}
-
-impl TryFrom<Vec<Value>> for Statement {
-    type Error = String;
-
-    fn try_from(parts: Vec<Value>) -> Result<Self, String> {
-        let [target, Value::String(name), operands @ ..] = parts.as_slice() else {
-            return Err(format!("{} is not a statement", Value::from(parts)));
-        };
-        let targets = target.as_array().map_or(std::slice::from_ref(target), Vec::as_slice).iter();
-        let targets: Option<Vec<String>> = targets.map(|name| name.as_str().map(str::to_owned)).collect();
-        let operands: Result<Vec<Operand>, _> = operands.iter().map(Operand::deserialize).collect();
-        let unary = Unary::deserialize(spelled(name)).ok();
-        let binary = Binary::deserialize(spelled(name)).ok();
-        let operation = match (operands.as_deref(), unary, binary) {
-            (Ok([a]), Some(operation), _) => Some(Operation::Unary(operation, a.clone())),
-            (Ok([a, b]), _, Some(operation)) => Some(Operation::Binary(operation, [a.clone(), b.clone()])),
-            _ => None,
-        };
-        let results = if unary == Some(Unary::SinCos) { 2 } else { 1 };
-        match (targets, operation) {
-            (Some(targets), Some(operation)) if targets.len() == results => Ok(Self { targets, operation }),
-            _ => Err(format!("operation `{name}` is unknown in the form {}", Value::from(parts.clone()))),
         }
     }
 }

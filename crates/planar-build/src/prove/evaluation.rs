@@ -4,7 +4,7 @@ use crate::prove::owned::{CloneModel, RobotState};
 use planar_dynamics::dynamics::Model;
 use planar_dynamics::error::Error;
 use planar_dynamics::impact::{self, RigidImpactOutput};
-use planar_dynamics::quantity::{Extent, Quantity};
+use planar_dynamics::quantity::Quantity;
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
 use planar_dynamics::validate::finite;
@@ -52,23 +52,17 @@ impl Values {
     /// Of one quantity; `None` for those of an impact where there is no target, and for what was not evaluated.
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> Option<&[f64]> {
-        self.of.get(quantity as usize)?.as_deref()
+        self.of[quantity as usize].as_deref()
     }
 
     /// Number of entries along each axis of a quantity.
     #[must_use]
     pub fn shape(&self, quantity: Quantity) -> Vec<usize> {
-        quantity.row().shape.iter().map(|extent| self.extent(*extent)).collect()
-    }
-
-    fn extent(&self, extent: Extent) -> usize {
-        extent.count(self.arms, self.joints)
+        quantity.row().shape.iter().map(|extent| extent.count(self.arms, self.joints)).collect()
     }
 
     fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {
-        if let Some(place) = self.of.get_mut(quantity as usize) {
-            *place = Some(value.into());
-        }
+        self.of[quantity as usize] = Some(value.into());
     }
 }
 

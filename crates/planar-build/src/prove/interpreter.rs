@@ -1,33 +1,22 @@
 //! A graph computed in `f64` as it stands, without being compiled: what the rendered code will say.
 
-use crate::format::{Binary, Graph, Operand, Operation, Statement, Unary};
+use crate::format::{FunctionResult, Given, Graph, Operand, Operation, Statement};
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
-/// One result of one function.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Found {
-    /// The function.
-    pub function: String,
-    /// Which of its results.
-    pub output: String,
-    /// Row-major.
-    pub values: Vec<f64>,
-}
-
 /// Every result of every function, in the graph's order, with the layout's own numbers; `inputs` holds the elements of
-/// each input, row-major, by the input's name.
+/// each input, row-major.
 ///
 /// # Errors
 /// A name that is used before it has a value, or an input that is missing: which.
-pub fn interpret(graph: &Graph, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found>, String> {
+pub fn interpret(graph: &Graph, inputs: &[Given]) -> Result<Vec<FunctionResult>, String> {
     let mut known = Known::default();
     for input in &graph.inputs {
         let name = &input.name;
-        let (_, values) =
-            inputs.iter().find(|(given, _)| given == name).ok_or(format!("input `{name}` has no value"))?;
+        let given =
+            inputs.iter().find(|given| given.name == *name).ok_or_else(|| format!("input `{name}` has no value"))?;
         let columns = input.shape.get(1).copied();
-        for (i, value) in values.iter().enumerate() {
+        for (i, value) in given.values.iter().enumerate() {
             let place = columns.map_or_else(|| format!("[{i}]"), |n| format!("[{}][{}]", i / n, i % n));
             known.own.insert(format!("{name}{place}"), *value);
         }
@@ -43,7 +32,8 @@ pub fn interpret(graph: &Graph, inputs: &[(&str, Vec<f64>)]) -> Result<Vec<Found
             call.run(&function.statements)?;
             for output in &function.outputs {
                 let values = output.elements.iter().map(|element| call.get(element)).collect::<Result<_, _>>()?;
-                found.push(Found { function: function.name.clone(), output: output.name.clone(), values });
+                let (function, output) = (function.name.clone(), output.name.clone());
+                found.push(FunctionResult { function, output, values, sizes: Vec::new() });
             }
         }
     }
@@ -74,30 +64,22 @@ impl Known<'_> {
     }
 
     fn run(&mut self, statements: &[Statement]) -> Result<(), String> {
-        for Statement { targets, operation } in statements {
-            let values = match operation {
-                Operation::Unary(operation, a) => {
-                    let a = self.get(a)?;
-                    match operation {
-                        Unary::Copy => vec![a],
-                        Unary::Neg => vec![-a],
-                        Unary::Sqrt => vec![Scalar::sqrt(a)],
-                        Unary::SinCos => <[f64; 2]>::from(Scalar::sin_cos(a)).into(),
-                    }
-                }
-                Operation::Binary(operation, [a, b]) => {
-                    let (a, b) = (self.get(a)?, self.get(b)?);
-                    vec![match operation {
-                        Binary::Add => a + b,
-                        Binary::Sub => a - b,
-                        Binary::Mul => a * b,
-                        Binary::Div => a / b,
-                        Binary::Min => Scalar::minimum(a, b),
-                        Binary::Atan2 => Scalar::atan2(a, b),
-                    }]
-                }
+        for statement in statements {
+            let (a, b) = (self.get(&statement.a)?, self.get(&statement.b)?);
+            let values = match statement.operation {
+                Operation::Copy => vec![a],
+                Operation::Neg => vec![-a],
+                Operation::SinCos => <[f64; 2]>::from(Scalar::sin_cos(a)).into(),
+                Operation::Sqrt => vec![Scalar::sqrt(a)],
+                Operation::Add => vec![a + b],
+                Operation::Sub => vec![a - b],
+                Operation::Mul => vec![a * b],
+                Operation::Div => vec![a / b],
+                Operation::Min => vec![Scalar::minimum(a, b)],
+                Operation::Atan2 => vec![Scalar::atan2(a, b)],
             };
-            self.own.extend(targets.iter().cloned().zip(values));
+            let names = statement.targets.names().into_iter().map(str::to_owned);
+            self.own.extend(names.zip(values));
         }
         Ok(())
     }

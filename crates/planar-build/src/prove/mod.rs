@@ -11,13 +11,14 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive};
 
-use crate::format::ReferenceState;
+use crate::format::{FunctionResult, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
 use interpreter::interpret;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
-use vectors::Vectors;
+use serde_json::json;
+use vectors::reference_state;
 
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
@@ -91,14 +92,14 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let states = (0..CARRIED).map(|index| {
-        let vectors = at(layout, Regime::Moving, index)?;
-        let found = interpret(&graph, &vectors.inputs()).map_err(GraphError::Format)?;
-        Ok(vectors.reference_state(&found))
+        let state = at(layout, Regime::Moving, index)?;
+        let found = interpret(&graph, &state.inputs).map_err(GraphError::Format)?;
+        Ok(state.in_order_of(&found))
     });
     let states = states.collect::<Result<Vec<ReferenceState>, GenerateError>>()?;
     // a state a line, after what the derivation wrote
-    let lines: Result<Vec<String>, _> = states.iter().map(serde_json::to_string).collect();
-    let lines = lines.expect("numbers and names are written as JSON").join(",\n  ");
+    let lines: Vec<String> = states.iter().map(|state| json!(state).to_string()).collect();
+    let lines = lines.join(",\n  ");
     let end = graph_text.trim_end().strip_suffix('}').unwrap_or(graph_text).trim_end();
     let text = format!("{end},\n \"self_test\": [\n  {lines}\n ]\n}}\n");
     graph.self_test = Some(states);
@@ -114,29 +115,29 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
-            let vectors = at(layout, regime, index)?;
-            let found = interpret(graph, &vectors.inputs()).map_err(GraphError::Format)?;
-            let found = || found.iter().filter(|found| found.output != "smallest_pivot");
-            if found().count() != vectors.expected.len() {
+            let state = at(layout, regime, index)?;
+            let mut found = interpret(graph, &state.inputs).map_err(GraphError::Format)?;
+            found.retain(|found| found.output != "smallest_pivot");
+            if found.len() != state.expected.len() {
                 let problem = "it has other results than the generic implementation";
                 return Err(GraphError::Format(problem.to_owned()).into());
             }
-            for found in found() {
-                let error = vectors.expected(found).map_or(f64::INFINITY, |expected| expected.error(found));
+            for found in found {
+                let error = state.expected(&found).map_or(f64::INFINITY, |expected| expected.error(&found));
                 if error > 1.0 {
-                    let (function, output) = (found.function.clone(), found.output.clone());
+                    let FunctionResult { function, output, .. } = found;
                     return Err(GenerateError::Disagreement { function, output, error, regime: regime.name(), index });
                 }
                 proof.worst = proof.worst.max(error);
             }
             proof.states += 1;
-            proof.results = vectors.expected.len();
+            proof.results = state.expected.len();
         }
     }
     Ok(proof)
 }
 
-fn at(layout: &Layout, regime: Regime, index: u64) -> Result<Vectors, GenerateError> {
+fn at(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
-    Vectors::new(layout, regime, index).map_err(failed)
+    reference_state(layout, regime, index).map_err(failed)
 }

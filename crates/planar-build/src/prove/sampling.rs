@@ -8,55 +8,59 @@ use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 use std::f64::consts::PI;
 
-/// A region of states, or of layouts, in which something particular can go wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Regime {
+macro_rules! regimes {
+    ($($(#[$doc:meta])* $regime:ident $name:literal,)*) => {
+        /// A region of states, or of layouts, in which something particular can go wrong.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Regime {
+            $($(#[$doc])* $regime,)*
+        }
+
+        /// Every regime.
+        pub const REGIMES: [Regime; [$($name),*].len()] = [$(Regime::$regime),*];
+
+        impl Regime {
+            /// As printed.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$regime => $name,)*
+                }
+            }
+        }
+    };
+}
+
+regimes! {
     /// Everything moves, at about 1 rad/s.
-    Moving,
+    Moving "moving",
     /// Nothing moves: accelerations come from forces alone.
-    AtRest,
+    AtRest "at rest",
     /// 100 rad/s, 100 m/s: the bias dominates.
-    Fast,
+    Fast "fast",
     /// All joints but the first at 0.
-    Stretched,
+    Stretched "stretched",
     /// All joints but the first at ±π.
-    Folded,
+    Folded "folded",
     /// Joints at multiples of π, less than 0.001 and more than 10⁻¹² off.
-    NearSingular,
+    NearSingular "near singular",
     /// The base 10⁶ m away, turned several times.
-    Far,
+    Far "far away",
     /// Links a thousandth to a millionth of their mass and inertia.
-    LightLinks,
+    LightLinks "light links",
     /// Links a thousand to a million times their mass and inertia.
-    HeavyLinks,
+    HeavyLinks "heavy links",
     /// Every body's mass and inertia off by a factor of its own, up to a thousand.
-    MixedMasses,
+    MixedMasses "mixed masses",
     /// Other lengths, mounts and centres of mass, up to three times as large or as small, structural zeros aside, and
     /// the last links' centres of mass anywhere. No links or distances of mounts that are far shorter than the arms:
     /// generated forward dynamics lose digits with the square of that ratio.
-    OtherShape,
+    OtherShape "other shape",
     /// Targets of 10⁻⁶ to 10⁻³ kg.
-    LightTargets,
+    LightTargets "light targets",
     /// Targets of 10³ to 10⁶ kg.
-    HeavyTargets,
+    HeavyTargets "heavy targets",
 }
-
-/// Every regime.
-pub const REGIMES: [Regime; 13] = [
-    Regime::Moving,
-    Regime::AtRest,
-    Regime::Fast,
-    Regime::Stretched,
-    Regime::Folded,
-    Regime::NearSingular,
-    Regime::Far,
-    Regime::LightLinks,
-    Regime::HeavyLinks,
-    Regime::MixedMasses,
-    Regime::OtherShape,
-    Regime::LightTargets,
-    Regime::HeavyTargets,
-];
 
 /// A robot and a state of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,26 +72,6 @@ pub struct RegimeSample {
 }
 
 impl Regime {
-    /// As printed.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Moving => "moving",
-            Self::AtRest => "at rest",
-            Self::Fast => "fast",
-            Self::Stretched => "stretched",
-            Self::Folded => "folded",
-            Self::NearSingular => "near singular",
-            Self::Far => "far away",
-            Self::LightLinks => "light links",
-            Self::HeavyLinks => "heavy links",
-            Self::MixedMasses => "mixed masses",
-            Self::OtherShape => "other shape",
-            Self::LightTargets => "light targets",
-            Self::HeavyTargets => "heavy targets",
-        }
-    }
-
     /// Sample `index` of the regime for a layout: any one alone, the same on every machine.
     #[must_use]
     pub fn sample(self, layout: &Layout, seed: u64, index: u64) -> RegimeSample {

@@ -1,10 +1,9 @@
-//! Reference vectors: what the generic implementation says of a state, for every result of every generated function.
+//! Reference vectors: results of the generic implementation at a state, for every output of every generated function.
 
-use super::interpreter::Found;
-use crate::format::{Expected, Given, ReferenceState};
+use crate::format::{FunctionResult, Given, ReferenceState};
 use crate::prove::evaluation::{EvaluationInput, evaluate_all};
 use crate::prove::generic::Generic;
-use crate::prove::quantities::{NaturalSize, natural_sizes};
+use crate::prove::quantities::{NaturalSize, natural_sizes, scaled_error};
 use crate::prove::sampling::{Regime, RegimeSample};
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
@@ -17,138 +16,93 @@ const ROUNDINGS: f64 = 64.0;
 /// Rounding units that a pivot relative to its scale may be off.
 const PIVOT_ROUNDINGS: f64 = 1024.0;
 
-impl Expected {
-    /// Largest difference over what is allowed in `f64`; infinite where something is missing or not a number.
-    #[must_use]
-    pub fn error(&self, found: &Found) -> f64 {
-        if found.values.len() != self.values.len() {
-            return f64::INFINITY;
-        }
-        let errors = self.values.iter().zip(&found.values).zip(&self.sizes).map(|((expected, found), size)| {
-            let difference = (expected - found).abs();
-            if difference == 0.0 { 0.0 } else { difference / (size * f64::EPSILON) }
-        });
-        errors.fold(0.0, |worst, error| {
-            if error <= worst {
-                worst
-            } else if error.is_nan() {
-                f64::INFINITY
-            } else {
-                error
-            }
-        })
+/// The results at one random state of a regime that leaves the layout as it is, in the order of the table of
+/// quantities. Numbers of the state have four digits, so that they can be read; every machine makes the same.
+///
+/// # Errors
+/// A state that the generic implementation has no answer for.
+pub fn reference_state(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, Error> {
+    let mut instant = readable(regime.sample(layout, 0, index).instant);
+    instant.base_wrench.get_or_insert([0.0; 3]);
+    instant.end_effector_wrenches.get_or_insert_with(|| vec![[0.0; 3]; layout.arms.len()]);
+    // impacts are computed where there is a target
+    if instant.targets.iter().all(Option::is_none) {
+        let target = Target { mass: 10.0, inertia: 0.5, contact: [0.25, -0.125], twist: [0.5, -0.25, 0.125] };
+        instant.targets[0] = Some(target);
     }
-}
-
-/// One state with all that has to come of it.
-#[derive(Clone, Debug)]
-pub struct Vectors {
-    instant: EvaluationInput,
-    /// One per result of every function.
-    pub expected: Vec<Expected>,
-}
-
-impl Vectors {
-    /// At one random state of a regime that leaves the layout as it is. Numbers of the state have four digits, so that
-    /// they can be read; every machine makes the same.
-    ///
-    /// # Errors
-    /// A state that the generic implementation has no answer for.
-    pub fn new(layout: &Layout, regime: Regime, index: u64) -> Result<Self, Error> {
-        let RegimeSample { instant, .. } = regime.sample(layout, 0, index);
-        let mut instant = readable(instant);
-        let arms = layout.arms.len();
-        instant.base_wrench.get_or_insert([0.0; 3]);
-        instant.end_effector_wrenches.get_or_insert_with(|| vec![[0.0; 3]; arms]);
-        // impacts are computed where there is a target
-        let free = instant.targets.iter().all(Option::is_none);
-        if let (Some(first), true) = (instant.targets.first_mut(), free) {
-            *first = Some(Target { mass: 10.0, inertia: 0.5, contact: [0.25, -0.125], twist: [0.5, -0.25, 0.125] });
-        }
-        let torques_alone = EvaluationInput { base_wrench: None, end_effector_wrenches: None, ..instant.clone() };
-        let base_wrench = EvaluationInput { end_effector_wrenches: None, ..instant.clone() };
-        let [torques_alone, base_wrench, all] =
-            [&torques_alone, &base_wrench, &instant].map(|instant| results(layout, instant));
-        let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
-        let results = Quantity::ALL.iter().flat_map(|quantity| {
-            let row = quantity.row();
-            row.functions.iter().map(move |function| (*quantity, *function, row.output))
-        });
-        let expected = results.filter_map(|(quantity, function, output)| {
-            let results = match function {
+    let base_wrench = EvaluationInput { end_effector_wrenches: None, ..instant.clone() };
+    let torques_alone = EvaluationInput { base_wrench: None, ..base_wrench.clone() };
+    let [torques_alone, base_wrench, all] = [&torques_alone, &base_wrench, &instant].map(|at| results(layout, at));
+    let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
+    let mut expected = Vec::new();
+    for quantity in Quantity::ALL {
+        for function in quantity.row().functions {
+            let results = match *function {
                 "forward_dynamics" => &torques_alone,
                 "forward_dynamics_with_base_wrench" => &base_wrench,
                 _ => &all,
             };
-            let Known { values, sizes, .. } = results.iter().find(|known| known.quantity == quantity)?.clone();
-            Some(Expected { function: function.to_owned(), output: output.to_owned(), values, sizes })
-        });
-        let expected = expected.collect();
-        Ok(Self { instant, expected })
+            if let Some((_, [values, sizes])) = results.iter().find(|(of, _)| of == quantity).cloned() {
+                let (function, output) = ((*function).to_owned(), quantity.row().output.to_owned());
+                expected.push(FunctionResult { function, output, values, sizes });
+            }
+        }
     }
+    Ok(ReferenceState { inputs: inputs(&instant), expected })
+}
 
-    /// What one result has to be; `None` for one that the table does not have.
-    #[must_use]
-    pub fn expected(&self, found: &Found) -> Option<&Expected> {
+impl FunctionResult {
+    /// Largest difference from what was `found` over what is allowed in `f64`; infinite where something is missing or
+    /// not a number.
+    pub fn error(&self, found: &Self) -> f64 {
+        scaled_error(&found.values, &self.values, &self.sizes) / f64::EPSILON
+    }
+}
+
+impl ReferenceState {
+    /// The result of the same function and output; `None` for one that the table of quantities does not have.
+    pub fn expected(&self, found: &FunctionResult) -> Option<&FunctionResult> {
         self.expected.iter().find(|expected| expected.function == found.function && expected.output == found.output)
     }
 
-    /// The inputs of all functions, row-major, by name.
-    #[must_use]
-    pub fn inputs(&self) -> [(&'static str, Vec<f64>); 11] {
-        let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = &self.instant;
-        let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::massless)).collect();
-        [
-            ("base_pose", state.base_pose.to_vec()),
-            ("joint_angles", state.joint_angles.clone()),
-            ("base_twist", state.base_twist.to_vec()),
-            ("joint_rates", state.joint_rates.clone()),
-            ("joint_torques", joint_torques.clone()),
-            ("base_wrench", base_wrench.unwrap_or_default().to_vec()),
-            ("end_effector_wrenches", end_effector_wrenches.iter().flatten().flatten().copied().collect()),
-            ("target_masses", targets.iter().map(|target| target.mass).collect()),
-            ("target_inertias", targets.iter().map(|target| target.inertia).collect()),
-            ("contacts", targets.iter().flat_map(|target| target.contact).collect()),
-            ("target_twists", targets.iter().flat_map(|target| target.twist).collect()),
-        ]
-    }
-
-    /// As a graph keeps them. Pivots, which the generic implementation does not have, are those that were `found`.
-    #[must_use]
-    pub fn reference_state(&self, found: &[Found]) -> ReferenceState {
-        let inputs = self.inputs().map(|(name, values)| Given { name: name.to_owned(), values }).into();
-        let pivot = |found: &Found| Expected {
-            function: found.function.clone(),
-            output: found.output.clone(),
-            values: found.values.clone(),
-            sizes: vec![PIVOT_ROUNDINGS; found.values.len()],
+    /// As a graph keeps it: the results in the order of those that were `found`, which gives the pivots, that the
+    /// generic implementation does not have; two digits of the sizes.
+    pub fn in_order_of(&self, found: &[FunctionResult]) -> Self {
+        let pivot = |found: &FunctionResult| {
+            let sizes = vec![PIVOT_ROUNDINGS; found.values.len()];
+            FunctionResult { sizes, ..found.clone() }
         };
-        let expected = found.iter().map(|found| self.expected(found).cloned().unwrap_or_else(|| pivot(found)));
-        // two digits of a size are enough
-        let shortened = |mut expected: Expected| {
+        let expected = found.iter().map(|found| {
+            let mut expected = self.expected(found).cloned().unwrap_or_else(|| pivot(found));
             expected.sizes.iter_mut().for_each(|size| *size = rounded(*size, 1));
             expected
-        };
-        ReferenceState { inputs, expected: expected.map(shortened).collect() }
+        });
+        Self { inputs: self.inputs.clone(), expected: expected.collect() }
     }
 }
 
-/// A number with so many decimals in scientific notation.
-fn rounded(number: f64, decimals: usize) -> f64 {
-    format!("{number:.decimals$e}").parse().expect("a number that was written is read")
+/// The inputs of all functions, row-major, by name.
+fn inputs(instant: &EvaluationInput) -> Vec<Given> {
+    let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = instant;
+    let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::massless)).collect();
+    let inputs = [
+        ("base_pose", state.base_pose.to_vec()),
+        ("joint_angles", state.joint_angles.clone()),
+        ("base_twist", state.base_twist.to_vec()),
+        ("joint_rates", state.joint_rates.clone()),
+        ("joint_torques", joint_torques.clone()),
+        ("base_wrench", base_wrench.unwrap_or_default().to_vec()),
+        ("end_effector_wrenches", end_effector_wrenches.iter().flatten().flatten().copied().collect()),
+        ("target_masses", targets.iter().map(|target| target.mass).collect()),
+        ("target_inertias", targets.iter().map(|target| target.inertia).collect()),
+        ("contacts", targets.iter().flat_map(|target| target.contact).collect()),
+        ("target_twists", targets.iter().flat_map(|target| target.twist).collect()),
+    ];
+    inputs.map(|(name, values)| Given { name: name.to_owned(), values }).into()
 }
 
-/// A quantity by the generic implementation.
-#[derive(Clone, Debug)]
-struct Known {
-    quantity: Quantity,
-    values: Vec<f64>,
-    /// How many rounding units each entry may be off.
-    sizes: Vec<f64>,
-}
-
-/// Every quantity of one instant by the generic implementation.
-fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<Known>, Error> {
+/// Every quantity at one state by the generic implementation, and how many rounding units each entry may be off.
+fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<(Quantity, [Vec<f64>; 2])>, Error> {
     let sample = RegimeSample { layout: layout.clone(), instant: instant.clone() };
     let values = evaluate_all(&Generic::new(layout), instant)?;
     let sizes = natural_sizes(&sample, &values).into_iter();
@@ -157,10 +111,14 @@ fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<Known>, Err
             Rounding::Polynomial => ROUNDINGS,
             Rounding::Solved => ROUNDINGS.max(8.0 * condition),
         };
-        let sizes = sizes.iter().map(|size| size * roundings).collect();
-        Some(Known { quantity, values: values.get(quantity)?.to_vec(), sizes })
+        Some((quantity, [values.get(quantity)?.to_vec(), sizes.iter().map(|size| size * roundings).collect()]))
     });
     Ok(each.collect())
+}
+
+/// A number with so many decimals in scientific notation.
+fn rounded(number: f64, decimals: usize) -> f64 {
+    format!("{number:.decimals$e}").parse().expect("a number that was written is read")
 }
 
 /// Four digits of every number.

@@ -28,25 +28,26 @@ pub fn escaped(text: &str) -> String {
 
 /// Rows of the table of operations: the stages, family by family.
 pub fn operations(graph: &Graph) -> Vec<Value> {
-    let mut rows = vec![row("the constants of a [`Model`], once".to_owned(), None, &graph.constants.operations)];
+    let mut rows = vec![row("the constants of a [`Model`], once", None, &graph.constants.operations)];
     for family in &graph.families {
         let stage = format!("[`Model::{}_configuration`]", family.name);
-        rows.push(row(stage, None, &family.configuration.operations));
+        rows.push(row(&stage, None, &family.configuration.operations));
         let functions = family.functions.iter();
-        rows.extend(functions.map(|f| row(format!("[`Model::{}`]", f.name), Some(&f.name), &f.operations)));
+        rows.extend(functions.map(|f| row(&format!("[`Model::{}`]", f.name), Some(&f.name), &f.operations)));
     }
     rows
 }
 
-fn row(title: String, function: Option<&String>, counts: &Operations) -> Value {
+fn row(title: &str, function: Option<&String>, counts: &Operations) -> Value {
+    let count = |kinds: &[&str]| kinds.iter().filter_map(|kind| counts.get(*kind)).sum::<u64>();
     json!({
         "title": title,
         "function": function,
-        "multiplications": counts.mul,
-        "additions": counts.add + counts.sub,
-        "divisions": counts.div,
-        "sin_cos": counts.sin_cos,
-        "other": counts.neg + counts.min + counts.sqrt + counts.atan2,
+        "multiplications": count(&["mul"]),
+        "additions": count(&["add", "sub"]),
+        "divisions": count(&["div"]),
+        "sin_cos": count(&["sin_cos"]),
+        "other": count(&["neg", "min", "sqrt", "atan2"]),
     })
 }
 

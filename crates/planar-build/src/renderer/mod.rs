@@ -45,7 +45,7 @@ impl Module<'_> {
         let mut context = Context::from_serialize(&context(graph, self)).map_err(|e| e.to_string())?;
         let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?);
         if self.standalone {
-            PARTS.iter().for_each(|(name, text)| body += &format!("\nmod {name} {{\n{}}}\n", indented(text, 4)));
+            body.extend(PARTS.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(text, 4))));
         }
         if self.item {
             body = format!("pub mod {} {{\n{}}}\n", graph.layout.name, indented(&body, 4));
@@ -152,14 +152,7 @@ fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'
         lines.push("}".to_owned());
     }
     let bindings = bindings(&lines, "self.model");
-    let described = |variable: &Variable| {
-        json!({
-            "name": variable.name,
-            "type": array_type(&variable.shape, "T"),
-            "text": doc_text::variable(variable),
-        })
-    };
-    let inputs: Vec<Value> = function.inputs.iter().map(|name| described(input(graph, name))).collect();
+    let inputs: Vec<Value> = function.inputs.iter().map(|name| variable(input(graph, name))).collect();
     let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
     let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();
     let call_names: Vec<&Value> = call_inputs.iter().map(|input| &input["name"]).collect();
@@ -168,7 +161,7 @@ fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'
         "docs": doc_text::function(function),
         "struct": (!single).then(|| camel_case(name)),
         "result_type": if single { array_type(&outputs[0].shape, "T") } else { format!("{}<T>", camel_case(name)) },
-        "outputs": outputs.iter().map(described).collect::<Vec<_>>(),
+        "outputs": outputs.iter().map(variable).collect::<Vec<_>>(),
         "inputs": inputs,
         "call_inputs": call_inputs,
         "call_names": call_names,
@@ -210,6 +203,15 @@ fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         "inputs": inputs.collect::<Vec<_>>(),
         "functions": functions.collect::<Vec<_>>(),
         "states": states.collect::<Vec<_>>(),
+    })
+}
+
+/// An input or an output.
+fn variable(variable: &Variable) -> Value {
+    json!({
+        "name": variable.name,
+        "type": array_type(&variable.shape, "T"),
+        "text": doc_text::variable(variable),
     })
 }
 

@@ -1,6 +1,6 @@
 //! Statements of a graph as Rust: how a name is reached from the body of a function, and what is written as one line.
 
-use crate::format::{Binary, Graph, Operand, Operation, Statement, Unary, Variable};
+use crate::format::{Graph, Operand, Operation, Statement, Variable};
 use std::collections::{HashMap, HashSet};
 
 /// Most `let` statements of a block. Each opens a scope inside the one before it; a compiler that follows thousands of
@@ -100,32 +100,35 @@ impl<'a> Scope<'a> {
             |index: usize| sections.iter().rev().find(|(_, start)| *start <= index).map_or("", |(name, _)| name);
         let mut uses: HashMap<&str, Vec<&str>> = HashMap::new(); // the sections, "results" aside, that use a name
         for (index, statement) in statements.iter().enumerate() {
-            for name in statement.operation.operands().iter().filter_map(Operand::name) {
+            for name in [&statement.a, &statement.b].into_iter().filter_map(Operand::name) {
                 uses.entry(name).or_default().push(section(index));
             }
         }
         let results: HashSet<&str> = results.iter().copied().collect();
         let mut inlined = HashMap::new();
         let mut lines = Vec::new();
-        for (index, Statement { targets, operation }) in statements.iter().enumerate() {
-            let expression = self.expression(operation, &mut inlined);
-            let (section, first) = (section(index), targets[0].as_str());
-            let once = uses.get(first).is_some_and(|uses| *uses == [section]) && !results.contains(first);
-            if once && is_numbered(first) && targets.len() == 1 && expression.text.len() <= OPERAND {
-                inlined.insert(first, expression);
+        for (index, statement) in statements.iter().enumerate() {
+            let expression = self.expression(statement, &mut inlined);
+            let (section, targets) = (section(index), statement.targets.names());
+            if let [name] = targets.as_slice()
+                && is_numbered(name)
+                && expression.text.len() <= OPERAND
+                && uses.get(name).is_some_and(|uses| *uses == [section])
+                && !results.contains(name)
+            {
+                inlined.insert(*name, expression);
                 continue;
             }
-            let is_used = |name: &&str| uses.contains_key(name) || results.contains(name);
-            let bound: Vec<&str> =
-                targets.iter().map(|name| Some(name.as_str()).filter(is_used).unwrap_or("_")).collect();
-            let target = if bound.len() == 1 { first.to_owned() } else { format!("({})", bound.join(", ")) };
+            let is_used = |name: &str| uses.contains_key(name) || results.contains(name);
+            let targets: Vec<&str> = targets.into_iter().map(|name| if is_used(name) { name } else { "_" }).collect();
+            let target = if targets.len() == 1 { targets.concat() } else { format!("({})", targets.join(", ")) };
             let text = format!("let {target} = {};", expression.text);
-            lines.push(Line { section, targets: bound, names: expression.names, text });
+            lines.push(Line { section, targets, names: expression.names, text });
         }
         lines
     }
 
-    fn expression(&self, operation: &'a Operation, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+    fn expression(&self, statement: &'a Statement, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
         let mut operand = |operand: &'a Operand| {
             operand.name().and_then(|name| inlined.remove(name)).unwrap_or_else(|| Expression {
                 text: self.operand(operand),
@@ -133,32 +136,22 @@ impl<'a> Scope<'a> {
                 names: operand.name().into_iter().collect(),
             })
         };
-        match operation {
-            Operation::Unary(operation, a) => {
-                let a = operand(a);
-                let (text, precedence) = match operation {
-                    Unary::Copy => (a.text, a.precedence),
-                    Unary::Neg => (format!("-{}", a.within(Precedence::Sign)), Precedence::Sign),
-                    Unary::Sqrt => (format!("{}.sqrt()", a.within(Precedence::Atom)), Precedence::Atom),
-                    Unary::SinCos => (format!("{}.sin_cos()", a.within(Precedence::Atom)), Precedence::Atom),
-                };
-                Expression { text, precedence, names: a.names }
-            }
-            Operation::Binary(operation, [a, b]) => {
-                let (a, b) = (operand(a), operand(b));
-                let (text, precedence) = match operation {
-                    Binary::Add => infix(&a, '+', &b, Precedence::Sum),
-                    Binary::Sub => infix(&a, '-', &b, Precedence::Sum),
-                    Binary::Mul => infix(&a, '*', &b, Precedence::Product),
-                    Binary::Div => infix(&a, '/', &b, Precedence::Product),
-                    // not as methods: a lint of clippy's follows the receiver of a method with an argument through all
-                    // its assignments, again at every use, which takes hours for long functions
-                    Binary::Min => (format!("T::minimum({}, {})", a.text, b.text), Precedence::Atom),
-                    Binary::Atan2 => (format!("T::atan2({}, {})", a.text, b.text), Precedence::Atom),
-                };
-                Expression { text, precedence, names: [a.names, b.names].concat() }
-            }
-        }
+        let (a, b) = (operand(&statement.a), operand(&statement.b));
+        let (text, precedence) = match statement.operation {
+            Operation::Copy => (a.text, a.precedence),
+            Operation::Neg => (format!("-{}", a.within(Precedence::Sign)), Precedence::Sign),
+            Operation::Sqrt => (format!("{}.sqrt()", a.within(Precedence::Atom)), Precedence::Atom),
+            Operation::SinCos => (format!("{}.sin_cos()", a.within(Precedence::Atom)), Precedence::Atom),
+            Operation::Add => infix(&a, '+', &b, Precedence::Sum),
+            Operation::Sub => infix(&a, '-', &b, Precedence::Sum),
+            Operation::Mul => infix(&a, '*', &b, Precedence::Product),
+            Operation::Div => infix(&a, '/', &b, Precedence::Product),
+            // not as methods: a lint of clippy's follows the receiver of a method with an argument through all its
+            // assignments, again at every use, which takes hours for long functions
+            Operation::Min => (format!("T::minimum({}, {})", a.text, b.text), Precedence::Atom),
+            Operation::Atan2 => (format!("T::atan2({}, {})", a.text, b.text), Precedence::Atom),
+        };
+        Expression { text, precedence, names: [a.names, b.names].concat() }
     }
 
     fn operand(&self, operand: &Operand) -> String {

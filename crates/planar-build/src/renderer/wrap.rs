@@ -32,7 +32,9 @@ fn push(text: &mut String, line: &str) {
     text.push_str(before);
     text.push('\n');
     if items.iter().any(|item| item.ends_with([']', '}'])) {
-        items.iter().for_each(|item| push(text, &format!("{inside}{item},")));
+        for item in items {
+            push(text, &format!("{inside}{item},"));
+        }
     } else {
         let mut current = inside.clone();
         for item in items {

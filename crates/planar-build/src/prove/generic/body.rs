@@ -1,7 +1,5 @@
 //! One rigid body of the tree, and the frames that are mounted on it.
 
-use planar_layout::layout::{Base, Link};
-
 /// A rigid body with its frame at its joint; the base has no joint and its frame at its COM.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
@@ -24,16 +22,4 @@ pub struct MountedFrame {
     pub position: [f64; 2],
     /// Direction from the body's x axis, rad.
     pub angle: f64,
-}
-
-impl Body {
-    /// The base.
-    pub fn base(base: &Base) -> Self {
-        Self { mass: base.mass, inertia: base.inertia, com: [0.0; 2], joint: None }
-    }
-
-    /// A link whose joint has this frame.
-    pub fn link(link: &Link, joint: &MountedFrame) -> Self {
-        Self { mass: link.mass, inertia: link.inertia, com: link.com, joint: Some(joint.clone()) }
-    }
 }

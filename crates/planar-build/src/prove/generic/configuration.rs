@@ -4,7 +4,7 @@ use super::{Generic, length, velocity};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2, Vector3};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
-use planar_dynamics::validate::finite_configuration;
+use planar_dynamics::validate::{finite_configuration, finite_state};
 
 /// The robot at one configuration. Positions count from the base COM, in inertial axes, so that a robot far from the
 /// origin loses no digits.
@@ -124,7 +124,8 @@ impl<'a> GenericState<'a> {
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`].
     pub fn new(robot: &'a Generic, state: &State<'_, f64>) -> Result<Self, Error> {
-        robot.check_state(state)?;
+        finite_state(state)?;
+        length("joint_rates", robot.bodies.len() - 1, state.joint_rates.len())?;
         let at = Configuration::new(robot, &state.base_pose, state.joint_angles)?;
         Ok(Self { at, velocity: velocity(&state.base_twist, state.joint_rates) })
     }

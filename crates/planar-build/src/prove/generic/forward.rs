@@ -17,7 +17,7 @@ impl ForwardDynamics<f64> for Generic {
     ) -> Result<[f64; 3], Error> {
         let now = GenericState::new(self, state)?;
         finite("joint_torques", forces.joint_torques)?;
-        self.check_joints("joint_torques", forces.joint_torques)?;
+        length("joint_torques", self.joints(), forces.joint_torques.len())?;
         let wrench = forces.base_wrench.unwrap_or([0.0; 3]);
         finite("base_wrench", &wrench)?;
         let mut right = velocity(&wrench, forces.joint_torques) - now.bias();

@@ -1,7 +1,7 @@
 //! Rigid capture with explicit contact matrices.
 
 use super::solve::factor;
-use super::{Configuration, Generic, GenericState, length, store_matrix, store_split};
+use super::{Generic, GenericState, length, store_matrix, store_split};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use planar_dynamics::dynamics::{Impact, Robot};
 use planar_dynamics::error::Error;
@@ -74,10 +74,9 @@ impl Impact<f64> for Generic {
         impact_momentum: &mut [f64],
         joint_rates_after: &mut [f64],
     ) -> Result<(), Error> {
-        self.check_state(state)?;
+        let now = GenericState::new(self, state)?;
         let contacts = self.contacts(targets)?;
-        let at = Configuration::new(self, &state.base_pose, state.joint_angles)?;
-        let reduced = self.reduced_at(&at)?;
+        let reduced = self.reduced_at(&now.at)?;
         let momentum = &reduced.inertia * DVector::from_column_slice(state.joint_rates);
         let (matrix, momentum) = Self::with_contacts(&contacts, &reduced.jacobian, reduced.inertia, momentum);
         let rates = factor("the impact matrix G", &matrix)?.solve(&momentum);
@@ -93,9 +92,8 @@ impl Impact<f64> for Generic {
         targets: &[Option<Target<f64>>],
         joint_rates_after: &mut [f64],
     ) -> Result<[f64; 3], Error> {
-        self.check_state(state)?;
-        let contacts = self.contacts(targets)?;
         let now = GenericState::new(self, state)?;
+        let contacts = self.contacts(targets)?;
         let (mass_matrix, jacobian) = (now.at.mass_matrix(), now.at.end_effector_jacobian());
         let momentum = &mass_matrix * &now.velocity;
         let (matrix, momentum) = Self::with_contacts(&contacts, &jacobian, mass_matrix, momentum);

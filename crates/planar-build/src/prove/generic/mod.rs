@@ -27,9 +27,8 @@ use configuration::{Configuration, GenericState};
 use nalgebra::{DMatrix, DVector};
 use planar_dynamics::dynamics::Robot;
 use planar_dynamics::error::Error;
-use planar_dynamics::state::State;
 use planar_dynamics::validate::{finite, length};
-use planar_layout::layout::Layout;
+use planar_layout::layout::{Base, Layout, Link};
 
 /// A robot of any layout, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,13 +43,15 @@ impl Generic {
     /// The robot that a layout describes.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        let mut bodies = vec![Body::base(&layout.base)];
+        let Base { mass, inertia } = layout.base;
+        let mut bodies = vec![Body { mass, inertia, com: [0.0; 2], joint: None }];
         let mut end_effectors = Vec::with_capacity(layout.arms.len());
         for arm in &layout.arms {
-            // of the next joint, in the end of the end effector
+            // of the next joint, at last of the end effector
             let mut frame = MountedFrame { body: 0, position: arm.mount, angle: arm.mount_angle };
             for link in &arm.links {
-                bodies.push(Body::link(link, &frame));
+                let Link { mass, inertia, com, .. } = *link;
+                bodies.push(Body { mass, inertia, com, joint: Some(frame) });
                 frame = MountedFrame { body: bodies.len() - 1, position: [link.length, 0.0], angle: 0.0 };
             }
             end_effectors.push(frame);
@@ -61,18 +62,6 @@ impl Generic {
     /// Number of full coordinates: the base's three, then the joints.
     fn size(&self) -> usize {
         3 + self.joints()
-    }
-
-    /// Lengths of a state's slices.
-    fn check_state(&self, state: &State<'_, f64>) -> Result<(), Error> {
-        planar_dynamics::validate::finite_state(state)?;
-        self.check_joints("joint_angles", state.joint_angles)?;
-        self.check_joints("joint_rates", state.joint_rates)
-    }
-
-    /// Length of a slice with one number per joint.
-    fn check_joints(&self, quantity: &'static str, values: &[f64]) -> Result<(), Error> {
-        length(quantity, self.joints(), values.len())
     }
 }
 

@@ -11,10 +11,8 @@ use planar_dynamics::validate::{finite, pivot};
 /// met a pivot that is not positive.
 pub fn factor(what: &'static str, matrix: &DMatrix<f64>) -> Result<Cholesky<f64, Dyn>, Error> {
     finite(what, matrix.as_slice())?;
-    let Some(factors) = matrix.clone().cholesky() else {
-        pivot(what, 0.0)?;
-        return Err(Error::Singular { what, pivot: 0.0, limit: 0.0 });
-    };
+    let limit = 8.0 * f64::EPSILON;
+    let factors = matrix.clone().cholesky().ok_or(Error::Singular { what, pivot: 0.0, limit })?;
     let lower = factors.l_dirty();
     let ratios = (0..matrix.nrows()).map(|k| lower[(k, k)] * lower[(k, k)] / matrix[(k, k)]);
     pivot(what, ratios.fold(1.0, f64::min))?;

@@ -55,22 +55,21 @@ pub fn differences(
     };
     let sizes = natural_sizes(sample, &expected);
     let each = sizes.into_iter().filter_map(|(quantity, NaturalSize { sizes, condition })| {
-        let error = error(found.get(quantity)?, expected.get(quantity)?, &sizes);
+        let error = scaled_error(found.get(quantity)?, expected.get(quantity)?, &sizes);
         Some(Difference { quantity, error, condition })
     });
     Ok(each.collect())
 }
 
-/// Largest |a − b| over the entry's size; entries of size zero must be equal.
-fn error(found: &[f64], expected: &[f64], sizes: &[f64]) -> f64 {
+/// Largest |a − b| over the entry's size, where 0/0 is 0; infinite where something is missing or not a number.
+pub(super) fn scaled_error(found: &[f64], expected: &[f64], sizes: &[f64]) -> f64 {
     if found.len() != expected.len() || found.len() != sizes.len() {
         return f64::INFINITY;
     }
-    let entries = found.iter().zip(expected).zip(sizes);
-    let scaled = entries.map(|((a, b), size)| {
+    let scaled = found.iter().zip(expected).zip(sizes).map(|((a, b), size)| {
         let difference = (a - b).abs();
         if difference == 0.0 { 0.0 } else { difference / size }
     });
     // a NaN must not vanish in a maximum
-    scaled.fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
+    scaled.fold(0.0, |worst, error| if error.is_nan() { f64::INFINITY } else { error.max(worst) })
 }
