@@ -1,7 +1,7 @@
 """Builds the graph of a layout, as plain data for JSON, from the outputs of its functions.
 
 The graph has single assignments in three stages: constants from parameters, then for each family the values that
-depend on the configuration, then for each function the rest. Those of the last two stand in named sections.
+depend on the configuration, then for each function the rest. Those of the last two are in named sections.
 """
 
 from collections.abc import Iterable

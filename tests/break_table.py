@@ -41,8 +41,8 @@ FAULTS = [
     Fault(
         "sign of a centripetal term",
         "codegen/composite_inertia.py",
-        "moment = bias[k + 1] + moment - cross(arm.link[k], total)",
-        "moment = bias[k + 1] + moment + cross(arm.link[k], total)",
+        "moment = self.joints[k + 1] + moment - cross(arm.link[k], total)",
+        "moment = self.joints[k + 1] + moment + cross(arm.link[k], total)",
     ),
     Fault(
         "coupling of base and joints with its rows exchanged",
@@ -95,40 +95,35 @@ FAULTS = [
     # renderer and template
     Fault(
         "operands of a difference exchanged",
-        "crates/planar-build/src/renderer/operands.rs",
-        'format!("{a} - {b}")',
-        'format!("{b} - {a}")',
+        "crates/planar-build/src/renderer/statements.rs",
+        "infix(&a, '-', &b, Precedence::Sum)",
+        "infix(&b, '-', &a, Precedence::Sum)",
     ),
     Fault(
         "sine and cosine exchanged",
-        "crates/planar-build/src/renderer/operands.rs",
-        "let bound = pair.iter().map(bound)",
-        "let bound = pair.iter().rev().map(bound)",
+        "crates/planar-build/src/renderer/statements.rs",
+        'format!("({})", targets.join(", "))',
+        'format!("({}, {})", targets[1], targets[0])',
     ),
     Fault(
         "a nonzero dropped: [5][0] of 6 × 6 results",
-        "crates/planar-build/src/renderer/operands.rs",
-        'let elements = list(&output["elements"])?.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;',
-        'let items = list(&output["elements"])?;\n'
-        "        let mut elements = items.iter().map(|e| self.operand(e)).collect::<Result<Vec<_>, _>>()?;\n"
+        "crates/planar-build/src/renderer/statements.rs",
+        "let elements: Vec<String> = output.elements.iter().map(|element| self.operand(element)).collect();",
+        "let mut elements: Vec<String> = output.elements.iter().map(|element| self.operand(element)).collect();\n"
         '        if elements.len() == 36 {\n            elements[30] = "T::ZERO".to_owned();\n        }',
     ),
     Fault(
         "constants from the defaults, not the values",
         "crates/planar-build/templates/model.rs.tera",
         """\
-        {% for s in constants.statements %}
-        {{ s }}
-        {% endfor %}
+{{ constants.statements }}
         Self {
             parameters,
 """,
         """\
         let given = parameters;
         let parameters = Parameters::<T>::default();
-        {% for s in constants.statements %}
-        {{ s }}
-        {% endfor %}
+{{ constants.statements }}
         Self {
             parameters: given,
 """,
@@ -297,7 +292,7 @@ FAULTS = [
     Fault(
         "a stale graph rendered",
         "crates/planar-build/src/graph.rs",
-        "if found != wanted {",
+        "if *found != wanted {",
         "if found.len() != wanted.len() {",
     ),
     Fault(

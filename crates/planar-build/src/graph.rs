@@ -18,7 +18,7 @@ pub enum GraphError {
     #[error("{0}")]
     Format(String),
     /// It was derived from another layout.
-    #[error("it was derived from a layout with sha256 {found}, the layout has {wanted}")]
+    #[error("it is stale: it was derived from a layout with sha256 {found}, the layout has {wanted}")]
     Stale {
         /// The graph's.
         found: String,

@@ -1,8 +1,8 @@
 //! For build scripts of crates with a robot of their own: graphs to Rust, without Python.
 //!
-//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and, beside it, the graph
-//! that `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has
-//! `planar-capture` twice, as the core that the generated code stands on, and for the build script:
+//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and in the same folder the
+//! graph that `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has
+//! `planar-capture` twice, as the core that the generated code uses, and for the build script:
 //!
 //! ```toml
 //! [dependencies]
@@ -69,7 +69,7 @@ pub struct Layouts {
 }
 
 impl Layouts {
-    /// Modules in `$OUT_DIR` that stand on this crate's core.
+    /// Modules in `$OUT_DIR` that use this crate's core.
     #[must_use]
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         Self { folder: folder.into(), standalone: false, out: None }

@@ -1,6 +1,6 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
-use crate::graph::{self, Graph, GraphError};
+use crate::graph::{self, Graph};
 use crate::renderer::Module;
 use planar_layout::layout::Layout;
 use std::fs;
@@ -63,16 +63,10 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
 /// What is wrong with either, or that the graph is not the layout's, with the command.
 pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Graph), String> {
     let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
-    let (shown, from) = (graph_path.display(), layout_path.display());
-    let mend = |e: &dyn std::fmt::Display| format!("{shown}: {e}; generate it again: {command}");
+    let mend = |e: &dyn std::fmt::Display| format!("{}: {e}; generate it again: {command}", graph_path.display());
     let text = fs::read_to_string(graph_path).map_err(|e| mend(&e))?;
-    match graph::read(&text, &layout) {
-        Ok(graph) => Ok((layout, graph)),
-        Err(GraphError::Stale { found, wanted }) => Err(format!(
-            "{shown} is stale: it was derived from a layout with sha256 {found}, {from} has {wanted}; generate it again: {command}"
-        )),
-        Err(other) => Err(mend(&other)),
-    }
+    let graph = graph::read(&text, &layout).map_err(|e| mend(&e))?;
+    Ok((layout, graph))
 }
 
 /// Names of the files with an extension, sorted.

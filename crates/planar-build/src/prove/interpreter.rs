@@ -1,4 +1,4 @@
-//! A graph computed in `f64` as it stands, without being compiled: what the rendered code will say.
+//! Interprets a graph in `f64`: computes what the rendered code will compute, without compiling it.
 
 use crate::format::{FunctionResult, Given, Graph, Operand, Operation, Statement};
 use planar_dynamics::scalar::Scalar;

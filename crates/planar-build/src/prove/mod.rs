@@ -1,4 +1,4 @@
-//! The proof of a graph: derived from a layout, computed as it stands, and compared with the generic implementation.
+//! The proof of a graph: derived from a layout, interpreted, and compared with the generic implementation.
 
 mod derivation;
 pub mod evaluation;
@@ -106,7 +106,7 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     Ok(Proved { graph, text, proof })
 }
 
-/// Compares a graph, computed as it stands, with the generic implementation: every result of every function at states
+/// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every function at states
 /// of every regime that leaves the layout's numbers as they are.
 ///
 /// # Errors

@@ -9,6 +9,7 @@ use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
+use std::collections::HashMap;
 
 /// Rounding units that a result computed by sums and products may be off, in natural sizes.
 const ROUNDINGS: f64 = 64.0;
@@ -42,7 +43,7 @@ pub fn reference_state(layout: &Layout, regime: Regime, index: u64) -> Result<Re
                 "forward_dynamics_with_base_wrench" => &base_wrench,
                 _ => &all,
             };
-            if let Some((_, [values, sizes])) = results.iter().find(|(of, _)| of == quantity).cloned() {
+            if let Some([values, sizes]) = results.get(quantity).cloned() {
                 let (function, output) = ((*function).to_owned(), quantity.row().output.to_owned());
                 expected.push(FunctionResult { function, output, values, sizes });
             }
@@ -101,8 +102,11 @@ fn inputs(instant: &EvaluationInput) -> Vec<Given> {
     inputs.map(|(name, values)| Given { name: name.to_owned(), values }).into()
 }
 
-/// Every quantity at one state by the generic implementation, and how many rounding units each entry may be off.
-fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Vec<(Quantity, [Vec<f64>; 2])>, Error> {
+/// Values and how many rounding units each may be off.
+type Results = HashMap<Quantity, [Vec<f64>; 2]>;
+
+/// Every quantity at one state by the generic implementation.
+fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Results, Error> {
     let sample = RegimeSample { layout: layout.clone(), instant: instant.clone() };
     let values = evaluate_all(&Generic::new(layout), instant)?;
     let sizes = natural_sizes(&sample, &values).into_iter();
