@@ -38,6 +38,10 @@ impl Merge<f64> for Generic {
             let Some(target) = target else { continue };
             check_target(target)?;
             let frame = &self.end_effectors[arm];
+            if frame.body == 0 {
+                // a base with its COM elsewhere would be another coordinate
+                return Err(Error::Length { quantity: "links of an arm with a target", expected: 1, found: 0 });
+            }
             let (yaw, _) = at.end_effector(arm);
             let com = Vector2::from(frame.position) - Rotation2::new(-yaw) * Vector2::from(target.contact);
             let merged = composed(&bodies[frame.body], target.mass, target.inertia, com);
