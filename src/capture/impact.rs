@@ -3,7 +3,7 @@
 use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
-use crate::contact::{self, Contact, ContactKind, ContactPartner, DelassusMatrix, workspace_length};
+use crate::contact::{self, Contact, ContactPartner, DelassusMatrix, workspace_length};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
@@ -110,7 +110,7 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact
     let mut by_arm = vec![None; assembly.model.arms()];
     for touch in touching {
         let alone = touching.iter().filter(|other| other.target == touch.target).count() == 1;
-        if !alone || touch.law.kind() != ContactKind::Rigid {
+        if !alone || !touch.law.kind().holds_yaw() {
             return None;
         }
         let Body { mass, inertia, twist, .. } = targets[touch.target];

@@ -230,7 +230,7 @@ fn contacts(kinds: &[Option<ContactKind>], restitution: f64) -> String {
     let alike = kinds.iter().all(|kind| Some(kind) == kinds.first());
     let shown = if alike { &kinds[..1] } else { kinds };
     let names = shown.iter().map(|kind| match kind {
-        Some(ContactKind::Bounce) => format!("bounce ({})", short(restitution)),
+        Some(kind) if kind.is_unilateral() => format!("{} ({})", kind.name(), short(restitution)),
         kind => contact_name(*kind).to_owned(),
     });
     names.collect::<Vec<_>>().join(" and ")

@@ -1,7 +1,7 @@
 //! The `[approach]` table: the trajectory of the arms and its tracking.
 
 use crate::simulate::actuators::Actuation;
-use crate::simulate::integration::Integration;
+use crate::simulate::stepper::Integration;
 use crate::trajectory::TrajectoryKind;
 use std::f64::consts::{PI, TAU};
 

@@ -1,7 +1,7 @@
 //! The `[post_impact]` table: the motion after the capture.
 
 use crate::simulate::actuators::Actuation;
-use crate::simulate::integration::Integration;
+use crate::simulate::stepper::Integration;
 
 /// The motion of robot and targets after the capture.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,7 +7,7 @@ use planar_capture::control::{Control, ProportionalDerivative, SampledControl, S
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, PointToPoint};

@@ -6,7 +6,7 @@ use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::{EventState, Events, NoEvents};
-use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::ConstantSetpoint;

@@ -9,7 +9,7 @@ use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, PostCaptureControl, PostImpact, Scenario};
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::Integration;
+use planar_capture::simulate::stepper::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Timing};
 use planar_proof::sample::{RandomState, config, sample};

@@ -6,7 +6,7 @@ use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::owned::RobotState;
-use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample};
 
 /// s.

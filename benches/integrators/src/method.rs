@@ -1,7 +1,7 @@
 //! The compared schemes with their names and styles.
 
 use planar_capture::output::figures::{Colour, Dash, Symbol};
-use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 
 /// A scheme in full or reduced coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,12 +31,7 @@ impl Method {
 
     /// As in a scenario.
     pub fn name(self) -> &'static str {
-        match self.integration.scheme {
-            Scheme::RungeKutta4 => "rk4",
-            Scheme::SemiImplicitEuler => "semi_implicit_euler",
-            Scheme::GaussLegendre => "gauss_legendre",
-            Scheme::Adaptive { .. } => "adaptive",
-        }
+        self.integration.scheme.properties().name
     }
 
     /// As in a scenario.

@@ -10,7 +10,7 @@ use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::scenario::{FinalRates, Scenario, Tracking};
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::Integration;
+use planar_capture::simulate::stepper::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, PhaseError, Timing, simulate};
 use planar_capture::state::State;

@@ -3,7 +3,7 @@
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::{Problems, end};
-use planar_capture::simulate::integration::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 use planar_capture::simulate::{Phase, PhaseError};
 
 /// The work–precision data of one motion.

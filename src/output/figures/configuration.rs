@@ -6,7 +6,6 @@ use super::snapshot::{FreeTarget, Snapshot, panels};
 use super::style::Colour;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::{CaptureResult, CaseResult, Study};
-use crate::contact::ContactKind;
 use crate::layout::Arm;
 use crate::output::impacts::{ImpactEvent, impacts};
 use crate::scenario::{Detection, Scenario};
@@ -134,7 +133,7 @@ fn targets(scenario: &Scenario, bodies: &[Body], now: &Sample, contacts: &[Impac
             for contact in own {
                 let [_, x, y] = now.end_effector_poses[contact.arm];
                 points.push([x, y]);
-                if contact.law.kind() == ContactKind::Pin {
+                if contact.law.kind().holds() && !contact.law.kind().holds_yaw() {
                     pins.push(pin([x, y]));
                 }
             }

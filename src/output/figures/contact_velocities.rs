@@ -84,7 +84,7 @@ fn contact_twists(
                 at_contact(event.solution.target_twists[target]),
                 after.end_effector_twists[arm],
             ],
-            rigid: kind == ContactKind::Rigid,
+            rigid: kind.holds_yaw(),
         }
     });
     each.collect()

@@ -100,14 +100,15 @@ fn reject_shared_arms(targets: &[Target], tables: &[Table<'_>], layout: &Layout)
 fn merges_all(targets: &[Target], cases: &[Case], detection: Detection) -> bool {
     let one_arm_each = targets.iter().all(|target| target.contacts.len() == 1);
     let at_once = detection == Detection::Time || targets.len() == 1;
-    let rigid = cases.iter().flat_map(|case| &case.kinds).flatten().all(|kind| *kind == Some(ContactKind::Rigid));
+    let rigid =
+        cases.iter().flat_map(|case| &case.kinds).flatten().all(|kind| kind.is_some_and(ContactKind::holds_yaw));
     one_arm_each && at_once && rigid
 }
 
 /// Rejects the restitution of each target that no arm bounces off in any case.
 fn reject_idle_restitutions(tables: &[Table<'_>], cases: &[Case]) {
     for (i, table) in tables.iter().enumerate() {
-        if !cases.iter().any(|case| case.kinds[i].contains(&Some(ContactKind::Bounce))) {
+        if !cases.iter().any(|case| case.kinds[i].iter().flatten().any(|kind| kind.is_unilateral())) {
             reject_keys(table, &["restitution"], NO_BOUNCE);
         }
     }

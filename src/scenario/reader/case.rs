@@ -2,7 +2,6 @@
 
 use super::target::{NO_BOUNCE, NO_NORMAL, bounces_at_com, contact_kinds, restitution};
 use super::{FILE_NAME, TWIST, file_name};
-use crate::contact::ContactKind;
 use crate::diagnostic::{NumberRule, Table, Value, every};
 use crate::scenario::{Case, Detection, Target};
 
@@ -38,7 +37,7 @@ pub(super) fn case<'a>(
     });
     let restitutions = of_targets(table, "restitutions", names, |i, value| match value {
         Some(value) => {
-            let holds = kinds.as_ref().is_some_and(|kinds| !kinds[i].contains(&Some(ContactKind::Bounce)));
+            let holds = kinds.as_ref().is_some_and(|kinds| !kinds[i].iter().flatten().any(|kind| kind.is_unilateral()));
             if holds {
                 value.reject(NO_BOUNCE);
             }

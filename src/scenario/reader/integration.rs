@@ -3,7 +3,7 @@
 use super::read_or;
 use crate::diagnostic::{NumberRule, Table};
 use crate::integrate::Adaptive;
-use crate::simulate::integration::{Formulation, Integration, Scheme};
+use crate::simulate::stepper::{Formulation, Integration, Scheme};
 
 const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 
@@ -12,7 +12,7 @@ const LARGEST_TOLERANCE: f64 = 1e-3;
 
 pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
     let scheme = read_or(table, "integrator", Scheme::RungeKutta4, |value| {
-        value.choice(&Scheme::ALL.map(|scheme| (scheme.properties().name, scheme)))
+        value.choice(&Scheme::ALL.iter().map(|scheme| (scheme.properties().name, *scheme)).collect::<Vec<_>>())
     });
     let coordinates = read_or(table, "coordinates", Formulation::Full, |value| {
         let coordinates = value.choice(&[("full", Formulation::Full), ("reduced", Formulation::Reduced)])?;

@@ -87,8 +87,8 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
 /// Whether one of the contacts, of these kinds, would bounce at the COM of a disc, where there is no outward normal.
 pub(super) fn bounces_at_com(target: &Target, kinds: &[Option<ContactKind>]) -> bool {
     let mut contacts = target.contacts.iter().zip(kinds);
-    let at_com =
-        contacts.any(|(contact, kind)| *kind == Some(ContactKind::Bounce) && contact.point.iter().all(|x| *x == 0.0));
+    let at_com = contacts
+        .any(|(contact, kind)| kind.is_some_and(ContactKind::is_unilateral) && contact.point.iter().all(|x| *x == 0.0));
     at_com && matches!(target.outline, Outline::Disc { .. })
 }
 

@@ -8,8 +8,26 @@ mod semi_implicit_euler;
 use crate::control::Control;
 use crate::error::Error;
 use crate::simulate::equation::Equation;
-use crate::simulate::integration::{Formulation, Integration, Scheme};
 use crate::simulate::system::System;
+
+/// By which integrator, in which coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Integration {
+    /// The integrator.
+    pub scheme: Scheme,
+    /// What is integrated.
+    pub coordinates: Formulation,
+}
+
+/// What is integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Formulation {
+    /// Base and joints.
+    #[default]
+    Full,
+    /// The joints and the base pose; the base twist follows from the momentum.
+    Reduced,
+}
 
 /// Name and abilities of a scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,12 +40,29 @@ pub struct Properties {
     pub is_canonical: bool,
 }
 
+/// An integrator. Each has a file of its own with its properties and steps; this file lists them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scheme {
+    /// Classical Runge–Kutta steps of order 4.
+    #[default]
+    RungeKutta4,
+    /// Rates, then positions by the new rates: order 1.
+    SemiImplicitEuler,
+    /// Gauss–Legendre steps of order 6 in canonical variables: symplectic, conserves both momenta.
+    GaussLegendre,
+    /// Verner's pair of orders 9 and 8, with adaptive steps.
+    Adaptive {
+        /// Relative and absolute, of each step.
+        tolerance: f64,
+    },
+}
+
 impl Scheme {
     /// The default tolerance: the error of the paper's approach is then less than 1e-12 rad and m.
     pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-    /// All schemes. To add one, add its file and its line here, in `properties` and in `method`.
-    pub const ALL: [Self; 4] = [
+    /// All schemes.
+    pub const ALL: &'static [Self] = &[
         Self::RungeKutta4,
         Self::SemiImplicitEuler,
         Self::GaussLegendre,

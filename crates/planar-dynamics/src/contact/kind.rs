@@ -46,6 +46,12 @@ impl ContactKind {
     pub const fn holds_yaw(self) -> bool {
         self.constraints() == 3
     }
+
+    /// Whether it transmits a push along the normal alone, with a restitution.
+    #[must_use]
+    pub const fn is_unilateral(self) -> bool {
+        matches!(self, Self::Bounce)
+    }
 }
 
 /// The relation between the impulse of a contact and the motion of the end effector relative to its partner.

@@ -9,7 +9,7 @@ use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::{Integration, Scheme};
+use planar_capture::simulate::stepper::{Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::state::State;
 use planar_proof::maximal::body::Body;

@@ -16,7 +16,7 @@ use planar_capture::dynamics::Model;
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::integration::Integration;
+use planar_capture::simulate::stepper::Integration;
 use planar_capture::simulate::{Timing, simulate};
 use planar_capture::target::Target;
 use planar_proof::maximal::body::Body;
