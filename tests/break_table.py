@@ -193,19 +193,19 @@ FAULTS = [
     ),
     Fault(
         "sign of the work in the audit",
-        "src/simulate/audit.rs",
-        "now.kinetic_energy - self.start.kinetic_energy - done.work",
-        "now.kinetic_energy - self.start.kinetic_energy + done.work",
+        "src/simulate/conservation.rs",
+        "now.kinetic_energy - self.start.kinetic_energy - input.work",
+        "now.kinetic_energy - self.start.kinetic_energy + input.work",
     ),
     Fault(
         "scale of the audit twice too large",
-        "src/simulate/audit.rs",
+        "src/simulate/conservation.rs",
         "if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }",
         "if self.scale > 0.0 { self.deviation / (2.0 * self.scale) } else { 0.0 }",
     ),
     Fault(
         "angular momentum left out of the drift",
-        "src/simulate/audit.rs",
+        "src/simulate/conservation.rs",
         "self.linear.value().max(self.angular.value())",
         "self.linear.value()",
     ),
@@ -223,7 +223,7 @@ FAULTS = [
     ),
     Fault(
         "columns of the time series exchanged",
-        "src/record/columns.rs",
+        "src/output/time_series/columns.rs",
         "&row.sample.state.joint_angles",
         "&row.sample.state.joint_rates",
     ),
@@ -309,9 +309,9 @@ FAULTS = [
     ),
     Fault(
         "link inertia bound of a rod",
-        "src/inspection/link.rs",
-        "let most = mass * (x * (length - x) + y * y);",
-        "let most = mass * (x * (length - x) / 3.0 + y * y);",
+        "src/check/link.rs",
+        "let largest = mass * (x * (length - x) + y * y);",
+        "let largest = mass * (x * (length - x) / 3.0 + y * y);",
     ),
 ]
 

@@ -1,12 +1,11 @@
 """What the workspace promises of its own order; exits 1 with a line for each thing that is not so.
 
-    python3 tests/house.py [--circles]
+    python3 tests/house.py
 
 - A published crate depends on those before it in ORDER and nothing looks back; planar-proof is for tests alone.
-- No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed but what is in DEAD.
+- No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed.
 - A target that is not tested (`test = false`) has no tests; a workspace of its own has its lock committed.
-- Modules of a crate (files and folders in `src`) name each other in one direction. Circles are printed; with
-  `--circles` they count.
+- Modules of a crate, and those of each of its folders, name each other in one direction: no circles.
 """
 
 import argparse
@@ -19,7 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ORDER = ["planar-dynamics", "planar-layout", "planar-build", "planar-capture"]
 FIXTURES = "planar-proof"
-DEAD = {"src/models.rs": "a build may be without any layout"}
+OWN_FILES = {"lib", "main", "mod"}
 
 
 def output(*command):
@@ -65,7 +64,7 @@ def texts(path):
     text = code(path)
     if re.search(r"#!?\[path\b", text):
         yield f"{path}: #[path]"
-    if re.search(r"(allow|expect)\(dead_code", text) and DEAD.get(str(path), "\0") not in text:
+    if re.search(r"(allow|expect)\(dead_code", text):
         yield f"{path}: dead code is allowed"
     own = ROOT / crate_of(path)
     for start, name in re.findall(
@@ -90,19 +89,16 @@ def untested(packages):
 
 
 def place(path, folder):
-    """The module of the crate that a file is in: its first part below `src`."""
+    """The module of a folder that a file is in: its first part below the folder."""
     return path.relative_to(folder).parts[0].removesuffix(".rs")
 
 
-def depth(path, folder):
-    """How many `super` lead from a file to the root of its crate."""
-    return len(path.relative_to(folder).parts) - (path.name == "mod.rs")
-
-
-def named(text, depth):
-    """Names after `crate::`, or as many `super::` as lead there, in groups too."""
-    root = rf"(?:\bcrate|(?<!super::)\bsuper(?:::super){{{depth - 1}}})"
-    for name, group in re.findall(root + r"::(?:(?!super\b)(\w+)|\{(.*?)\};)", text, flags=re.S):
+def named(path, source, folder):
+    """The names that a file takes from the module of a folder: by the path from the crate's root, or by `super`."""
+    supers = len(path.relative_to(folder).parts) - (path.name == "mod.rs")
+    absolute = "::".join(["crate", *folder.relative_to(source).parts])
+    root = rf"(?:\b{absolute}|(?<!super::)\bsuper(?:::super){{{supers - 1}}})"
+    for name, group in re.findall(root + r"::(?:(?!super\b)(\w+)|\{(.*?)\};)", code(path), flags=re.S):
         if name:
             yield name
         else:
@@ -110,16 +106,23 @@ def named(text, depth):
             yield from re.findall(r"(?:^|,)\s*(\w+)", flat)
 
 
-def circles(source):
-    """Modules that need each other: a shortest circle through each, once."""
-    files = tracked(f"{source}/*.rs")
-    modules = {place(path, source) for path in files} - {"lib", "main"}
+def exported(folder):
+    """Which of its modules each name is from that a folder's own file hands on."""
+    file = folder / "mod.rs"
+    text = code(file) if (ROOT / file).exists() else ""
+    for module, name, group in re.findall(r"\buse (?:self::)?(\w+)::(?:(\w+)|\{(.*?)\});", text, flags=re.S):
+        yield from ((found, module) for found in ([name] if name else re.findall(r"\w+", group)))
+
+
+def circles(source, folder):
+    """Modules of a folder that need each other: a shortest circle through each, once."""
+    files = [path for path in tracked(f"{folder}/*.rs") if path.parent != folder or path.stem not in OWN_FILES]
+    modules = {place(path, folder) for path in files}
+    module_of = {name: module for name, module in exported(folder) if module in modules}
     edges = {module: {} for module in modules}
     for path in files:
-        module = place(path, source)
-        for other in (
-            modules.intersection(named(code(path), depth(path, source))) - {module} if module in modules else ()
-        ):
+        module = place(path, folder)
+        for other in {module_of.get(name, name) for name in named(path, source, folder)} & modules - {module}:
             edges[module].setdefault(other, path)
     seen = set()
     for start in sorted(modules):
@@ -127,7 +130,9 @@ def circles(source):
         if circle and frozenset(circle) not in seen:
             seen.add(frozenset(circle))
             steps = zip(circle, [*circle[1:], circle[0]], strict=True)
-            yield f"{source}: " + ", ".join(f"{a} → {b} ({edges[a][b].relative_to(source)})" for a, b in steps)
+            yield f"circle of modules in {folder}: " + ", ".join(
+                f"{a} → {b} ({edges[a][b].relative_to(folder)})" for a, b in steps
+            )
 
 
 def shortest(edges, start):
@@ -144,9 +149,7 @@ def shortest(edges, start):
 
 def main():
     """Exit code 1 where something is out of order."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--circles", action="store_true", help="circles of modules count")
-    options = parser.parse_args()
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     packages = json.loads(output("cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"))["packages"]
     problems = [*directions(packages), *untested(packages)]
     problems += [problem for path in tracked("*.rs") for problem in texts(path)]
@@ -157,16 +160,13 @@ def main():
     problems += [
         f"{folder}: its Cargo.lock is not committed" for folder in own if str(folder / "Cargo.lock") not in locks
     ]
-    found = [
-        circle
-        for package in packages
-        for circle in circles(Path(package["manifest_path"]).parent.relative_to(ROOT) / "src")
-    ]
-    for circle in found:
-        print(f"house: circle of modules in {circle}")
+    for package in packages:
+        source = Path(package["manifest_path"]).parent.relative_to(ROOT) / "src"
+        folders = sorted({source, *(folder for path in tracked(f"{source}/*.rs") for folder in path.parents[:-1])})
+        problems += [circle for folder in folders if source in [folder, *folder.parents] for circle in circles(source, folder)]
     for problem in problems:
         print(f"house: {problem}")
-    sys.exit(1 if problems or (options.circles and found) else 0)
+    sys.exit(1 if problems else 0)
 
 
 if __name__ == "__main__":
