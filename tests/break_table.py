@@ -21,6 +21,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
+# from formulas to what a user sees
+BINARIES = ["models", "contacts", "studies", "commands"]
+
 
 @dataclass(frozen=True)
 class Fault:
@@ -350,7 +353,7 @@ def copy_tracked(to: Path) -> None:
             shutil.copyfile(ROOT / name, to / name)
 
 
-def run(command: list[str], place: Place, variables: dict[str, str]) -> tuple[int, str]:
+def run(command: list[str], place: Place) -> tuple[int, str]:
     """(exit code, both streams) of a command in the copy."""
     kept = {
         "CARGO_TARGET_DIR": str(place.target),
@@ -361,7 +364,7 @@ def run(command: list[str], place: Place, variables: dict[str, str]) -> tuple[in
     result = subprocess.run(
         command,
         cwd=place.tree,
-        env={**os.environ, **kept, **variables},
+        env={**os.environ, **kept},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -371,30 +374,27 @@ def run(command: list[str], place: Place, variables: dict[str, str]) -> tuple[in
 
 
 def test(place: Place, with_derivation: bool) -> Outcome:
-    """Runs the tests in the copy. Nothing in the derivation's own tests reads Rust: they run for its faults only."""
+    """Runs the tests in the copy, up to the first binary with a failure; the derivation's own for its faults only."""
+    derivation = []
     if with_derivation:
-        code, text = run([sys.executable, "-m", "codegen"], place, {})
+        code, text = run([sys.executable, "-m", "codegen"], place)
         if code != 0:
             return Outcome([], [], "the derivation: " + text.strip().splitlines()[-1])
-    variables = {} if with_derivation else {"PLANAR_CAPTURE_NO_PYTHON": "1"}
-    code, text = run(["cargo", "test", "--locked", "--no-fail-fast", "--test", "*"], place, variables)
-    rust, derivation, binary = [], [], ""
-    for line in text.splitlines():
-        if found := re.match(r"\s+Running (?:tests/)?(\w+)", line):
-            binary = found[1]
-        elif found := re.match(r"test (\S+) \.\.\. FAILED", line):
-            rust.append(f"{binary}::{found[1]}")
-        elif found := re.match(r"FAILED codegen/tests/(\S+)", line):
-            derivation.append(found[1])
-    if rust or derivation or code == 0:
-        # the two tests of this module run the derivation's own, which are counted one by one
-        rust = [name for name in rust if not name.startswith("commands::derivation::")]
-        # cargo goes by the binaries' names, and in a binary the fastest test is reported first: the name decides
-        return Outcome(sorted(rust), list(dict.fromkeys(derivation)))
-    if "failed to run custom build command" in text:
-        stopped = re.search(r"--- stderr\n\s*(.+?)(?:: |\n)", text)
-        return Outcome([], [], "the build: " + (stopped[1].strip() if stopped else "see build.rs"))
-    raise Broken("the faulty code does not compile:\n" + text[-4000:])
+        _, text = run([sys.executable, "-m", "codegen", "--test"], place)
+        derivation = list(dict.fromkeys(re.findall(r"(?m)^FAILED codegen/tests/(\S+)", text)))
+    for binary in BINARIES:
+        # the tests of `derivation` run the derivation's own
+        code, text = run(["cargo", "test", "--locked", "--test", binary, "--", "--skip", "derivation::"], place)
+        names = re.findall(r"(?m)^test (\S+) \.\.\. FAILED", text)
+        if names:
+            # the fastest is reported first: the name decides
+            return Outcome(sorted(f"{binary}::{name}" for name in names), derivation)
+        if "failed to run custom build command" in text:
+            stopped = re.search(r"--- stderr\n\s*(.+?)(?:: |\n)", text)
+            return Outcome([], derivation, "the build: " + (stopped[1].strip() if stopped else "see build.rs"))
+        if code != 0:
+            raise Broken("the faulty code does not compile:\n" + text[-4000:])
+    return Outcome([], derivation)
 
 
 def right(fault: Fault, tree: Path) -> str:
