@@ -17,7 +17,10 @@ macro_rules! implement_dynamics {
             use $crate::scalar::Real;
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
-            use $crate::validate::{array, finite, finite_configuration, finite_state, pivot, store, store_rows};
+            use $crate::validate::{
+                array, finite, finite_configuration, finite_forces, finite_target, joint_arrays, pivot, store,
+                store_rows,
+            };
 
             impl<T: Real> Robot<T> for Model<T> {
                 fn arms(&self) -> usize {
@@ -55,9 +58,7 @@ macro_rules! implement_dynamics {
                     generalized_bias: &mut [T],
                     generalized_jacobian: &mut [T],
                 ) -> Result<(), Error> {
-                    finite_state(state)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
                     let result = Model::reduced_dynamics(self, &state.base_pose, angles, &state.base_twist, rates);
                     pivot("the base inertia", result.smallest_pivot)?;
                     store("generalized_inertia", result.generalized_inertia.as_flattened(), generalized_inertia)?;
@@ -73,17 +74,13 @@ macro_rules! implement_dynamics {
                     forces: &Forces<'_, T>,
                     joint_accelerations: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    finite_state(state)?;
-                    finite("joint_torques", forces.joint_torques)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
+                    finite_forces(forces)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
                     let twist = &state.base_twist;
                     let configuration = self.forward_dynamics_configuration(&state.base_pose, angles);
                     let wrench = forces.base_wrench.unwrap_or([T::ZERO; 3]);
-                    finite("base_wrench", &wrench)?;
                     let (base, joints, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
-                        finite("end_effector_wrenches", wrenches.as_flattened())?;
                         let wrenches = array("end_effector_wrenches", wrenches)?;
                         let r = configuration.forward_dynamics_with_wrenches(twist, rates, torques, &wrench, wrenches);
                         (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
@@ -103,9 +100,7 @@ macro_rules! implement_dynamics {
 
             impl<T: Real> MomentumAndEnergy<T> for Model<T> {
                 fn momentum(&self, state: &State<'_, T>) -> Result<Momentum<T>, Error> {
-                    finite_state(state)?;
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
                     let result = Model::momentum(self, &state.base_pose, angles, &state.base_twist, rates);
                     finite("linear_momentum", &result.linear_momentum)?;
                     finite("angular_momentum", &[result.angular_momentum])?;
@@ -127,18 +122,11 @@ macro_rules! implement_dynamics {
                     impact_momentum: &mut [T],
                     joint_rates_after: &mut [T],
                 ) -> Result<(), Error> {
-                    finite_state(state)?;
-                    let targets = one_per_arm(targets)?;
-                    let result = Model::reduced_impact(
-                        self,
-                        &state.base_pose,
-                        array("joint_angles", state.joint_angles)?,
-                        array("joint_rates", state.joint_rates)?,
-                        &targets.map(|t| t.mass),
-                        &targets.map(|t| t.inertia),
-                        &targets.map(|t| t.contact),
-                        &targets.map(|t| t.twist),
-                    );
+                    let [angles, rates] = joint_arrays(state)?;
+                    let (masses, inertias, contacts, twists) = target_arrays(targets)?;
+                    let pose = &state.base_pose;
+                    let result =
+                        Model::reduced_impact(self, pose, angles, rates, &masses, &inertias, &contacts, &twists);
                     pivot("the impact matrix G", result.smallest_pivot)?;
                     store("impact_matrix", result.impact_matrix.as_flattened(), impact_matrix)?;
                     store("impact_momentum", &result.impact_momentum, impact_momentum)?;
@@ -151,19 +139,11 @@ macro_rules! implement_dynamics {
                     targets: &[Option<Target<T>>],
                     joint_rates_after: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    finite_state(state)?;
-                    let targets = one_per_arm(targets)?;
-                    let result = Model::full_impact(
-                        self,
-                        &state.base_pose,
-                        array("joint_angles", state.joint_angles)?,
-                        &state.base_twist,
-                        array("joint_rates", state.joint_rates)?,
-                        &targets.map(|t| t.mass),
-                        &targets.map(|t| t.inertia),
-                        &targets.map(|t| t.contact),
-                        &targets.map(|t| t.twist),
-                    );
+                    let [angles, rates] = joint_arrays(state)?;
+                    let (masses, inertias, contacts, twists) = target_arrays(targets)?;
+                    let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    let result =
+                        Model::full_impact(self, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
                     pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
                     finite("base_twist_after", &result.base_twist_after)?;
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)?;
@@ -179,7 +159,7 @@ macro_rules! implement_dynamics {
                     targets: &[Option<Target<T>>],
                 ) -> Result<(), Error> {
                     finite_configuration(base_pose, joint_angles)?;
-                    one_per_arm(targets)?;
+                    target_arrays(targets)?;
                     let end_effectors =
                         Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
@@ -188,13 +168,13 @@ macro_rules! implement_dynamics {
                     {
                         let Some(target) = target else { continue };
                         let link = links.saturating_sub(1);
-                        let mut of = |kind| parameter(&mut values, kind, arm, link).copied();
+                        let mut value = |kind| parameter(&mut values, kind, arm, link).copied();
                         let before = LinkInertia {
-                            mass: of(ParameterKind::LinkMass)?,
-                            inertia: of(ParameterKind::LinkInertia)?,
-                            com: [of(ParameterKind::LinkComX)?, of(ParameterKind::LinkComY)?],
+                            mass: value(ParameterKind::LinkMass)?,
+                            inertia: value(ParameterKind::LinkInertia)?,
+                            com: [value(ParameterKind::LinkComX)?, value(ParameterKind::LinkComY)?],
                         };
-                        let after = target.merged_link(&before, of(ParameterKind::LinkLength)?, end_effector[0]);
+                        let after = target.merged_link(&before, value(ParameterKind::LinkLength)?, end_effector[0]);
                         for (kind, number) in [
                             (ParameterKind::LinkMass, after.mass),
                             (ParameterKind::LinkInertia, after.inertia),
@@ -221,16 +201,19 @@ macro_rules! implement_dynamics {
                 index.and_then(|index| values.get_mut(index)).ok_or(Error::Parameter { kind, arm, link })
             }
 
-            /// One target per arm, massless for an arm without a target.
-            fn one_per_arm<T: Real>(targets: &[Option<Target<T>>]) -> Result<[Target<T>; ARMS], Error> {
+            /// Masses, inertias, contacts and twists, one per arm; those of a massless target for an arm without one.
+            fn target_arrays<T: Real>(
+                targets: &[Option<Target<T>>],
+            ) -> Result<([T; ARMS], [T; ARMS], [[T; 2]; ARMS], [[T; 3]; ARMS]), Error> {
                 let targets: &[Option<Target<T>>; ARMS] = array("targets", targets)?;
                 let targets = targets.map(|target| target.unwrap_or_else(Target::massless));
-                for target in &targets {
-                    finite("target mass and inertia", &[target.mass, target.inertia])?;
-                    finite("target contact", &target.contact)?;
-                    finite("target twist", &target.twist)?;
-                }
-                Ok(targets)
+                targets.iter().try_for_each(finite_target)?;
+                Ok((
+                    targets.map(|target| target.mass),
+                    targets.map(|target| target.inertia),
+                    targets.map(|target| target.contact),
+                    targets.map(|target| target.twist),
+                ))
             }
         }
     };
@@ -271,9 +254,7 @@ macro_rules! implement_functions {
             state: &State<'_, T>,
             into: &mut [$crate::implement_functions!(@element $kind)],
         ) -> Result<(), Error> {
-            finite_state(state)?;
-            let angles = array("joint_angles", state.joint_angles)?;
-            let rates = array("joint_rates", state.joint_rates)?;
+            let [angles, rates] = joint_arrays(state)?;
             let result = Model::$method(self, &state.base_pose, angles, &state.base_twist, rates);
             $crate::implement_functions!(@store $kind $method result into)
         }

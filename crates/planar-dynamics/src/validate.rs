@@ -2,7 +2,8 @@
 
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::state::State;
+use crate::state::{Forces, State};
+use crate::target::Target;
 
 /// A slice as an array, or [`Error::Length`].
 pub fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
@@ -29,9 +30,7 @@ pub fn store_rows<T: Real, const C: usize>(
     into: &mut [[T; C]],
 ) -> Result<(), Error> {
     length(quantity, rows.len(), into.len())?;
-    finite(quantity, rows.as_flattened())?;
-    into.copy_from_slice(rows);
-    Ok(())
+    store(quantity, rows.as_flattened(), into.as_flattened_mut())
 }
 
 /// [`Error::NotFinite`] with the first number that is NaN or infinite.
@@ -53,6 +52,26 @@ pub fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
 pub fn finite_configuration<T: Real>(base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
     finite("base_pose", base_pose)?;
     finite("joint_angles", joint_angles)
+}
+
+/// [`finite`] of all forces.
+pub fn finite_forces<T: Real>(forces: &Forces<'_, T>) -> Result<(), Error> {
+    finite("joint_torques", forces.joint_torques)?;
+    finite("base_wrench", forces.base_wrench.as_slice().as_flattened())?;
+    finite("end_effector_wrenches", forces.end_effector_wrenches.unwrap_or_default().as_flattened())
+}
+
+/// [`finite`] of all numbers of a target.
+pub fn finite_target<T: Real>(target: &Target<T>) -> Result<(), Error> {
+    finite("target mass and inertia", &[target.mass, target.inertia])?;
+    finite("target contact", &target.contact)?;
+    finite("target twist", &target.twist)
+}
+
+/// Joint angles and rates as arrays, after [`finite_state`].
+pub fn joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) -> Result<[&'a [T; N]; 2], Error> {
+    finite_state(state)?;
+    Ok([array("joint_angles", state.joint_angles)?, array("joint_rates", state.joint_rates)?])
 }
 
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.

@@ -5,14 +5,12 @@
 mod constant_setpoint;
 mod cycloidal;
 mod end_effector_path;
-mod kind;
 mod quartic;
 mod quintic;
 
 pub use constant_setpoint::ConstantSetpoint;
 pub use cycloidal::Cycloidal;
 pub use end_effector_path::{DesiredEndEffector, EndEffectorPath};
-pub use kind::{AnyTrajectory, TrajectoryKind};
 pub use quartic::{Quartic, QuarticAsPrinted};
 pub use quintic::{Quintic, quintic};
 
@@ -85,3 +83,56 @@ impl<T: Real> PointToPoint<'_, T> {
 fn normalized_time<T: Real>(time: T, duration: T) -> T {
     (time / duration).minimum(T::ONE).maximum(T::ZERO)
 }
+
+macro_rules! kinds {
+    ($($kind:ident),*) => {
+        /// A kind of joint trajectory.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum TrajectoryKind {
+            $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)*
+        }
+
+        impl TrajectoryKind {
+            /// All kinds.
+            pub const ALL: &'static [Self] = &[$(Self::$kind),*];
+
+            /// The properties of this kind.
+            #[must_use]
+            pub const fn properties(self) -> TrajectoryProperties {
+                match self {
+                    $(Self::$kind => <$kind<'static, f64> as JointTrajectory<'static, f64>>::PROPERTIES,)*
+                }
+            }
+
+            /// The trajectory of a motion with these initial and final rates, rad/s.
+            #[must_use]
+            pub fn trajectory<'a, T: Real>(
+                self,
+                motion: PointToPoint<'a, T>,
+                initial_rates: &'a [T],
+                final_rates: &'a [T],
+            ) -> AnyTrajectory<'a, T> {
+                match self {
+                    $(Self::$kind => AnyTrajectory::$kind($kind::new(motion, initial_rates, final_rates)),)*
+                }
+            }
+        }
+
+        /// A joint trajectory of any kind.
+        #[derive(Clone, Copy, Debug)]
+        pub enum AnyTrajectory<'a, T> {
+            $(#[doc = concat!("Of the kind ", stringify!($kind), ".")] $kind($kind<'a, T>),)*
+        }
+
+        impl<T: Real> Trajectory<T> for AnyTrajectory<'_, T> {
+            fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
+                match self {
+                    $(Self::$kind(trajectory) => trajectory.joint(joint, time),)*
+                }
+            }
+        }
+    };
+}
+
+// a new kind has a file of its own, and an entry here
+kinds!(Quartic, QuarticAsPrinted, Cycloidal, Quintic);

@@ -5,7 +5,7 @@ use super::{Generic, GenericState, length, store_split, velocity};
 use planar_dynamics::dynamics::{ForwardDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::{Forces, State};
-use planar_dynamics::validate::finite;
+use planar_dynamics::validate::finite_forces;
 
 impl ForwardDynamics<f64> for Generic {
     /// Eq. (1): M v̇ = `[F_b; τ_m]` + `J_eᵀ F_e` − bias.
@@ -16,13 +16,11 @@ impl ForwardDynamics<f64> for Generic {
         joint_accelerations: &mut [f64],
     ) -> Result<[f64; 3], Error> {
         let now = GenericState::new(self, state)?;
-        finite("joint_torques", forces.joint_torques)?;
+        finite_forces(forces)?;
         length("joint_torques", self.joints(), forces.joint_torques.len())?;
         let wrench = forces.base_wrench.unwrap_or([0.0; 3]);
-        finite("base_wrench", &wrench)?;
         let mut right = velocity(&wrench, forces.joint_torques) - now.bias();
         if let Some(wrenches) = forces.end_effector_wrenches {
-            finite("end_effector_wrenches", wrenches.as_flattened())?;
             length("end_effector_wrenches", self.arms(), wrenches.len())?;
             for (arm, wrench) in wrenches.iter().enumerate() {
                 right += now.at.arm_jacobian(arm).transpose() * nalgebra::Vector3::from(*wrench);

@@ -7,7 +7,7 @@ use planar_dynamics::dynamics::{Impact, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
 use planar_dynamics::target::Target;
-use planar_dynamics::validate::{finite, store};
+use planar_dynamics::validate::{finite_target, store};
 
 /// A target seen from the contact point.
 struct Contact {
@@ -22,7 +22,7 @@ impl Contact {
     /// `J_t` takes the twist of the target's COM to that of the contact point at r from it: v + ω × r, so that its
     /// inverse has −r.
     fn new(arm: usize, target: &Target<f64>) -> Result<Self, Error> {
-        check_target(target)?;
+        finite_target(target)?;
         let [rx, ry] = target.contact;
         let inverse = Matrix3::new(1.0, 0.0, 0.0, ry, 1.0, 0.0, -rx, 0.0, 1.0);
         let inertia = Matrix3::from_diagonal(&Vector3::new(target.inertia, target.mass, target.mass));
@@ -32,13 +32,6 @@ impl Contact {
             momentum: inverse.transpose() * inertia * Vector3::from(target.twist),
         })
     }
-}
-
-/// All numbers of a target.
-pub fn check_target(target: &Target<f64>) -> Result<(), Error> {
-    finite("target mass and inertia", &[target.mass, target.inertia])?;
-    finite("target contact", &target.contact)?;
-    finite("target twist", &target.twist)
 }
 
 impl Generic {

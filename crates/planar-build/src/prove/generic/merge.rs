@@ -1,13 +1,12 @@
 //! The merged robot: each last link composed with the target that it holds.
 
 use super::body::Body;
-use super::impact::check_target;
 use super::{Configuration, Generic, length};
 use nalgebra::{Rotation2, Vector2};
 use planar_dynamics::dynamics::{Merge, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::target::Target;
-use planar_dynamics::validate::finite;
+use planar_dynamics::validate::{finite, finite_target};
 
 /// Two bodies as one, both COMs in the frame of the first: the COM is the mean by mass, and the inertia about it is
 /// the sum of both by the parallel axis theorem.
@@ -36,7 +35,7 @@ impl Merge<f64> for Generic {
         let mut bodies = self.bodies.clone();
         for (arm, target) in targets.iter().enumerate() {
             let Some(target) = target else { continue };
-            check_target(target)?;
+            finite_target(target)?;
             let frame = &self.end_effectors[arm];
             if frame.body == 0 {
                 // a base with its COM elsewhere would be another coordinate
