@@ -5,7 +5,7 @@
 use crate::command;
 use planar_capture::build::Module;
 use planar_capture::build::graph::{self, Graph, GraphError};
-use planar_capture::build::{Layouts, verify};
+use planar_capture::build::{render_to, verify};
 use planar_capture::generate::{GenerateError, complete, prove};
 use planar_capture::layout::Layout;
 use planar_proof::{file, said};
@@ -166,7 +166,7 @@ fn a_graph_of_ones_own_is_rendered_without_python() {
     let (code, _, err) = outcome(generate(folder.path(), &["held_out.toml", "--out", "held_out.json"]));
     assert_eq!(code, 0, "{err}");
     let out = TempDir::new().expect("a folder");
-    let render = || Layouts::new(folder.path()).out_dir(out.path()).render().map_err(|e| e.to_string());
+    let render = || render_to(folder.path(), out.path()).map_err(|e| e.to_string());
     assert_eq!(render(), Ok(()));
     let module = fs::read_to_string(out.path().join("held_out.rs")).expect("a module");
     assert!(module.contains("pub mod held_out {") && module.contains("planar_capture::implement_dynamics!"));
@@ -259,7 +259,7 @@ fn paths_are_single_words() {
     let layouts = folder.path().join("lay outs");
     fs::create_dir(&layouts).expect("a folder");
     fs::write(layouts.join("held_out.toml"), LAYOUT).expect("written");
-    let message = Layouts::new(&layouts).out_dir(folder.path()).render().expect_err("no graph").to_string();
+    let message = render_to(&layouts, folder.path()).expect_err("no graph").to_string();
     assert!(message.contains("lay outs/held_out.toml' --out '"), "{message}");
     assert!(message.contains(" (in "), "{message}");
 }

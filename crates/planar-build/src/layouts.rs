@@ -27,7 +27,7 @@
 //! A layout that was changed after its graph stops the build with the command that mends it.
 
 use crate::command::command;
-use crate::pipeline::{fresh, names};
+use crate::pipeline::{fresh, names, write};
 use crate::renderer::{self, Module};
 use planar_layout::layout::Layout;
 use std::fmt;
@@ -55,87 +55,51 @@ impl From<String> for BuildError {
 /// implements the traits of [`dynamics`](planar_dynamics::dynamics).
 ///
 /// # Errors
-/// As [`Layouts::render`].
-pub fn render(folder: impl Into<PathBuf>) -> Result<(), BuildError> {
-    Layouts::new(folder).render()
+/// As [`render_to`], and where `$OUT_DIR` is not set.
+pub fn render(folder: impl AsRef<Path>) -> Result<(), BuildError> {
+    let out = env::var_os("OUT_DIR").ok_or_else(|| "OUT_DIR is not set: call this from a build script".to_owned())?;
+    render_to(folder, PathBuf::from(out))
 }
 
-/// A folder of layouts with their graphs, and what is to be made of them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layouts {
-    folder: PathBuf,
-    standalone: bool,
-    out: Option<PathBuf>,
+/// As [`render`], into an existing folder `out` instead of `$OUT_DIR`.
+///
+/// # Errors
+/// [`BuildError`]: a layout that is wrong, a graph that is missing, of another layout, or without a layout; each
+/// with the command that mends it.
+pub fn render_to(folder: impl AsRef<Path>, out: impl AsRef<Path>) -> Result<(), BuildError> {
+    let (folder, out) = (folder.as_ref(), out.as_ref());
+    let shown = folder.display();
+    println!("cargo::rerun-if-changed={shown}");
+    let layouts = names(folder, "toml").map_err(|e| format!("{e}: the folder of the layouts NAME.toml is wanted"))?;
+    if layouts.is_empty() {
+        return Err(BuildError(format!("there is no layout NAME.toml in {shown}")));
+    }
+    if let Some(orphan) = names(folder, "json")?.iter().find(|name| !layouts.contains(name)) {
+        let graph = folder.join(format!("{orphan}.json"));
+        let graph = graph.display();
+        return Err(BuildError(format!(
+            "{graph} has no layout beside it: put {orphan}.toml back, or delete the graph"
+        )));
+    }
+    layouts.iter().try_for_each(|name| render_one(folder, name, out))
 }
 
-impl Layouts {
-    /// Modules in `$OUT_DIR` that use this crate's core.
-    #[must_use]
-    pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), standalone: false, out: None }
+fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
+    let [layout_path, graph_path] = ["toml", "json"].map(|extension| folder.join(format!("{name}.{extension}")));
+    let (from, shown) = (layout_path.display(), graph_path.display().to_string());
+    let command = command(&from.to_string(), &shown, false);
+    let mend = format!("{command}{}", here());
+    let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
+    if layout.name != name {
+        let found = &layout.name;
+        return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
     }
-
-    /// Modules that carry what they need: the crate itself need not depend on this one. They are included with
-    /// `include!(concat!(env!("OUT_DIR"), "/NAME.rs"))`.
-    #[must_use]
-    pub fn standalone(mut self) -> Self {
-        self.standalone = true;
-        self
+    if graph.self_test.is_none() {
+        return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
     }
-
-    /// Another folder than `$OUT_DIR`; it has to be there.
-    #[must_use]
-    pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
-        self.out = Some(folder.into());
-        self
-    }
-
-    /// Renders them all.
-    ///
-    /// # Errors
-    /// [`BuildError`]: a layout that is wrong, a graph that is missing, of another layout, or without a layout; each
-    /// with the command that mends it.
-    pub fn render(&self) -> Result<(), BuildError> {
-        let shown = self.folder.display();
-        println!("cargo::rerun-if-changed={shown}");
-        let Some(out) = self.out.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from)) else {
-            return Err(BuildError("OUT_DIR is not set: call this from a build script".to_owned()));
-        };
-        let layouts =
-            names(&self.folder, "toml").map_err(|e| format!("{e}: the folder of the layouts NAME.toml is wanted"))?;
-        if layouts.is_empty() {
-            return Err(BuildError(format!("there is no layout NAME.toml in {shown}")));
-        }
-        if let Some(orphan) = names(&self.folder, "json")?.iter().find(|name| !layouts.contains(name)) {
-            let graph = self.folder.join(format!("{orphan}.json"));
-            let graph = graph.display();
-            return Err(BuildError(format!(
-                "{graph} has no layout beside it: put {orphan}.toml back, or delete the graph"
-            )));
-        }
-        layouts.iter().try_for_each(|name| self.render_one(name, &out))
-    }
-
-    fn render_one(&self, name: &str, out: &Path) -> Result<(), BuildError> {
-        let [layout_path, graph_path] =
-            ["toml", "json"].map(|extension| self.folder.join(format!("{name}.{extension}")));
-        let (from, shown) = (layout_path.display(), graph_path.display());
-        let command = command(&from.to_string(), &shown.to_string(), false);
-        let mend = format!("{command}{}", here());
-        let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
-        if layout.name != name {
-            let found = &layout.name;
-            return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
-        }
-        if graph.self_test.is_none() {
-            return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
-        }
-        let source = shown.to_string();
-        let module = Module { standalone: self.standalone, item: true, source: &source, command: &command };
-        let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
-        let path = out.join(format!("{name}.rs"));
-        fs::write(&path, text).map_err(|e| BuildError(format!("{}: {e}", path.display())))
-    }
+    let module = Module { standalone: false, item: true, source: &shown, command: &command };
+    let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
+    Ok(write(&out.join(format!("{name}.rs")), &text)?)
 }
 
 /// Compares a module that `planar-capture generate` wrote, and that is kept with the sources, with its layout: it has

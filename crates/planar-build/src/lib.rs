@@ -14,5 +14,5 @@ mod renderer;
 pub mod prove;
 
 pub use command::{command, quoted};
-pub use layouts::{BuildError, Layouts, render, verify};
+pub use layouts::{BuildError, render, render_to, verify};
 pub use renderer::Module;

@@ -84,6 +84,6 @@ pub fn names(folder: &Path, extension: &str) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|e| format!("{}: {e}", path.display()))
 }

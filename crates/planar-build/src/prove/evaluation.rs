@@ -126,10 +126,9 @@ macro_rules! functions {
         /// The functions of configuration or state alone.
         fn functions(model: &dyn Model<f64>, state: &State<'_, f64>, values: &mut Values) -> Result<(), Error> {
             $($(
-                let entries: usize = values.shape(Quantity::$quantity).iter().product();
-                let mut result = zeros!($kind entries);
-                call!(model.$method($inputs state), &mut result)?;
-                values.set(Quantity::$quantity, flat!($kind result));
+                let mut result = vec![0.0; values.shape(Quantity::$quantity).iter().product()];
+                call!(model.$method($inputs state), rows!($kind result))?;
+                values.set(Quantity::$quantity, result);
             )*)*
             Ok(())
         }
@@ -145,21 +144,12 @@ macro_rules! call {
     };
 }
 
-macro_rules! zeros {
-    (triples $entries:ident) => {
-        vec![[0.0; 3]; $entries / 3]
-    };
-    ($matrix_or_vector:ident $entries:ident) => {
-        vec![0.0; $entries]
-    };
-}
-
-macro_rules! flat {
+macro_rules! rows {
     (triples $values:ident) => {
-        $values.as_flattened()
+        $values.as_chunks_mut().0
     };
     ($matrix_or_vector:ident $values:ident) => {
-        $values
+        &mut $values
     };
 }
 
@@ -200,9 +190,8 @@ fn merged(model: &dyn CloneModel, instant: &EvaluationInput, values: &mut Values
     values.set(Quantity::MergedBodyInertias, inertias.as_flattened());
     let mut mass_matrix = vec![0.0; (3 + joints) * (3 + joints)];
     model.mass_matrix(&state.base_pose, state.joint_angles, &mut mass_matrix)?;
-    let after =
-        [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates].map(|part| values.get(part).unwrap_or_default());
-    let after = after.concat();
+    let after = [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates];
+    let after = after.map(|part| values.get(part).unwrap_or_default()).concat();
     let rows = mass_matrix.chunks_exact(3 + joints);
     let momentum: Vec<f64> = rows.map(|row| row.iter().zip(&after).map(|(entry, v)| entry * v).sum()).collect();
     values.set(Quantity::CaptureMomentum, momentum);

@@ -11,6 +11,7 @@ use crate::prove::sampling::RegimeSample;
 use nalgebra::{DMatrix, DVector, Vector3};
 use planar_dynamics::quantity::Quantity;
 use planar_dynamics::with_quantities;
+use std::collections::BTreeMap;
 
 /// Sizes of one quantity's entries.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,27 +22,34 @@ pub struct NaturalSize {
     pub condition: f64,
 }
 
-impl NaturalSize {
-    /// Of what no equation is solved for.
-    fn direct(sizes: impl Into<Vec<f64>>) -> Self {
-        Self { sizes: sizes.into(), condition: 1.0 }
+/// Of every quantity that a sample has; `values` are those of the reference.
+#[must_use]
+pub fn natural_sizes(sample: &RegimeSample, values: &Values) -> BTreeMap<Quantity, NaturalSize> {
+    let at = SizesAt::new(sample, values);
+    let mut all = Sizes::default();
+    at.functions(&mut all);
+    at.momentum(&mut all);
+    at.reduced(&mut all);
+    at.accelerations(&mut all);
+    if sample.instant.targets.iter().any(Option::is_some) {
+        at.reduced_impact(&mut all);
+        at.capture(&mut all);
     }
+    all.0
 }
 
-/// Of every quantity that a sample has, in the table's order; `values` is what the reference says of it.
-#[must_use]
-pub fn natural_sizes(sample: &RegimeSample, values: &Values) -> Vec<(Quantity, NaturalSize)> {
-    let at = SizesAt::new(sample, values);
-    let mut all = at.functions();
-    all.extend(at.momentum());
-    all.extend(at.reduced());
-    all.extend(at.accelerations());
-    if sample.instant.targets.iter().any(Option::is_some) {
-        all.extend(at.reduced_impact());
-        all.extend(at.capture());
+#[derive(Default)]
+struct Sizes(BTreeMap<Quantity, NaturalSize>);
+
+impl Sizes {
+    /// Of a quantity that no equation is solved for.
+    fn direct(&mut self, quantity: Quantity, sizes: impl Into<Vec<f64>>) {
+        self.solved(quantity, sizes, 1.0);
     }
-    all.sort_by_key(|(quantity, _)| *quantity);
-    all
+
+    fn solved(&mut self, quantity: Quantity, sizes: impl Into<Vec<f64>>, condition: f64) {
+        self.0.insert(quantity, NaturalSize { sizes: sizes.into(), condition });
+    }
 }
 
 /// Magnitudes of everything at one state; hats are left out of the names.
@@ -64,8 +72,8 @@ macro_rules! functions {
         results $results:tt
     ) => {
         /// The functions of configuration or state alone, each by the method of its name.
-        fn functions(&self) -> Vec<(Quantity, NaturalSize)> {
-            vec![$($((Quantity::$quantity, NaturalSize::direct(self.$method())),)*)*]
+        fn functions(&self, all: &mut Sizes) {
+            $($(all.direct(Quantity::$quantity, self.$method());)*)*
         }
     };
 }
@@ -143,7 +151,7 @@ impl<'a> SizesAt<'a> {
     }
 
     /// Momentum and energy, and the bodies' own inertias.
-    fn momentum(&self) -> [(Quantity, NaturalSize); 4] {
+    fn momentum(&self, all: &mut Sizes) {
         let (mut linear, mut angular, mut energy) = ([0.0; 2], 0.0, 0.0);
         for body in &self.magnitudes.bodies {
             let ([omega, vx, vy], [_, x, y]) = (self.twist(body), self.pose(body));
@@ -153,12 +161,10 @@ impl<'a> SizesAt<'a> {
             energy += body.inertia * omega * omega + body.mass * (vx * vx + vy * vy);
         }
         let inertias: Vec<f64> = self.magnitudes.bodies.iter().flat_map(|body| [body.mass, body.inertia]).collect();
-        [
-            (Quantity::BodyInertias, NaturalSize::direct(inertias)),
-            (Quantity::LinearMomentum, NaturalSize::direct(linear)),
-            (Quantity::AngularMomentum, NaturalSize::direct([angular])),
-            (Quantity::KineticEnergy, NaturalSize::direct([energy / 2.0])),
-        ]
+        all.direct(Quantity::BodyInertias, inertias);
+        all.direct(Quantity::LinearMomentum, linear);
+        all.direct(Quantity::AngularMomentum, [angular]);
+        all.direct(Quantity::KineticEnergy, [energy / 2.0]);
     }
 
     /// The base's block of M, which the reduced quantities solve with.
@@ -172,15 +178,13 @@ impl<'a> SizesAt<'a> {
     }
 
     /// I, c and J: what is subtracted is as large as what it is subtracted from.
-    fn reduced(&self) -> [(Quantity, NaturalSize); 3] {
+    fn reduced(&self, all: &mut Sizes) {
         let (base, bias, condition) = (self.base(), self.convective_forces(), self.base_condition());
         let in_base = System { sizes: &base, matrix: &base }.norm(&bias.rows(0, 3).into_owned());
-        let bias = (3..bias.len()).map(|j| bias[j] + self.root(j) * in_base).collect();
-        [
-            (Quantity::GeneralizedInertia, NaturalSize { sizes: rows(&self.reduced_inertia()), condition }),
-            (Quantity::GeneralizedBias, NaturalSize { sizes: bias, condition }),
-            (Quantity::GeneralizedJacobian, NaturalSize { sizes: rows(&self.reduced_jacobian()), condition }),
-        ]
+        let bias: Vec<f64> = (3..bias.len()).map(|j| bias[j] + self.root(j) * in_base).collect();
+        all.solved(Quantity::GeneralizedInertia, rows(&self.reduced_inertia()), condition);
+        all.solved(Quantity::GeneralizedBias, bias, condition);
+        all.solved(Quantity::GeneralizedJacobian, rows(&self.reduced_jacobian()), condition);
     }
 
     /// √ of a diagonal entry of M.
@@ -212,74 +216,65 @@ impl<'a> SizesAt<'a> {
         at_points.fold(forces, |sum, (point, w)| sum + point.jacobian.transpose() * Vector3::from(w.map(f64::abs)))
     }
 
-    fn accelerations(&self) -> [(Quantity, NaturalSize); 2] {
+    fn accelerations(&self, all: &mut Sizes) {
         let matrix = self.matrix(Quantity::MassMatrix);
         let system = System { sizes: &self.mass_matrix, matrix: &matrix };
-        self.split(&system, &self.forces(), [Quantity::BaseAcceleration, Quantity::JointAccelerations])
+        self.solution(&system, &self.forces(), [Quantity::BaseAcceleration, Quantity::JointAccelerations], all);
     }
 
-    /// Sizes of a solution in two parts, base and joints.
-    fn split(
+    /// Sizes of a solution of two quantities, of the base and of the joints.
+    fn solution(
         &self,
         system: &System<'_>,
         right: &DVector<f64>,
-        [of_base, of_joints]: [Quantity; 2],
-    ) -> [(Quantity, NaturalSize); 2] {
+        quantities: [Quantity; 2],
+        all: &mut Sizes,
+    ) -> DVector<f64> {
         let condition = system.condition();
-        let sizes = system.solution_sizes(right, &[of_base, of_joints].map(|part| self.value(part)).concat());
-        let (base, joints) = sizes.split_at(3.min(sizes.len()));
-        [(of_base, base), (of_joints, joints)]
-            .map(|(quantity, sizes)| (quantity, NaturalSize { sizes: sizes.to_vec(), condition }))
+        let sizes = system.solution_sizes(right, &quantities.map(|part| self.value(part)).concat());
+        let (base, joints) = sizes.split_at(3);
+        all.solved(quantities[0], base, condition);
+        all.solved(quantities[1], joints, condition);
+        DVector::from_vec(sizes)
     }
 
     /// G, H and the joint rates after it; the base's condition goes into all of them.
-    fn reduced_impact(&self) -> [(Quantity, NaturalSize); 3] {
+    fn reduced_impact(&self, all: &mut Sizes) {
         let mut sizes = self.reduced_inertia();
         let mut momentum = &sizes * self.speeds.rows(3, self.speeds.len() - 3);
         self.add_contacts(&self.reduced_jacobian(), &mut sizes, &mut momentum);
         let (matrix, base) = (self.matrix(Quantity::ImpactMatrix), self.base_condition());
         let system = System { sizes: &sizes, matrix: &matrix };
         let after = system.solution_sizes(&momentum, self.value(Quantity::ImpactJointRates));
-        let momentum = momentum.as_slice().to_vec();
-        let condition = base * system.condition();
-        [
-            (Quantity::ImpactMatrix, NaturalSize { sizes: rows(&sizes), condition: base }),
-            (Quantity::ImpactMomentum, NaturalSize { sizes: momentum, condition: base }),
-            (Quantity::ImpactJointRates, NaturalSize { sizes: after, condition }),
-        ]
+        all.solved(Quantity::ImpactMatrix, rows(&sizes), base);
+        all.solved(Quantity::ImpactMomentum, momentum.as_slice(), base);
+        all.solved(Quantity::ImpactJointRates, after, base * system.condition());
     }
 
     /// The exact capture, then the robot that holds its targets: its mass matrix is M + `J_eᵀ N J_e`.
-    fn capture(&self) -> Vec<(Quantity, NaturalSize)> {
+    fn capture(&self, all: &mut Sizes) {
         let (mut sizes, mut momentum) = (self.mass_matrix.clone(), &self.mass_matrix * &self.speeds);
         self.add_contacts(&self.end_effector_jacobian, &mut sizes, &mut momentum);
         let matrix = self.matrix(Quantity::MergedMassMatrix);
         let system = System { sizes: &sizes, matrix: &matrix };
-        let after = self.split(&system, &momentum, [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates]);
-        let condition = system.condition();
-        let speeds = DVector::from_vec(after.each_ref().map(|(_, size)| size.sizes.as_slice()).concat());
+        let velocities = [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates];
+        let speeds = self.solution(&system, &momentum, velocities, all);
         let [twists, impulses] = self.targets(&speeds);
+        all.solved(Quantity::CaptureTargetTwists, twists, system.condition());
+        all.solved(Quantity::CaptureImpulses, impulses, system.condition());
         let mut forces = self.forces();
         for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
             if let Some(target) = target {
                 forces += convective(target.mass, &captured(target, &point.jacobian), &self.speeds);
             }
         }
-        let parts = [Quantity::MergedBaseAcceleration, Quantity::MergedJointAccelerations];
-        let accelerations = self.split(&system, &forces, parts);
+        let accelerations = [Quantity::MergedBaseAcceleration, Quantity::MergedJointAccelerations];
+        self.solution(&system, &forces, accelerations, all);
         let roots = sizes.diagonal().map(f64::sqrt);
         let mass_matrix = &roots * roots.transpose();
-        let merged_momentum = (&mass_matrix * &speeds).as_slice().to_vec();
-        let mut all = vec![
-            (Quantity::CaptureTargetTwists, NaturalSize { sizes: twists, condition }),
-            (Quantity::CaptureImpulses, NaturalSize { sizes: impulses, condition }),
-            (Quantity::CaptureMomentum, NaturalSize::direct(merged_momentum)),
-            (Quantity::MergedBodyInertias, NaturalSize::direct(self.merged_inertias())),
-            (Quantity::MergedMassMatrix, NaturalSize::direct(rows(&mass_matrix))),
-        ];
-        all.extend(after);
-        all.extend(accelerations);
-        all
+        all.direct(Quantity::CaptureMomentum, (&mass_matrix * &speeds).as_slice());
+        all.direct(Quantity::MergedBodyInertias, self.merged_inertias());
+        all.direct(Quantity::MergedMassMatrix, rows(&mass_matrix));
     }
 
     /// Twists after the capture and impulses, from the sizes of the velocities after it.
