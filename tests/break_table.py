@@ -301,8 +301,8 @@ FAULTS = [
     Fault(
         "an edited module verified",
         "crates/planar-build/src/layouts.rs",
-        "if hash == renderer::sha256(body) =>",
-        "if hash.len() == renderer::sha256(body).len() =>",
+        "if hash == sha256(body) =>",
+        "if hash.len() == sha256(body).len() =>",
     ),
     Fault(
         "sign of a URDF's axis",

@@ -28,8 +28,8 @@
 
 use crate::command::command;
 use crate::pipeline::{fresh, names, write};
-use crate::renderer::{self, Module};
-use planar_layout::layout::Layout;
+use crate::renderer::Module;
+use planar_layout::layout::{Layout, sha256};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -121,7 +121,7 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
     let wanted = Layout::read(layout).map_err(|report| report.to_string())?.sha256();
     let problem = match (said("// layout sha256 "), said("// sha256 of the text below this header ")) {
         (Some(found), _) if found != wanted => format!("was generated from another layout than {from} is now"),
-        (Some(_), Some(hash)) if hash == renderer::sha256(body) => return Ok(()),
+        (Some(_), Some(hash)) if hash == sha256(body) => return Ok(()),
         (Some(_), Some(_)) => "was changed after it was generated".to_owned(),
         _ => {
             let make = mend(false);

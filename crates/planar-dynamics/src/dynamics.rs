@@ -58,7 +58,7 @@ macro_rules! element {
 macro_rules! traits {
     (
         functions { $($(#[$doc:meta])* trait $trait:ident {
-            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $shown:expr;)*
         })* }
         results $results:tt
     ) => {

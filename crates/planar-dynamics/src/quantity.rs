@@ -69,7 +69,7 @@ pub struct Definition {
 ///
 /// `functions` depend on the configuration or the state alone: each is a method of the trait before the brace, with a
 /// `matrix`, a `vector` or a list of `triples` as its result. `results` are those of the other traits' methods. The
-/// number of `shown` is the place in the output of `eval`.
+/// last entry is [`Definition::shown`].
 #[doc(hidden)]
 #[macro_export]
 macro_rules! with_quantities {
@@ -79,62 +79,60 @@ macro_rules! with_quantities {
                 /// Poses, twists and Jacobians.
                 trait Kinematics {
                     /// [yaw, x, y] of every body's COM, inertial frame: the base, then the links arm by arm.
-                    BodyPoses body_poses(configuration) triples [Bodies] "rad, m, m", hidden();
+                    BodyPoses body_poses(configuration) triples [Bodies] "rad, m, m", None;
                     /// [ω, vx, vy] of every body's COM, inertial axes: the base, then the links arm by arm.
-                    BodyTwists body_twists(state) triples [Bodies] "rad/s, m/s, m/s", hidden();
+                    BodyTwists body_twists(state) triples [Bodies] "rad/s, m/s, m/s", None;
                     /// [yaw, x, y] of each end effector, inertial frame; the yaw is not wrapped.
-                    EndEffectorPoses end_effector_poses(configuration) triples [Arms] "rad, m, m", shown(5);
+                    EndEffectorPoses end_effector_poses(configuration) triples [Arms] "rad, m, m", Some(5);
                     /// [ω, vx, vy] of each end effector, inertial axes.
-                    EndEffectorTwists end_effector_twists(state) triples [Arms] "rad/s, m/s, m/s", hidden();
+                    EndEffectorTwists end_effector_twists(state) triples [Arms] "rad/s, m/s, m/s", None;
                     /// `[J_be J_me]`: 3 arms × (3 + joints).
-                    EndEffectorJacobian end_effector_jacobian(configuration) matrix [ArmTwists, Coordinates] "1, m", shown(6);
+                    EndEffectorJacobian end_effector_jacobian(configuration) matrix [ArmTwists, Coordinates] "1, m", Some(6);
                 }
                 /// The full coordinates: M and `[c_b; c_m]` of eq. (1).
                 trait EquationsOfMotion {
                     /// M: (3 + joints)².
-                    MassMatrix mass_matrix(configuration) matrix [Coordinates, Coordinates] "kg m^2, kg m, kg", shown(1);
+                    MassMatrix mass_matrix(configuration) matrix [Coordinates, Coordinates] "kg m^2, kg m, kg", Some(1);
                     /// `[c_b; c_m]`: 3 + joints.
-                    Bias bias(state) vector [Coordinates] "N m, N, N, then N m", shown(2);
+                    Bias bias(state) vector [Coordinates] "N m, N, N, then N m", Some(2);
                 }
             }
             results {
-                BodyInertias "body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", hidden();
-                LinearMomentum "linear_momentum": Polynomial [Fixed(2)] "N s",
-                    ["momentum"] "linear_momentum", shown(10);
-                AngularMomentum "angular_momentum": Polynomial [] "N m s", ["momentum"] "angular_momentum", shown(11);
-                KineticEnergy "kinetic_energy": Polynomial [] "J", ["momentum"] "kinetic_energy", shown(12);
+                BodyInertias "body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", None;
+                LinearMomentum "linear_momentum": Polynomial [Fixed(2)] "N s", ["momentum"] "linear_momentum", Some(10);
+                AngularMomentum "angular_momentum": Polynomial [] "N m s", ["momentum"] "angular_momentum", Some(11);
+                KineticEnergy "kinetic_energy": Polynomial [] "J", ["momentum"] "kinetic_energy", Some(12);
                 GeneralizedInertia "generalized_inertia": Solved [Joints, Joints] "kg m^2",
-                    ["reduced_dynamics"] "generalized_inertia", shown(3);
+                    ["reduced_dynamics"] "generalized_inertia", Some(3);
                 GeneralizedBias "generalized_bias": Solved [Joints] "N m",
-                    ["reduced_dynamics"] "generalized_bias", shown(4);
+                    ["reduced_dynamics"] "generalized_bias", Some(4);
                 GeneralizedJacobian "generalized_jacobian": Solved [ArmTwists, Joints] "1, m, m per arm",
-                    ["reduced_dynamics", "generalized_jacobian"] "generalized_jacobian", shown(7);
+                    ["reduced_dynamics", "generalized_jacobian"] "generalized_jacobian", Some(7);
                 BaseAcceleration "base_acceleration": Solved [Fixed(3)] "rad/s^2, m/s^2, m/s^2",
                     ["forward_dynamics", "forward_dynamics_with_base_wrench", "forward_dynamics_with_wrenches"]
-                    "base_acceleration", shown(8);
+                    "base_acceleration", Some(8);
                 JointAccelerations "joint_accelerations": Solved [Joints] "rad/s^2",
                     ["forward_dynamics", "forward_dynamics_with_base_wrench", "forward_dynamics_with_wrenches"]
-                    "joint_accelerations", shown(9);
-                ImpactMatrix "impact.G": Solved [Joints, Joints] "kg m^2",
-                    ["reduced_impact"] "impact_matrix", shown(13);
-                ImpactMomentum "impact.H": Solved [Joints] "N m s", ["reduced_impact"] "impact_momentum", shown(14);
+                    "joint_accelerations", Some(9);
+                ImpactMatrix "impact.G": Solved [Joints, Joints] "kg m^2", ["reduced_impact"] "impact_matrix", Some(13);
+                ImpactMomentum "impact.H": Solved [Joints] "N m s", ["reduced_impact"] "impact_momentum", Some(14);
                 ImpactJointRates "impact.joint_rates_after": Solved [Joints] "rad/s",
-                    ["reduced_impact"] "joint_rates_after", shown(15);
+                    ["reduced_impact"] "joint_rates_after", Some(15);
                 CaptureBaseTwist "capture.base_twist_after": Solved [Fixed(3)] "rad/s, m/s, m/s",
-                    ["full_impact"] "base_twist_after", shown(16);
+                    ["full_impact"] "base_twist_after", Some(16);
                 CaptureJointRates "capture.joint_rates_after": Solved [Joints] "rad/s",
-                    ["full_impact"] "joint_rates_after", shown(17);
+                    ["full_impact"] "joint_rates_after", Some(17);
                 CaptureTargetTwists "capture.target_twists_after": Solved [Arms, Fixed(3)] "rad/s, m/s, m/s",
-                    [] "", shown(18);
-                CaptureImpulses "capture.impulses": Solved [Arms, Fixed(3)] "N m s, N s, N s", [] "", shown(19);
+                    [] "", Some(18);
+                CaptureImpulses "capture.impulses": Solved [Arms, Fixed(3)] "N m s, N s, N s", [] "", Some(19);
                 CaptureMomentum "capture momentum": Polynomial [Coordinates] "N m s, N s, N s, then N m s",
-                    ["full_impact"] "impact_momentum", hidden();
-                MergedBodyInertias "merged body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", hidden();
+                    ["full_impact"] "impact_momentum", None;
+                MergedBodyInertias "merged body_inertias": Polynomial [Bodies, Fixed(2)] "kg, kg m^2", [] "", None;
                 MergedMassMatrix "merged mass_matrix": Polynomial [Coordinates, Coordinates] "kg m^2, kg m, kg",
-                    ["full_impact"] "impact_matrix", hidden();
+                    ["full_impact"] "impact_matrix", None;
                 MergedBaseAcceleration "merged base_acceleration": Solved [Fixed(3)] "rad/s^2, m/s^2, m/s^2",
-                    [] "", hidden();
-                MergedJointAccelerations "merged joint_accelerations": Solved [Joints] "rad/s^2", [] "", hidden();
+                    [] "", None;
+                MergedJointAccelerations "merged joint_accelerations": Solved [Joints] "rad/s^2", [] "", None;
             }
         }
     };
@@ -149,22 +147,13 @@ macro_rules! shape {
     };
 }
 
-macro_rules! shown {
-    (shown($place:literal)) => {
-        Some($place)
-    };
-    (hidden()) => {
-        None
-    };
-}
-
 macro_rules! quantities {
     (
         functions { $($(#[$of_trait:meta])* trait $trait:ident {
-            $($(#[$doc:meta])* $function:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+            $($(#[$doc:meta])* $function:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $shown:expr;)*
         })* }
         results { $($result:ident $name:literal: $rounding:ident $shape:tt $of:literal,
-            $functions:tt $output:literal, $visible:ident $rank:tt;)* }
+            $functions:tt $output:literal, $place:expr;)* }
     ) => {
         /// A quantity that a model computes at one state.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -188,7 +177,7 @@ macro_rules! quantities {
                         functions: &[stringify!($method)],
                         output: stringify!($method),
                         rounding: Rounding::Polynomial,
-                        shown: shown!($seen $place),
+                        shown: $shown,
                     },)*)*
                     $(Self::$result => &Definition {
                         name: $name,
@@ -197,7 +186,7 @@ macro_rules! quantities {
                         functions: &$functions,
                         output: $output,
                         rounding: Rounding::$rounding,
-                        shown: shown!($visible $rank),
+                        shown: $place,
                     },)*
                 }
             }

@@ -139,8 +139,7 @@ impl Layout {
     /// most significant first, with −0 written as 0.
     #[must_use]
     pub fn sha256(&self) -> String {
-        let digest: [u8; 32] = Sha256::digest(self.canonical_text()).into();
-        digest.map(|byte| format!("{byte:02x}")).concat()
+        sha256(&self.canonical_text())
     }
 
     /// TOML text from which [`Self::parse`] reads the same numbers.
@@ -202,6 +201,13 @@ impl Layout {
         }
         lines.concat()
     }
+}
+
+/// The SHA-256 of a text, in hexadecimal.
+#[must_use]
+pub fn sha256(text: &str) -> String {
+    let digest: [u8; 32] = Sha256::digest(text).into();
+    digest.map(|byte| format!("{byte:02x}")).concat()
 }
 
 /// The key of a parameter in a layout file: `arm[1].link[0].mass`.

@@ -1,6 +1,6 @@
 //! The derivation of a layout's graph by the Python package `codegen`: unpacked once, run in its own environment.
 
-use planar_layout::layout::Layout;
+use planar_layout::layout::{Layout, sha256};
 use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -94,7 +94,7 @@ fn home() -> Result<PathBuf, DerivationError> {
 /// The folder that holds the package `codegen`; its name changes with the text of the package.
 fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationError> {
     let all: Vec<String> = files.iter().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
-    let hash = crate::renderer::sha256(&all.concat());
+    let hash = sha256(&all.concat());
     let place = home.join(format!("codegen-{hash:.16}"));
     if place.join("codegen").is_dir() {
         return Ok(place);

@@ -119,7 +119,7 @@ pub fn evaluate_all(model: &dyn CloneModel, instant: &EvaluationInput) -> Result
 macro_rules! functions {
     (
         functions { $($(#[$doc:meta])* trait $trait:ident {
-            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $shown:expr;)*
         })* }
         results $results:tt
     ) => {

@@ -6,8 +6,8 @@ mod wrap;
 
 use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use planar_dynamics::standalone::PARTS;
+use planar_layout::layout::sha256;
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 use statements::{Scope, bindings, nested};
 use tera::{Context, Tera};
 
@@ -69,12 +69,6 @@ fn without_lines_of_tags(template: &str) -> String {
 fn indented(text: &str, columns: usize) -> String {
     let line = |line: &str| if line.is_empty() { "\n".to_owned() } else { format!("{:columns$}{line}\n", "") };
     text.lines().map(line).collect()
-}
-
-/// In hexadecimal.
-pub fn sha256(text: &str) -> String {
-    let digest: [u8; 32] = Sha256::digest(text.as_bytes()).into();
-    digest.iter().fold(String::new(), |hash, byte| hash + &format!("{byte:02x}"))
 }
 
 /// `joint_rates` as `JointRates`.

@@ -23,14 +23,12 @@ fn push(text: &mut String, line: &str) {
     let breaks = line.chars().count() > WIDTH || line.contains("], [");
     let list = if breaks && !line.trim_start().starts_with("//") { longest_list(line) } else { None };
     let Some(List { before, items, after }) = list else {
-        text.push_str(line);
-        text.push('\n');
+        text.extend([line, "\n"]);
         return;
     };
     let outside = " ".repeat(line.len() - line.trim_start().len());
     let inside = format!("{outside}    ");
-    text.push_str(before);
-    text.push('\n');
+    text.extend([before, "\n"]);
     if items.iter().any(|item| item.ends_with([']', '}'])) {
         for item in items {
             push(text, &format!("{inside}{item},"));
@@ -39,18 +37,14 @@ fn push(text: &mut String, line: &str) {
         let mut current = inside.clone();
         for item in items {
             if current.len() > inside.len() && current.len() + item.len() >= WIDTH {
-                text.push_str(current.trim_end());
-                text.push('\n');
+                text.extend([current.trim_end(), "\n"]);
                 current.clone_from(&inside);
             }
             current = format!("{current}{item}, ");
         }
-        text.push_str(current.trim_end());
-        text.push('\n');
+        text.extend([current.trim_end(), "\n"]);
     }
-    text.push_str(&outside);
-    text.push_str(after);
-    text.push('\n');
+    text.extend([&outside, after, "\n"]);
 }
 
 /// A bracket of a line: what ends with it, what it holds, what begins with its end.

@@ -9,7 +9,7 @@ use planar_dynamics::with_quantities;
 macro_rules! functions {
     (
         functions { $($(#[$doc:meta])* trait $trait:ident {
-            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $shown:expr;)*
         })* }
         results $results:tt
     ) => {

@@ -67,7 +67,7 @@ struct SizesAt<'a> {
 macro_rules! functions {
     (
         functions { $($(#[$doc:meta])* trait $trait:ident {
-            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $seen:ident $place:tt;)*
+            $($(#[$of_method:meta])* $quantity:ident $method:ident($inputs:ident) $kind:ident $extents:tt $unit:literal, $shown:expr;)*
         })* }
         results $results:tt
     ) => {
