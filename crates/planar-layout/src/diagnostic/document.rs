@@ -10,6 +10,8 @@ use super::{Diagnostic, Report, Severity, Source, printable};
 #[derive(Debug)]
 pub(super) struct Document {
     source: Arc<Source>,
+    /// Of all problems.
+    severity: Severity,
     problems: RefCell<Vec<Diagnostic>>,
     /// Path and keys of the tables read so far.
     tables: RefCell<Vec<(String, Vec<String>)>>,
@@ -19,11 +21,12 @@ pub(super) struct Document {
 
 impl Document {
     /// A document without problems; `file` is its name in the report. A byte order mark is dropped.
-    pub(super) fn new(text: &str, file: &str) -> Self {
+    pub(super) fn new(text: &str, file: &str, severity: Severity) -> Self {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = Source { file: printable(file), text: text.to_owned() };
         Self {
             source: Arc::new(source),
+            severity,
             problems: RefCell::default(),
             tables: RefCell::default(),
             unknown_tables: RefCell::default(),
@@ -45,22 +48,10 @@ impl Document {
         &self.source.text[span.clone()]
     }
 
-    /// Adds an error at a span.
-    pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
-        self.add(Severity::Error, span, message, label, help);
-    }
-
     /// Adds a problem at a span.
-    pub(super) fn add(
-        &self,
-        severity: Severity,
-        span: &Range<usize>,
-        message: String,
-        label: Option<String>,
-        help: Option<String>,
-    ) {
+    pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
         let place = Some((Arc::clone(&self.source), span.clone()));
-        self.problems.borrow_mut().push(Diagnostic { severity, place, message, label, help });
+        self.problems.borrow_mut().push(Diagnostic { severity: self.severity, place, message, label, help });
     }
 
     /// Stores the path and keys of a table.

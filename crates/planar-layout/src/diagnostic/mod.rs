@@ -150,7 +150,7 @@ pub fn read_document<T>(
     keys: &[&str],
     read: impl FnOnce(&Table<'_>) -> Option<T>,
 ) -> Result<T, Report> {
-    let document = Document::new(text, file);
+    let document = Document::new(text, file, Severity::Error);
     let content = {
         let (tree, errors) = DeTable::parse_recoverable(document.source());
         syntax::report(&document, &errors);

@@ -22,7 +22,7 @@ pub struct Warning {
 /// A key that is not given is shown at the table that may hold it.
 #[must_use]
 pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
-    let document = Document::new(text, file);
+    let document = Document::new(text, file, Severity::Warning);
     let (tree, _) = DeTable::parse_recoverable(document.source());
     for Warning { key, why, help } in warnings {
         let found = follow(tree.get_ref(), key);
@@ -34,7 +34,7 @@ pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
             }
             _ => (format!("`{key}` is left at its default: {why}"), Some("it could stand here".to_owned())),
         };
-        document.add(Severity::Warning, &span, message, label, Some(help.clone()));
+        document.report(&span, message, label, Some(help.clone()));
     }
     document.into_report()
 }

@@ -1,4 +1,4 @@
-//! Where everything is, and the Jacobians that follow from it.
+//! Poses, Jacobians and twists of all bodies and end effectors at one configuration or state.
 
 use super::{Generic, length, velocity};
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2, Vector3};
@@ -44,7 +44,7 @@ impl<'a> Configuration<'a> {
     }
 
     /// Direction and COM of a body.
-    pub fn body(&self, body: usize) -> (f64, Vector2<f64>) {
+    fn body(&self, body: usize) -> (f64, Vector2<f64>) {
         (self.yaws[body], self.point(body, &self.robot.bodies[body].com))
     }
 
@@ -55,7 +55,7 @@ impl<'a> Configuration<'a> {
     }
 
     /// [yaw, x, y] in the inertial frame, of a direction and a position.
-    pub fn pose(&self, (yaw, position): (f64, Vector2<f64>)) -> [f64; 3] {
+    fn pose(&self, (yaw, position): (f64, Vector2<f64>)) -> [f64; 3] {
         let [x, y] = self.base_position;
         [yaw, x + position.x, y + position.y]
     }
@@ -81,6 +81,16 @@ impl<'a> Configuration<'a> {
         jacobian
     }
 
+    /// [yaw, x, y] of every body's COM.
+    pub fn body_poses(&self) -> Vec<[f64; 3]> {
+        (0..self.robot.bodies.len()).map(|body| self.pose(self.body(body))).collect()
+    }
+
+    /// [yaw, x, y] of every end effector.
+    pub fn end_effector_poses(&self) -> Vec<[f64; 3]> {
+        (0..self.robot.end_effectors.len()).map(|arm| self.pose(self.end_effector(arm))).collect()
+    }
+
     /// `B_i`, at the body's COM.
     pub fn body_jacobian(&self, body: usize) -> DMatrix<f64> {
         self.jacobian(body, &self.body(body).1)
@@ -89,6 +99,16 @@ impl<'a> Configuration<'a> {
     /// `[J_be J_me]` of one arm.
     pub fn arm_jacobian(&self, arm: usize) -> DMatrix<f64> {
         self.jacobian(self.robot.end_effectors[arm].body, &self.end_effector(arm).1)
+    }
+
+    /// `[J_be J_me]` of all arms, one under the other.
+    pub fn end_effector_jacobian(&self) -> DMatrix<f64> {
+        let arms = self.robot.end_effectors.len();
+        let mut jacobian = DMatrix::zeros(3 * arms, self.robot.size());
+        for arm in 0..arms {
+            jacobian.rows_mut(3 * arm, 3).copy_from(&self.arm_jacobian(arm));
+        }
+        jacobian
     }
 
     /// Velocity of a body's point less that of the base COM: it turns only with the base and the joints.
@@ -112,7 +132,7 @@ impl<'a> Configuration<'a> {
 /// The robot at one state.
 #[derive(Clone, Debug)]
 pub struct GenericState<'a> {
-    /// Where everything is.
+    /// Its configuration.
     pub at: Configuration<'a>,
     /// v: the base twist, then the joint rates.
     pub velocity: DVector<f64>,
@@ -128,6 +148,22 @@ impl<'a> GenericState<'a> {
         length("joint_rates", robot.bodies.len() - 1, state.joint_rates.len())?;
         let at = Configuration::new(robot, &state.base_pose, state.joint_angles)?;
         Ok(Self { at, velocity: velocity(&state.base_twist, state.joint_rates) })
+    }
+
+    /// [ω, vx, vy] of every body's COM.
+    pub fn body_twists(&self) -> Vec<[f64; 3]> {
+        (0..self.at.robot.bodies.len()).map(|body| self.twist(&self.at.body_jacobian(body))).collect()
+    }
+
+    /// [ω, vx, vy] of every end effector.
+    pub fn end_effector_twists(&self) -> Vec<[f64; 3]> {
+        (0..self.at.robot.end_effectors.len()).map(|arm| self.twist(&self.at.arm_jacobian(arm))).collect()
+    }
+
+    /// B v.
+    fn twist(&self, jacobian: &DMatrix<f64>) -> [f64; 3] {
+        let twist = jacobian * &self.velocity;
+        [twist[0], twist[1], twist[2]]
     }
 }
 

@@ -1,7 +1,6 @@
 //! Accelerations from forces, by one dense solve.
 
-use super::solve::factor;
-use super::{Generic, GenericState, length, store_split, velocity};
+use super::{Generic, GenericState, factor, length, store_split, velocity};
 use planar_dynamics::dynamics::{ForwardDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::{Forces, State};

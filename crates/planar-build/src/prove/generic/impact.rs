@@ -1,7 +1,6 @@
 //! Rigid capture with explicit contact matrices.
 
-use super::solve::factor;
-use super::{Generic, GenericState, length, store_matrix, store_split};
+use super::{Generic, GenericState, factor, length, store_matrix, store_split};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use planar_dynamics::dynamics::{Impact, Robot};
 use planar_dynamics::error::Error;

@@ -1,7 +1,6 @@
 //! The merged robot: each last link composed with the target that it holds.
 
-use super::body::Body;
-use super::{Configuration, Generic, length};
+use super::{Body, Configuration, Generic, length};
 use nalgebra::{Rotation2, Vector2};
 use planar_dynamics::dynamics::{Merge, Robot};
 use planar_dynamics::error::Error;

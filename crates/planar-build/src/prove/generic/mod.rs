@@ -10,25 +10,45 @@
 //! centres of mass off the link's axis, mount angles, links of length zero. It allocates, and takes many
 //! times as long as generated code.
 
-mod body;
 mod configuration;
 mod equations;
 mod forward;
 mod functions;
 mod impact;
-mod kinematics;
 mod merge;
 mod momentum;
 mod reduced;
-mod solve;
 
-use body::{Body, MountedFrame};
 use configuration::{Configuration, GenericState};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use planar_dynamics::dynamics::Robot;
 use planar_dynamics::error::Error;
-use planar_dynamics::validate::{finite, length};
+use planar_dynamics::validate::{array, finite, length, pivot, store, store_rows};
 use planar_layout::layout::{Base, Layout, Link};
+
+/// A rigid body with its frame at its joint; the base has no joint and its frame at its COM.
+#[derive(Clone, Debug, PartialEq)]
+struct Body {
+    /// kg.
+    mass: f64,
+    /// About its COM, kg m².
+    inertia: f64,
+    /// In its frame, m.
+    com: [f64; 2],
+    /// The frame of its joint; `None` for the base.
+    joint: Option<MountedFrame>,
+}
+
+/// A frame fixed to a body: of a joint, or of an end effector.
+#[derive(Clone, Debug, PartialEq)]
+struct MountedFrame {
+    /// Which body.
+    body: usize,
+    /// In the body's frame, m.
+    position: [f64; 2],
+    /// Direction from the body's x axis, rad.
+    angle: f64,
+}
 
 /// A robot of any layout, with its numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +96,7 @@ impl Robot<f64> for Generic {
 
     fn body_inertias(&self, inertias: &mut [[f64; 2]]) -> Result<(), Error> {
         let values: Vec<[f64; 2]> = self.bodies.iter().map(|body| [body.mass, body.inertia]).collect();
-        planar_dynamics::validate::store_rows("body_inertias", &values, inertias)
+        store_rows("body_inertias", &values, inertias)
     }
 }
 
@@ -88,13 +108,28 @@ fn velocity(base_twist: &[f64; 3], joint_rates: &[f64]) -> DVector<f64> {
 /// Copies a matrix out, row by row.
 fn store_matrix(quantity: &'static str, matrix: &DMatrix<f64>, into: &mut [f64]) -> Result<(), Error> {
     // columns of the transpose are rows
-    planar_dynamics::validate::store(quantity, matrix.transpose().as_slice(), into)
+    store(quantity, matrix.transpose().as_slice(), into)
 }
 
 /// Copies a velocity or an acceleration out: the joints' part to a slice, the base's as the result.
 fn store_split(names: [&'static str; 2], vector: &DVector<f64>, joints: &mut [f64]) -> Result<[f64; 3], Error> {
     let (base, rest) = vector.as_slice().split_at(3);
     finite(names[0], base)?;
-    planar_dynamics::validate::store(names[1], rest, joints)?;
-    planar_dynamics::validate::array(names[0], base).copied()
+    store(names[1], rest, joints)?;
+    array(names[0], base).copied()
+}
+
+/// The Cholesky factorisation A = L Lᵀ.
+///
+/// # Errors
+/// [`Error::NotFinite`]; [`Error::Singular`] with the smallest pivot `L_kk²` over `A_kk`, or 0 where the factorisation
+/// met a pivot that is not positive.
+fn factor(what: &'static str, matrix: &DMatrix<f64>) -> Result<Cholesky<f64, Dyn>, Error> {
+    finite(what, matrix.as_slice())?;
+    let limit = 8.0 * f64::EPSILON;
+    let factors = matrix.clone().cholesky().ok_or(Error::Singular { what, pivot: 0.0, limit })?;
+    let lower = factors.l_dirty();
+    let ratios = (0..matrix.nrows()).map(|k| lower[(k, k)] * lower[(k, k)] / matrix[(k, k)]);
+    pivot(what, ratios.fold(1.0, f64::min))?;
+    Ok(factors)
 }

@@ -1,7 +1,6 @@
 //! The reduced coordinates of eq. (2): the base eliminated block by block.
 
-use super::solve::factor;
-use super::{Configuration, Generic, GenericState, store_matrix};
+use super::{Configuration, Generic, GenericState, factor, store_matrix};
 use nalgebra::{DMatrix, DVector};
 use planar_dynamics::dynamics::{ReducedDynamics, Robot};
 use planar_dynamics::error::Error;

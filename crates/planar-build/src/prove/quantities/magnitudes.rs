@@ -11,7 +11,7 @@ pub struct Point {
     /// kg m².
     pub inertia: f64,
     /// |B| (3 × size): a joint moves the point by at most the lengths between them.
-    pub jacobian: DMatrix<f64>,
+    pub jacobian: Matrix3xX<f64>,
     /// Sum of the magnitudes of the angles that turn it.
     pub angle: f64,
 }
@@ -30,7 +30,7 @@ impl Magnitudes {
     pub fn new(RegimeSample { layout, instant }: &RegimeSample) -> Self {
         let size = 3 + layout.joints();
         let point = |mass: f64, inertia: f64, levers: &[(usize, f64)], angle: f64| {
-            let mut jacobian = DMatrix::zeros(3, size);
+            let mut jacobian = Matrix3xX::zeros(size);
             jacobian[(1, 1)] = 1.0;
             jacobian[(2, 2)] = 1.0;
             for (column, lever) in levers {
@@ -80,7 +80,7 @@ impl Magnitudes {
 }
 
 /// |B|ᵀ m [0, a, a] with the convective acceleration a = |ω| |ω × r| of a point on the way `jacobian`.
-pub fn convective(mass: f64, jacobian: &DMatrix<f64>, speeds: &DVector<f64>) -> DVector<f64> {
+pub fn convective(mass: f64, jacobian: &Matrix3xX<f64>, speeds: &DVector<f64>) -> DVector<f64> {
     let mut turning = speeds.clone();
     turning.rows_mut(1, 2).fill(0.0);
     let twist = jacobian * turning;
@@ -89,11 +89,9 @@ pub fn convective(mass: f64, jacobian: &DMatrix<f64>, speeds: &DVector<f64>) -> 
 }
 
 /// |`J_t⁻¹`| |J|: from the end effector to the target's COM.
-pub fn captured(target: &Target<f64>, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn captured(target: &Target<f64>, jacobian: &Matrix3xX<f64>) -> Matrix3xX<f64> {
     let [rx, ry] = target.contact.map(f64::abs);
-    let rows = Matrix3xX::from_fn(jacobian.ncols(), |i, j| jacobian[(i, j)]);
-    let at_com = Matrix3::new(1.0, 0.0, 0.0, ry, 1.0, 0.0, rx, 0.0, 1.0) * rows;
-    DMatrix::from_fn(3, jacobian.ncols(), |i, j| at_com[(i, j)])
+    Matrix3::new(1.0, 0.0, 0.0, ry, 1.0, 0.0, rx, 0.0, 1.0) * jacobian
 }
 
 /// diag(inertia, mass, mass).

@@ -316,7 +316,7 @@ impl<'a> SizesAt<'a> {
     fn add_contacts(&self, jacobian: &DMatrix<f64>, matrix: &mut DMatrix<f64>, momentum: &mut DVector<f64>) {
         for (arm, target) in self.sample.instant.targets.iter().enumerate() {
             let Some(target) = target else { continue };
-            let rows = captured(target, &jacobian.rows(3 * arm, 3).into_owned());
+            let rows = captured(target, &jacobian.fixed_rows::<3>(3 * arm).into_owned());
             let inertia = inertia(target.mass, target.inertia);
             *matrix += rows.transpose() * inertia * &rows;
             *momentum += rows.transpose() * (inertia * Vector3::from(target.twist.map(f64::abs)));
