@@ -1,30 +1,4 @@
 //! For build scripts of crates with a robot of their own: graphs to Rust, without Python.
-//!
-//! `planar_capture::build` is this crate. The crate of the robot keeps `layouts/NAME.toml` and in the same folder the
-//! graph that `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derived from it. Its manifest has
-//! `planar-capture` twice, as the core that the generated code uses, and for the build script:
-//!
-//! ```toml
-//! [dependencies]
-//! planar-capture = { path = "…", default-features = false }
-//!
-//! [build-dependencies]
-//! planar-capture = { path = "…", default-features = false, features = ["build"] }
-//! ```
-//!
-//! Its `build.rs` is one call, and `include_layout!` brings in a module:
-//!
-//! ```ignore
-//! // build.rs
-//! fn main() -> Result<(), planar_capture::build::BuildError> {
-//!     planar_capture::build::render("layouts")
-//! }
-//! // src/lib.rs
-//! planar_capture::include_layout!("my_robot");
-//! use my_robot::Model;
-//! ```
-//!
-//! A layout that was changed after its graph stops the build with the command that mends it.
 
 use crate::command::command;
 use crate::pipeline::{fresh, names, write};
@@ -52,7 +26,18 @@ impl From<String> for BuildError {
 }
 
 /// Renders every `folder/NAME.toml` with its graph `folder/NAME.json` to `$OUT_DIR/NAME.rs`, as a module `NAME` that
-/// implements the traits of [`dynamics`](planar_dynamics::dynamics).
+/// implements the traits of [`dynamics`](planar_dynamics::dynamics). `include_layout!("NAME");` includes it.
+///
+/// `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derives a graph. The crate uses the core of
+/// `planar-capture` in the generated code, and this function in its build script:
+///
+/// ```toml
+/// [dependencies]
+/// planar-capture = { path = "…", default-features = false }
+///
+/// [build-dependencies]
+/// planar-capture = { path = "…", default-features = false, features = ["build"] }
+/// ```
 ///
 /// # Errors
 /// As [`render_to`], and where `$OUT_DIR` is not set.

@@ -94,14 +94,11 @@ pub struct StateVector<H, W> {
 /// # Errors
 /// [`Error::StateVector`] unless the vector is two halves of the same length and three entries.
 pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
-    let found = vector.len();
-    match vector.split_last_chunk::<3>() {
-        Some((state, work)) if state.len().is_multiple_of(2) => {
-            let (positions, rates) = state.split_at(state.len() / 2);
-            Ok(StateVector { positions, rates, work })
-        }
-        _ => Err(Error::StateVector { found }),
-    }
+    let wrong = Error::StateVector { found: vector.len() };
+    let parts = vector.split_last_chunk::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
+    let (halves, work) = parts.ok_or(wrong)?;
+    let (positions, rates) = halves.split_at(halves.len() / 2);
+    Ok(StateVector { positions, rates, work })
 }
 
 /// As [`split`], with mutable parts.
@@ -109,14 +106,11 @@ pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
 /// # Errors
 /// As [`split`].
 pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVector<&mut [T], &mut [T; 3]>, Error> {
-    let found = vector.len();
-    match vector.split_last_chunk_mut::<3>() {
-        Some((state, work)) if state.len().is_multiple_of(2) => {
-            let (positions, rates) = state.split_at_mut(state.len() / 2);
-            Ok(StateVector { positions, rates, work })
-        }
-        _ => Err(Error::StateVector { found }),
-    }
+    let wrong = Error::StateVector { found: vector.len() };
+    let parts = vector.split_last_chunk_mut::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
+    let (halves, work) = parts.ok_or(wrong)?;
+    let (positions, rates) = halves.split_at_mut(halves.len() / 2);
+    Ok(StateVector { positions, rates, work })
 }
 
 /// The parts of one half of an integrated vector, positions or rates: views B of the base, J of the joints and F of the

@@ -77,8 +77,7 @@ pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&st
         command.env("PLANAR_CAPTURE_ENVIRONMENTS", home.join("python"));
     }
     run(command, &python, say)?;
-    let text = fs::read_to_string(&graph).map_err(|source| DerivationError::File { path: graph, source })?;
-    Ok(text)
+    fs::read_to_string(&graph).map_err(|source| DerivationError::File { path: graph, source })
 }
 
 /// Where package and environment are kept: `$PLANAR_CAPTURE_HOME`, else the user's folder for caches.

@@ -10,7 +10,7 @@ use planar_dynamics::target::Target;
 use planar_dynamics::validate::finite;
 use planar_dynamics::with_quantities;
 
-/// Where the robot is, how it moves, what acts on it and what it is about to capture.
+/// The robot's state, the forces on it, and the targets that it captures at that instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationInput {
     /// Pose, angles, twist, rates.
@@ -41,18 +41,14 @@ pub struct Values {
     arms: usize,
     joints: usize,
     /// In the table's order.
-    of: Vec<Option<Vec<f64>>>,
+    by_quantity: Vec<Option<Vec<f64>>>,
 }
 
 impl Values {
-    fn new(model: &dyn Model<f64>) -> Self {
-        Self { arms: model.arms(), joints: model.joints(), of: vec![None; Quantity::ALL.len()] }
-    }
-
-    /// Of one quantity; `None` for those of an impact where there is no target, and for what was not evaluated.
+    /// The values of one quantity; `None` for those of an impact where there is no target, and for what was not evaluated.
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> Option<&[f64]> {
-        self.of[quantity as usize].as_deref()
+        self.by_quantity[quantity as usize].as_deref()
     }
 
     /// Number of entries along each axis of a quantity.
@@ -62,16 +58,17 @@ impl Values {
     }
 
     fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {
-        self.of[quantity as usize] = Some(value.into());
+        self.by_quantity[quantity as usize] = Some(value.into());
     }
 }
 
-/// Asks a model for every quantity but those of the merged robot.
+/// Every quantity by a model, except those of the merged robot.
 ///
 /// # Errors
-/// What the model says of the state, and [`Error::NotFinite`] for a result that overflows.
+/// Those of the model, and [`Error::NotFinite`] for a result that overflows.
 pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Values, Error> {
-    let mut values = Values::new(model);
+    let by_quantity = vec![None; Quantity::ALL.len()];
+    let mut values = Values { arms: model.arms(), joints: model.joints(), by_quantity };
     let state = instant.state.view();
     let momentum = model.momentum(&state)?;
     values.set(Quantity::LinearMomentum, momentum.linear_momentum);
@@ -104,7 +101,7 @@ pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Val
     Ok(values)
 }
 
-/// Asks a model for every quantity.
+/// Every quantity by a model.
 ///
 /// # Errors
 /// As [`evaluate`].

@@ -61,7 +61,7 @@ pub enum GenerateError {
     },
 }
 
-/// What a graph was found to be.
+/// The result of a proof.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proof {
     /// Number of states.
@@ -72,14 +72,14 @@ pub struct Proof {
     pub worst: f64,
 }
 
-/// A graph with what was found of it.
+/// A graph with its proof.
 #[derive(Clone, Debug)]
 pub struct Proved {
     /// The graph, with reference vectors.
     pub graph: Graph,
     /// The same as text, as it is to be kept.
     pub text: String,
-    /// What it was found to be.
+    /// The result of its proof.
     pub proof: Proof,
 }
 
@@ -92,7 +92,7 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let states = (0..CARRIED).map(|index| {
-        let state = at(layout, Regime::Moving, index)?;
+        let state = sample(layout, Regime::Moving, index)?;
         let found = interpret(&graph, &state.inputs).map_err(GraphError::Format)?;
         Ok(state.in_order_of(&found))
     });
@@ -106,16 +106,16 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     Ok(Proved { graph, text, proof })
 }
 
-/// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every function at states
-/// of every regime that leaves the layout's numbers as they are.
+/// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every
+/// function at states of every regime that uses the layout's own numbers.
 ///
 /// # Errors
-/// [`GenerateError`], with the first result that is off.
+/// [`GenerateError`], with the first result that differs by more than is allowed.
 pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
-            let state = at(layout, regime, index)?;
+            let state = sample(layout, regime, index)?;
             let mut found = interpret(graph, &state.inputs).map_err(GraphError::Format)?;
             found.retain(|found| found.output != "smallest_pivot");
             if found.len() != state.expected.len() {
@@ -137,7 +137,7 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     Ok(proof)
 }
 
-fn at(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
+fn sample(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
     reference_state(layout, regime, index).map_err(failed)
 }

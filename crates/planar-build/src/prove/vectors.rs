@@ -69,12 +69,10 @@ impl ReferenceState {
     /// As a graph keeps it: the results in the order of those that were `found`, which gives the pivots, that the
     /// generic implementation does not have; two digits of the sizes.
     pub fn in_order_of(&self, found: &[FunctionResult]) -> Self {
-        let pivot = |found: &FunctionResult| {
-            let sizes = vec![PIVOT_ROUNDINGS; found.values.len()];
-            FunctionResult { sizes, ..found.clone() }
-        };
         let expected = found.iter().map(|found| {
-            let mut expected = self.expected(found).cloned().unwrap_or_else(|| pivot(found));
+            let sizes = vec![PIVOT_ROUNDINGS; found.values.len()];
+            let pivot = || FunctionResult { sizes, ..found.clone() };
+            let mut expected = self.expected(found).cloned().unwrap_or_else(pivot);
             expected.sizes.iter_mut().for_each(|size| *size = rounded(*size, 1));
             expected
         });

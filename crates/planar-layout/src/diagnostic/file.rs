@@ -15,7 +15,9 @@ const MAXIMUM_SIZE: u64 = 16 << 20;
 /// A report for a path that does not exist (with the most similar name), a directory, and a file that is unreadable, too
 /// large or not UTF-8 (with the line and column of the first invalid byte).
 pub fn read_text(path: &Path, kind: &str) -> Result<String, Report> {
-    let bytes = read_bytes(path).map_err(|error| unreadable(path, kind, &error))?;
+    let mut bytes = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes));
+    read.map_err(|error| unreadable(path, kind, &error))?;
     let name = shown(path);
     if bytes.len() as u64 > MAXIMUM_SIZE {
         let message = format!("`{name}` is larger than 16 MiB");
@@ -30,12 +32,6 @@ pub fn read_text(path: &Path, kind: &str) -> Result<String, Report> {
         let message = format!("{name}:{line}:{column}: byte 0x{byte:02x} is not UTF-8 text");
         Diagnostic::with_file(message, "save the file with the encoding UTF-8".to_owned()).into()
     })
-}
-
-fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
 }
 
 fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Report {

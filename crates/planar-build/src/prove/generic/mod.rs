@@ -12,7 +12,6 @@
 
 mod configuration;
 mod equations;
-mod forward;
 mod functions;
 mod impact;
 mod merge;
