@@ -45,7 +45,7 @@ pub struct Values {
 }
 
 impl Values {
-    /// The values of one quantity; `None` for those of an impact where there is no target, and for what was not evaluated.
+    /// The values of one quantity; `None` for an impact without a target, and where it was not evaluated.
     #[must_use]
     pub fn get(&self, quantity: Quantity) -> Option<&[f64]> {
         self.by_quantity[quantity as usize].as_deref()
@@ -62,7 +62,7 @@ impl Values {
     }
 }
 
-/// Every quantity by a model, except those of the merged robot.
+/// Computes every quantity by a model, except those of the merged robot.
 ///
 /// # Errors
 /// Those of the model, and [`Error::NotFinite`] for a result that overflows.
@@ -101,7 +101,7 @@ pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Val
     Ok(values)
 }
 
-/// Every quantity by a model.
+/// Computes every quantity by a model.
 ///
 /// # Errors
 /// As [`evaluate`].
@@ -124,7 +124,7 @@ macro_rules! functions {
         fn functions(model: &dyn Model<f64>, state: &State<'_, f64>, values: &mut Values) -> Result<(), Error> {
             $($(
                 let mut result = vec![0.0; values.shape(Quantity::$quantity).iter().product()];
-                call!(model.$method($inputs state), rows!($kind result))?;
+                call!(model.$method($inputs state), entries!($kind result))?;
                 values.set(Quantity::$quantity, result);
             )*)*
             Ok(())
@@ -141,7 +141,7 @@ macro_rules! call {
     };
 }
 
-macro_rules! rows {
+macro_rules! entries {
     (triples $values:ident) => {
         $values.as_chunks_mut().0
     };

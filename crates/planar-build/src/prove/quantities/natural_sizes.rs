@@ -38,6 +38,7 @@ pub fn natural_sizes(sample: &RegimeSample, values: &Values) -> BTreeMap<Quantit
     all.0
 }
 
+/// Sizes by quantity.
 #[derive(Default)]
 struct Sizes(BTreeMap<Quantity, NaturalSize>);
 
@@ -222,7 +223,7 @@ impl<'a> SizesAt<'a> {
         self.solution(&system, &self.forces(), [Quantity::BaseAcceleration, Quantity::JointAccelerations], all);
     }
 
-    /// Sizes of a solution of two quantities, of the base and of the joints.
+    /// Sizes of a solution, which are those of two quantities: of the base and of the joints.
     fn solution(
         &self,
         system: &System<'_>,
@@ -259,9 +260,10 @@ impl<'a> SizesAt<'a> {
         let system = System { sizes: &sizes, matrix: &matrix };
         let velocities = [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates];
         let speeds = self.solution(&system, &momentum, velocities, all);
+        let condition = system.condition();
         let [twists, impulses] = self.targets(&speeds);
-        all.solved(Quantity::CaptureTargetTwists, twists, system.condition());
-        all.solved(Quantity::CaptureImpulses, impulses, system.condition());
+        all.solved(Quantity::CaptureTargetTwists, twists, condition);
+        all.solved(Quantity::CaptureImpulses, impulses, condition);
         let mut forces = self.forces();
         for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
             if let Some(target) = target {
