@@ -1,6 +1,6 @@
-//! The command that makes a generated file, as it can be typed.
+//! Command lines for messages and headers.
 
-/// The command that generates a file from a layout, as it can be typed.
+/// The command line that generates a file from a layout.
 #[must_use]
 pub fn command(layout: &str, out: &str, standalone: bool) -> String {
     let option = if standalone { " --standalone" } else { "" };

@@ -18,7 +18,7 @@ pub struct Graph {
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) constants: Constants,
     pub(crate) families: Vec<Family>,
-    /// Reference vectors, where the graph was proved.
+    /// Reference vectors of a proved graph.
     pub(crate) self_test: Option<Vec<ReferenceState>>,
 }
 
@@ -160,7 +160,7 @@ pub struct FunctionResult {
     pub function: String,
     pub output: String,
     pub values: Vec<f64>,
-    /// How many rounding units each value may be off; none where the graph was computed.
+    /// The allowed error of each value in rounding units; empty for results of the graph itself.
     pub sizes: Vec<f64>,
 }
 

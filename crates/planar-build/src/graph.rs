@@ -75,7 +75,7 @@ pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
     Ok(graph)
 }
 
-/// What every format has.
+/// The part that graphs of every format have.
 #[derive(Deserialize)]
 struct Header {
     #[serde(default)]

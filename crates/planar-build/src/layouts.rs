@@ -116,7 +116,7 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
     Err(BuildError(format!("{shown} {problem}; to mend: {}", mend(header.contains(" --standalone")))))
 }
 
-/// Where a command has to be run, for those who build from elsewhere.
+/// The folder in which a command of a message has to be run.
 fn here() -> String {
     let folder = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
     folder.map_or_else(String::new, |folder| format!(" (in {})", folder.display()))

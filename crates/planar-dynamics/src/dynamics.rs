@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::target::Target;
-use crate::with_quantities;
+use crate::{element, with_quantities};
 
 /// Number of arms and joints, and inertias of the bodies.
 pub trait Robot<T: Real> {
@@ -34,7 +34,7 @@ macro_rules! method {
             &self,
             base_pose: &[T; 3],
             joint_angles: &[T],
-            $method: &mut [element!($kind)],
+            $method: &mut [element!($kind T)],
         ) -> Result<(), Error>;
     };
     ($(#[$doc:meta])* $method:ident(state) $kind:ident) => {
@@ -42,16 +42,7 @@ macro_rules! method {
         ///
         /// # Errors
         /// [`Error::Length`], [`Error::NotFinite`].
-        fn $method(&self, state: &State<'_, T>, $method: &mut [element!($kind)]) -> Result<(), Error>;
-    };
-}
-
-macro_rules! element {
-    (triples) => {
-        [T; 3]
-    };
-    ($matrix_or_vector:ident) => {
-        T
+        fn $method(&self, state: &State<'_, T>, $method: &mut [element!($kind T)]) -> Result<(), Error>;
     };
 }
 

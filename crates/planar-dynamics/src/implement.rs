@@ -241,7 +241,7 @@ macro_rules! implement_functions {
             &self,
             base_pose: &[T; 3],
             joint_angles: &[T],
-            into: &mut [$crate::implement_functions!(@element $kind)],
+            into: &mut [$crate::element!($kind T)],
         ) -> Result<(), Error> {
             finite_configuration(base_pose, joint_angles)?;
             let result = Model::$method(self, base_pose, array("joint_angles", joint_angles)?);
@@ -252,15 +252,13 @@ macro_rules! implement_functions {
         fn $method(
             &self,
             state: &State<'_, T>,
-            into: &mut [$crate::implement_functions!(@element $kind)],
+            into: &mut [$crate::element!($kind T)],
         ) -> Result<(), Error> {
             let [angles, rates] = joint_arrays(state)?;
             let result = Model::$method(self, &state.base_pose, angles, &state.base_twist, rates);
             $crate::implement_functions!(@store $kind $method result into)
         }
     };
-    (@element triples) => { [T; 3] };
-    (@element $matrix_or_vector:ident) => { T };
     (@store triples $method:ident $result:ident $into:ident) => { store_rows(stringify!($method), &$result, $into) };
     (@store matrix $method:ident $result:ident $into:ident) => { store(stringify!($method), $result.as_flattened(), $into) };
     (@store vector $method:ident $result:ident $into:ident) => { store(stringify!($method), &$result, $into) };

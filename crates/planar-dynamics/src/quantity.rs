@@ -138,6 +138,18 @@ macro_rules! with_quantities {
     };
 }
 
+/// An element of the result of a function of the table.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! element {
+    (triples $scalar:ty) => {
+        [$scalar; 3]
+    };
+    ($matrix_or_vector:ident $scalar:ty) => {
+        $scalar
+    };
+}
+
 macro_rules! shape {
     (triples [$rows:ident]) => {
         &[Extent::$rows, Extent::Fixed(3)]

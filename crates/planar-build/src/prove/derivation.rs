@@ -10,7 +10,7 @@ use std::{env, fs};
 /// Interpreters to look for, best first.
 const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12", "python3.11", "python"];
 
-/// What [`PYTHONS`] are asked, so that an old one is passed over.
+/// The program that tells a new enough Python from an old one by its exit status.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
 /// No graph was derived.
@@ -50,15 +50,15 @@ pub enum DerivationError {
     /// Python ran and gave no graph.
     #[error("the derivation failed ({status}):\n{output}")]
     Failed {
-        /// How it ended.
+        /// Its exit status.
         status: String,
-        /// What it said.
+        /// Its output.
         output: String,
     },
 }
 
 /// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text).
-/// `say` gets what the derivation says of itself, line by line.
+/// `say` receives the messages of the derivation, line by line.
 ///
 /// # Errors
 /// [`DerivationError`], with what to install where something is missing.
@@ -68,7 +68,7 @@ pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&st
     let python = python()?;
     let folder = tempfile::tempdir().map_err(|source| DerivationError::File { path: env::temp_dir(), source })?;
     let [graph, file] = ["graph.json", "layout.toml"].map(|name| folder.path().join(name));
-    // not the user's file: what it was read as, so that one reader decides
+    // the layout as it was read, not the user's file: one reader alone decides what a file means
     fs::write(&file, layout.to_toml()).map_err(|source| DerivationError::File { path: file.clone(), source })?;
     let mut command = Command::new(&python);
     command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).current_dir(&package);
@@ -107,7 +107,7 @@ fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationErro
         fs::write(folder.join(name), text).map_err(failed)?;
     }
     match fs::rename(building.path(), &place) {
-        // else somebody else was faster, and theirs is the same
+        // otherwise another process was faster, with the same content
         Err(error) if !place.join("codegen").is_dir() => Err(failed(error)),
         _ => Ok(place),
     }
@@ -129,7 +129,7 @@ fn works(python: &OsString) -> bool {
     outcome.is_ok_and(|output| output.status.success())
 }
 
-/// Runs it; what it says goes to `say`, and into the error if it fails.
+/// Runs the derivation; its messages go to `say`, its other output into the error if it fails.
 fn run(mut command: Command, python: &OsString, say: &mut dyn FnMut(&str)) -> Result<(), DerivationError> {
     let failed = |source| DerivationError::Python { python: python.to_string_lossy().into_owned(), source };
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());

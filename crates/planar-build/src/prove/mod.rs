@@ -23,7 +23,7 @@ use vectors::reference_state;
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
 
-/// States whose results a module carries for its own test.
+/// States whose results a module contains for its own test.
 const CARRIED: u64 = 2;
 
 /// There is no code for a layout.

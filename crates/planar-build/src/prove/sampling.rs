@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 macro_rules! regimes {
     ($($(#[$doc:meta])* $regime:ident $name:literal,)*) => {
-        /// A region of states, or of layouts, in which something particular can go wrong.
+        /// A region of states, or of layouts, in which a particular error can occur.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Regime {
             $($(#[$doc])* $regime,)*
@@ -172,7 +172,7 @@ impl Regime {
 /// Other numbers of the same structure: zeros stay, save those of the last links' centres of mass.
 fn reshape(layout: &mut Layout, random: &mut Random) {
     for arm in &mut layout.arms {
-        arm.mount = arm.mount.map(|x| x * random.factor()); // on their side: apart
+        arm.mount = arm.mount.map(|x| x * random.factor()); // the signs stay, so that mounts stay apart
         arm.mount_angle *= random.factor();
         for link in &mut arm.links {
             link.length *= random.factor();

@@ -66,8 +66,8 @@ impl ReferenceState {
         self.expected.iter().find(|expected| expected.function == found.function && expected.output == found.output)
     }
 
-    /// As a graph keeps it: the results in the order of those that were `found`, which gives the pivots, that the
-    /// generic implementation does not have; two digits of the sizes.
+    /// As stored in a graph: the results in the order of `found`, with the pivots from there, which the generic
+    /// implementation does not compute, and the sizes to two digits.
     pub fn in_order_of(&self, found: &[FunctionResult]) -> Self {
         let expected = found.iter().map(|found| {
             let sizes = vec![PIVOT_ROUNDINGS; found.values.len()];

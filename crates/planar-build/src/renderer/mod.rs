@@ -19,16 +19,16 @@ const TEMPLATES: [(&str, &str); 4] = [
     ("self_test.rs", include_str!("../../templates/self_test.rs.tera")),
 ];
 
-/// What is to be made of a graph: a module of another crate.
+/// The form of the module that is rendered from a graph.
 #[derive(Clone, Copy, Debug)]
 pub struct Module<'a> {
-    /// Whether it carries what it needs, or takes it from `planar_capture`, whose traits it implements.
+    /// Whether it contains what it needs, or uses `planar_capture`, whose traits it then implements.
     pub standalone: bool,
     /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
     pub item: bool,
-    /// What it is made from, for its header.
+    /// The source that its header names.
     pub source: &'a str,
-    /// The command that makes it again, for its header.
+    /// The command that its header names, which generates it again.
     pub command: &'a str,
 }
 
@@ -82,7 +82,7 @@ pub fn camel_case(name: &str) -> String {
     name.chars().filter_map(letter).collect()
 }
 
-/// What the templates show.
+/// The values that the templates use.
 fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
     let joints: usize = links.iter().sum();

@@ -201,7 +201,7 @@ fn texts(lines: &[Line<'_>]) -> Vec<String> {
     texts
 }
 
-/// Whether a name is a letter and a number, and not one that says what it is.
+/// Whether a name is a letter and a number: that of an intermediate value.
 fn is_numbered(name: &str) -> bool {
     name.len() > 1 && name.chars().skip(1).all(|c| c.is_ascii_digit())
 }

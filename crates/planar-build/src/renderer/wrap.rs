@@ -47,7 +47,7 @@ fn push(text: &mut String, line: &str) {
     text.extend([&outside, after, "\n"]);
 }
 
-/// A bracket of a line: what ends with it, what it holds, what begins with its end.
+/// A list in a line: the text up to its opening bracket, its items, and the text from its closing bracket.
 struct List<'a> {
     before: &'a str,
     items: Vec<&'a str>,

@@ -4,7 +4,7 @@ use super::{Configuration, Generic, GenericState, store_matrix};
 use planar_dynamics::error::Error;
 use planar_dynamics::state::State;
 use planar_dynamics::validate::{store, store_rows};
-use planar_dynamics::with_quantities;
+use planar_dynamics::{element, with_quantities};
 
 macro_rules! functions {
     (
@@ -21,25 +21,16 @@ macro_rules! functions {
 
 macro_rules! function {
     ($method:ident(configuration) $kind:ident) => {
-        fn $method(&self, base_pose: &[f64; 3], joint_angles: &[f64], into: &mut [element!($kind)]) -> Result<(), Error> {
+        fn $method(&self, base_pose: &[f64; 3], joint_angles: &[f64], into: &mut [element!($kind f64)]) -> Result<(), Error> {
             let result = Configuration::new(self, base_pose, joint_angles)?.$method();
             store!($kind $method result into)
         }
     };
     ($method:ident(state) $kind:ident) => {
-        fn $method(&self, state: &State<'_, f64>, into: &mut [element!($kind)]) -> Result<(), Error> {
+        fn $method(&self, state: &State<'_, f64>, into: &mut [element!($kind f64)]) -> Result<(), Error> {
             let result = GenericState::new(self, state)?.$method();
             store!($kind $method result into)
         }
-    };
-}
-
-macro_rules! element {
-    (triples) => {
-        [f64; 3]
-    };
-    ($matrix_or_vector:ident) => {
-        f64
     };
 }
 

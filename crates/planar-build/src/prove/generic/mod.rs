@@ -1,4 +1,4 @@
-//! The dynamics of any layout, computed from the equations: what generated code is measured against.
+//! The dynamics of any layout, computed from the equations: the reference for generated code.
 //!
 //! Written for clarity, by another formulation than the generated one, and from no code in common with it: every
 //! body has a twist Jacobian `B_i(q)`, [ω, vx, vy] of its COM being `B_i v` with v the base twist and the joint rates.
@@ -7,8 +7,8 @@
 //! - M = Σ Bᵢᵀ Iᵢ Bᵢ, bias = Σ Bᵢᵀ Iᵢ Ḃᵢ v (a planar body has no gyroscopic term),
 //!
 //! and every system of equations is solved whole, by a dense Cholesky factorisation. Any number of arms and links,
-//! centres of mass off the link's axis, mount angles, links of length zero. It allocates, and takes many
-//! times as long as generated code.
+//! centres of mass off the link's axis, mount angles, links of length zero. It allocates, and is many
+//! times slower than generated code.
 
 mod configuration;
 mod equations;

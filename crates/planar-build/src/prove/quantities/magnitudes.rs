@@ -16,7 +16,7 @@ pub struct Point {
     pub angle: f64,
 }
 
-/// All of a robot's.
+/// Those of all bodies and end effectors of a robot.
 pub struct Magnitudes {
     /// The base, then the links arm by arm.
     pub bodies: Vec<Point>,
@@ -79,7 +79,7 @@ impl Magnitudes {
     }
 }
 
-/// |B|ᵀ m [0, a, a] with the convective acceleration a = |ω| |ω × r| of a point on the way `jacobian`.
+/// |B|ᵀ m [0, a, a] with the convective acceleration a = |ω| |ω × r| of the point with this Jacobian.
 pub fn convective(mass: f64, jacobian: &Matrix3xX<f64>, speeds: &DVector<f64>) -> DVector<f64> {
     let mut turning = speeds.clone();
     turning.rows_mut(1, 2).fill(0.0);

@@ -1,4 +1,4 @@
-//! How far two models are apart in each quantity of the table, in units of the quantity's natural size.
+//! The differences of two models in each quantity of the table, in units of the quantity's natural size.
 
 mod magnitudes;
 mod natural_sizes;
@@ -12,7 +12,7 @@ use crate::prove::sampling::RegimeSample;
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
 
-/// How far two models are apart in one quantity at one state.
+/// The difference of two models in one quantity at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
     /// Which quantity.
@@ -43,7 +43,7 @@ impl Difference {
 /// The differences of two models in every quantity that a sample has; those of an impact only where it has a target.
 ///
 /// # Errors
-/// What the models say of the state: the first's, the second's, or both.
+/// The errors of the models: of the first, the second, or both.
 pub fn differences(
     model: &dyn CloneModel,
     reference: &dyn CloneModel,
@@ -61,7 +61,7 @@ pub fn differences(
     Ok(each.collect())
 }
 
-/// Largest |a − b| over the entry's size, where 0/0 is 0; infinite where something is missing or not a number.
+/// Largest |a − b| over the entry's size, where 0/0 is 0; infinite where a value is missing or not a number.
 pub(super) fn scaled_error(found: &[f64], expected: &[f64], sizes: &[f64]) -> f64 {
     if found.len() != expected.len() || found.len() != sizes.len() {
         return f64::INFINITY;

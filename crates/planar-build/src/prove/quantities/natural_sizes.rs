@@ -61,7 +61,7 @@ struct SizesAt<'a> {
     end_effector_jacobian: DMatrix<f64>,
     /// |v|.
     speeds: DVector<f64>,
-    /// What the reference says, for the matrices and solutions.
+    /// Of the reference, for the matrices and solutions.
     values: &'a Values,
 }
 
@@ -124,7 +124,7 @@ impl<'a> SizesAt<'a> {
 
     with_quantities!(functions);
 
-    /// The reference's numbers; none where it has none.
+    /// The reference's values; empty where it has none.
     fn value(&self, quantity: Quantity) -> &[f64] {
         self.values.get(quantity).unwrap_or_default()
     }
