@@ -6,9 +6,6 @@ use crate::simulate::system::Body;
 use crate::state::State;
 
 /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
-///
-/// # Errors
-/// Those of the model.
 pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
     let count = model.joints() + 1;
     let (mut inertias, mut poses, mut twists) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count], vec![[0.0; 3]; count]);

@@ -8,19 +8,21 @@ use crate::state::{Coordinates, State, StateVector, coordinates_mut, split, spli
 
 /// ẋ = f(t, x) of a system under a control law.
 pub(crate) struct Equation<'a> {
-    system: &'a System<'a>,
+    pub(crate) system: &'a System<'a>,
+    pub(crate) control: &'a mut dyn Control<f64>,
     torques: Vec<f64>,
     form: Form,
 }
 
-enum Form {
+/// The coordinates of an equation, with their working space.
+pub(crate) enum Form {
     Full,
     Reduced(ReducedSpace),
     Canonical(CanonicalSpace),
 }
 
 /// What [`ReducedCoordinates`] borrows.
-struct ReducedSpace {
+pub(crate) struct ReducedSpace {
     momentum: [f64; 3],
     mass_matrix: Vec<f64>,
     generalized_inertia: Vec<f64>,
@@ -40,14 +42,32 @@ impl ReducedSpace {
     }
 }
 
-/// What [`CanonicalVariables`] borrows, and working space of its derivative.
-struct CanonicalSpace {
+/// What [`CanonicalVariables`] borrows.
+struct CanonicalStorage {
     inertias: Vec<[f64; 2]>,
     poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
     offsets: Vec<[f64; 2]>,
     leaves: Vec<bool>,
     rates: Vec<f64>,
+}
+
+impl CanonicalStorage {
+    fn borrow(&mut self) -> CanonicalVariables<'_, f64> {
+        CanonicalVariables {
+            inertias: &mut self.inertias,
+            poses: &mut self.poses,
+            twists: &mut self.twists,
+            offsets: &mut self.offsets,
+            leaves: &mut self.leaves,
+            rates: &mut self.rates,
+        }
+    }
+}
+
+/// Canonical variables, and working space of their derivative.
+pub(crate) struct CanonicalSpace {
+    variables: CanonicalStorage,
     /// With rates in place of momenta.
     x: Vec<f64>,
     /// The vector at the end of the last step, with rates.
@@ -60,39 +80,10 @@ struct CanonicalSpace {
     results: Vec<f64>,
 }
 
-impl CanonicalSpace {
-    fn split(&mut self) -> (CanonicalVariables<'_, f64>, CanonicalWorkspace<'_>) {
-        let canonical = CanonicalVariables {
-            inertias: &mut self.inertias,
-            poses: &mut self.poses,
-            twists: &mut self.twists,
-            offsets: &mut self.offsets,
-            leaves: &mut self.leaves,
-            rates: &mut self.rates,
-        };
-        let Self { x, mass_matrix, bias, results, .. } = self;
-        (canonical, CanonicalWorkspace { x, mass_matrix, bias, results })
-    }
-}
-
-struct CanonicalWorkspace<'a> {
-    x: &'a mut [f64],
-    mass_matrix: &'a mut [f64],
-    bias: &'a mut [f64],
-    results: &'a mut [f64],
-}
-
-impl<'a> Equation<'a> {
-    /// In full coordinates.
-    pub(crate) fn full(system: &'a System<'a>) -> Self {
-        Self { system, torques: vec![0.0; system.model.joints()], form: Form::Full }
-    }
-
-    /// In reduced coordinates, with the momentum of `x`.
-    ///
-    /// # Errors
-    /// [`Error::UnsupportedBodies`] where there are bodies beside the robot, and those of the model.
-    pub(crate) fn reduced(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+impl Form {
+    /// Reduced coordinates, with the momentum of `x`; [`Error::UnsupportedBodies`] where there are bodies beside the
+    /// robot.
+    pub(crate) fn reduced(system: &System<'_>, x: &[f64]) -> Result<Self, Error> {
         let count = system.bodies.len() + system.constraints.len();
         if count > 0 {
             return Err(Error::UnsupportedBodies { count });
@@ -100,108 +91,88 @@ impl<'a> Equation<'a> {
         let (joints, arms) = (system.model.joints(), system.model.arms());
         let momentum = system.model.momentum(&State::from_vector(x, joints)?)?;
         let [px, py] = momentum.linear_momentum;
-        let space = ReducedSpace {
+        Ok(Self::Reduced(ReducedSpace {
             momentum: [momentum.angular_momentum, px, py],
             mass_matrix: vec![0.0; (3 + joints) * (3 + joints)],
             generalized_inertia: vec![0.0; joints * joints],
             generalized_bias: vec![0.0; joints],
             generalized_jacobian: vec![0.0; 3 * arms * joints],
-        };
-        Ok(Self { form: Form::Reduced(space), ..Self::full(system) })
+        }))
     }
 
-    /// In canonical variables, between [`Self::convert_to_momenta`] and [`Self::convert_to_rates`].
-    ///
-    /// # Errors
-    /// Those of the model.
-    pub(crate) fn canonical(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+    /// Canonical variables, between [`Equation::convert_to_momenta`] and [`Equation::convert_to_rates`].
+    pub(crate) fn canonical(system: &System<'_>, x: &[f64]) -> Result<Self, Error> {
         let joints = system.model.joints();
         let size = 3 + joints;
-        let mut space = CanonicalSpace {
+        let mut variables = CanonicalStorage {
             inertias: vec![[0.0; 2]; joints + 1],
             poses: vec![[0.0; 3]; joints + 1],
             twists: vec![[0.0; 3]; joints + 1],
             offsets: vec![[0.0; 2]; joints],
             leaves: vec![false; joints],
             rates: vec![0.0; joints],
+        };
+        let at = State::from_vector(x, joints)?;
+        variables.borrow().measure(system.model, &at.base_pose, at.joint_angles)?;
+        Ok(Self::Canonical(CanonicalSpace {
+            variables,
             x: x.to_vec(),
             last_x: Vec::new(),
             last_momenta: Vec::new(),
             mass_matrix: vec![0.0; size * size],
             bias: vec![0.0; size],
             results: vec![0.0; size],
-        };
-        let at = State::from_vector(x, joints)?;
-        space.split().0.measure(system.model, &at.base_pose, at.joint_angles)?;
-        Ok(Self { form: Form::Canonical(space), ..Self::full(system) })
+        }))
     }
+}
 
-    pub(crate) fn system(&self) -> &'a System<'a> {
-        self.system
+impl<'a> Equation<'a> {
+    pub(crate) fn new(system: &'a System<'a>, control: &'a mut dyn Control<f64>, form: Form) -> Self {
+        Self { system, control, torques: vec![0.0; system.model.joints()], form }
     }
 
     /// d/dt of positions, rates and work.
-    ///
-    /// # Errors
-    /// Those of model and law.
-    pub(crate) fn derivative(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        time: f64,
-        x: &[f64],
-        rate: &mut [f64],
-    ) -> Result<(), Error> {
-        let Self { system, torques, form } = self;
+    pub(crate) fn derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        let Self { system, control, torques, form } = self;
         match form {
-            Form::Reduced(space) => space.borrow().derivative(system.model, control, time, x, rate, torques),
-            Form::Full | Form::Canonical(_) => system.derivative(control, time, x, rate, torques),
+            Form::Reduced(space) => space.borrow().derivative(system.model, *control, time, x, rate, torques),
+            Form::Full | Form::Canonical(_) => system.derivative(*control, time, x, rate, torques),
         }
     }
 
     /// d/dt of positions, momenta and work: `ṗ = f + ∂T/∂q`. Without bodies beside the robot f are the torques, so that
     /// momenta without forces are constant to the last bit; with them `f = M v̇ + c` has the constraint forces too. The
     /// bodies keep twists in place of momenta, as their masses are constant.
-    ///
-    /// # Errors
-    /// Those of model and law.
-    pub(crate) fn canonical_derivative(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        time: f64,
-        x: &[f64],
-        rate: &mut [f64],
-    ) -> Result<(), Error> {
-        let Self { system, torques, form: Form::Canonical(space) } = self else {
-            return self.derivative(control, time, x, rate);
+    pub(crate) fn canonical_derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        let Self { system, control, torques, form: Form::Canonical(space) } = self else {
+            return self.derivative(time, x, rate);
         };
         let (model, joints) = (system.model, system.model.joints());
-        let (mut canonical, workspace) = space.split();
-        workspace.x.copy_from_slice(x);
-        replace(&mut canonical, system, workspace.x, workspace.results, Direction::ToRates)?;
-        system.derivative(control, time, workspace.x, rate, torques)?;
-        let now = State::from_vector(workspace.x, joints)?;
+        let CanonicalSpace { variables, x: with_rates, mass_matrix, bias, results, .. } = space;
+        let mut canonical = variables.borrow();
+        with_rates.copy_from_slice(x);
+        replace(&mut canonical, system, with_rates, results, Direction::ToRates)?;
+        system.derivative(*control, time, with_rates, rate, torques)?;
+        let now = State::from_vector(with_rates, joints)?;
         let StateVector { rates, work: [.., base_torque], .. } = split_mut(rate)?;
         if system.bodies.is_empty() && system.constraints.is_empty() {
             let forces = coordinates_mut(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
             forces.joints.copy_from_slice(torques);
         } else {
-            model.mass_matrix(&now.base_pose, now.joint_angles, workspace.mass_matrix)?;
-            model.bias(&now, workspace.bias)?;
-            let rows = workspace.mass_matrix.chunks_exact(3 + joints).zip(workspace.bias.iter());
-            for (result, (row, bias)) in workspace.results.iter_mut().zip(rows) {
+            model.mass_matrix(&now.base_pose, now.joint_angles, mass_matrix)?;
+            model.bias(&now, bias)?;
+            let rows = mass_matrix.chunks_exact(3 + joints).zip(bias.iter());
+            for (result, (row, bias)) in results.iter_mut().zip(rows) {
                 *result = row.iter().zip(rates.iter()).fold(*bias, |sum, (entry, a)| sum + entry * a);
             }
-            rates[..3 + joints].copy_from_slice(workspace.results);
+            rates[..3 + joints].copy_from_slice(results);
         }
         canonical.add_energy_gradient(model, &now, &mut rates[..3 + joints])
     }
 
     /// Replaces rates by canonical momenta: those at the end of the last step where `x` is unchanged since, as the
     /// conversion there and back would round.
-    ///
-    /// # Errors
-    /// Those of the model.
     pub(crate) fn convert_to_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &self.form {
             Form::Canonical(space) if space.last_x == x => x.copy_from_slice(&space.last_momenta),
@@ -211,9 +182,6 @@ impl<'a> Equation<'a> {
     }
 
     /// Replaces canonical momenta by rates, and keeps the momenta for the next step.
-    ///
-    /// # Errors
-    /// Those of the model.
     pub(crate) fn convert_to_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
         let momenta = x.to_vec();
         self.replace(x, Direction::ToRates)?;
@@ -225,14 +193,10 @@ impl<'a> Equation<'a> {
 
     fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {
         let Form::Canonical(space) = &mut self.form else { return Ok(()) };
-        let (mut canonical, workspace) = space.split();
-        replace(&mut canonical, self.system, x, workspace.results, direction)
+        replace(&mut space.variables.borrow(), self.system, x, &mut space.results, direction)
     }
 
     /// In reduced coordinates, writes the base twist of the joint rates, eq. (17).
-    ///
-    /// # Errors
-    /// Those of the model.
     pub(crate) fn recover(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &mut self.form {
             Form::Reduced(space) => space.borrow().recover(self.system.model, x),
@@ -241,9 +205,6 @@ impl<'a> Equation<'a> {
     }
 
     /// After every step: recovers the base twist and projects onto the constraints.
-    ///
-    /// # Errors
-    /// Those of the model.
     pub(crate) fn restore(&mut self, x: &mut [f64]) -> Result<(), Error> {
         self.recover(x)?;
         self.system.restore(x)

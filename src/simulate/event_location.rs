@@ -27,7 +27,6 @@ pub(crate) struct EventLocator<'a> {
 }
 
 /// Values and their rates at one instant.
-#[derive(Clone, Debug, Default)]
 struct EventValues {
     values: Vec<f64>,
     rates: Vec<f64>,

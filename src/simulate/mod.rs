@@ -195,7 +195,7 @@ pub fn simulate(
 ) -> Result<Phase, PhaseError> {
     let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
-    let mut stepper = Stepper::new(system, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let mut locator = EventLocator::new(system, events);
     let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
@@ -204,28 +204,28 @@ pub fn simulate(
     let (mut before, mut rate) = (x.clone(), x.clone());
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
-        recorder.record(control, time, &x, true, i % stride == 0).map_err(at(time))?;
+        recorder.record(stepper.control(), time, &x, true, i % stride == 0).map_err(at(time))?;
         if locator.is_idle() {
-            stepper.advance(control, span, &mut x).map_err(at(time))?;
+            stepper.advance(span, &mut x).map_err(at(time))?;
         } else {
             if i == 0 {
-                stepper.rate(control, time, &x, &mut rate).map_err(at(time))?;
+                stepper.rate(time, &x, &mut rate).map_err(at(time))?;
                 locator.start(time, end - time, &x, &rate).map_err(at(time))?;
             }
             before.copy_from_slice(&x);
-            stepper.advance(control, span, &mut x).map_err(at(time))?;
-            stepper.rate(control, end, &x, &mut rate).map_err(at(end))?;
-            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within(control, [time, t], &before, into);
+            stepper.advance(span, &mut x).map_err(at(time))?;
+            stepper.rate(end, &x, &mut rate).map_err(at(end))?;
+            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([time, t], &before, into);
             if let Some((event, when)) = locator.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
                 within(when, &mut x).map_err(at(when))?;
                 recorder.add_saturation(when - time);
-                recorder.record(control, when, &x, false, true).map_err(at(when))?;
+                recorder.record(stepper.control(), when, &x, false, true).map_err(at(when))?;
                 return Ok(recorder.end(when, Some((event, when))));
             }
         }
         recorder.add_saturation(end - time);
         tick();
     }
-    recorder.record(control, timing.duration, &x, false, true).map_err(at(timing.duration))?;
+    recorder.record(stepper.control(), timing.duration, &x, false, true).map_err(at(timing.duration))?;
     Ok(recorder.end(timing.duration, None))
 }

@@ -25,9 +25,6 @@ pub(crate) struct Recorder<'a> {
 
 impl<'a> Recorder<'a> {
     /// For a phase that starts in this state.
-    ///
-    /// # Errors
-    /// Those of the model.
     pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
         Ok(Self {
             system,
@@ -43,9 +40,6 @@ impl<'a> Recorder<'a> {
     }
 
     /// Audits an instant, begins a step of the control law if `begins_step`, and keeps a sample if `sampled`.
-    ///
-    /// # Errors
-    /// Those of model and law.
     pub(crate) fn record(
         &mut self,
         control: &mut dyn Control<f64>,

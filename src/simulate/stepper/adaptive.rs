@@ -1,7 +1,6 @@
 //! Adaptive steps, with dense output where a step of the phase ends.
 
 use super::{Method, Properties};
-use crate::control::Control;
 use crate::error::Error;
 use crate::integrate::Adaptive;
 use crate::simulate::equation::Equation;
@@ -24,40 +23,28 @@ impl Steps {
 }
 
 impl Method for Steps {
-    fn advance(
-        &mut self,
-        equation: &mut Equation<'_>,
-        control: &mut dyn Control<f64>,
-        [time, end]: [f64; 2],
-        x: &mut [f64],
-    ) -> Result<(), Error> {
+    fn advance(&mut self, equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         let Self { solver, duration, until, .. } = self;
         // times are multiples of the step, rounded: half a step tells them apart
         let half = 0.5 * (end - time);
         if until.is_none_or(|until| until < time + half) {
-            let held = control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
+            let held = equation.control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
             let next = if held > *duration - half { *duration } else { held.max(end) };
             *until = Some(next);
-            solver.start(time, next, x, &mut |t, x, rate| equation.derivative(control, t, x, rate))?;
+            solver.start(time, next, x, &mut |t, x, rate| equation.derivative(t, x, rate))?;
         }
-        let system = equation.system();
+        let system = equation.system;
         let mut restore = |x: &mut [f64]| {
             let before = x.to_vec();
             system.restore(x).map(|()| before != x)
         };
-        solver.advance(end, x, &mut |t, x, rate| equation.derivative(control, t, x, rate), &mut restore)?;
+        solver.advance(end, x, &mut |t, x, rate| equation.derivative(t, x, rate), &mut restore)?;
         equation.restore(x)
     }
 
-    fn within(
-        &mut self,
-        equation: &mut Equation<'_>,
-        control: &mut dyn Control<f64>,
-        [start, time]: [f64; 2],
-        x: &mut [f64],
-    ) -> Result<(), Error> {
+    fn within(&mut self, equation: &mut Equation<'_>, [start, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         let mut solver = Adaptive::new(self.tolerance).try_first(time - start);
-        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(control, t, x, rate);
+        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(t, x, rate);
         solver.start(start, time, x, &mut derivative)?;
         solver.advance(time, x, &mut derivative, &mut |_| Ok(false))?;
         equation.restore(x)

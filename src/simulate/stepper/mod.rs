@@ -7,7 +7,7 @@ mod semi_implicit_euler;
 
 use crate::control::Control;
 use crate::error::Error;
-use crate::simulate::equation::Equation;
+use crate::simulate::equation::{Equation, Form};
 use crate::simulate::system::System;
 
 /// By which integrator, in which coordinates.
@@ -83,9 +83,9 @@ impl Scheme {
     /// Its steps, for a phase of `duration` (s) and vectors of `length`.
     fn method(self, duration: f64, length: usize) -> Box<dyn Method> {
         match self {
-            Self::RungeKutta4 => Box::new(runge_kutta4::Steps::new(length)),
-            Self::SemiImplicitEuler => Box::new(semi_implicit_euler::Steps::new(length)),
-            Self::GaussLegendre => Box::new(gauss_legendre::Steps::new(length)),
+            Self::RungeKutta4 => Box::new(runge_kutta4::method(length)),
+            Self::SemiImplicitEuler => Box::new(semi_implicit_euler::method(length)),
+            Self::GaussLegendre => Box::new(gauss_legendre::method(length)),
             Self::Adaptive { tolerance } => Box::new(adaptive::Steps::new(tolerance, duration)),
         }
     }
@@ -94,29 +94,18 @@ impl Scheme {
 /// Steps of one scheme, with its data between them.
 trait Method {
     /// Advances `x` over the next step, `span` (from, to; s).
-    ///
-    /// # Errors
-    /// Those of model, law and scheme.
-    fn advance(
-        &mut self,
-        equation: &mut Equation<'_>,
-        control: &mut dyn Control<f64>,
-        span: [f64; 2],
-        x: &mut [f64],
-    ) -> Result<(), Error>;
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error>;
 
     /// Advances `x` over a part of a step, without changing the data for the next one.
-    ///
-    /// # Errors
-    /// As [`Method::advance`].
-    fn within(
-        &mut self,
-        equation: &mut Equation<'_>,
-        control: &mut dyn Control<f64>,
-        span: [f64; 2],
-        x: &mut [f64],
-    ) -> Result<(), Error> {
-        self.advance(equation, control, span, x)
+    fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
+        self.advance(equation, span, x)
+    }
+}
+
+/// A scheme whose steps are independent is the function that advances `x`.
+impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Method for F {
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
+        self(equation, span, x)
     }
 }
 
@@ -128,66 +117,44 @@ pub(crate) struct Stepper<'a> {
 
 impl<'a> Stepper<'a> {
     /// For a phase of `duration` (s) that starts at `x`.
-    ///
-    /// # Errors
-    /// [`Error::UnsupportedBodies`] for reduced coordinates where there are bodies beside the robot, and those of the model.
     pub(crate) fn new(
         system: &'a System<'a>,
+        control: &'a mut dyn Control<f64>,
         integration: &Integration,
         duration: f64,
         x: &[f64],
     ) -> Result<Self, Error> {
-        let equation = match (integration.coordinates, integration.scheme.properties().is_canonical) {
-            (Formulation::Reduced, _) => Equation::reduced(system, x)?,
-            (Formulation::Full, true) => Equation::canonical(system, x)?,
-            (Formulation::Full, false) => Equation::full(system),
+        let form = match (integration.coordinates, integration.scheme.properties().is_canonical) {
+            (Formulation::Reduced, _) => Form::reduced(system, x)?,
+            (Formulation::Full, true) => Form::canonical(system, x)?,
+            (Formulation::Full, false) => Form::Full,
         };
+        let equation = Equation::new(system, control, form);
         Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
     }
 
+    /// The control law.
+    pub(crate) fn control(&mut self) -> &mut dyn Control<f64> {
+        self.equation.control
+    }
+
     /// Advances `x` over the next step.
-    ///
-    /// # Errors
-    /// Those of model, law and integrator.
-    pub(crate) fn advance(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        span: [f64; 2],
-        x: &mut [f64],
-    ) -> Result<(), Error> {
-        self.method.advance(&mut self.equation, control, span, x)
+    pub(crate) fn advance(&mut self, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
+        self.method.advance(&mut self.equation, span, x)
     }
 
     /// The vector at `time` within a step that starts at `start` with `x`, into `into`.
-    ///
-    /// # Errors
-    /// As [`Self::advance`].
-    pub(crate) fn within(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        [start, time]: [f64; 2],
-        x: &[f64],
-        into: &mut Vec<f64>,
-    ) -> Result<(), Error> {
+    pub(crate) fn within(&mut self, [start, time]: [f64; 2], x: &[f64], into: &mut Vec<f64>) -> Result<(), Error> {
         into.clear();
         into.extend_from_slice(x);
         if time <= start {
             return Ok(());
         }
-        self.method.within(&mut self.equation, control, [start, time], into)
+        self.method.within(&mut self.equation, [start, time], into)
     }
 
     /// d/dt of `x`.
-    ///
-    /// # Errors
-    /// Those of model and law.
-    pub(crate) fn rate(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        time: f64,
-        x: &[f64],
-        rate: &mut [f64],
-    ) -> Result<(), Error> {
-        self.equation.derivative(control, time, x, rate)
+    pub(crate) fn rate(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        self.equation.derivative(time, x, rate)
     }
 }
