@@ -1,6 +1,6 @@
 //! Figures of the approach: joints, base and end effectors over time.
 
-use super::figure::{Figure, Mark, Panel, Series};
+use super::figure::{Figure, Panel, Series};
 use super::style::{Colour, Dash};
 use super::time_curves::{TWIST_COMPONENTS, base, end_effectors, joints, panel};
 use crate::capture::Study;
@@ -34,12 +34,8 @@ fn velocities(scenario: &Scenario, phase: &Phase, quantity: &str, component: usi
     if let FinalRates::EndEffectorTwists(desired) = &scenario.approach.end {
         series.extend(desired.iter().zip(&scenario.layout.arms).enumerate().filter_map(|(i, (twist, arm))| {
             let value = twist[component]?;
-            Some(Series {
-                label: Some(format!("{}, wanted", arm.name)),
-                colour: Colour::of(i),
-                mark: Mark::Line(Dash::Dotted, 1.2),
-                points: vec![(0.0, value), (phase.duration, value)],
-            })
+            let points = vec![(0.0, value), (phase.duration, value)];
+            Some(Series::line(&format!("{}, wanted", arm.name), Colour::of(i), Dash::Dotted, 1.2, points))
         }));
     }
     panel(phase, TIME, quantity, series)

@@ -1,6 +1,6 @@
 //! The twists of end effector and target at each contact, before and after the impact.
 
-use super::figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
+use super::figure::{Axis, AxisRange, Figure, Panel, Series};
 use super::style::{Colour, Symbol};
 use super::time_curves::{MINIMUM_SPAN, TWIST_COMPONENTS};
 use crate::capture::contact_at_time::ImpactContact;
@@ -29,27 +29,18 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
         return None;
     }
     contacts.reverse(); // the first at the top
-    // after a rigid contact both twists are the same
-    let kinds = if contacts.iter().all(|contact| contact.rigid) {
-        vec![
-            ("tip, before", Colour::BLUE, Symbol::Circle),
-            ("target, before", Colour::VERMILLION, Symbol::Square),
-            ("both, after", Colour::BLACK, Symbol::Cross),
-        ]
+    let mut kinds =
+        vec![("tip, before", Colour::BLUE, Symbol::Circle), ("target, before", Colour::VERMILLION, Symbol::Square)];
+    if contacts.iter().all(|contact| contact.rigid) {
+        // both twists are the same
+        kinds.push(("both, after", Colour::BLACK, Symbol::Cross));
     } else {
-        vec![
-            ("tip, before", Colour::BLUE, Symbol::Circle),
-            ("target, before", Colour::VERMILLION, Symbol::Square),
-            ("target, after", Colour::GREEN, Symbol::Plus),
-            ("tip, after", Colour::BLACK, Symbol::Cross),
-        ]
-    };
+        kinds.extend([("target, after", Colour::GREEN, Symbol::Plus), ("tip, after", Colour::BLACK, Symbol::Cross)]);
+    }
     let panel = |(label, component): (&str, usize)| {
-        let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol))| Series {
-            label: Some((*label).to_owned()),
-            colour: *colour,
-            mark: Mark::Points(*symbol),
-            points: (1_u32..).zip(&contacts).map(|(i, c)| (c.twists[kind][component], f64::from(i))).collect(),
+        let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol))| {
+            let points = (1_u32..).zip(&contacts).map(|(i, c)| (c.twists[kind][component], f64::from(i)));
+            Series::symbols(label, *colour, *symbol, points.collect())
         });
         let names = contacts.iter().map(|contact| contact.name.clone()).collect();
         let y = Axis { label: String::new(), range: AxisRange::Categories(names) };

@@ -1,7 +1,7 @@
 //! The kinetic energy of robot and targets together, and the part of it that the work of the actuators does not
 //! explain.
 
-use super::figure::{Axis, Figure, Mark, Panel, Series};
+use super::figure::{Axis, Figure, Panel, Series};
 use super::style::{Colour, Dash};
 use super::time_curves::{CURVE_WIDTH, MINIMUM_SPAN};
 use crate::capture::{CaseResult, Study};
@@ -20,12 +20,8 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Figure {
     let end = points[0][points[0].len() - 1].0;
     let styles =
         [("kinetic energy", Colour::BLUE, Dash::Solid), ("less the work done", Colour::VERMILLION, Dash::Dashed)];
-    let series = styles.into_iter().zip(points).map(|((label, colour, dash), points)| Series {
-        label: Some(label.to_owned()),
-        colour,
-        mark: Mark::Line(dash, CURVE_WIDTH),
-        points,
-    });
+    let series = styles.into_iter().zip(points);
+    let series = series.map(|((label, colour, dash), points)| Series::line(label, colour, dash, CURVE_WIDTH, points));
     Figure::column(
         &format!("energy_{}", case.name),
         vec![Panel::new(Axis::time("Time [s]", end), Axis::new("Energy [J]", MINIMUM_SPAN), series.collect())],

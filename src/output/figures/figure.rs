@@ -88,6 +88,20 @@ impl Axis {
     }
 }
 
+impl Series {
+    /// A line through points, its width in points of the page.
+    #[must_use]
+    pub fn line(label: &str, colour: Colour, dash: Dash, width: f64, points: Vec<(f64, f64)>) -> Self {
+        Self { label: Some(label.to_owned()), colour, mark: Mark::Line(dash, width), points }
+    }
+
+    /// A symbol at each point.
+    #[must_use]
+    pub fn symbols(label: &str, colour: Colour, symbol: Symbol, points: Vec<(f64, f64)>) -> Self {
+        Self { label: Some(label.to_owned()), colour, mark: Mark::Points(symbol), points }
+    }
+}
+
 impl Panel {
     /// A panel without title, with independent scales of its axes.
     #[must_use]

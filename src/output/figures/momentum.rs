@@ -1,6 +1,6 @@
 //! The momentum of robot and targets together over a case.
 
-use super::figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
+use super::figure::{Axis, AxisRange, Figure, Panel, Series};
 use super::style::{Colour, Dash, Symbol};
 use super::time_curves::CURVE_WIDTH;
 use crate::capture::{CaseResult, Study};
@@ -25,16 +25,14 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
     let (end, _) = momentum[momentum.len() - 1];
     let literal = case.capture.as_ref().and_then(|capture| capture.impact.paper.as_ref());
     let panel = |quantity: &str, span: f64, curves: &[(&str, usize, Colour, Dash)]| {
-        let series = |label: String, colour, dash, points| {
-            let mark = Mark::Line(dash, CURVE_WIDTH);
-            Series { label: Some(label), colour, mark, points }
-        };
         let exact = curves.iter().map(|&(label, i, colour, dash)| {
-            series(label.to_owned(), colour, dash, momentum.iter().map(|(time, value)| (*time, value[i])).collect())
+            let points = momentum.iter().map(|(time, value)| (*time, value[i]));
+            Series::line(label, colour, dash, CURVE_WIDTH, points.collect())
         });
         let literal = curves.iter().filter_map(|&(label, i, colour, _)| {
             let after = before[i] + literal?.momentum_jump[i];
-            Some(series(format!("{label}, literal eqs."), colour, Dash::DashDot, vec![(contact, after), (end, after)]))
+            let (label, points) = (format!("{label}, literal eqs."), vec![(contact, after), (end, after)]);
+            Some(Series::line(&label, colour, Dash::DashDot, CURVE_WIDTH, points))
         });
         let mut all: Vec<Series> = exact.chain(literal).collect();
         all.extend(detected_impacts(study, case, &all[..curves.len()]));
@@ -63,11 +61,5 @@ fn detected_impacts(study: &Study, case: &CaseResult, curves: &[Series]) -> Opti
         let at = |time: f64| curve.points[curve.points.partition_point(|(t, _)| *t < time)];
         events.iter().map(|event| at(event.time)).collect::<Vec<_>>()
     };
-    let mark = Mark::Points(Symbol::Cross);
-    Some(Series {
-        label: Some("impacts".to_owned()),
-        colour: Colour::BLACK,
-        mark,
-        points: curves.iter().flat_map(on).collect(),
-    })
+    Some(Series::symbols("impacts", Colour::BLACK, Symbol::Cross, curves.iter().flat_map(on).collect()))
 }

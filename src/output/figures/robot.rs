@@ -22,7 +22,7 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
     for (i, arm) in layout.arms.iter().enumerate() {
         let own = frames.iter().zip(&poses).filter(|(frame, _)| frame.arm == Some(i));
         let mut points: Vec<(f64, f64)> = own.map(|(_, [_, x, y])| (*x, *y)).collect();
-        series.push(line(&arm.name, Colour::of(i), Dash::Solid, LINK_WIDTH, points.clone()));
+        series.push(Series::line(&arm.name, Colour::of(i), Dash::Solid, LINK_WIDTH, points.clone()));
         // the end effector is no joint
         points.pop();
         let mark = Mark::Points(Symbol::Circle);
@@ -40,19 +40,15 @@ pub(super) fn target(target: &Target, colour: Colour, pose: [f64; 3], end_effect
         ends.push(point(pose, [*radius, 0.0]));
     }
     let mut series = vec![outline(&target.name, colour, Dash::Solid, &Shape::Outline(target.outline.clone()), pose)];
-    let spoke = |end: [f64; 2]| line(&target.name, colour, Dash::Solid, OUTLINE_WIDTH, vec![(x, y), end.into()]);
+    let spoke =
+        |end: [f64; 2]| Series::line(&target.name, colour, Dash::Solid, OUTLINE_WIDTH, vec![(x, y), end.into()]);
     series.extend(ends.into_iter().map(spoke));
     series
 }
 
 /// The symbol of a pin.
 pub(super) fn pin(position: [f64; 2]) -> Series {
-    Series {
-        label: Some("pin".to_owned()),
-        colour: Colour::BLACK,
-        mark: Mark::Points(Symbol::Circle),
-        points: vec![position.into()],
-    }
+    Series::symbols("pin", Colour::BLACK, Symbol::Circle, vec![position.into()])
 }
 
 /// An arrow from a point; `None` if it has no length.
@@ -65,7 +61,7 @@ pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Seri
     let angle = along[1].atan2(along[0]);
     let barb = |turn: f64| point([angle + turn, to[0], to[1]], [-HEAD * length, 0.0]).into();
     let points = vec![from.into(), to.into(), barb(0.5), to.into(), barb(-0.5)];
-    Some(line(label, Colour::BLACK, Dash::Solid, OUTLINE_WIDTH, points))
+    Some(Series::line(label, Colour::BLACK, Dash::Solid, OUTLINE_WIDTH, points))
 }
 
 /// The outline of a target at its expected position.
@@ -75,9 +71,11 @@ pub(super) fn expected_target(label: &str, target: &Target, [x, y]: [f64; 2]) ->
 
 fn outline(label: &str, colour: Colour, dash: Dash, shape: &Shape, pose: [f64; 3]) -> Series {
     let [corners, _] = shape.lines();
-    line(label, colour, dash, OUTLINE_WIDTH, corners.into_iter().map(|corner| point(pose, corner).into()).collect())
-}
-
-fn line(label: &str, colour: Colour, dash: Dash, width: f64, points: Vec<(f64, f64)>) -> Series {
-    Series { label: Some(label.to_owned()), colour, mark: Mark::Line(dash, width), points }
+    Series::line(
+        label,
+        colour,
+        dash,
+        OUTLINE_WIDTH,
+        corners.into_iter().map(|corner| point(pose, corner).into()).collect(),
+    )
 }

@@ -1,6 +1,6 @@
 //! Curves of joints, base and end effectors over the samples of a phase.
 
-use super::figure::{Axis, Mark, Panel, Series};
+use super::figure::{Axis, Panel, Series};
 use super::style::{Colour, Dash};
 use crate::layout::Layout;
 use crate::simulate::{Phase, Sample};
@@ -16,8 +16,8 @@ pub(super) const TWIST_COMPONENTS: [(&str, usize); 3] =
     [("Velocity x [m/s]", 1), ("Velocity y [m/s]", 2), ("Angular velocity [rad/s]", 0)];
 
 fn curve(phase: &Phase, label: &str, colour: Colour, dash: Dash, value: impl Fn(&Sample) -> f64) -> Series {
-    let points = phase.samples.iter().map(|sample| (sample.time, value(sample))).collect();
-    Series { label: Some(label.to_owned()), colour, mark: Mark::Line(dash, CURVE_WIDTH), points }
+    let points = phase.samples.iter().map(|sample| (sample.time, value(sample)));
+    Series::line(label, colour, dash, CURVE_WIDTH, points.collect())
 }
 
 /// A curve per joint: the colour shows the joint, the dash pattern the arm.
