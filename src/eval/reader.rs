@@ -23,6 +23,7 @@ const TARGET: [&str; 4] = ["mass", "inertia", "contact", "twist"];
 const POSE: &str = "[yaw, x, y] in rad, m, m";
 const TWIST: &str = "[ω, vx, vy] in rad/s, m/s, m/s";
 const WRENCH: &str = "[n, fx, fy] in N m, N, N";
+const CONTACT: &str = "[rx, ry] in m";
 const MASS: NumberRule = NumberRule::positive("a mass", "kg");
 const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
 
@@ -48,22 +49,17 @@ pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, 
 
 fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     let state = object(tree, "", "the state", &STATE)?;
-    let required = |key: &str, wanted: &str| {
-        state.get(key).ok_or_else(|| InvalidValue {
-            path: String::new(),
-            message: format!("missing key `{key}`, expected {wanted}"),
-        })
-    };
+    let required = |key: &str, wanted: &str| required(state, "", key, wanted);
     let optional = |key: &str| state.get(key).filter(|value| !value.is_null());
     let of_joints = |unit: &str| format!("{joints} numbers in {unit}, one per joint");
-    let vector = |key: &str, form: &str| triple(required(key, form)?, key, form);
+    let triple = |key: &str, form: &str| vector(required(key, form)?, key, form);
     let list = |key: &str, unit: &str| numbers(required(key, &of_joints(unit))?, key, joints, &of_joints(unit));
     let torques = optional("joint_torques").map(|value| numbers(value, "joint_torques", joints, &of_joints("N m")));
-    let base_wrench = optional("base_wrench").map(|value| triple(value, "base_wrench", WRENCH));
+    let base_wrench = optional("base_wrench").map(|value| vector(value, "base_wrench", WRENCH));
     let wrenches = optional("end_effector_wrenches").map(|value| {
         let wanted = format!("{arms} wrenches {WRENCH}, one per arm");
         items(value, "end_effector_wrenches", arms, &wanted)?
-            .map(|(path, value)| triple(value, &path, WRENCH))
+            .map(|(path, value)| vector(value, &path, WRENCH))
             .collect::<Read<Vec<_>>>()
     });
     let targets = optional("targets").map(|value| {
@@ -74,9 +70,9 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     });
     Ok(EvaluationInput {
         state: RobotState {
-            base_pose: vector("base_pose", POSE)?,
+            base_pose: triple("base_pose", POSE)?,
             joint_angles: list("joint_angles", "rad")?,
-            base_twist: vector("base_twist", TWIST)?,
+            base_twist: triple("base_twist", TWIST)?,
             joint_rates: list("joint_rates", "rad/s")?,
         },
         joint_torques: torques.transpose()?.unwrap_or_else(|| vec![0.0; joints]),
@@ -88,26 +84,29 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
 
 fn target(value: &Value, path: &str) -> Read<Target<f64>> {
     let table = object(value, path, "a target", &TARGET)?;
-    let required = |key: &str, wanted: &str| {
-        table.get(key).ok_or_else(|| InvalidValue {
-            path: path.to_owned(),
-            message: format!("missing key `{path}.{key}`, expected {wanted}"),
-        })
-    };
     let amount = |key: &str, quantity: &NumberRule| {
-        let (value, path, wanted) = (required(key, &quantity.to_string())?, format!("{path}.{key}"), quantity);
-        let number = number(value, &path, &wanted.to_string())?;
-        if number > 0.0 { Ok(number) } else { Err(expected(&path, value, &wanted.to_string())) }
+        let wanted = quantity.to_string();
+        let (value, path) = (required(table, path, key, &wanted)?, join(path, key));
+        let number = number(value, &path, &wanted)?;
+        if number > 0.0 { Ok(number) } else { Err(expected(&path, value, &wanted)) }
     };
-    let form = "[rx, ry] in m";
-    let mut contact = [0.0; 2];
-    contact.copy_from_slice(&numbers(required("contact", form)?, &format!("{path}.contact"), 2, form)?);
     Ok(Target {
         mass: amount("mass", &MASS)?,
         inertia: amount("inertia", &INERTIA)?,
-        contact,
-        twist: triple(required("twist", TWIST)?, &format!("{path}.twist"), TWIST)?,
+        contact: vector(required(table, path, "contact", CONTACT)?, &join(path, "contact"), CONTACT)?,
+        twist: vector(required(table, path, "twist", TWIST)?, &join(path, "twist"), TWIST)?,
     })
+}
+
+/// The path of a key of the object at `path`; the state has the empty path.
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+/// The value of a key that an object must have.
+fn required<'a>(object: &'a Map<String, Value>, path: &str, key: &str, wanted: &str) -> Read<&'a Value> {
+    let missing = || format!("missing key `{}`, expected {wanted}", join(path, key));
+    object.get(key).ok_or_else(|| InvalidValue { path: path.to_owned(), message: missing() })
 }
 
 /// An object without other keys.
@@ -126,7 +125,7 @@ fn object<'a>(value: &'a Value, path: &str, what: &str, keys: &[&str]) -> Read<&
         Some(known) => format!("did you mean `{known}`?"),
         None => format!("keys of {what}: {}", listing(keys, "and")),
     };
-    let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+    let path = join(path, key);
     Err(InvalidValue { message: format!("unknown key `{}` ({}); {hint}", excerpt(&path), excerpt_of(value)), path })
 }
 
@@ -150,10 +149,10 @@ fn numbers(value: &Value, path: &str, count: usize, wanted: &str) -> Read<Vec<f6
     items(value, path, count, wanted)?.map(|(path, value)| number(value, &path, "a number")).collect()
 }
 
-fn triple(value: &Value, path: &str, form: &str) -> Read<[f64; 3]> {
-    let mut triple = [0.0; 3];
-    triple.copy_from_slice(&numbers(value, path, 3, form)?);
-    Ok(triple)
+fn vector<const N: usize>(value: &Value, path: &str, form: &str) -> Read<[f64; N]> {
+    let mut vector = [0.0; N];
+    vector.copy_from_slice(&numbers(value, path, N, form)?);
+    Ok(vector)
 }
 
 fn number(value: &Value, path: &str, wanted: &str) -> Read<f64> {

@@ -137,9 +137,8 @@ fn wrapped(angle: f64) -> f64 {
 /// A warning of axes that are only nearly parallel.
 fn tilts(tree: &Tree, steps: &[Vec<ChainJoint>]) -> Option<Remark> {
     let off = steps.iter().flatten().filter(|step| step.tilt > 1e-9);
-    let off: Vec<String> = off.map(|s| format!("`{}` {:.1e} rad", tree.joint(s.joint).name, s.tilt)).collect();
-    let text = || format!("axes off the plane's normal are taken as parallel to it: {}", off.join(", "));
-    (!off.is_empty()).then(|| Remark::warning(&text()))
+    let off = off.map(|step| format!("`{}` {:.1e} rad", tree.joint(step.joint).name, step.tilt));
+    Remark::of_items(Remark::warning, "axes off the plane's normal are taken as parallel to it", ", ", off)
 }
 
 fn owned(names: &[&str]) -> Vec<String> {

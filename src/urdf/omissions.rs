@@ -5,25 +5,19 @@ use urdf_rs::{Joint, JointType};
 
 /// Remarks on the imported joints; `without_axis` are the names of those without `<axis>`.
 pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone, without_axis: &[String]) -> Vec<Remark> {
-    let mut remarks = Vec::new();
     let lossy = joints.clone().filter_map(|joint| {
         let dynamics = joint.dynamics.as_ref().filter(|d| d.damping != 0.0 || d.friction != 0.0)?;
         Some(format!("`{}` damping {:?} N m s/rad, friction {:?} N m", joint.name, dynamics.damping, dynamics.friction))
     });
-    let lossy: Vec<String> = lossy.collect();
-    if !lossy.is_empty() {
-        remarks.push(Remark::warning(&format!("losses of joints are omitted: {}", lossy.join("; "))));
-    }
-    let limits: Vec<String> = joints.clone().filter_map(limits).collect();
-    if !limits.is_empty() {
-        remarks.push(Remark::note(&format!("limits of joints are omitted: {}", limits.join("; "))));
-    }
-    let unsaid: Vec<String> =
-        joints.filter(|joint| without_axis.contains(&joint.name)).map(|joint| format!("`{}`", joint.name)).collect();
-    if !unsaid.is_empty() {
-        remarks.push(Remark::note(&format!("no <axis>; URDF's default is x: {}", unsaid.join(", "))));
-    }
-    remarks
+    let limits = joints.clone().filter_map(limits);
+    let default_axis =
+        joints.filter(|joint| without_axis.contains(&joint.name)).map(|joint| format!("`{}`", joint.name));
+    let remarks = [
+        Remark::of_items(Remark::warning, "losses of joints are omitted", "; ", lossy),
+        Remark::of_items(Remark::note, "limits of joints are omitted", "; ", limits),
+        Remark::of_items(Remark::note, "no <axis>; URDF's default is x", ", ", default_axis),
+    ];
+    remarks.into_iter().flatten().collect()
 }
 
 /// The limits of a joint, if it has any.

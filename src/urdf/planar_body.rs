@@ -27,10 +27,7 @@ pub(super) struct PlanarBody {
 }
 
 impl PlanarBody {
-    /// Of a group whose frame has this height, m.
-    ///
-    /// # Errors
-    /// [`UrdfError::Part`] without mass or moment of inertia.
+    /// Of a group whose frame has this height, m; an error without mass or moment of inertia.
     pub(super) fn new(tree: &Tree, group: &LinkGroup, plane: &Plane, height: f64) -> Result<Self, UrdfError> {
         let (com, above) = plane.project(&group.body.com);
         let (products, inertia) = plane.project(&(group.body.inertia * plane.normal.into_inner()));
@@ -52,23 +49,16 @@ impl PlanarBody {
 
 /// Warnings of heights and products of inertia by which a free robot would leave the plane.
 pub(super) fn remarks(bodies: &[PlanarBody]) -> Vec<Remark> {
-    let mut remarks = Vec::new();
     let highest = bodies.iter().map(|body| body.height).fold(f64::NEG_INFINITY, f64::max);
     let lowest = bodies.iter().map(|body| body.height).fold(f64::INFINITY, f64::min);
-    if highest - lowest > MAX_HEIGHT_DIFFERENCE {
-        let heights: Vec<String> = bodies.iter().map(|o| format!("`{}` {:?} m", o.link, o.height)).collect();
-        remarks.push(Remark::warning(&format!(
-            "the robot would leave the plane: centres of mass are at different heights along its normal: {}",
-            heights.join(", ")
-        )));
-    }
-    let skew = bodies.iter().filter(|o| o.products[0].hypot(o.products[1]) > MAX_PRODUCT * o.inertia);
-    let skew: Vec<String> = skew.map(|o| format!("`{}` {:?} kg m²", o.link, o.products)).collect();
-    if !skew.is_empty() {
-        remarks.push(Remark::warning(&format!(
-            "the robot would leave the plane: products of inertia with its normal: {}",
-            skew.join(", ")
-        )));
-    }
-    remarks
+    let apart = bodies.iter().filter(|_| highest - lowest > MAX_HEIGHT_DIFFERENCE);
+    let heights = apart.map(|body| format!("`{}` {:?} m", body.link, body.height));
+    let skew = bodies.iter().filter(|body| body.products[0].hypot(body.products[1]) > MAX_PRODUCT * body.inertia);
+    let products = skew.map(|body| format!("`{}` {:?} kg m²", body.link, body.products));
+    let [height_fact, product_fact] = [
+        "the robot would leave the plane: centres of mass are at different heights along its normal",
+        "the robot would leave the plane: products of inertia with its normal",
+    ];
+    let heights = Remark::of_items(Remark::warning, height_fact, ", ", heights);
+    heights.into_iter().chain(Remark::of_items(Remark::warning, product_fact, ", ", products)).collect()
 }

@@ -19,9 +19,6 @@ const NUMERIC_ATTRIBUTES: &[(&str, &[&str])] = &[
 ];
 
 /// Reads the elements of a URDF; does not check that they form a tree.
-///
-/// # Errors
-/// [`UrdfError::Unreadable`], or [`UrdfError::Element`] with the invalid link or joint.
 pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
     let tags = tags(text);
     let depth = tags.iter().map(|tag| tag.depth + 1).max().unwrap_or_default();

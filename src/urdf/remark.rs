@@ -20,6 +20,17 @@ impl Remark {
     pub(super) fn warning(text: &str) -> Self {
         Self { is_warning: true, text: printable(text) }
     }
+
+    /// A fact and the items that it is true of; `None` without items.
+    pub(super) fn of_items(
+        make: fn(&str) -> Self,
+        fact: &str,
+        separator: &str,
+        items: impl Iterator<Item = String>,
+    ) -> Option<Self> {
+        let items: Vec<String> = items.collect();
+        (!items.is_empty()).then(|| make(&format!("{fact}: {}", items.join(separator))))
+    }
 }
 
 impl Display for Remark {

@@ -2,15 +2,13 @@
 
 use super::actuation::{actuation, reject_actuation};
 use super::integration::integration;
-use super::joints::{Joints, check_length};
+use super::joints::{DERIVATIVE_GAIN, Joints, PROPORTIONAL_GAIN, check_length};
 use super::{DURATION, JOINT_ANGLE, JOINT_RATE, POSE, POSITION, TWIST, duration_and_step, read_or, reject_keys};
 use crate::diagnostic::{NumberRule, Table, Value, every, listing};
 use crate::scenario::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
 use crate::simulate::actuators::Actuation;
 use crate::trajectory::TrajectoryKind;
 
-const PROPORTIONAL_GAIN: NumberRule = NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
-const DERIVATIVE_GAIN: NumberRule = NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
 const ANGLE_ERROR_GAIN: NumberRule =
     NumberRule::non_negative("a proportional gain of computed torque (or one per joint)", "1/s²");
 const RATE_ERROR_GAIN: NumberRule =

@@ -3,6 +3,11 @@
 use crate::diagnostic::{NumberRule, Table, Value};
 use crate::layout::Layout;
 
+pub(super) const PROPORTIONAL_GAIN: NumberRule =
+    NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
+pub(super) const DERIVATIVE_GAIN: NumberRule =
+    NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
+
 /// The joints and arms that lists are checked against; not checked where the layout could not be read.
 pub(super) struct Joints<'a> {
     pub(super) layout: Option<&'a Layout>,

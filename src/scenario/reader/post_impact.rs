@@ -2,14 +2,12 @@
 
 use super::actuation::actuation;
 use super::integration::integration;
-use super::joints::Joints;
+use super::joints::{DERIVATIVE_GAIN, Joints, PROPORTIONAL_GAIN};
 use super::{duration_and_step, read_or, reject_keys};
 use crate::diagnostic::{NumberRule, Table, every};
 use crate::scenario::{PostCaptureControl, PostImpact};
 use crate::simulate::actuators::Actuation;
 
-const STIFFNESS: NumberRule = NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
-const DAMPING: NumberRule = NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
 const JOINT_DECAY: NumberRule =
     NumberRule::non_negative("a derivative gain of stabilisation (or one per joint)", "1/s");
 const BASE_DECAY: NumberRule = NumberRule::non_negative("a gain of the base rate", "1/s");
@@ -68,14 +66,14 @@ fn control(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostCaptureControl>
             let why = "only `control = \"stabilise\"` acts on the base";
             reject_keys(table, &["base_gain", "base_torque_limit"], why);
             every([
-                joints.read_gain(table, "proportional_gain", &STIFFNESS, proportional_gain),
-                joints.read_gain(table, "derivative_gain", &DAMPING, derivative_gain),
+                joints.read_gain(table, "proportional_gain", &PROPORTIONAL_GAIN, proportional_gain),
+                joints.read_gain(table, "derivative_gain", &DERIVATIVE_GAIN, derivative_gain),
             ])?;
         }
         PostCaptureControl::Damping { derivative_gain } => {
             let why = "damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it";
             reject_keys(table, &["proportional_gain", "base_gain", "base_torque_limit"], why);
-            joints.read_gain(table, "derivative_gain", &DAMPING, derivative_gain)?;
+            joints.read_gain(table, "derivative_gain", &DERIVATIVE_GAIN, derivative_gain)?;
         }
         PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
             let why = "stabilisation wants no angles, expected `control = \"hold\"` with it";
