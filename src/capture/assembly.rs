@@ -21,7 +21,7 @@ pub struct Attachment {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TargetPlacement {
     /// A body beside the robot, free or pinned, by its index.
-    Beside(usize),
+    Separate(usize),
     /// Merged with the last link of an arm.
     Merged {
         /// The arm.
@@ -68,7 +68,7 @@ impl Assembly {
             places.push(match rigid {
                 None => {
                     bodies.push(*target);
-                    TargetPlacement::Beside(bodies.len() - 1)
+                    TargetPlacement::Separate(bodies.len() - 1)
                 }
                 Some(Attachment { arm, .. }) => {
                     let (end_effector, [yaw, x, y]) = (end_effectors[*arm], target.pose);
@@ -89,7 +89,7 @@ impl Assembly {
             let (partner, pose) = match places[attachment.target] {
                 TargetPlacement::Merged { arm, .. } if arm == attachment.arm => continue,
                 TargetPlacement::Merged { arm, .. } => (ContactPartner::EndEffector(arm), end_effectors[arm]),
-                TargetPlacement::Beside(i) => (ContactPartner::Body(i), bodies[i].pose),
+                TargetPlacement::Separate(i) => (ContactPartner::Body(i), bodies[i].pose),
             };
             let contact = Contact {
                 arm: attachment.arm,
@@ -108,11 +108,11 @@ impl Assembly {
         System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints, joint_limits: &[] }
     }
 
-    /// The targets beside the robot, of all.
+    /// Those of all targets that are not merged.
     #[must_use]
-    pub fn beside(&self, targets: &[Body]) -> Vec<Body> {
+    pub fn separate(&self, targets: &[Body]) -> Vec<Body> {
         let pairs = targets.iter().zip(&self.places);
-        pairs.filter(|(_, place)| matches!(place, TargetPlacement::Beside(_))).map(|(target, _)| *target).collect()
+        pairs.filter(|(_, place)| matches!(place, TargetPlacement::Separate(_))).map(|(target, _)| *target).collect()
     }
 
     /// The bodies that end effectors hold, of those beside the robot.
@@ -141,7 +141,7 @@ impl Assembly {
         bodies: &[Body],
     ) -> Vec<Body> {
         let moved = |(target, place): (&Body, &TargetPlacement)| match *place {
-            TargetPlacement::Beside(i) => bodies[i],
+            TargetPlacement::Separate(i) => bodies[i],
             TargetPlacement::Merged { arm, offset, yaw } => {
                 let [end_effector_yaw, x, y] = end_effectors[arm];
                 let [omega, vx, vy] = end_effector_twists[arm];

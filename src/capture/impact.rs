@@ -4,7 +4,7 @@ use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
 use crate::contact::{self, Contact, ContactPartner, DelassusMatrix, workspace_length};
-use crate::dynamics::Model;
+use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use crate::owned::RobotState;
@@ -161,14 +161,14 @@ fn by_contacts(
     let model = &*assembly.model;
     let mut end_effectors = vec![[0.0; 3]; model.arms()];
     model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut end_effectors)?;
-    let bodies: Vec<Body> = assembly.beside(targets);
+    let bodies: Vec<Body> = assembly.separate(targets);
     let new = touching.iter().map(|touch| {
         let (partner, offset) = match assembly.places[touch.target] {
             TargetPlacement::Merged { arm, .. } => {
                 let ([_, x, y], [_, from_x, from_y]) = (end_effectors[touch.arm], end_effectors[arm]);
                 (ContactPartner::EndEffector(arm), [x - from_x, y - from_y])
             }
-            TargetPlacement::Beside(i) => (ContactPartner::Body(i), touch.offset),
+            TargetPlacement::Separate(i) => (ContactPartner::Body(i), touch.offset),
         };
         Contact { arm: touch.arm, partner, offset, law: touch.law }
     });
@@ -193,13 +193,6 @@ fn by_contacts(
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
 }
 
-/// Momentum [l, px, py] and energy of robot and targets, and the scales [angular, linear] of their momentum.
-struct Total {
-    momentum: [f64; 3],
-    magnitude: [f64; 2],
-    energy: f64,
-}
-
 fn balance(
     assembly: &Assembly,
     before: &RobotState,
@@ -210,12 +203,13 @@ fn balance(
     let Velocities { base_twist, joint_rates, targets: twists, impulses } = velocities;
     let moving = State { base_twist: *base_twist, joint_rates, ..before.view() };
     let moved = targets.iter().zip(twists).map(|(target, twist)| Body { twist: *twist, ..*target });
-    let start = total(assembly, &before.view(), targets)?;
-    let end = total(assembly, &moving, &moved.collect::<Vec<_>>())?;
-    let jump: [f64; 3] = std::array::from_fn(|i| end.momentum[i] - start.momentum[i]);
+    let (start, start_sizes) = total(assembly, &before.view(), targets)?;
+    let (end, end_sizes) = total(assembly, &moving, &moved.collect::<Vec<_>>())?;
+    let [px, py] = [0, 1].map(|i: usize| end.linear_momentum[i] - start.linear_momentum[i]);
+    let jump = [end.angular_momentum - start.angular_momentum, px, py];
     let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
-    let angular = relative(jump[0].abs(), start.magnitude[0].max(end.magnitude[0]));
-    let linear = relative(jump[1].hypot(jump[2]), start.magnitude[1].max(end.magnitude[1]));
+    let angular = relative(jump[0].abs(), start_sizes[0].max(end_sizes[0]));
+    let linear = relative(px.hypot(py), start_sizes[1].max(end_sizes[1]));
     let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> [f64; 3]| {
         let contact = |arm| touching.iter().enumerate().find(|(_, contact)| contact.arm == arm);
         (0..assembly.model.arms()).map(|arm| contact(arm).map(|(i, contact)| value(i, contact))).collect()
@@ -226,17 +220,15 @@ fn balance(
         impulses: per_arm(&|i, _| impulses[i]),
         momentum_jump: jump,
         relative_momentum_jump: angular.max(linear),
-        kinetic_energy_before: start.energy,
-        kinetic_energy_after: end.energy,
+        kinetic_energy_before: start.kinetic_energy,
+        kinetic_energy_after: end.kinetic_energy,
         joint_rates_after: joint_rates.clone(),
     })
 }
 
-/// Of the robot with merged targets and the targets beside it.
-fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<Total, Error> {
-    let beside = assembly.beside(targets);
-    let whole = with_bodies(assembly.model.momentum(state)?, &beside);
-    let [px, py] = whole.linear_momentum;
-    let magnitude = momentum_sizes(&bodies(&*assembly.model, state, &beside)?);
-    Ok(Total { momentum: [whole.angular_momentum, px, py], magnitude, energy: whole.kinetic_energy })
+/// Momentum and energy of the robot with merged targets and the separate targets together, and [`momentum_sizes`].
+fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<(Momentum<f64>, [f64; 2]), Error> {
+    let separate = assembly.separate(targets);
+    let sizes = momentum_sizes(&bodies(&*assembly.model, state, &separate)?);
+    Ok((with_bodies(assembly.model.momentum(state)?, &separate), sizes))
 }

@@ -23,9 +23,11 @@ use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
 use crate::owned::CloneModel;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
+use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, PhaseError};
+use std::cmp::Ordering;
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
@@ -59,7 +61,7 @@ pub struct Study {
 }
 
 /// The results of one case.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseResult {
     /// Its name.
     pub name: String,
@@ -222,7 +224,8 @@ pub fn study(
         (_, None) => vec![0.0; model.joints()],
     };
     observer.begin("approach", approach.steps());
-    let approach = approach.track(&*model, &rates, &mut || observer.step()).map_err(StudyError::Approach)?;
+    let approach = approach.track(&*model, &rates, &mut NoEvents, &mut || observer.step());
+    let approach = approach.map_err(StudyError::Approach)?;
     let cases = scenario
         .cases
         .iter()
@@ -234,7 +237,7 @@ pub fn study(
                     Detection::Event => sequence.contact_by_detection(&rates, observer),
                 }
             }
-            None => Ok(CaseResult::alone(&case.name)),
+            None => Ok(CaseResult { name: case.name.clone(), ..CaseResult::default() }),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let terminal_errors = TerminalError::of(scenario, &approach);
@@ -242,11 +245,6 @@ pub fn study(
 }
 
 impl CaseResult {
-    /// Of a scenario without targets.
-    fn alone(name: &str) -> Self {
-        Self { name: name.to_owned(), approach: None, targets: Vec::new(), closest: Vec::new(), capture: None }
-    }
-
     /// Its approach.
     #[must_use]
     pub fn approach<'a>(&'a self, study: &'a Study) -> &'a Phase {
@@ -297,11 +295,15 @@ impl Study {
     }
 }
 
+/// Whether a value is over its bound; NaN is over every bound.
+fn exceeds(value: f64, bound: f64) -> bool {
+    value.partial_cmp(&bound).is_none_or(Ordering::is_gt)
+}
+
 fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
     let mut found = Vec::new();
     let jump = exact.relative_momentum_jump;
-    // NaN exceeds every bound
-    if jump.partial_cmp(&MOMENTUM_BOUND).is_none_or(std::cmp::Ordering::is_gt) {
+    if exceeds(jump, MOMENTUM_BOUND) {
         found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
     }
     if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
@@ -321,9 +323,7 @@ fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
         ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
         ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
-    // NaN exceeds every bound
-    let out_of_bound =
-        checks.into_iter().filter(|(_, value, bound)| value.partial_cmp(bound).is_none_or(std::cmp::Ordering::is_gt));
+    let out_of_bound = checks.into_iter().filter(|(_, value, bound)| exceeds(*value, *bound));
     let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));
     let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
     drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()

@@ -6,9 +6,6 @@ use crate::state::State;
 use nalgebra::DMatrix;
 
 /// The generalized inertia (joints × joints) and the generalized Jacobian (3 arms × joints).
-///
-/// # Errors
-/// Those of [`reduced_dynamics`](crate::dynamics::ReducedDynamics::reduced_dynamics).
 pub(crate) fn reduced_matrices(
     model: &dyn Model<f64>,
     state: &State<'_, f64>,

@@ -56,7 +56,7 @@ impl CaptureSequence<'_> {
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let model = (self.make)();
         let phase = approach
-            .track_until(&*model, rates, &mut contact_detection, &mut || observer.step())
+            .track(&*model, rates, &mut contact_detection, &mut || observer.step())
             .map_err(StudyError::Approach)?;
         let targets_at = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
         let targets = targets_at(phase.duration);

@@ -6,6 +6,7 @@ use planar_capture::control::{Control, ProportionalDerivative, TorqueLimiter};
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, FinalRates, Scenario, Tracking};
 use planar_capture::simulate::Phase;
+use planar_capture::simulate::event::NoEvents;
 use planar_capture::state::State;
 use planar_capture::trajectory::ConstantSetpoint;
 use planar_capture::trajectory::TrajectoryKind;
@@ -29,7 +30,7 @@ fn computed_torque() -> Tracking {
 
 fn track(scenario: &Scenario, rates: &[f64]) -> Phase {
     let model = registry::generated(&scenario.layout).expect("generated code");
-    Approach::new(scenario, 0.05).track(&*model, rates, &mut || ()).expect("an approach")
+    Approach::new(scenario, 0.05).track(&*model, rates, &mut NoEvents, &mut || ()).expect("an approach")
 }
 
 fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {

@@ -6,6 +6,7 @@ use crate::capture::reach::Reach;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
+use crate::simulate::event::NoEvents;
 use crate::simulate::{PhaseError, Sample};
 use nalgebra::{DMatrix, DVector};
 
@@ -172,7 +173,7 @@ impl Trial {
         sample: f64,
         tick: &mut dyn FnMut(),
     ) -> Result<Step, TerminalRatesError> {
-        let phase = Approach::new(&self.scenario, sample).track_exactly(model, &self.rates, tick)?;
+        let phase = Approach::new(&self.scenario, sample).track_exactly(model, &self.rates, &mut NoEvents, tick)?;
         let mut step = self.step(model, goals, phase.end())?;
         if let FinalRates::EndEffectorTwists(twists) = &self.scenario.approach.end {
             let (rates, margin) = rates_for(model, phase.end(), twists)?;

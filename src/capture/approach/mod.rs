@@ -9,7 +9,7 @@ use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDeriv
 use crate::dynamics::Model;
 use crate::scenario::{self, Scenario, Tracking};
 use crate::simulate::actuators::drive;
-use crate::simulate::event::{Events, NoEvents};
+use crate::simulate::event::Events;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing, simulate};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
@@ -36,19 +36,11 @@ impl<'a> Approach<'a> {
     }
 
     /// Simulates it under the scenario's tracking law, with the trajectory's final rates (rad/s; a cycloidal trajectory
-    /// has none).
+    /// has none), up to the first of the events.
     ///
     /// # Errors
     /// When and why it stopped.
-    pub fn track(&self, model: &dyn Model<f64>, rates: &[f64], tick: &mut dyn FnMut()) -> Result<Phase, PhaseError> {
-        self.track_until(model, rates, &mut NoEvents, tick)
-    }
-
-    /// The same, up to the first of the events.
-    ///
-    /// # Errors
-    /// When and why it stopped.
-    pub fn track_until(
+    pub fn track(
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],
@@ -63,7 +55,7 @@ impl<'a> Approach<'a> {
             drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
-            Tracking::Exact => self.track_exactly_until(model, rates, events, tick),
+            Tracking::Exact => self.track_exactly(model, rates, events, tick),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
                 drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
             }
@@ -90,15 +82,6 @@ impl<'a> Approach<'a> {
     /// # Errors
     /// When and why it stopped.
     pub fn track_exactly(
-        &self,
-        model: &dyn Model<f64>,
-        rates: &[f64],
-        tick: &mut dyn FnMut(),
-    ) -> Result<Phase, PhaseError> {
-        self.track_exactly_until(model, rates, &mut NoEvents, tick)
-    }
-
-    fn track_exactly_until(
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],

@@ -4,6 +4,7 @@ use crate::capture::approach::Approach;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::EndEffectorTwistGoal;
+use crate::simulate::event::NoEvents;
 use crate::simulate::{PhaseError, Sample};
 use nalgebra::DVector;
 
@@ -92,7 +93,7 @@ pub fn terminal_rates(
     let mut rates = vec![0.0; model.joints()];
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
-        let phase = approach.track_exactly(model, &rates, tick).map_err(|source| match iteration {
+        let phase = approach.track_exactly(model, &rates, &mut NoEvents, tick).map_err(|source| match iteration {
             1 => TerminalRatesError::PhaseError(source),
             _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
         })?;
