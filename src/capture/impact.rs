@@ -30,7 +30,7 @@ pub struct ImpactSolution {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactResult {
     /// Target, arm, contact point and law.
-    pub touching: ImpactContact,
+    pub contact: ImpactContact,
     /// [n, fx, fy] on the robot at the end effector; N m s, N s.
     pub impulse: [f64; 3],
     /// Inertia and relative velocity at the contact.
@@ -74,22 +74,22 @@ pub fn solve_impact(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[ImpactContact],
+    contacts: &[ImpactContact],
 ) -> Result<ImpactSolution, Error> {
     let model = &*assembly.model;
-    let exact = by_contacts(assembly, before, targets, touching)?;
-    let literal = rigid_by_arm(assembly, targets, touching).filter(|_| !touching.is_empty());
+    let exact = by_contacts(assembly, before, targets, contacts)?;
+    let literal = rigid_by_arm(assembly, targets, contacts).filter(|_| !contacts.is_empty());
     let paper =
-        literal.map(|by_arm| by_equations_of_the_paper(model, before, targets, touching, &by_arm)).transpose()?;
-    let each = touching.iter().zip(&exact.impulses).map(|(touch, impulse)| {
-        let response = response(model, before, &targets[touch.target], touch)?;
-        Ok(ContactResult { touching: *touch, impulse: *impulse, response })
+        literal.map(|by_arm| by_equations_of_the_paper(model, before, targets, contacts, &by_arm)).transpose()?;
+    let each = contacts.iter().zip(&exact.impulses).map(|(contact, impulse)| {
+        let response = response(model, before, &targets[contact.target], contact)?;
+        Ok(ContactResult { contact: *contact, impulse: *impulse, response })
     });
-    let contacts = each.collect::<Result<_, Error>>()?;
-    let result = |velocities: &Velocities| balance(assembly, before, targets, touching, velocities);
+    let results = each.collect::<Result<_, Error>>()?;
+    let result = |velocities: &Velocities| balance(assembly, before, targets, contacts, velocities);
     let paper = paper.as_ref().map(result).transpose()?;
     let target_twists = exact.targets.clone();
-    Ok(ImpactSolution { exact: result(&exact)?, paper, target_twists, contacts })
+    Ok(ImpactSolution { exact: result(&exact)?, paper, target_twists, contacts: results })
 }
 
 /// Velocities after an impact, of all targets, and one impulse per contact.
@@ -101,20 +101,20 @@ struct Velocities {
 }
 
 /// The targets by arm, where each contact is rigid and the only one of its target, and no target is held yet.
-fn rigid_by_arm(assembly: &Assembly, targets: &[Body], touching: &[ImpactContact]) -> Option<Vec<Option<Target<f64>>>> {
+fn rigid_by_arm(assembly: &Assembly, targets: &[Body], contacts: &[ImpactContact]) -> Option<Vec<Option<Target<f64>>>> {
     if assembly.places.iter().any(|place| matches!(place, TargetPlacement::Merged { .. }))
         || !assembly.constraints.is_empty()
     {
         return None;
     }
     let mut by_arm = vec![None; assembly.model.arms()];
-    for touch in touching {
-        let alone = touching.iter().filter(|other| other.target == touch.target).count() == 1;
-        if !alone || !touch.law.kind().holds_yaw() {
+    for contact in contacts {
+        let alone = contacts.iter().filter(|other| other.target == contact.target).count() == 1;
+        if !alone || !contact.law.kind().holds_yaw() {
             return None;
         }
-        let Body { mass, inertia, twist, .. } = targets[touch.target];
-        by_arm[touch.arm] = Some(Target { mass, inertia, contact: touch.offset, twist });
+        let Body { mass, inertia, twist, .. } = targets[contact.target];
+        by_arm[contact.arm] = Some(Target { mass, inertia, contact: contact.offset, twist });
     }
     Some(by_arm)
 }
@@ -124,7 +124,7 @@ fn by_equations_of_the_paper(
     model: &dyn Model<f64>,
     before: &RobotState,
     targets: &[Body],
-    touching: &[ImpactContact],
+    contacts: &[ImpactContact],
     by_arm: &[Option<Target<f64>>],
 ) -> Result<Velocities, Error> {
     let (joints, arms) = (model.joints(), model.arms());
@@ -141,12 +141,12 @@ fn by_equations_of_the_paper(
         mass_matrix: &mut vec![0.0; size * size],
     };
     let base_twist = impact::paper(model, &before.view(), by_arm, &mut workspace, &mut after)?;
-    let arm_of = |i: usize| touching.iter().find(|touch| touch.target == i).map(|touch| touch.arm);
+    let arm_of = |i: usize| contacts.iter().find(|contact| contact.target == i).map(|contact| contact.arm);
     let of_targets = targets.iter().enumerate();
     Ok(Velocities {
         base_twist,
         targets: of_targets.map(|(i, target)| arm_of(i).map_or(target.twist, |arm| target_twists[arm])).collect(),
-        impulses: touching.iter().map(|touch| impulses[touch.arm]).collect(),
+        impulses: contacts.iter().map(|contact| impulses[contact.arm]).collect(),
         joint_rates,
     })
 }
@@ -156,30 +156,30 @@ fn by_contacts(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[ImpactContact],
+    contacts: &[ImpactContact],
 ) -> Result<Velocities, Error> {
     let model = &*assembly.model;
     let mut end_effectors = vec![[0.0; 3]; model.arms()];
     model.end_effector_poses(&before.base_pose, &before.joint_angles, &mut end_effectors)?;
     let bodies: Vec<Body> = assembly.separate(targets);
-    let new = touching.iter().map(|touch| {
-        let (partner, offset) = match assembly.places[touch.target] {
+    let new = contacts.iter().map(|contact| {
+        let (partner, offset) = match assembly.places[contact.target] {
             TargetPlacement::Merged { arm, .. } => {
-                let ([_, x, y], [_, from_x, from_y]) = (end_effectors[touch.arm], end_effectors[arm]);
+                let ([_, x, y], [_, from_x, from_y]) = (end_effectors[contact.arm], end_effectors[arm]);
                 (ContactPartner::EndEffector(arm), [x - from_x, y - from_y])
             }
-            TargetPlacement::Separate(i) => (ContactPartner::Body(i), touch.offset),
+            TargetPlacement::Separate(i) => (ContactPartner::Body(i), contact.offset),
         };
-        Contact { arm: touch.arm, partner, offset, law: touch.law }
+        Contact { arm: contact.arm, partner, offset, law: contact.law }
     });
     let held = assembly.constraint_contacts(&end_effectors, &bodies);
-    let contacts: Vec<_> = new.chain(held).collect();
-    let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&contacts));
+    let all: Vec<_> = new.chain(held).collect();
+    let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&all));
     let mut numbers = vec![0.0; length];
-    let rows = DelassusMatrix::new(model, &before.base_pose, &before.joint_angles, &bodies, &contacts, &mut numbers)?;
+    let rows = DelassusMatrix::new(model, &before.base_pose, &before.joint_angles, &bodies, &all, &mut numbers)?;
     let mut joint_rates = vec![0.0; model.joints()];
     let mut body_twists = vec![[0.0; 3]; bodies.len()];
-    let mut impulses = vec![[0.0; 3]; contacts.len()];
+    let mut impulses = vec![[0.0; 3]; all.len()];
     let mut after =
         contact::ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
     let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
@@ -188,7 +188,7 @@ fn by_contacts(
     model.end_effector_twists(&moving, &mut end_effector_twists)?;
     let moved: Vec<_> = bodies.iter().zip(&body_twists).map(|(body, twist)| Body { twist: *twist, ..*body }).collect();
     let after = assembly.targets(targets, &end_effectors, &end_effector_twists, &moved);
-    impulses.truncate(touching.len());
+    impulses.truncate(contacts.len());
     let twists = after.iter().map(|target| target.twist).collect();
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
 }
@@ -197,7 +197,7 @@ fn balance(
     assembly: &Assembly,
     before: &RobotState,
     targets: &[Body],
-    touching: &[ImpactContact],
+    contacts: &[ImpactContact],
     velocities: &Velocities,
 ) -> Result<ImpactResult, Error> {
     let Velocities { base_twist, joint_rates, targets: twists, impulses } = velocities;
@@ -211,12 +211,12 @@ fn balance(
     let angular = relative(jump[0].abs(), start_sizes[0].max(end_sizes[0]));
     let linear = relative(px.hypot(py), start_sizes[1].max(end_sizes[1]));
     let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> [f64; 3]| {
-        let contact = |arm| touching.iter().enumerate().find(|(_, contact)| contact.arm == arm);
+        let contact = |arm| contacts.iter().enumerate().find(|(_, contact)| contact.arm == arm);
         (0..assembly.model.arms()).map(|arm| contact(arm).map(|(i, contact)| value(i, contact))).collect()
     };
     Ok(ImpactResult {
         base_twist_after: *base_twist,
-        target_twists_after: per_arm(&|_, touch| twists[touch.target]),
+        target_twists_after: per_arm(&|_, contact| twists[contact.target]),
         impulses: per_arm(&|i, _| impulses[i]),
         momentum_jump: jump,
         relative_momentum_jump: angular.max(linear),

@@ -77,7 +77,7 @@ pub struct CaseResult {
 
 /// An impact after the first one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FurtherImpact {
+pub struct LaterImpact {
     /// Since the first impact, s.
     pub time: f64,
     /// The impact.
@@ -107,11 +107,11 @@ pub struct CaptureResult {
     /// The targets at each of its samples.
     pub targets: Vec<Vec<Body>>,
     /// Impacts after the first one, where contacts are found by detection.
-    pub further: Vec<FurtherImpact>,
+    pub later_impacts: Vec<LaterImpact>,
     /// Largest penetration of a target by an end effector that does not hold it, m.
     pub penetration: f64,
     /// The residual motion at the end; `None` without control, as in the paper.
-    pub remainder: Option<ResidualMotion>,
+    pub residual_motion: Option<ResidualMotion>,
 }
 
 /// Why a study has no result.
@@ -270,20 +270,21 @@ impl CaseResult {
 impl Study {
     /// The failures of the audit; empty when every phase and every exact impact passes.
     #[must_use]
-    pub fn objections(&self) -> Vec<String> {
+    pub fn audit_failures(&self) -> Vec<String> {
         let mut found = Vec::new();
         // the approach without contacts is not part of any case with contact detection
         if self.cases.iter().any(|case| case.approach.is_none()) {
-            found.extend(phase_objections("approach", &self.approach));
+            found.extend(phase_failures("approach", &self.approach));
         }
         for case in &self.cases {
             if let Some(own) = &case.approach {
-                found.extend(phase_objections(&format!("{}, approach", case.name), own));
+                found.extend(phase_failures(&format!("{}, approach", case.name), own));
             }
             let Some(captured) = &case.capture else { continue };
-            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
-            found.extend(impacts.flat_map(|impact| impact_objections(&case.name, &impact.exact)));
-            found.extend(phase_objections(&format!("{}, post-impact", case.name), &captured.post_impact));
+            let impacts =
+                std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));
+            found.extend(impacts.flat_map(|impact| impact_failures(&case.name, &impact.exact)));
+            found.extend(phase_failures(&format!("{}, post-impact", case.name), &captured.post_impact));
             if captured.penetration > PENETRATION_BOUND {
                 found.push(format!(
                     "{}: a tip is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
@@ -300,7 +301,7 @@ fn exceeds(value: f64, bound: f64) -> bool {
     value.partial_cmp(&bound).is_none_or(Ordering::is_gt)
 }
 
-fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
+fn impact_failures(case: &str, exact: &ImpactResult) -> Vec<String> {
     let mut found = Vec::new();
     let jump = exact.relative_momentum_jump;
     if exceeds(jump, MOMENTUM_BOUND) {
@@ -315,7 +316,7 @@ fn impact_objections(case: &str, exact: &ImpactResult) -> Vec<String> {
     found
 }
 
-fn phase_objections(name: &str, phase: &Phase) -> Vec<String> {
+fn phase_failures(name: &str, phase: &Phase) -> Vec<String> {
     let checks = [
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),

@@ -7,7 +7,7 @@ use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMot
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
-use crate::capture::{CaptureResult, CaseResult, ClosestApproach, FurtherImpact, ModelFactory, Observer, StudyError};
+use crate::capture::{CaptureResult, CaseResult, ClosestApproach, LaterImpact, ModelFactory, Observer, StudyError};
 use crate::contact::ContactLaw;
 use crate::error::Error;
 use crate::owned::RobotState;
@@ -35,8 +35,8 @@ pub(crate) struct CaptureSequence<'a> {
 impl CaptureSequence<'_> {
     /// Runs the case with contacts where the end effectors are when the approach ends.
     pub(crate) fn contact_at_time(self, end: &Sample, observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
-        let (targets, touching) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
-        let capture = self.after_impact(&end.state, &targets, &touching, false, observer)?;
+        let (targets, contacts) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
+        let capture = self.after_impact(&end.state, &targets, &contacts, false, observer)?;
         let name = self.case.name.clone();
         Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
     }
@@ -64,8 +64,8 @@ impl CaptureSequence<'_> {
         let mut closest = self.closest(&pairs, &phase, 0.0, &paths);
         let capture = match phase.event {
             Some((event, _)) => {
-                let touching = self.touching(&pairs, event, &targets, &phase.end().end_effector_poses);
-                Some(self.after_impact(&phase.end().state, &targets, &touching, true, observer)?)
+                let contacts = self.contacts_made(&pairs, event, &targets, &phase.end().end_effector_poses);
+                Some(self.after_impact(&phase.end().state, &targets, &contacts, true, observer)?)
             }
             None => None,
         };
@@ -74,8 +74,8 @@ impl CaptureSequence<'_> {
             for (nearest, later) in closest.iter_mut().zip(later) {
                 *nearest = if later.distance < nearest.distance { later } else { *nearest };
             }
-            let touched = captured.further.iter().map(|further| &further.impact).chain([&captured.impact]);
-            let touched: Vec<_> = touched.flat_map(|impact| &impact.contacts).map(|contact| contact.touching).collect();
+            let touched = captured.later_impacts.iter().map(|later| &later.impact).chain([&captured.impact]);
+            let touched: Vec<_> = touched.flat_map(|impact| &impact.contacts).map(|result| result.contact).collect();
             closest.retain(|pair| !touched.iter().any(|t| t.arm == pair.arm && t.target == pair.target));
         }
         let name = self.case.name.clone();
@@ -87,7 +87,7 @@ impl CaptureSequence<'_> {
         self,
         before: &RobotState,
         targets: &[Body],
-        touching: &[ImpactContact],
+        contacts: &[ImpactContact],
         detected: bool,
         observer: &mut dyn Observer,
     ) -> Result<CaptureResult, StudyError> {
@@ -101,18 +101,19 @@ impl CaptureSequence<'_> {
             assembly: free,
             angles: before.joint_angles.clone(),
         };
-        let impact = moving.apply_impact(touching)?;
+        let impact = moving.apply_impact(contacts)?;
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
         let (mut post_impact, mut target_paths) = moving.integrate_to_contact(&open, 0.0, observer)?;
-        let mut further = Vec::new();
+        let mut later_impacts = Vec::new();
         let mut penetration = self.penetration(&open, &post_impact, &target_paths);
         while let Some((event, _)) = post_impact.event {
             let time = post_impact.duration;
-            if further.len() == MAX_IMPACTS {
-                return Err(StudyError::Chatter { case: self.case.name.clone(), impacts: further.len() + 1, time });
+            if later_impacts.len() == MAX_IMPACTS {
+                let impacts = later_impacts.len() + 1;
+                return Err(StudyError::Chatter { case: self.case.name.clone(), impacts, time });
             }
-            let touching = self.touching(&open, event, &moving.targets, &post_impact.end().end_effector_poses);
-            further.push(FurtherImpact { time, impact: moving.apply_impact(&touching)? });
+            let contacts = self.contacts_made(&open, event, &moving.targets, &post_impact.end().end_effector_poses);
+            later_impacts.push(LaterImpact { time, impact: moving.apply_impact(&contacts)? });
             if time >= self.after.duration {
                 break;
             }
@@ -126,14 +127,7 @@ impl CaptureSequence<'_> {
             PostCaptureControl::None => None,
             control => Some(moving.residual_motion(control, &post_impact)?),
         };
-        Ok(CaptureResult {
-            impact,
-            post_impact,
-            targets: target_paths,
-            further,
-            penetration,
-            remainder: residual_motion,
-        })
+        Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
     }
 
     fn impact_error(self, source: Error) -> StudyError {
@@ -178,14 +172,14 @@ impl CaptureSequence<'_> {
     }
 
     /// The contacts at one instant: the one detected, and those made at the same time.
-    fn touching(
+    fn contacts_made(
         self,
         pairs: &[ContactPair],
         event: usize,
         targets: &[Body],
         end_effectors: &[[f64; 3]],
     ) -> Vec<ImpactContact> {
-        let mut touching = Vec::new();
+        let mut contacts = Vec::new();
         for (i, pair) in pairs.iter().enumerate() {
             let ContactPair { target, contact, arm } = *pair;
             let (body, end_effector) = (&targets[target], &end_effectors[arm]);
@@ -195,10 +189,10 @@ impl CaptureSequence<'_> {
             if let Some(kind) = kind {
                 let law = ContactLaw::new(kind, || normal, self.case.restitutions[target]);
                 let offset = [end_effector[1] - body.pose[1], end_effector[2] - body.pose[2]];
-                touching.push(ImpactContact { target, arm, law, offset, miss: distance.abs() });
+                contacts.push(ImpactContact { target, arm, law, offset, miss: distance.abs() });
             }
         }
-        touching
+        contacts
     }
 
     fn check_apart(self, targets: &[Body], pairs: &[ContactPair]) -> Result<(), StudyError> {
@@ -247,16 +241,16 @@ struct SequenceState<'a> {
 
 impl SequenceState<'_> {
     /// Solves the impact, sets the velocities after it, and adds lasting contacts to the assembly.
-    fn apply_impact(&mut self, touching: &[ImpactContact]) -> Result<ImpactSolution, StudyError> {
+    fn apply_impact(&mut self, contacts: &[ImpactContact]) -> Result<ImpactSolution, StudyError> {
         let sequence = self.sequence;
-        let impact = solve_impact(&self.assembly, &self.state, &self.targets, touching)
+        let impact = solve_impact(&self.assembly, &self.state, &self.targets, contacts)
             .map_err(|source| sequence.impact_error(source))?;
         self.state.base_twist = impact.exact.base_twist_after;
         self.state.joint_rates.clone_from(&impact.exact.joint_rates_after);
         for (target, twist) in self.targets.iter_mut().zip(&impact.target_twists) {
             target.twist = *twist;
         }
-        self.attachments.extend(holds(touching));
+        self.attachments.extend(holds(contacts));
         self.assembly = Assembly::new((sequence.make)(), &self.state, &self.targets, &self.attachments)
             .map_err(|source| sequence.impact_error(source))?;
         Ok(impact)
@@ -273,12 +267,12 @@ impl SequenceState<'_> {
         let sequence = self.sequence;
         let Self { state, targets, assembly, .. } = self;
         let motion = TargetMotion::Assembled(assembly, targets);
-        let mut contacts = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
+        let mut detection = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
         let wheels = wheels(&sequence.scenario.layout, &self.attachments);
         let wanted = PostCaptureLaw { after: sequence.after, wheels: &wheels, angles: &self.angles };
         let timing = sequence.timing(sequence.after.duration - time);
         let system = System { joint_limits: &sequence.scenario.joint_limits, ..assembly.system() };
-        let phase = run_post_capture(&system, wanted, state, &timing, &mut contacts, &mut || observer.step())
+        let phase = run_post_capture(&system, wanted, state, &timing, &mut detection, &mut || observer.step())
             .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))?;
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
@@ -298,7 +292,7 @@ impl SequenceState<'_> {
 }
 
 /// The contacts that last.
-fn holds(touching: &[ImpactContact]) -> impl Iterator<Item = Attachment> {
-    let held = touching.iter().filter(|touch| touch.law.kind().holds());
-    held.map(|touch| Attachment { target: touch.target, arm: touch.arm, kind: touch.law.kind() })
+fn holds(contacts: &[ImpactContact]) -> impl Iterator<Item = Attachment> {
+    let held = contacts.iter().filter(|contact| contact.law.kind().holds());
+    held.map(|contact| Attachment { target: contact.target, arm: contact.arm, kind: contact.law.kind() })
 }

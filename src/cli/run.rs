@@ -40,7 +40,7 @@ fn positive(text: &str) -> Result<f64, String> {
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }
 }
 
-/// Computes the study, writes its files and prints its table; exit code 1 if the audit has objections.
+/// Computes the study, writes its files and prints its table; exit code 1 if the audit fails.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
     let scenario = Scenario::read(&arguments.scenario, registry::SHIPPED)?;
@@ -60,14 +60,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     write_results(&folder, &scenario, arguments, &study)?;
     let mut out = std::io::stdout().lock();
     writeln!(out, "{}\nResults in {}", table(&scenario, &study), folder.display())?;
-    let objections = study.objections();
-    for objection in &objections {
-        eprintln!("audit: {objection}");
+    let failures = study.audit_failures();
+    for failure in &failures {
+        eprintln!("audit: {failure}");
     }
-    if objections.iter().any(|objection| objection.contains("over its bound")) {
+    if failures.iter().any(|failure| failure.contains("over its bound")) {
         eprintln!("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
     }
-    Ok(if objections.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }
 
 /// Writes all files before the first gets its name, so that a full disk leaves no mixture of two runs.

@@ -151,8 +151,8 @@ fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
             writeln!(out, "  {:<16} no contact", case.name)?;
         }
         // a target that one arm touches is where the end effector puts it
-        let missed = capture.impact.contacts.iter().filter(|contact| contact.touching.miss > REPORTED_MISS);
-        for ImpactContact { target, arm, miss, .. } in missed.map(|contact| contact.touching) {
+        let missed = capture.impact.contacts.iter().filter(|result| result.contact.miss > REPORTED_MISS);
+        for ImpactContact { target, arm, miss, .. } in missed.map(|result| result.contact) {
             let (arm, target) = (&scenario.layout.arms[arm].name, &scenario.targets[target].name);
             writeln!(
                 out,
@@ -175,8 +175,8 @@ fn impulses_of_case(
 ) -> fmt::Result {
     for event in impacts(study, result) {
         let literal = event.solution.paper.as_ref().map(ImpactResult::impulse_magnitudes);
-        for contact in &event.solution.contacts {
-            let ImpactContact { target, arm, law, .. } = contact.touching;
+        for result in &event.solution.contacts {
+            let ImpactContact { target, arm, law, .. } = result.contact;
             let literal = literal.as_ref().and_then(|arms| arms[arm]);
             let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
             let last = match (scenario.contact.detection, case.printed_impulses[target]) {
@@ -184,7 +184,7 @@ fn impulses_of_case(
                 (Detection::Time, Some(printed)) => format!("{printed:.4}"),
                 (Detection::Time, None) => String::new(),
             };
-            let [_, fx, fy] = contact.impulse;
+            let [_, fx, fy] = result.impulse;
             let (exact, kind) = (fx.hypot(fy), law.kind().name());
             let force = scenario.contact.duration.map(|duration| format!("{:.3}", exact / duration));
             let row = format!(
@@ -269,7 +269,7 @@ fn post_impact(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Res
 fn residual_motion(out: &mut String, study: &Study) -> fmt::Result {
     let each = study.cases.iter().filter_map(|case| {
         let capture = case.capture.as_ref()?;
-        Some((case, &capture.post_impact, capture.remainder.as_ref()?))
+        Some((case, &capture.post_impact, capture.residual_motion.as_ref()?))
     });
     let each: Vec<_> = each.collect();
     if each.is_empty() {

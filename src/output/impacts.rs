@@ -36,16 +36,16 @@ pub fn impacts<'a>(study: &'a Study, case: &'a CaseResult) -> Vec<ImpactEvent<'a
         after: 0,
     };
     let samples = &capture.post_impact.samples;
-    let further = capture.further.iter().map(|further| {
+    let later = capture.later_impacts.iter().map(|later| {
         // the samples before and after an impact have the same time
-        let before = samples.partition_point(|sample| sample.time < further.time);
+        let before = samples.partition_point(|sample| sample.time < later.time);
         ImpactEvent {
-            time: approach.duration + further.time,
-            solution: &further.impact,
+            time: approach.duration + later.time,
+            solution: &later.impact,
             before: &samples[before],
             targets: &capture.targets[before],
-            after: samples.partition_point(|sample| sample.time <= further.time) - 1,
+            after: samples.partition_point(|sample| sample.time <= later.time) - 1,
         }
     });
-    std::iter::once(first).chain(further).collect()
+    std::iter::once(first).chain(later).collect()
 }

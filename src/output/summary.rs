@@ -51,18 +51,18 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
     if let Some(captured) = &case.capture {
         value["impact"] = impact(scenario, &captured.impact);
         value["post_impact"] = phase(&captured.post_impact, false);
-        if !captured.further.is_empty() {
-            let further = captured.further.iter().map(|further| {
-                let mut value = impact(scenario, &further.impact);
-                value["time"] = json!(further.time);
+        if !captured.later_impacts.is_empty() {
+            let later = captured.later_impacts.iter().map(|later| {
+                let mut value = impact(scenario, &later.impact);
+                value["time"] = json!(later.time);
                 value
             });
-            value["post_impact"]["impacts"] = further.collect();
+            value["post_impact"]["impacts"] = later.collect();
         }
         if captured.penetration > 0.0 {
             value["post_impact"]["penetration"] = json!(captured.penetration);
         }
-        if let Some(residual) = &captured.remainder {
+        if let Some(residual) = &captured.residual_motion {
             value["post_impact"]["remainder"] = residual_motion(residual);
         }
     }
@@ -122,7 +122,7 @@ fn violation(violation: &LimitViolation) -> Value {
 
 /// One contact, with target and arm by name.
 pub(super) fn contact_value(scenario: &Scenario, result: &ContactResult) -> Value {
-    let ImpactContact { target, arm, law, offset, miss } = result.touching;
+    let ImpactContact { target, arm, law, offset, miss } = result.contact;
     let response = &result.response;
     let mut value = json!({
         "target": scenario.targets[target].name,

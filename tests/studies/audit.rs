@@ -93,13 +93,13 @@ fn a_centre_of_mass_that_strays_is_objected_to() {
     let mut study = run(&scenario("redysim_single_arm_3r"));
     assert!(study.approach.drift.center_of_mass_drift < 1e-12, "{:?}", study.approach.drift);
     study.approach.drift.center_of_mass_drift = 1.1e-9;
-    let objections = study.objections();
+    let failures = study.audit_failures();
     assert!(
-        matches!(objections.as_slice(), [one] if one.contains("approach: centre-of-mass drift 1.10e-9")),
-        "{objections:?}"
+        matches!(failures.as_slice(), [one] if one.contains("approach: centre-of-mass drift 1.10e-9")),
+        "{failures:?}"
     );
     study.approach.drift.center_of_mass_drift = f64::NAN;
-    assert_eq!(study.objections().len(), 1);
+    assert_eq!(study.audit_failures().len(), 1);
 }
 
 fn limited(layout: &Layout, angles: [f64; 2], rate: f64) -> Vec<JointLimits> {
@@ -163,7 +163,7 @@ fn the_largest_excess_is_found() {
                 assert!([-1.45, 2.5, -0.12, 0.12].contains(limit) && limit.signum() == found.signum(), "{limit}");
             }
         }
-        assert!(study.objections().iter().any(|objection| objection.contains("beyond its limit of")));
+        assert!(study.audit_failures().iter().any(|failure| failure.contains("beyond its limit of")));
     }
     assert!(seen > 10, "{seen} excesses");
     let (scenario, study) = &studies[0];

@@ -206,20 +206,20 @@ mod drawn {
             let captured = case.capture.as_ref().expect("a contact");
             let (first, post) = (case.approach(&study), &captured.post_impact);
             let at = |time: f64| post.samples.iter().find(|sample| sample.time >= time).expect("a sample");
-            let later = captured.further.iter().map(|one| (first.duration + one.time, at(one.time), &one.impact));
+            let later = captured.later_impacts.iter().map(|one| (first.duration + one.time, at(one.time), &one.impact));
             let impacts = std::iter::once((first.duration, first.end(), &captured.impact)).chain(later);
-            assert_eq!(figure.panels.len(), 1 + captured.further.len());
+            assert_eq!(figure.panels.len(), 1 + captured.later_impacts.len());
             for (panel, (time, now, impact)) in figure.panels.iter().zip(impacts) {
                 assert_eq!(panel.title, Some(format!("Impact at {time:.3} s")));
-                let contact = &impact.contacts[0];
-                let [_, x, y] = now.end_effector_poses[contact.touching.arm];
+                let result = &impact.contacts[0];
+                let [_, x, y] = now.end_effector_poses[result.contact.arm];
                 let arrow = points(panel, "impulse on the robot");
                 assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the tip");
-                let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), contact.impulse);
+                let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), result.impulse);
                 assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
                 // a line from the target's COM to the tip that touches it
-                let target = points(panel, &scenario.targets[contact.touching.target].name);
-                let [rx, ry] = contact.touching.offset;
+                let target = points(panel, &scenario.targets[result.contact.target].name);
+                let [rx, ry] = result.contact.offset;
                 let (from, to) = (target[target.len() - 2], target[target.len() - 1]);
                 assert_eq!(to, (x, y));
                 assert!((x - from.0 - rx).abs() + (y - from.1 - ry).abs() < 1e-12, "{name}");
@@ -248,12 +248,12 @@ mod drawn {
         let mut contacts: Vec<_> = Vec::new();
         for case in &of_rebound.cases {
             let captured = case.capture.as_ref().expect("a contact");
-            let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+            let impacts = std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|one| &one.impact));
             contacts.extend(impacts.flat_map(|impact| &impact.contacts));
         }
         contacts.reverse(); // the first is on top
-        for (i, contact) in contacts.iter().enumerate() {
-            let ContactLaw::Bounce { normal: [nx, ny], restitution } = contact.touching.law else { panic!("a bounce") };
+        for (i, result) in contacts.iter().enumerate() {
+            let ContactLaw::Bounce { normal: [nx, ny], restitution } = result.contact.law else { panic!("a bounce") };
             let [[bx, by, _], [ax, ay, _]] = ["before", "after"].map(|when| relative(&shown, when, i));
             let (closing, parting) = (-(bx * nx + by * ny), ax * nx + ay * ny);
             assert!(
@@ -314,7 +314,7 @@ mod drawn {
             .filter(|pair| pair[0].0.to_bits() == pair[1].0.to_bits())
             .map(|pair| pair[1].1 - pair[0].1)
             .collect();
-        let impacts = std::iter::once(&captured.impact).chain(captured.further.iter().map(|one| &one.impact));
+        let impacts = std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|one| &one.impact));
         let costs: Vec<f64> =
             impacts.map(|impact| impact.exact.kinetic_energy_after - impact.exact.kinetic_energy_before).collect();
         assert_eq!(steps.len(), costs.len());

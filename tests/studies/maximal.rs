@@ -84,21 +84,21 @@ fn left(found: &ImpactSolution) -> Left {
 /// An impact of the study against the reference's; returns what is held from then on.
 fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) -> Vec<Hold> {
     let mut holds = vec![];
-    for contact in &capture.contacts {
-        let touching = contact.touching;
-        let kind = match touching.law {
+    for result in &capture.contacts {
+        let contact = result.contact;
+        let kind = match contact.law {
             contact::ContactLaw::Rigid => Kind::Rigid,
             contact::ContactLaw::Pin => Kind::Pin,
             contact::ContactLaw::Bounce { normal, restitution } => {
-                let (_, wanted) = signed_distance(scenario, before, touching.arm, touching.target);
+                let (_, wanted) = signed_distance(scenario, before, contact.arm, contact.target);
                 assert_close("normal", &normal, &wanted, tolerance::IN_SERIES);
                 Kind::Bounce { normal, restitution }
             }
         };
-        let body = &before.bodies[1 + before.joints.len() + touching.target];
-        let offset = before.position(&before.tips[touching.arm]) - body.com();
-        assert_close("offset", &touching.offset, offset.as_slice(), tolerance::STRAIGHT);
-        holds.push(Hold { arm: touching.arm, target: touching.target, kind });
+        let body = &before.bodies[1 + before.joints.len() + contact.target];
+        let offset = before.position(&before.tips[contact.arm]) - body.com();
+        assert_close("offset", &contact.offset, offset.as_slice(), tolerance::STRAIGHT);
+        holds.push(Hold { arm: contact.arm, target: contact.target, kind });
     }
     let contacts: Vec<_> = holds.iter().map(|hold| hold.contact(before)).collect();
     let wanted = impact(before, &contacts);
@@ -138,25 +138,25 @@ fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
     let Some(captured) = &case.capture else { return 0 };
     let before = &case.approach(study).end().state;
     let mut held = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
-    let first = captured.further.first().map_or(f64::INFINITY, |further| further.time);
+    let first = captured.later_impacts.first().map_or(f64::INFINITY, |later| later.time);
     check_motion(scenario, captured, 0, &held, first.min(4.0));
-    for further in &captured.further {
+    for later in &captured.later_impacts {
         // twice the same instant: before it and after
-        let at = captured.post_impact.samples.iter().position(|sample| sample.time >= further.time).expect("a sample");
+        let at = captured.post_impact.samples.iter().position(|sample| sample.time >= later.time).expect("a sample");
         let before = system(scenario, &captured.post_impact.samples[at].state, &captured.targets[at], &held);
-        held.extend(check_impact(scenario, &before, &further.impact));
-        let next = captured.further.iter().map(|one| one.time).find(|time| *time > further.time);
+        held.extend(check_impact(scenario, &before, &later.impact));
+        let next = captured.later_impacts.iter().map(|one| one.time).find(|time| *time > later.time);
         if at + 1 < captured.post_impact.samples.len() {
-            check_motion(scenario, captured, at + 1, &held, (next.unwrap_or(f64::INFINITY) - further.time).min(4.0));
+            check_motion(scenario, captured, at + 1, &held, (next.unwrap_or(f64::INFINITY) - later.time).min(4.0));
         }
     }
-    1 + captured.further.len()
+    1 + captured.later_impacts.len()
 }
 
 fn check_scenario(name: &str) -> (Scenario, Study, Vec<usize>) {
     let scenario = scenario(name);
     let study = studied(&scenario);
-    assert_eq!(study.objections(), Vec::<String>::new(), "{name}");
+    assert_eq!(study.audit_failures(), Vec::<String>::new(), "{name}");
     let impacts = study.cases.iter().map(|case| check_case(&scenario, &study, case)).collect();
     (scenario, study, impacts)
 }
@@ -178,7 +178,7 @@ fn three_arms_and_three_kinds() {
     let (_, study, impacts) = check_scenario("three_arms");
     assert_eq!(impacts, [1]);
     let contacts = &study.cases[0].capture.as_ref().expect("a capture").impact.contacts;
-    let names: Vec<_> = contacts.iter().map(|contact| contact.touching.law.kind().name()).collect();
+    let names: Vec<_> = contacts.iter().map(|result| result.contact.law.kind().name()).collect();
     assert_eq!(names, ["rigid", "pin", "bounce"]);
 }
 
@@ -244,7 +244,7 @@ fn rebounds_are_detected() {
             .impact
             .contacts
             .iter()
-            .map(|c| signed_distance(&scenario, &all, c.touching.arm, c.touching.target).0);
+            .map(|result| signed_distance(&scenario, &all, result.contact.arm, result.contact.target).0);
         assert!(
             distances.clone().all(|distance| distance.abs() <= tolerance::DETECTED),
             "{:?}",

@@ -174,7 +174,7 @@ mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
     use crate::{run, scenario};
     use foxglove::messages::{FrameTransforms, PointCloud, SceneUpdate};
-    use planar_capture::capture::{CaseResult, FurtherImpact, Study};
+    use planar_capture::capture::{CaseResult, LaterImpact, Study};
     use planar_capture::outline::Outline;
     use planar_capture::output::mcap::write_mcap;
     use planar_capture::output::time_series::columns;
@@ -307,13 +307,13 @@ mod mcap_files {
                 assert_close("yaw, but for whole turns", &[turns], &[turns.round()], tolerance::TRANSFORMS);
                 assert_close("tip", &pose[1..], &tip[1..], tolerance::TRANSFORMS);
             }
-            for contact in &captured.impact.contacts {
-                let (target, arm) = (contact.touching.target, contact.touching.arm);
+            for result in &captured.impact.contacts {
+                let (target, arm) = (result.contact.target, result.contact.arm);
                 let (name, start) = (&scenario.targets[target].name, study.cases[1].targets[target].pose[0]);
                 let [yaw, x, y] = poses[&format!("targets/{name}")];
                 let (tip, end) = (sample.end_effector_poses[arm], contact_sample.end_effector_poses[arm]);
                 // where the contact point is: it turns with the target
-                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), contact.touching.offset);
+                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), result.contact.offset);
                 if i + 1 >= before {
                     let held = [x + cos * rx - sin * ry, y + sin * rx + cos * ry];
                     assert_close("the target is held by the tip", &held, &tip[1..], tolerance::TRANSFORMS);
@@ -387,7 +387,7 @@ mod mcap_files {
         let captured = study.cases[0].capture.as_mut().expect("a capture");
         let mut second = captured.impact.clone();
         second.exact.impulses[0] = None;
-        captured.further.push(FurtherImpact { time: 10.0, impact: second });
+        captured.later_impacts.push(LaterImpact { time: 10.0, impact: second });
         let captured = study.cases[0].capture.as_ref().expect("a capture");
         let (_, file) = record(&scenario, &study, &study.cases[0]);
         let times = |topic: &str| file.messages[topic].iter().map(|(time, _)| *time).collect::<Vec<_>>();

@@ -94,7 +94,7 @@ fn a_minute_of_other_approaches() {
         );
         let scenario = Scenario::parse(&text, "it.toml", Path::new(""), SHIPPED).unwrap_or_else(|e| panic!("{e}"));
         let study = run(&scenario);
-        assert_eq!(study.objections(), Vec::<String>::new());
+        assert_eq!(study.audit_failures(), Vec::<String>::new());
         for state in series["states"].as_array().expect("states") {
             let at = state["time"].as_f64().expect("s");
             let sample = study.approach.samples.iter().find(|s| (s.time - at).abs() < 1e-9).expect("a sample");

@@ -43,7 +43,7 @@ fn generated(scenario: &Scenario) -> Box<dyn CloneModel> {
 
 #[track_caller]
 fn check_end(study: &Study, poses: &[[f64; 3]], twists: &[[f64; 3]], tolerance: f64) {
-    assert_eq!(study.objections(), Vec::<String>::new());
+    assert_eq!(study.audit_failures(), Vec::<String>::new());
     let end = study.approach.end();
     assert_close("poses", end.end_effector_poses.as_flattened(), poses.as_flattened(), tolerance);
     assert_close("twists", end.end_effector_twists.as_flattened(), twists.as_flattened(), tolerance);
@@ -155,7 +155,7 @@ fn sampled_it_stays_near_the_paths() {
 fn the_shipped_study_meets_its_targets() {
     let scenario = scenario("resolved_motion_rate");
     let study = run(&scenario);
-    assert_eq!(study.objections(), Vec::<String>::new());
+    assert_eq!(study.audit_failures(), Vec::<String>::new());
     let end = study.approach.end();
     for ((pose, twist), (x, v)) in
         end.end_effector_poses.iter().zip(&end.end_effector_twists).zip([([2.0, -1.5], -0.1), ([-2.0, 1.5], 0.1)])
@@ -241,7 +241,7 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
         steered(&[EndEffectorGoal::Position([3.45, -0.3]), EndEffectorGoal::Position([-2.0, 1.5])], &[[0.0; 3]; 2]);
     scenario.approach.duration = 30.0;
     let study = run(&scenario);
-    assert_eq!(study.objections(), Vec::<String>::new());
+    assert_eq!(study.audit_failures(), Vec::<String>::new());
     let [Some(far), Some(_)] = study.terminal_errors.as_slice() else { panic!("{:?}", study.terminal_errors) };
     assert!(!far.reached && (0.01..0.2).contains(&far.distance), "{far:?}");
     assert!(study.approach.singularity_margin.is_some_and(|margin| margin < 0.04));

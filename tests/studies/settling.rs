@@ -21,7 +21,7 @@ fn study_with(control: PostCaptureControl) -> (Scenario, Vec<CaptureResult>) {
     let mut scenario = scenario("raina_shah_2017");
     scenario.post_impact.as_mut().expect("a capture").control = control;
     let study = run(&scenario);
-    assert_eq!(study.objections(), Vec::<String>::new());
+    assert_eq!(study.audit_failures(), Vec::<String>::new());
     (scenario, study.cases.into_iter().map(|case| case.capture.expect("a capture")).collect())
 }
 
@@ -34,7 +34,7 @@ fn ends(captured: &CaptureResult) -> (&RobotState, &RobotState, &ResidualMotion)
     (
         &samples.first().expect("a start").state,
         &samples.last().expect("an end").state,
-        captured.remainder.as_ref().expect("a remainder"),
+        captured.residual_motion.as_ref().expect("a residual motion"),
     )
 }
 
@@ -88,7 +88,7 @@ fn a_base_torque_takes_the_angular_momentum() {
         let (start, end, left) = ends(captured);
         let decay = (-0.5 * captured.post_impact.duration).exp();
         assert_close("base rate", &[end.base_twist[0]], &[start.base_twist[0] * decay], tolerance::SETTLED);
-        let [before, rest @ ..] = free.remainder.as_ref().expect("a remainder").momentum;
+        let [before, rest @ ..] = free.residual_motion.as_ref().expect("a residual motion").momentum;
         assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::SETTLED);
         let end = captured.post_impact.end();
         assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::SETTLED);
@@ -134,7 +134,7 @@ fn without_control_nothing_is_said_of_it() {
 #[test]
 fn the_shipped_study_comes_to_rest() {
     for case in run(&scenario("stabilised_capture")).cases {
-        let left = case.capture.expect("a capture").remainder.expect("a remainder");
+        let left = case.capture.expect("a capture").residual_motion.expect("a residual motion");
         assert!(left.base_rate.abs() < 1e-6 && left.largest_joint_rate < 1e-9, "{left:?}");
         assert!(left.rigid_rate.abs() < 1e-6, "{left:?}");
     }
@@ -164,7 +164,7 @@ fn settle_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>) ->
     let phase =
         run_post_capture(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     let end = phase.end().state.clone();
-    let left = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a remainder");
+    let left = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a residual motion");
     (phase, left, wheels)
 }
 

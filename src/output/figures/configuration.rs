@@ -41,7 +41,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     let expected = || expected_targets(scenario, "expected targets");
     let mut at_end = [expected(), robot(&scenario.layout, &end.state)].concat();
     if let Some(case) = study.cases.first() {
-        let contacts = case.capture.iter().flat_map(|capture| &capture.impact.contacts).map(|one| one.touching);
+        let contacts = case.capture.iter().flat_map(|capture| &capture.impact.contacts).map(|result| result.contact);
         at_end.extend(targets(scenario, &case.targets, end, &contacts.collect::<Vec<_>>()).concat());
     }
     let end_name = if scenario.targets.is_empty() { "final_configuration" } else { "impact_configuration" };
@@ -62,13 +62,13 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
     let reach = scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max);
     let length_per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };
     let at_impact = |event: &ImpactEvent<'_>| {
-        let contacts = &event.solution.contacts;
-        let touching: Vec<_> = contacts.iter().map(|contact| contact.touching).collect();
+        let results = &event.solution.contacts;
+        let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
         let title = format!("Impact at {:.3} s", event.time);
-        let mut snapshot = snapshot(title, event.before, event.targets, &touching);
-        snapshot.series.extend(contacts.iter().filter_map(|contact| {
-            let [_, x, y] = event.before.end_effector_poses[contact.touching.arm];
-            let [_, fx, fy] = contact.impulse.map(|part| part * length_per_impulse);
+        let mut snapshot = snapshot(title, event.before, event.targets, &contacts);
+        snapshot.series.extend(results.iter().filter_map(|result| {
+            let [_, x, y] = event.before.end_effector_poses[result.contact.arm];
+            let [_, fx, fy] = result.impulse.map(|part| part * length_per_impulse);
             arrow("impulse on the robot", [x, y], [fx, fy])
         }));
         snapshot
@@ -94,7 +94,7 @@ pub(super) fn post_impact_motion(
     let events = impacts(study, case);
     let contacts_until = |i: usize| {
         let past = events.iter().filter(move |event| event.after <= i);
-        past.flat_map(|event| &event.solution.contacts).map(|contact| contact.touching)
+        past.flat_map(|event| &event.solution.contacts).map(|result| result.contact)
     };
     let snapshots = (0..SNAPSHOTS).map(|k| {
         let i = (samples.len() - 1) * k / (SNAPSHOTS - 1);

@@ -58,8 +58,8 @@ fn contact_twists(
     event: &ImpactEvent<'_>,
 ) -> Vec<ContactTwists> {
     let after = &capture.post_impact.samples[event.after];
-    let each = event.solution.contacts.iter().map(|contact| {
-        let ImpactContact { target, arm, law, offset: [rx, ry], .. } = contact.touching;
+    let each = event.solution.contacts.iter().map(|result| {
+        let ImpactContact { target, arm, law, offset: [rx, ry], .. } = result.contact;
         let (kind, body) = (law.kind(), &scenario.targets[target]);
         // v + ω × r
         let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];

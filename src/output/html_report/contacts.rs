@@ -30,7 +30,7 @@ pub(super) fn impacts_of_case(scenario: &Scenario, study: &Study, result: &CaseR
 
 /// The contact as in the summary, but target and arm by index, with quantities that the page shows.
 fn contact(scenario: &Scenario, event: &ImpactEvent<'_>, result: &ContactResult) -> Value {
-    let ImpactContact { target, arm, law, .. } = result.touching;
+    let ImpactContact { target, arm, law, .. } = result.contact;
     let [_, x, y] = event.before.end_effector_poses[arm];
     let [_, vx, vy] = result.response.relative_twist;
     let mut value = contact_value(scenario, result);
@@ -89,7 +89,7 @@ pub(super) fn constraint_openings(study: &Study, result: &CaseResult, capture: &
     let mut openings = Vec::new();
     let mut merged = Vec::new();
     for event in impacts(study, result) {
-        let contacts = event.solution.contacts.iter().map(|contact| contact.touching);
+        let contacts = event.solution.contacts.iter().map(|result| result.contact);
         for ImpactContact { target, arm, law, .. } in contacts.filter(|contact| contact.law.kind().holds()) {
             let rigid = law.kind().holds_yaw();
             if rigid && !merged.contains(&target) {

@@ -26,7 +26,7 @@ pub(super) fn data(scenario: &Scenario, study: &Study) -> Value {
             },
         })).collect::<Vec<_>>(),
         "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
-        "objections": study.objections(),
+        "objections": study.audit_failures(),
     });
     // with an approach of its own in every case, the study's approach is that without contacts
     if study.cases.iter().any(|case| case.approach.is_none()) {
