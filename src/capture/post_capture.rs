@@ -49,32 +49,24 @@ pub fn run_post_capture(
 ) -> Result<Phase, PhaseError> {
     let model = system.model;
     let size = 3 + model.joints();
-    let (mut mass_matrix, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
-    let (mut held, mut damped, mut stabilised);
-    let setpoint = ConstantSetpoint { angles };
-    let no_stiffness = vec![0.0; model.joints()];
+    let trajectory = ConstantSetpoint { angles };
     let law: &mut dyn Control<f64> = match &after.control {
         PostCaptureControl::None => &mut ZeroTorque,
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
-            held = ProportionalDerivative { trajectory: setpoint, proportional_gain, derivative_gain };
-            &mut held
+            &mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain }
         }
         PostCaptureControl::Damping { derivative_gain } => {
-            damped = ProportionalDerivative { trajectory: setpoint, proportional_gain: &no_stiffness, derivative_gain };
-            &mut damped
+            &mut ProportionalDerivative { trajectory, proportional_gain: &vec![0.0; model.joints()], derivative_gain }
         }
-        PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => {
-            stabilised = Stabilisation {
-                joint_gain: derivative_gain,
-                base_gain: *base_gain,
-                wheels,
-                base_torque_limit: *base_torque_limit,
-                base_torque: None,
-                mass_matrix: &mut mass_matrix,
-                bias: &mut bias,
-            };
-            &mut stabilised
-        }
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, base_torque_limit } => &mut Stabilisation {
+            joint_gain: derivative_gain,
+            base_gain: *base_gain,
+            wheels,
+            base_torque_limit: *base_torque_limit,
+            base_torque: None,
+            mass_matrix: &mut vec![0.0; size * size],
+            bias: &mut vec![0.0; size],
+        },
     };
     drive(system, law, &after.actuation, start, timing, events, tick)
 }

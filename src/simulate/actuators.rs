@@ -29,21 +29,13 @@ pub fn drive(
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, PhaseError> {
     let mut saturated = vec![false; system.model.joints()];
-    let mut limited;
     let law: &mut dyn Control<f64> = match &actuation.torque_limits {
-        Some(torque_limits) => {
-            limited = TorqueLimiter { law, torque_limits, saturated: &mut saturated };
-            &mut limited
-        }
+        Some(torque_limits) => &mut TorqueLimiter { law, torque_limits, saturated: &mut saturated },
         None => law,
     };
     let mut held = vec![0.0; system.model.joints()];
-    let mut sampled;
     let law: &mut dyn Control<f64> = match actuation.steps_per_sample {
-        Some(steps) => {
-            sampled = SampledControl::new(law, steps, &mut held);
-            &mut sampled
-        }
+        Some(steps) => &mut SampledControl::new(law, steps, &mut held),
         None => law,
     };
     simulate(system, law, initial, timing, events, tick)
