@@ -76,7 +76,7 @@ fn large_inertia(target: &Target) -> Option<Warning> {
 fn on_a_wheel(scenario: &Scenario, target: &Target) -> Option<Warning> {
     let arms = &scenario.layout.arms;
     let arm = target.contacts.iter().map(|contact| &arms[contact.arm]).find(|arm| arm.reach() == 0.0)?;
-    let why = format!("`{}` has no length, it is a reaction wheel, which takes hold of nothing", arm.name);
+    let why = format!("`{}` has no length, it is a reaction wheel, which cannot capture", arm.name);
     let longer: Vec<_> = arms.iter().filter(|arm| arm.reach() > 0.0).map(|arm| arm.name.as_str()).collect();
     Some(warning("arm", why, format!("arms with a length: {}", longer.join(", "))))
 }

@@ -1,7 +1,6 @@
 //! Writes a layout as a URDF.
 
 use crate::layout::Layout;
-use std::fmt::Write;
 
 /// The layout as a URDF whose base moves freely in the plane z = 0.
 ///
@@ -55,14 +54,6 @@ fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], [x, y]: [f64; 2], a
 
 /// Text as the value of an XML attribute.
 fn escaped(text: &str) -> String {
-    let mut safe = String::new();
-    for c in text.chars() {
-        match c {
-            '&' | '<' | '>' | '"' | '\'' => {
-                let _ = write!(safe, "&#{};", u32::from(c));
-            }
-            _ => safe.push(c),
-        }
-    }
-    safe
+    let safe = |c: char| if "&<>\"'".contains(c) { format!("&#{};", u32::from(c)) } else { c.to_string() };
+    text.chars().map(safe).collect()
 }

@@ -1,7 +1,7 @@
 //! `[[target]]`: the bodies that arms touch.
 
 use super::joints::check_length;
-use super::{POSITION, TWIST, read_or};
+use super::{LARGEST_ANGLE, POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
 use crate::diagnostic::{NumberRule, Table, Value, every, listing};
 use crate::layout::Layout;
@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 const MASS: NumberRule = NumberRule::positive("a mass", "kg");
 const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
 const RADIUS: NumberRule = NumberRule::positive("a radius", "m");
-const YAW: NumberRule = NumberRule::any("a yaw", "rad").not_degrees(4.0 * PI);
-const RESTITUTION: NumberRule = NumberRule::any("a restitution, 0 (nothing comes back) to 1 (all of it)", "");
+const YAW: NumberRule = NumberRule::any("a yaw", "rad").not_degrees(LARGEST_ANGLE);
+const RESTITUTION: NumberRule = NumberRule::any("a restitution, 0 (no rebound) to 1 (no loss)", "");
 const POINTS: &str = "[rx, ry] in m, or a list of those, one per arm";
 const POINT: [NumberRule; 2] = [NumberRule::any("rx", "m"), NumberRule::any("ry", "m")];
 
@@ -35,8 +35,7 @@ pub(super) const KEYS: &[&str] = &[
 
 pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
 
-pub(super) const NO_BOUNCE: &str =
-    "no contact of the target bounces, and what holds gives nothing back, expected `bounce` as a kind of it";
+pub(super) const NO_BOUNCE: &str = "no contact of the target bounces, and rigid contacts and pins have no restitution, expected `bounce` as a kind of it";
 
 pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Target> {
     let name = table.text("name", "a name");
@@ -57,7 +56,7 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
     let yaw = table.number_or("yaw", &YAW, 0.0);
     let position = match detection {
         Detection::Event => {
-            let expected = "[x, y] of its COM at the start in m, from where it flies to the contact";
+            let expected = "[x, y] of its COM at the start in m, from which it moves freely";
             table.require("position", expected).and_then(|value| value.vector(&POSITION)).map(Some)
         }
         Detection::Time => read_or(table, "position", None, |value| value.vector(&POSITION).map(Some)),
@@ -124,7 +123,7 @@ fn arms(value: &Value<'_>, layout: &Layout) -> Option<Vec<usize>> {
     }
     let items = value.items("the name of an arm, or a list of names")?;
     if items.is_empty() {
-        value.reject("nobody touches the target, expected the names of one arm or more");
+        value.reject("no arm touches the target, expected the names of one arm or more");
         return None;
     }
     let arms = every(items.iter().map(|item| arm_index(item, layout)))?;
