@@ -9,12 +9,12 @@ mod convergence;
 mod events;
 mod figures;
 mod inverse_kinematics;
-mod maximal;
+mod maximal_coordinates;
 mod outputs;
+mod post_capture_control;
 mod redysim;
 mod reproduction;
 mod resolved_motion_rate;
-mod settling;
 mod study;
 
 use planar_capture::capture::{Observer, Study};

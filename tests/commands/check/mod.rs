@@ -1,8 +1,8 @@
 //! `planar-capture check`: what files are, what is odd about them and what is wrong.
 
 mod description;
-mod odd;
-mod wrong;
+mod invalid_files;
+mod warnings;
 
 use crate::command;
 use planar_capture::check::{CheckReport, inspect};

@@ -1,9 +1,9 @@
 //! Impact of many contacts at once: captures, rigid or pinned, and frictionless bounces with restitution.
 
 use super::complementarity::{complementary, is_definite};
-use super::constrained::Constrained;
+use super::constraint::{BodyPoint, Tie, wrenches};
+use super::kkt_system::Constrained;
 use super::system::System;
-use super::tie::{BodyPoint, Tie, wrenches};
 use crate::{assert_close, close};
 use nalgebra::{DMatrix, DVector, Vector2};
 

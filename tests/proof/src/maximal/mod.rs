@@ -4,14 +4,15 @@
 //! captures are constraints between two of them, all alike. Of the product it reads the layout and nothing else: no
 //! reduced coordinates, no Jacobian of an arm, no recursion, no pivoting scheme, no Runge–Kutta method.
 //!
-//! [`body`] · [`system`] and back to joint angles · [`tie`] constraints · [`constrained`] the KKT system ·
+//! [`body`] · [`system`] and back to joint angles · [`constraint`] · [`kkt_system`] ·
 //! [`complementarity`] by enumeration · [`impact`] · [`motion`] · [`random`] contacts
 
 pub mod body;
 pub mod complementarity;
-pub mod constrained;
+
+pub mod constraint;
 pub mod impact;
+pub mod kkt_system;
 pub mod motion;
 pub mod random;
 pub mod system;
-pub mod tie;

@@ -1,8 +1,8 @@
 //! Motion of bodies under their ties and joint torques.
 
-use super::constrained::Constrained;
+use super::constraint::{Tie, centripetal, residual};
+use super::kkt_system::Constrained;
 use super::system::System;
-use super::tie::{Tie, centripetal, residual};
 use nalgebra::DVector;
 
 /// Joint torques from time, joint angles and joint rates.

@@ -1,7 +1,7 @@
 //! A robot and its targets as free bodies, and the way back to joint angles.
 
 use super::body::Body;
-use super::tie::{BodyPoint, Tie};
+use super::constraint::{BodyPoint, Tie};
 use nalgebra::{DVector, Rotation2, Vector2};
 use planar_layout::layout::Layout;
 

@@ -1,13 +1,13 @@
 //! The reference in maximal coordinates, held to what the product has by another way, and to mechanics.
 
 mod against_product;
-mod holds;
+mod constrained_motion;
 mod impacts;
+mod inverse_inertia;
 mod laws;
 mod loops;
 mod merged;
 mod product;
-mod responses;
 mod textbook;
 
 use nalgebra::Vector2;

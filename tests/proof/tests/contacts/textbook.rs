@@ -3,9 +3,9 @@
 use nalgebra::Vector2;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_proof::maximal::body::Body;
+use planar_proof::maximal::constraint::BodyPoint;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::system::System;
-use planar_proof::maximal::tie::BodyPoint;
 use planar_proof::{assert_close, layout, tolerance};
 
 /// Discs in a row along x with these masses and speeds, in contact with their neighbours; n = x throughout.

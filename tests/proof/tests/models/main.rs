@@ -8,7 +8,7 @@ mod equivalence;
 mod float;
 mod generic;
 mod identities;
-mod light_tip;
+mod light_last_link;
 mod references;
 mod scalars;
 mod trajectory;

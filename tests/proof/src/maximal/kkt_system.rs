@@ -1,7 +1,7 @@
 //! The KKT system of free bodies under bilateral constraints, solved whole.
 
+use super::constraint::{Tie, rows};
 use super::system::System;
-use super::tie::{Tie, rows};
 use nalgebra::{DMatrix, DVector};
 
 /// A row of length one that is nearer than this to the span of the rows before it says nothing new.
