@@ -1,4 +1,4 @@
-//! Scenarios end to end: what a study says of its contacts, from its own states before them.
+//! Impacts and motion of whole studies against the reference in maximal coordinates, from the study's own states.
 
 use crate::{Silent, scenario};
 use planar_capture::capture::impact::{ImpactResult, ImpactSolution};
@@ -9,63 +9,62 @@ use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario};
 use planar_proof::maximal::body::Body;
-use planar_proof::maximal::impact::{Contact, Kind, Left, impact};
+use planar_proof::maximal::impact::{Contact, Kind, ProductImpact, impact};
 use planar_proof::maximal::motion::run;
 use planar_proof::maximal::system::System;
 use planar_proof::{assert_close, close, tolerance};
 
-/// A study that is sampled at every step.
-fn studied(scenario: &Scenario) -> Study {
+/// Runs a study that is sampled at every step.
+fn run_study(scenario: &Scenario) -> Study {
     let model = registry::generated(&scenario.layout).expect("generated code");
     let run = study(scenario, &|| model.clone_box(), 0.005, &mut Silent);
     run.unwrap_or_else(|error| panic!("{}: {error}", scenario.name))
 }
 
-/// Robot and targets as free bodies, with what is held already.
+/// Robot and targets as free bodies, with the constraints of earlier captures.
 fn system(
     scenario: &Scenario,
     motion: &RobotState,
     targets: &[planar_capture::body::Body<f64>],
-    held: &[Hold],
+    constraints: &[Touch],
 ) -> System {
     let RobotState { base_pose, joint_angles, base_twist, joint_rates } = motion;
     let mut all = System::new(&scenario.layout, *base_pose, joint_angles, *base_twist, joint_rates);
     for target in targets {
         all.add(Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist });
     }
-    let ties: Vec<_> = held.iter().filter_map(|hold| hold.contact(&all).tie(&all)).collect();
-    all.held = ties;
+    let captures = constraints.iter().filter_map(|touch| touch.contact(&all).constraint(&all)).collect();
+    all.captures = captures;
     all
 }
 
-/// A tip that touches a target.
+/// A contact of an arm with a target.
 #[derive(Clone, Copy)]
-struct Hold {
+struct Touch {
     arm: usize,
     target: usize,
     kind: Kind,
 }
 
-impl Hold {
+impl Touch {
     fn contact(&self, all: &System) -> Contact {
         Contact::new(all, self.arm, 1 + all.joints.len() + self.target, self.kind)
     }
 }
 
-/// Distance of a tip from the outline of a target, and the outward normal, inertial axes; of convex outlines, from
-/// inside or beside an edge.
+/// Signed distance of an end effector from the convex outline of a target, and the outward normal, inertial axes.
 fn signed_distance(scenario: &Scenario, all: &System, arm: usize, target: usize) -> (f64, [f64; 2]) {
     let body = all.bodies[1 + all.joints.len() + target];
-    let away = all.position(&all.tips[arm]) - body.com();
+    let offset = all.end_effector(arm) - body.com();
     match &scenario.targets[target].outline {
-        Outline::Disc { radius } => (away.norm() - radius, (away / away.norm()).into()),
+        Outline::Disc { radius } => (offset.norm() - radius, (offset / offset.norm()).into()),
         Outline::Polygon { corners } => {
             let next = corners.iter().cycle().skip(1);
             let of_edge = |(a, b): (&[f64; 2], &[f64; 2])| {
-                let (a, b) = (body.turned((*a).into()), body.turned((*b).into()));
+                let (a, b) = (body.rotated((*a).into()), body.rotated((*b).into()));
                 let along = (b - a) / (b - a).norm();
                 let normal = nalgebra::Vector2::new(along.y, -along.x);
-                (normal.dot(&(away - a)), normal.into())
+                (normal.dot(&(offset - a)), normal.into())
             };
             let far = (f64::NEG_INFINITY, [0.0; 2]);
             corners.iter().zip(next).map(of_edge).fold(far, |most, edge| if edge.0 > most.0 { edge } else { most })
@@ -73,20 +72,20 @@ fn signed_distance(scenario: &Scenario, all: &System, arm: usize, target: usize)
     }
 }
 
-/// What a study's impact left.
-fn left(found: &ImpactSolution) -> Left {
+/// Velocities and impulses of a study's impact.
+fn product_impact(found: &ImpactSolution) -> ProductImpact {
     let ImpactResult { base_twist_after, joint_rates_after, .. } = &found.exact;
     let velocities = base_twist_after.iter().chain(joint_rates_after).chain(found.target_twists.as_flattened());
     let impulses = found.contacts.iter().map(|contact| contact.impulse).collect();
-    Left { velocities: velocities.copied().collect(), impulses }
+    ProductImpact { velocities: velocities.copied().collect(), impulses }
 }
 
-/// An impact of the study against the reference's; returns what is held from then on.
-fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) -> Vec<Hold> {
-    let mut holds = vec![];
-    for result in &capture.contacts {
-        let contact = result.contact;
-        let kind = match contact.law {
+/// Compares an impact of the study with the reference's; returns its captures.
+fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) -> Vec<Touch> {
+    let mut touches = vec![];
+    for contact in &capture.contacts {
+        let touching = contact.contact;
+        let kind = match touching.law {
             contact::ContactLaw::Rigid => Kind::Rigid,
             contact::ContactLaw::Pin => Kind::Pin,
             contact::ContactLaw::Bounce { normal, restitution } => {
@@ -95,25 +94,25 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) 
                 Kind::Bounce { normal, restitution }
             }
         };
-        let body = &before.bodies[1 + before.joints.len() + contact.target];
-        let offset = before.position(&before.tips[contact.arm]) - body.com();
-        assert_close("offset", &contact.offset, offset.as_slice(), tolerance::STRAIGHT);
-        holds.push(Hold { arm: contact.arm, target: contact.target, kind });
+        let body = &before.bodies[1 + before.joints.len() + touching.target];
+        let offset = before.end_effector(touching.arm) - body.com();
+        assert_close("offset", &touching.offset, offset.as_slice(), tolerance::STRAIGHT);
+        touches.push(Touch { arm: touching.arm, target: touching.target, kind });
     }
-    let contacts: Vec<_> = holds.iter().map(|hold| hold.contact(before)).collect();
+    let contacts: Vec<_> = touches.iter().map(|touch| touch.contact(before)).collect();
     let wanted = impact(before, &contacts);
     let mut after = before.clone();
     after.apply(&contacts, &wanted);
-    left(capture).assert_is(&after, &wanted.impulses, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));
-    holds.retain(|hold| !matches!(hold.kind, Kind::Bounce { .. }));
-    holds
+    product_impact(capture).assert_agrees(&after, &wanted.impulses, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));
+    touches.retain(|touch| !matches!(touch.kind, Kind::Bounce { .. }));
+    touches
 }
 
-/// The motion from an index of the samples on, for a time at most, against that of free bodies.
-fn check_motion(scenario: &Scenario, captured: &CaptureResult, from: usize, held: &[Hold], duration: f64) {
+/// Compares the motion from sample `from`, for at most `duration`, with that of the reference.
+fn check_motion(scenario: &Scenario, captured: &CaptureResult, from: usize, constraints: &[Touch], duration: f64) {
     let samples = &captured.post_impact.samples;
     let to = samples.iter().rposition(|sample| sample.time <= samples[from].time + duration + 1e-9).expect("a sample");
-    let mut all = system(scenario, &samples[from].state, &captured.targets[from], held);
+    let mut all = system(scenario, &samples[from].state, &captured.targets[from], constraints);
     let after = scenario.post_impact.as_ref().expect("a motion after it");
     let law = |_: f64, angles: &[f64], rates: &[f64]| match &after.control {
         PostCaptureControl::None => vec![0.0; angles.len()],
@@ -133,21 +132,27 @@ fn check_motion(scenario: &Scenario, captured: &CaptureResult, from: usize, held
     }
 }
 
-/// The first impact, every other, and the motion after each; how many impacts there were.
+/// Checks all impacts and the motion after each; returns the number of impacts.
 fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
     let Some(captured) = &case.capture else { return 0 };
     let before = &case.approach(study).end().state;
-    let mut held = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
-    let first = captured.later_impacts.first().map_or(f64::INFINITY, |later| later.time);
-    check_motion(scenario, captured, 0, &held, first.min(4.0));
-    for later in &captured.later_impacts {
-        // twice the same instant: before it and after
-        let at = captured.post_impact.samples.iter().position(|sample| sample.time >= later.time).expect("a sample");
-        let before = system(scenario, &captured.post_impact.samples[at].state, &captured.targets[at], &held);
-        held.extend(check_impact(scenario, &before, &later.impact));
-        let next = captured.later_impacts.iter().map(|one| one.time).find(|time| *time > later.time);
+    let mut constraints = check_impact(scenario, &system(scenario, before, &case.targets, &[]), &captured.impact);
+    let first = captured.later_impacts.first().map_or(f64::INFINITY, |further| further.time);
+    check_motion(scenario, captured, 0, &constraints, first.min(4.0));
+    for further in &captured.later_impacts {
+        // the instant has two samples, before and after the impact
+        let at = captured.post_impact.samples.iter().position(|sample| sample.time >= further.time).expect("a sample");
+        let before = system(scenario, &captured.post_impact.samples[at].state, &captured.targets[at], &constraints);
+        constraints.extend(check_impact(scenario, &before, &further.impact));
+        let next = captured.later_impacts.iter().map(|one| one.time).find(|time| *time > further.time);
         if at + 1 < captured.post_impact.samples.len() {
-            check_motion(scenario, captured, at + 1, &held, (next.unwrap_or(f64::INFINITY) - later.time).min(4.0));
+            check_motion(
+                scenario,
+                captured,
+                at + 1,
+                &constraints,
+                (next.unwrap_or(f64::INFINITY) - further.time).min(4.0),
+            );
         }
     }
     1 + captured.later_impacts.len()
@@ -155,7 +160,7 @@ fn check_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> usize {
 
 fn check_scenario(name: &str) -> (Scenario, Study, Vec<usize>) {
     let scenario = scenario(name);
-    let study = studied(&scenario);
+    let study = run_study(&scenario);
     assert_eq!(study.audit_failures(), Vec::<String>::new(), "{name}");
     let impacts = study.cases.iter().map(|case| check_case(&scenario, &study, case)).collect();
     (scenario, study, impacts)
@@ -169,7 +174,7 @@ fn both_arms_on_one_large_target() {
         let captured = case.capture.as_ref().expect("a capture");
         assert_eq!(captured.impact.contacts.len(), 2);
         let [open, opening] = captured.post_impact.constraint_errors;
-        assert!(open.max(opening) <= tolerance::HELD_CLOSED, "{open:e} {opening:e}");
+        assert!(open.max(opening) <= tolerance::CONSTRAINT_ERROR, "{open:e} {opening:e}");
     }
 }
 
@@ -188,9 +193,9 @@ fn one_arm_on_a_spinning_target() {
     assert!(!impacts.is_empty() && impacts.iter().all(|count| *count == 1), "{impacts:?}");
 }
 
-/// A gripper that does not close does nothing to its target.
+/// A gripper that does not close has no effect on its target.
 #[test]
-fn a_missed_target_flies_on() {
+fn a_missed_target_moves_freely() {
     let (scenario, study, _) = check_scenario("missed_grasp");
     let mut missed = 0;
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
@@ -211,8 +216,7 @@ fn a_missed_target_flies_on() {
     assert!(missed >= 3, "{missed}");
 }
 
-/// Contacts are where tip and outline meet, to 1e-10 m, and no tip is inside before or after; what is elastic keeps the
-/// energy.
+/// End effectors are on the outline at contacts, to 1e-10 m, and outside before and after; elastic impacts keep the energy.
 #[test]
 fn rebounds_are_detected() {
     let (scenario, study, impacts) = check_scenario("elastic_rebound");

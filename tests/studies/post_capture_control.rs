@@ -70,8 +70,8 @@ fn stabilised_by_joints_alone_the_robot_turns_as_one_body() {
         let (start, end, left) = ends(&captured);
         let decay = (-0.5 * captured.post_impact.duration).exp();
         let wanted: Vec<_> = start.joint_rates.iter().map(|rate| rate * decay).collect();
-        assert_close("joint rates", &end.joint_rates, &wanted, tolerance::SETTLED);
-        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], tolerance::SETTLED);
+        assert_close("joint rates", &end.joint_rates, &wanted, tolerance::STABILISED);
+        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], tolerance::STABILISED);
         assert!({
             let end = captured.post_impact.end();
             end.base_torque.is_none() && end.work.base_impulse == 0.0
@@ -87,11 +87,11 @@ fn a_base_torque_takes_the_angular_momentum() {
     for (captured, free) in cases.iter().zip(&free) {
         let (start, end, left) = ends(captured);
         let decay = (-0.5 * captured.post_impact.duration).exp();
-        assert_close("base rate", &[end.base_twist[0]], &[start.base_twist[0] * decay], tolerance::SETTLED);
+        assert_close("base rate", &[end.base_twist[0]], &[start.base_twist[0] * decay], tolerance::STABILISED);
         let [before, rest @ ..] = free.residual_motion.as_ref().expect("a residual motion").momentum;
-        assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::SETTLED);
+        assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::STABILISED);
         let end = captured.post_impact.end();
-        assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::SETTLED);
+        assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::STABILISED);
         assert!(captured.post_impact.saturation.base == 0.0);
     }
 }

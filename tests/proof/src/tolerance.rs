@@ -1,4 +1,4 @@
-//! Every bound of a comparison, and why it is what it is. Absolute, in SI units, unless it says relative.
+//! Every bound of a comparison, with its reason. Bounds are absolute and in SI units unless stated as relative.
 
 /// ReDySim prints seven digits; its own integration error is about 5e-7.
 pub const REDYSIM: f64 = 1e-6;
@@ -20,8 +20,8 @@ pub const SAME_IMPACT: f64 = 1e-11;
 pub const PINOCCHIO: f64 = 1e-12;
 /// MuJoCo's, relative to the largest entry: it has absolute positions, of which 1000 m leave 1e-13 m; 1e-12 measured.
 pub const MUJOCO: f64 = 1e-11;
-/// Impacts by the full system with the impulses as unknowns, relative to the largest entry: what is small beside
-/// the rest of its solution keeps fewer digits, the base twist of the boom the fewest, 3e-11 measured.
+/// Impacts by the full system with the impulses as unknowns, relative to the largest entry: small parts of its solution
+/// keep fewer digits, the base twist of the boom the fewest, 3e-11 measured.
 pub const OUTSIDE_IMPACT: f64 = 2e-10;
 /// Single precision against double, relative: 300 operations at 6e-8 each, and the cancellation in them.
 pub const SINGLE: f64 = 2e-4;
@@ -49,21 +49,21 @@ pub const SOLVED_IDENTITY: f64 = 1e-10;
 /// Joint angles and rates that a law with inverse dynamics should give, rad, rad/s: the integration error of RK4 at 5
 /// ms over 4 s of fast motion.
 pub const CONTROLLED: f64 = 1e-8;
-/// What remains after the capture was stabilised for 50 s at 0.5 1/s, rad/s, N m s: exp(−25) of what was there.
-pub const SETTLED: f64 = 1e-10;
-/// Angles held for 50 s after the paper's impact, rad, and rates, rad/s: the slowest mode
+/// Residual motion after stabilisation for 50 s at 0.5 1/s, rad/s, N m s: exp(−25) of the initial motion.
+pub const STABILISED: f64 = 1e-10;
+/// Angles under hold control for 50 s after the paper's impact, rad, and rates, rad/s: the slowest mode
 /// of 49 N m/rad and 14 N m s/rad on a stretched arm takes 40 s to decay, 5e-4 measured.
 pub const HELD: f64 = 1e-3;
 /// Rates that should decay exponentially, relative to the largest: RK4 steps of 5 ms of motions of up to 2 rad/s.
 pub const DECAY: f64 = 1e-6;
-/// Tip poses that the design of the final joint angles should reach, rad, m: it iterates to 1e-11 per unit.
+/// End effector poses by inverse kinematics, rad, m: its iteration stops at 1e-11 per unit.
 pub const REACHED: f64 = 1e-9;
-/// Tips on their paths and at their ends under resolved motion rate control, rad, m, rad/s, m/s: the integration error
-/// of RK4 at 5 ms, which feedback pulls back; 3e-10 measured, near a singular pose.
+/// End effectors along and at the end of their paths under resolved motion rate control, rad, m, rad/s, m/s: the
+/// integration error of RK4 at 5 ms, which feedback reduces; 3e-10 measured, near a singular pose.
 pub const STEERED: f64 = 1e-8;
-/// The same with torques held for up to 40 ms, at the end: half a sample of delay in accelerations of some mm/s².
+/// The same with torques constant for up to 40 ms, at the end: half a sample of delay in accelerations of some mm/s².
 pub const STEERED_SAMPLED: f64 = 1e-4;
-/// Accelerations of tips, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding
+/// Accelerations of end effectors, per unit, times the singularity margin: differences of twists of step 1e-6, and rounding
 /// times the condition of the generalized Jacobian.
 pub const STEERED_ACCELERATION: f64 = 1e-8;
 /// Energy, work and momentum along the time series of the paper's study, J, N s, N m s, all below 1: the integration
@@ -73,10 +73,10 @@ pub const TIME_SERIES: f64 = 1e-11;
 pub const INTEGRATED: f64 = 1e-8;
 /// A central difference of the energy of step 1e-5, relative: its square, and rounding over the step.
 pub const ENERGY_GRADIENT: f64 = 1e-8;
-/// Times of events, s, and how far values are then from zero: they are found to 1e-13.
+/// Times of events, s, and event functions there: events are located to 1e-13.
 pub const EVENT_TIME: f64 = 1e-12;
-/// Time of an event that touches zero by a nanometre, s: there the value falls by 2e-5 m/s, and rounding of a path of
-/// 600 steps is 1e-12 m.
+/// Time of an event that passes zero by a nanometre, s: the value decreases by 2e-5 m/s there, and rounding over 600
+/// steps is 1e-12 m.
 pub const GRAZING: f64 = 1e-7;
 /// The same steps to the same instant, the last of another length, rad, m and per second; 1e-11 by an interpolant.
 pub const SAME_STEPS: f64 = 1e-10;
@@ -102,15 +102,15 @@ pub const SAME_MOTION_COARSE: f64 = 1e-10;
 pub const CLOSED_LOOP: f64 = 1e-8;
 /// A straight line, m, rad: rounding.
 pub const STRAIGHT: f64 = 1e-13;
-/// One second under held torques by steps of 2 and 50 ms and adaptive ones, rad, m and per second.
+/// One second under sampled torques by steps of 2 and 50 ms and adaptive ones, rad, m and per second.
 pub const SAMPLED: f64 = 1e-9;
 
-/// A layout from a URDF against numbers worked out by hand, and a mount angle through sine, cosine and arctangent.
+/// A layout from a URDF against numbers calculated by hand, and a mount angle through sine, cosine and arctangent.
 pub const URDF: f64 = 1e-14;
 
 use planar_dynamics::quantity::{Quantity, Rounding};
 
-/// What rounding may do to a quantity that two formulations compute.
+/// Bound on the difference of a quantity between two formulations.
 #[derive(Clone, Copy, Debug)]
 pub enum Equivalence {
     /// In units of the entry's natural size (see `planar_capture::compare`).
@@ -129,11 +129,11 @@ impl Equivalence {
     }
 }
 
-/// Generated against generic, measured over all layouts and regimes: a bound for every quantity by how rounding gets
-/// into it, and for those that are better, their own.
+/// Generated against generic, measured over all layouts and regimes: a bound for every quantity by its kind of rounding
+/// error, and smaller ones where measured.
 pub fn equivalence(quantity: Quantity) -> Equivalence {
     match (quantity, quantity.row().rounding) {
-        // parameters, handed through
+        // parameters, copied
         (Quantity::BodyInertias, _) => Equivalence::Scaled(0.0),
         // sums and products in two orders: composite inertias against sums over bodies 3e-15 measured, positions,
         // twists and momenta below 2e-15, the bias by a centripetal sweep against differentiated Jacobians 6e-16
@@ -144,20 +144,20 @@ pub fn equivalence(quantity: Quantity) -> Equivalence {
     }
 }
 
-/// Outputs of generated functions that no trait hands out, generated against generic, relative to the largest entry.
+/// Outputs of generated functions that are in no trait, generated against generic, relative to the largest entry.
 pub const INHERENT: &[(&str, f64, &str)] = &[
     ("generalized_jacobian alone", 1e-12, "condition of the base's inertia below 1e3 in the regime `moving`"),
     ("full impact_matrix", 1e-13, "sums of products; M + JᵀNJ"),
     ("full impact_momentum", 1e-13, "sums of products; M v + JᵀJ_t⁻ᵀ I_t t"),
 ];
 
-/// Every shipped layout, and what it alone can show.
+/// Every shipped layout, and what it alone covers.
 pub const LAYOUTS: &[(&str, &str)] = &[
     ("asymmetric_wheel", "off-axis COMs, mounts off the axis, a mount angle, a link of length zero"),
     ("boom_7r", "a long chain"),
     ("dual_arm_2r", "two arms that a capture closes to a short loop"),
     ("dual_arm_3r", "the paper's robot"),
-    ("single_arm_2r", "fewer joints than tip coordinates"),
+    ("single_arm_2r", "fewer joints than end effector coordinates"),
     ("single_arm_3r", "ReDySim's robot"),
     ("triple_arm_3r", "three arms that meet in the base alone"),
 ];
@@ -176,54 +176,52 @@ pub const MAXIMAL_ACCELERATION: f64 = 1e-12;
 /// Velocities after impacts and impulses in maximal coordinates, relative to the largest, or to the largest momentum:
 /// rounding times the condition of light links with heavy targets, 2e-13 measured.
 pub const MAXIMAL_IMPACT: f64 = 1e-11;
-/// Angles, poses and rates some seconds later, relative to the largest: the product's RK4 at 1 ms, 4e-10 measured where
-/// a folded arm swings through.
+/// Angles, poses and rates after some seconds, relative to the largest: the product's RK4 at 1 ms, 4e-10 measured where
+/// an arm passes a folded configuration.
 pub const MAXIMAL_MOTION: f64 = 1e-9;
-/// Momentum and energy of the motion in maximal coordinates, relative; its ties before they are projected, rad, m: an
-/// integrator of order 12 whose steps are halved until they err by 1e-13 per unit.
+/// Momentum and energy of the motion in maximal coordinates, relative; its constraints before projection, rad, m: an
+/// integrator of order 12 whose steps are halved until their error is 1e-13 per unit.
 pub const MAXIMAL_DRIFT: f64 = 1e-11;
-/// The same ties once projected, rad, m: rounding at some metres.
-pub const MAXIMAL_TIE: f64 = 1e-13;
+/// The same constraints after projection, rad, m: rounding at some metres.
+pub const MAXIMAL_CONSTRAINT: f64 = 1e-13;
 /// The product's impacts of any contacts against those in maximal coordinates, relative to the largest, times the
 /// square of the reference's margin of dependence: the inverse inertia at the contacts is a product of constraints.
 /// 2e-13 measured.
 pub const CONTACT_IMPACT: f64 = 2e-12;
 /// The same in single precision.
 pub const CONTACT_IMPACT_SINGLE: f64 = 2e-3;
-/// Above this margin dependent contacts have to be refused; below, rounding alone may make them seem independent.
-pub const SEEN_MARGIN: f64 = 0.05;
+/// Above this margin dependent contacts must be refused; below it, rounding may make them seem independent.
+pub const DEPENDENCE_MARGIN: f64 = 0.05;
 /// Axes of the ellipse of stopping impulses, relative: the eigenvalues of a square of a matrix of condition below 1e3.
 pub const ELLIPSE: f64 = 1e-9;
-/// Some seconds of motion with holds, adaptively at 1e-12, against maximal coordinates, relative to the largest: both
-/// err by 1e-13 per step, and loops amplify that; 2e-12 measured.
-pub const HELD_MOTION: f64 = 2e-11;
-/// By how much a hold may be open at any step, rad or m, and rad/s or m/s: rounding at some metres. 4e-14 measured;
-/// 1e-10 is promised.
-pub const HELD_CLOSED: f64 = 1e-12;
-/// By what holds are opened to be closed again, rad, m and per second.
+/// Some seconds of motion under loop constraints, adaptively at 1e-12, against maximal coordinates, relative to the
+/// largest: both have errors of 1e-13 per step, which loops amplify; 2e-12 measured.
+pub const CONSTRAINED_MOTION: f64 = 2e-11;
+/// Loop constraint errors at any step, rad or m, and rad/s or m/s: rounding at some metres. 4e-14 measured; the
+/// documented bound is 1e-10.
+pub const CONSTRAINT_ERROR: f64 = 1e-12;
+/// Perturbation of constraints before projection, rad, m and per second.
 pub const OPENED: f64 = 1e-5;
-/// Centre of mass before and after that, m: the square of the opening times some metres.
+/// Centre of mass before and after that projection, m: the square of the perturbation times some metres.
 pub const CENTRE: f64 = 1e-9;
-/// A tip at the outline of its target when their contact was detected, m: issue 5's own bound for constraints.
+/// Distance of an end effector from the outline at a detected contact, m.
 pub const DETECTED: f64 = 1e-10;
-/// Normals at contacts and places of what flies freely, rad, m: rounding of a path of 10,000 steps.
+/// Normals at contacts and poses of free targets, rad, m: rounding over 10,000 steps.
 pub const IN_SERIES: f64 = 1e-11;
-/// A base of 1e14 kg in place of one that nothing moves, rad/s.
+/// A base of 1e14 kg in place of a fixed one, rad/s.
 pub const HEAVY_BASE: f64 = 1e-12;
-/// Poses by a recording's chain of transforms against the model's: rounding of four turns at a few metres, and of
-/// 20 s of a target's flight. Below 1e-14 measured.
+/// Poses by a recording's chain of transforms against the model's: rounding of four rotations at a few metres, and of
+/// 20 s of a target's free motion. Below 1e-14 measured.
 pub const TRANSFORMS: f64 = 1e-13;
-/// By how much a hold is open after it was closed again, rad or m, and its rate: rounding at some metres, 2e-14
-/// measured.
-pub const HOLD: f64 = 1e-12;
+/// Loop constraint error after projection, rad or m, and its rate: rounding at some metres, 2e-14 measured.
+pub const PROJECTED_CONSTRAINT: f64 = 1e-12;
 /// Momentum and energy of a closed loop in 2 s of steps of 5 ms at up to 0.9 rad/s: RK4, 3e-7 measured near a singular
 /// pose.
-pub const HELD_DRIFT: f64 = 1e-5;
-/// A body held by constraint forces against the same merged with its link, 4 s later: RK4 at 5 ms on both, 2e-10
+pub const CONSTRAINED_DRIFT: f64 = 1e-5;
+/// A body under a rigid loop constraint against the same merged with its link, after 4 s: RK4 at 5 ms on both, 2e-10
 /// measured.
 pub const MERGED_MOTION: f64 = 1e-9;
-/// Energy after an impact over that before, less 1: an elastic one gives all back but rounding, 2e-15 measured.
+/// Energy after an impact over that before, less 1: rounding for an elastic one, 2e-15 measured.
 pub const ENERGY_OF_AN_IMPACT: f64 = 1e-12;
-/// Values that a figure of a study shows against what they have to be by mechanics: velocities, momentum and energy of
-/// order 1, whose drift and energy error over a phase are 1e-11.
+/// Velocities, momentum and energy of order 1 shown by a figure, against mechanics: their drift over a phase is 1e-11.
 pub const FIGURE_VALUES: f64 = 1e-9;

@@ -1,25 +1,25 @@
-//! p ≥ 0, u + W p ≥ 0, one of them zero: by trying every set of contacts that push.
+//! Linear complementarity problem p ≥ 0, u + W p ≥ 0, p·(u + W p) = 0, by enumeration of the active sets.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Whether W, symmetric and positive semidefinite, has no pivot below `floor`; its solution for a right side.
+/// W⁻¹ times a right side for a symmetric positive semidefinite W; `None` where a pivot is at most `floor`.
 fn solved(w: DMatrix<f64>, right: &DVector<f64>, floor: f64) -> Option<DVector<f64>> {
     let factor = w.cholesky()?;
     let smallest = factor.l_dirty().diagonal().iter().fold(f64::INFINITY, |least: f64, l| least.min(l * l));
     (smallest > floor).then(|| factor.solve(right))
 }
 
-/// Whether p follows from W p.
+/// Whether W p determines p.
 pub fn is_definite(w: &DMatrix<f64>, floor: f64) -> bool {
     w.is_empty() || solved(w.clone(), &DVector::zeros(w.nrows()), floor).is_some()
 }
 
-/// The solution p for a W that is symmetric and positive semidefinite, with pivots below `floor` taken for zeros;
-/// `size` is that of the velocities that u is a difference of.
+/// The solution p for a symmetric positive semidefinite W, with pivots up to `floor` taken for zeros; `size` is the scale
+/// of the velocities whose difference is u.
 ///
-/// Every subset S is solved for u + W p = 0 on S, p = 0 elsewhere; the one that violates the rest least is it. W p is
-/// unique; where W is singular p need not be, and one with a regular block of W is among the solutions (Cottle, Pang &
-/// Stone, The Linear Complementarity Problem, 3.1 and 4.4).
+/// For every subset S, u + W p = 0 is solved on S with p = 0 elsewhere; the p with the smallest violation of the other
+/// conditions is returned. W p is unique. Where W is singular p need not be unique, but a solution with a regular block
+/// of W exists (Cottle, Pang & Stone, The Linear Complementarity Problem, 3.1 and 4.4).
 pub fn complementary(w: &DMatrix<f64>, u: &DVector<f64>, floor: f64, size: f64) -> DVector<f64> {
     let count = u.len();
     assert!(count < 16, "2^{count} sets are too many");
@@ -36,7 +36,7 @@ pub fn complementary(w: &DMatrix<f64>, u: &DVector<f64>, floor: f64, size: f64) 
         }
         let after = u + w * &p;
         let violation = (0..count).fold(0.0, |most: f64, i| {
-            // impulses as the velocities that they give
+            // impulses are compared as velocities
             let pulls = -p[i] * w[(i, i)];
             let open = if active.contains(&i) { after[i].abs() } else { -after[i] };
             most.max(pulls).max(open)

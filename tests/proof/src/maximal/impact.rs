@@ -1,112 +1,112 @@
-//! Impact of many contacts at once: captures, rigid or pinned, and frictionless bounces with restitution.
+//! Simultaneous impact at several contacts: rigid and pinned captures, and frictionless bounces with restitution.
 
+use super::body::BodyPoint;
 use super::complementarity::{complementary, is_definite};
-use super::constraint::{BodyPoint, Tie, wrenches};
-use super::kkt_system::Constrained;
+use super::constraint::{Constraint, wrenches};
+use super::kkt_system::KktSystem;
 use super::system::System;
 use crate::{assert_close, close};
 use nalgebra::{DMatrix, DVector, Vector2};
 
-/// What a contact does.
+/// Contact law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Relative twist zero afterwards.
+    /// Zero relative twist after the impact.
     Rigid,
-    /// Relative velocity of the contact points zero afterwards; no moment.
+    /// Zero relative velocity of the contact points after the impact; no moment.
     Pin,
-    /// Frictionless: an impulse along the target's outward normal alone, and it pushes.
+    /// Frictionless: a non-negative impulse along the target's outward normal.
     Bounce {
-        /// Of length one, inertial axes.
+        /// Unit vector, inertial axes.
         normal: [f64; 2],
-        /// Poisson's, 0 to 1.
+        /// Poisson's coefficient, 0 to 1.
         restitution: f64,
     },
 }
 
-/// A contact of the robot with a target, or with itself.
+/// A contact between two bodies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Where the impulse acts.
+    /// Where the impulse acts, on the robot.
     pub robot: BodyPoint,
     /// Where the opposite impulse acts.
     pub target: BodyPoint,
-    /// What it does.
+    /// Its law.
     pub kind: Kind,
 }
 
 impl Contact {
-    /// Of an arm's tip with a body, at the point of the body where the tip is.
+    /// Between an arm's end effector and the point of a body at its position.
     pub fn new(all: &System, arm: usize, body: usize, kind: Kind) -> Self {
-        let robot = all.tips[arm];
-        Self { robot, target: all.place(body, all.position(&robot)), kind }
+        Self { robot: all.end_effectors[arm], target: all.body_point(body, all.end_effector(arm)), kind }
     }
 
-    /// What holds afterwards; `None` of a bounce.
-    pub fn tie(&self, all: &System) -> Option<Tie> {
-        let yaw = |place: &BodyPoint| all.bodies[place.body].pose[0];
+    /// The constraint after a capture; `None` for a bounce.
+    pub fn constraint(&self, all: &System) -> Option<Constraint> {
+        let yaw = |point: &BodyPoint| all.bodies[point.body].pose[0];
         let angle = match self.kind {
             Kind::Rigid => Some(yaw(&self.robot) - yaw(&self.target)),
             Kind::Pin => None,
             Kind::Bounce { .. } => return None,
         };
-        Some(Tie { a: self.robot, b: self.target, angle })
+        Some(Constraint { a: self.robot, b: self.target, angle })
     }
 
-    /// n · (velocity of the robot's point − that of the target's): below 0 they approach.
-    pub fn opening(&self, all: &System) -> Option<f64> {
+    /// n · (velocity of the robot's point − velocity of the target's point), m/s: negative while they approach.
+    pub fn normal_velocity(&self, all: &System) -> Option<f64> {
         let Kind::Bounce { normal, .. } = self.kind else { return None };
-        Some(Vector2::from(normal).dot(&(all.velocity(&self.robot) - all.velocity(&self.target))))
+        Some(Vector2::from(normal).dot(&(self.robot.velocity(&all.bodies) - self.target.velocity(&all.bodies))))
     }
 
-    /// Row of all twists that is [`opening`](Self::opening), and force on all bodies of a unit impulse.
+    /// Row that gives [`normal_velocity`](Self::normal_velocity) from all twists; its transpose is a unit impulse.
     fn row(&self, all: &System, normal: [f64; 2]) -> DVector<f64> {
         let mut row = DVector::zeros(3 * all.bodies.len());
-        for (place, sign) in [(&self.robot, 1.0), (&self.target, -1.0)] {
-            let arrow = all.bodies[place.body].turned(place.at);
+        for (point, sign) in [(&self.robot, 1.0), (&self.target, -1.0)] {
+            let arm = point.lever_arm(&all.bodies);
             let [nx, ny] = normal;
-            row[3 * place.body] = sign * (arrow.x * ny - arrow.y * nx);
-            row[3 * place.body + 1] = sign * nx;
-            row[3 * place.body + 2] = sign * ny;
+            row[3 * point.body] = sign * (arm.x * ny - arm.y * nx);
+            row[3 * point.body + 1] = sign * nx;
+            row[3 * point.body + 2] = sign * ny;
         }
         row
     }
 }
 
-/// What an impact did.
+/// Result of an impact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Impact {
-    /// Of all bodies.
+    /// Twists of all bodies after the impact.
     pub twists: DVector<f64>,
     /// [n, fx, fy] on the robot at each contact, n about the contact point.
     pub impulses: Vec<[f64; 3]>,
-    /// The same of what was held before, on each tie's a.
-    pub held: Vec<[f64; 3]>,
-    /// Constraints say something twice: twists are unique, the impulses of the constraints are not.
+    /// The same at the captures from before the impact, on each constraint's a.
+    pub capture_impulses: Vec<[f64; 3]>,
+    /// Constraints depend on each other: twists are unique, the constraint impulses are not.
     pub redundant: bool,
-    /// How near the constraints are to that, see [`Constrained::margin`].
+    /// [`KktSystem::margin`].
     pub margin: f64,
-    /// The bounces' impulses do not follow from the velocities alone: twists are unique, these are not.
+    /// Bounces depend on each other: twists are unique, the impulses of the bounces are not.
     pub bounces_redundant: bool,
-    /// Of compression and of restitution, one per bounce.
+    /// Impulses of compression and of restitution, one per bounce, N s.
     pub phases: [Vec<f64>; 2],
 }
 
-/// Poisson's hypothesis in two phases (Glocker & Pfeiffer 1995), captures being closed from the first on.
+/// Impact by Poisson's hypothesis in two phases (Glocker & Pfeiffer 1995); captures are closed in both.
 ///
 /// Compression: u₁ ≥ 0, p₁ ≥ 0, u₁·p₁ = 0. Restitution: p₂ ≥ e p₁, u₂ ≥ 0, (p₂ − e p₁)·u₂ = 0.
 ///
-/// Kinetic energy never grows, whatever the coefficients in [0, 1]: p₂ is the p ≥ e p₁ with the least T₂ − T₁ =
-/// u₁·p + ½ pᵀWp, p₁ is such a p, for which it is ½ p₁ᵀWp₁, and that is what compression took from the robot with
-/// its captures closed. (Newton's law, u₂ = −e u₀, has no such bound.)
+/// Kinetic energy does not increase for any coefficients in [0, 1]: p₂ minimises T₂ − T₁ = u₁·p + ½ pᵀWp over p ≥ e p₁.
+/// p = p₁ is feasible and gives ½ p₁ᵀWp₁, the energy that compression takes from the robot with its captures closed.
+/// (Newton's law, u₂ = −e u₀, has no such bound.)
 pub fn impact(all: &System, contacts: &[Contact]) -> Impact {
-    let captures: Vec<Tie> = contacts.iter().filter_map(|contact| contact.tie(all)).collect();
-    let ties: Vec<Tie> = all.ties().copied().chain(captures.iter().copied()).collect();
-    let system = Constrained::new(all, &ties);
+    let mut constraints = all.constraints();
+    constraints.extend(contacts.iter().filter_map(|contact| contact.constraint(all)));
+    let system = KktSystem::new(all, &constraints);
     let before = all.twists();
     let masses = all.masses();
-    let (closed, multipliers) = system.close(&before);
+    let (closed, multipliers) = system.project_twists(&before);
 
-    // what a unit impulse at each bounce does with everything else closed
+    // response to a unit impulse at each bounce under the constraints
     let mut rows = vec![];
     let mut coefficients = vec![];
     for contact in contacts {
@@ -116,35 +116,30 @@ pub fn impact(all: &System, contacts: &[Contact]) -> Impact {
         }
     }
     let count = rows.len();
-    let none = DVector::zeros(multipliers.len());
-    let replies: Vec<_> = rows.iter().map(|row| system.solve(row, &none)).collect();
-    let w = DMatrix::from_fn(count, count, |i, j| rows[i].dot(&replies[j].0));
+    let zero = DVector::zeros(multipliers.len());
+    let responses: Vec<_> = rows.iter().map(|row| system.solve(row, &zero)).collect();
+    let w = DMatrix::from_fn(count, count, |i, j| rows[i].dot(&responses[j].0));
     let w = (&w + w.transpose()) / 2.0;
-    let alone = rows.iter().map(|row| row.component_div(&masses).dot(row));
-    let floor = 1e-11 * alone.fold(f64::MIN_POSITIVE, f64::max);
-    // what the openings are differences of: one may be rounding alone, where captures lock the contact
+    let free = rows.iter().map(|row| row.component_div(&masses).dot(row));
+    let floor = 1e-11 * free.fold(f64::MIN_POSITIVE, f64::max);
+    // scale of the normal velocities, which may be rounding alone where captures lock the contact
     let size = rows.iter().map(|row| row.abs().dot(&before.abs())).fold(0.0, f64::max);
     let e = DVector::from_vec(coefficients);
 
     let u = DVector::from_iterator(count, rows.iter().map(|row| row.dot(&closed)));
     let first = complementary(&w, &u, floor, size);
     let u = u + &w * &first;
-    let follow = |p: &DVector<f64>| {
-        let mut twists = closed.clone();
-        let mut multipliers = multipliers.clone();
-        for ((twist, multiplier), p) in replies.iter().zip(p) {
-            twists += twist * *p;
-            multipliers += multiplier * *p;
-        }
-        (twists, multipliers)
-    };
-    let least = e.component_mul(&first);
-    let second = &least + complementary(&w, &(&u + &w * &least), floor, size);
+    let minimum = e.component_mul(&first);
+    let second = &minimum + complementary(&w, &(&u + &w * &minimum), floor, size);
     let total = &first + &second;
-    let (twists, multipliers) = follow(&total);
+    let (mut twists, mut multipliers) = (closed, multipliers);
+    for ((twist, multiplier), p) in responses.iter().zip(&total) {
+        twists += twist * *p;
+        multipliers += multiplier * *p;
+    }
 
-    let mut of_ties = wrenches(&ties, &multipliers).split_off(all.joints.len());
-    let mut of_captures = of_ties.split_off(all.held.len()).into_iter();
+    let mut capture_impulses = wrenches(&constraints, &multipliers).split_off(all.joints.len());
+    let mut of_captures = capture_impulses.split_off(all.captures.len()).into_iter();
     let mut of_bounces = total.iter();
     let impulse = |contact: &Contact| match contact.kind {
         Kind::Bounce { normal: [nx, ny], .. } => {
@@ -156,7 +151,7 @@ pub fn impact(all: &System, contacts: &[Contact]) -> Impact {
     Impact {
         impulses: contacts.iter().map(impulse).collect(),
         twists,
-        held: of_ties,
+        capture_impulses,
         redundant: system.redundant,
         margin: system.margin,
         bounces_redundant: !is_definite(&w, floor),
@@ -165,28 +160,28 @@ pub fn impact(all: &System, contacts: &[Contact]) -> Impact {
 }
 
 impl System {
-    /// The twists after an impact; what it captured is held from now on.
+    /// Sets the twists after an impact, and adds the constraints of its captures.
     pub fn apply(&mut self, contacts: &[Contact], impact: &Impact) {
-        let ties: Vec<Tie> = contacts.iter().filter_map(|contact| contact.tie(self)).collect();
-        self.held.extend(ties);
+        let captures: Vec<_> = contacts.iter().filter_map(|contact| contact.constraint(self)).collect();
+        self.captures.extend(captures);
         self.set_twists(&impact.twists);
     }
 }
 
-/// What an impact left, by the product.
+/// Result of an impact computed by the product.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Left {
+pub struct ProductImpact {
     /// As [`System::velocities`].
     pub velocities: Vec<f64>,
     /// [n, fx, fy] of each contact.
     pub impulses: Vec<[f64; 3]>,
 }
 
-impl Left {
-    /// Fails where the reference has other velocities or impulses, which may be rounding beside the momentum that there
-    /// is.
+impl ProductImpact {
+    /// Fails unless velocities and impulses agree with the reference. The scale of the impulses is at least that of the
+    /// linear momentum.
     #[track_caller]
-    pub fn assert_is(&self, after: &System, impulses: &[[f64; 3]], bound: f64) {
+    pub fn assert_agrees(&self, after: &System, impulses: &[[f64; 3]], bound: f64) {
         close("velocities", &self.velocities, &after.velocities(), bound);
         let [_, momentum] = after.momentum_scale();
         let size = impulses.as_flattened().iter().fold(momentum, |most, part| most.max(part.abs()));

@@ -1,20 +1,20 @@
-//! The KKT system of free bodies under bilateral constraints, solved whole.
+//! Solution of the KKT system of free bodies under bilateral constraints, from masses and constraint Jacobian.
 
-use super::constraint::{Tie, rows};
+use super::constraint::{Constraint, jacobian};
 use super::system::System;
 use nalgebra::{DMatrix, DVector};
 
-/// A row of length one that is nearer than this to the span of the rows before it says nothing new.
+/// A unit row closer than this to the span of the rows before it depends on them.
 const DEPENDENT: f64 = 1e-10;
 
-/// [M −Aᵀ; A 0] [x; λ] = [f; g], decomposed for one set of ties at one position.
+/// [M −Aᵀ; A 0] [x; λ] = [f; g], decomposed for one set of constraints at one configuration.
 ///
-/// With B = D A M^(−½), D giving rows of length one, it is w − Bᵀλ' = M^(−½) f and B w = D g in w = M^½ x, λ' = D⁻¹ λ.
-/// B = L Q, with orthonormal rows in Q and L lower triangular, says it all, without ever forming A M⁻¹ Aᵀ, whose
-/// condition is the square. Rows are made orthogonal to those before them twice, which is enough (Kahan; Parlett), and
-/// quick where they are so already, as most joints' are. (nalgebra's `svd` was the first choice: now and then its U Σ
-/// Vᵀ is another matrix, where the wheel's zeros are in it.)
-pub struct Constrained {
+/// With B = D A M^(−½), where D scales the rows to length one, the system is w − Bᵀλ' = M^(−½) f, B w = D g with
+/// w = M^½ x, λ' = D⁻¹ λ. It is solved by B = L Q, with orthonormal rows in Q and L lower triangular. A M⁻¹ Aᵀ, whose
+/// condition is the square, is never formed. Each row is made orthogonal to those before it twice, which is enough
+/// (Kahan; Parlett). (nalgebra's `svd` is not used: for some matrices with the wheel's zeros its U Σ Vᵀ differs from
+/// the matrix.)
+pub struct KktSystem {
     /// M^½, a diagonal.
     root: DVector<f64>,
     /// D.
@@ -23,30 +23,29 @@ pub struct Constrained {
     q: Vec<Vec<f64>>,
     /// Rows of L.
     l: Vec<Row>,
-    /// Some rows depend on others. Those that come last then get no multiplier.
+    /// Some rows depend on rows before them; their multipliers are zero.
     pub redundant: bool,
-    /// The least that is left of a row of length one without what the rows before it say, of those that say something
-    /// new.
+    /// Smallest distance of an independent unit row from the span of the rows before it.
     pub margin: f64,
 }
 
-/// A row of B that does not depend on those before it, by the rows of Q.
+/// A row of B that does not depend on those before it, as a combination of the rows of Q.
 struct Row {
-    /// Which of B's.
+    /// Index in B.
     index: usize,
-    /// As many as there are rows of Q up to its own.
+    /// One per row of Q up to its own.
     coefficients: Vec<f64>,
 }
 
-impl Constrained {
-    /// All bodies under these ties.
-    pub fn new(all: &System, ties: &[Tie]) -> Self {
+impl KktSystem {
+    /// Of all bodies under these constraints.
+    pub fn new(all: &System, constraints: &[Constraint]) -> Self {
         let root = all.masses().map(f64::sqrt);
-        Self::of(&rows(all, ties), root)
+        Self::decompose(&jacobian(&all.bodies, constraints), root)
     }
 
     /// Of any A and M^½.
-    fn of(a: &DMatrix<f64>, root: DVector<f64>) -> Self {
+    fn decompose(a: &DMatrix<f64>, root: DVector<f64>) -> Self {
         let mut scale = DVector::zeros(a.nrows());
         let (mut q, mut l): (Vec<Vec<f64>>, Vec<Row>) = (vec![], vec![]);
         let mut margin = 1.0_f64;
@@ -104,9 +103,9 @@ impl Constrained {
         (DVector::from_vec(w).component_div(&self.root), multipliers)
     }
 
-    /// The twists nearest to the given ones, by kinetic energy, that satisfy the constraints, and the impulses it
-    /// takes.
-    pub fn close(&self, twists: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+    /// The twists that satisfy the constraints and are nearest to the given ones in the metric of kinetic energy, and
+    /// the constraint impulses.
+    pub fn project_twists(&self, twists: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let momentum = twists.component_mul(&self.root).component_mul(&self.root);
         self.solve(&momentum, &DVector::zeros(self.scale.len()))
     }

@@ -1,15 +1,14 @@
 //! Contacts and closed loops in maximal coordinates: an independent reference.
 //!
-//! Every body (base, links, targets) is a free planar rigid body, with a pose and a twist of its own; joints and
-//! captures are constraints between two of them, all alike. Of the product it reads the layout and nothing else: no
-//! reduced coordinates, no Jacobian of an arm, no recursion, no pivoting scheme, no Runge–Kutta method.
+//! Each body (base, link, target) is a free planar rigid body with its own pose and twist; each joint and each capture is
+//! a constraint between two bodies. The only code shared with the product is the layout: no reduced coordinates, no
+//! Jacobian of an arm, no recursion, no pivoting scheme, no Runge–Kutta method.
 //!
-//! [`body`] · [`system`] and back to joint angles · [`constraint`] · [`kkt_system`] ·
-//! [`complementarity`] by enumeration · [`impact`] · [`motion`] · [`random`] contacts
+//! [`body`] · [`constraint`] · [`system`] of bodies, and its joint angles · [`kkt_system`] · [`complementarity`] by
+//! enumeration · [`impact`] · [`motion`] · [`random`] contacts
 
 pub mod body;
 pub mod complementarity;
-
 pub mod constraint;
 pub mod impact;
 pub mod kkt_system;

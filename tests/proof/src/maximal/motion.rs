@@ -1,26 +1,25 @@
-//! Motion of bodies under their ties and joint torques.
+//! Accelerations and motion of bodies under constraints and joint torques.
 
-use super::constraint::{Tie, centripetal, residual};
-use super::kkt_system::Constrained;
-use super::system::System;
+use super::constraint::{centripetal, residual};
+use super::kkt_system::KktSystem;
+use super::system::{Joint, System};
 use nalgebra::DVector;
 
 /// Joint torques from time, joint angles and joint rates.
 pub type Torques<'a> = dyn Fn(f64, &[f64], &[f64]) -> Vec<f64> + 'a;
 
-/// The largest that went wrong over all steps.
+/// Largest errors over all steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Monitor {
     /// Change of [l, p], relative to the largest [`System::momentum_scale`].
     pub momentum: [f64; 2],
     /// |E − E₀ − work of the torques| over the largest E.
     pub energy: f64,
-    /// Ties' residual of a step before it was projected, rad or m.
+    /// Constraint residual before projection, rad or m.
     pub constraint: f64,
-    /// The same afterwards.
+    /// Constraint residual after projection, rad or m.
     pub projected: f64,
-    /// The smallest [`Constrained::margin`]: how near a loop came to a configuration where its ties depend on each
-    /// other.
+    /// Smallest [`KktSystem::margin`]: zero where the constraints of a loop depend on each other.
     pub margin: f64,
     /// Work of the joint torques, J.
     pub work: f64,
@@ -29,19 +28,18 @@ pub struct Monitor {
 /// [α, ax, ay] of every body: M a = f + Aᵀλ, A a = −Ȧ v. A joint's torque acts on its child, the opposite on its
 /// parent.
 pub fn accelerations(all: &System, torques: &[f64]) -> DVector<f64> {
-    let ties: Vec<Tie> = all.ties().copied().collect();
+    let constraints = all.constraints();
     let mut forces = DVector::zeros(3 * all.bodies.len());
     for (joint, torque) in all.joints.iter().zip(torques) {
-        forces[3 * joint.tie.a.body] += torque;
-        forces[3 * joint.tie.b.body] -= torque;
+        forces[3 * joint.constraint.a.body] += torque;
+        forces[3 * joint.constraint.b.body] -= torque;
     }
-    Constrained::new(all, &ties).solve(&forces, &-centripetal(all, &ties)).0
+    KktSystem::new(all, &constraints).solve(&forces, &-centripetal(&all.bodies, &constraints)).0
 }
 
-/// Base acceleration and joint accelerations of those of the bodies.
+/// Base and joint accelerations from those of the bodies.
 pub fn joint_accelerations(all: &System, bodies: &DVector<f64>) -> ([f64; 3], Vec<f64>) {
-    let spin = |body: usize| bodies[3 * body];
-    let joints = all.joints.iter().map(|j| spin(j.tie.a.body) - spin(j.tie.b.body));
+    let joints = all.joints.iter().map(|Joint { constraint: c, .. }| bodies[3 * c.a.body] - bodies[3 * c.b.body]);
     ([bodies[0], bodies[1], bodies[2]], joints.collect())
 }
 
@@ -79,8 +77,7 @@ const SUBSTEPS: [u8; 6] = [2, 4, 6, 8, 10, 12];
 const ERROR: f64 = 1e-13;
 
 /// One step of Gragg's extrapolated midpoint rule (Hairer, Nørsett & Wanner, Solving ODEs I, II.9), or two of half the
-/// length where it is not good enough: of high order, with no table of coefficients, and no relative of the product's
-/// integrators.
+/// length where its error estimate is too large. It is of high order and independent of the product's integrators.
 fn step(all: &mut System, time: f64, step: f64, y: &DVector<f64>, law: &Torques<'_>) -> DVector<f64> {
     assert!(step > 1e-5, "no step is short enough at t = {time} s");
     let slope = derivative(all, time, y, law);
@@ -111,49 +108,50 @@ fn step(all: &mut System, time: f64, step: f64, y: &DVector<f64>, law: &Torques<
     self::step(all, time + half, half, &middle, law)
 }
 
-/// Poses and twists onto the ties, by the least change in the metric of the masses, which moves no centre of mass.
-/// Returns the residual before and after, and the margin.
+/// Projects poses and twists onto the constraints by the smallest change in the metric of the masses, which does not move
+/// the centre of mass. Returns the residual before and after, and the margin.
 pub fn project(all: &mut System) -> [f64; 3] {
-    let ties: Vec<Tie> = all.ties().copied().collect();
-    let nothing = DVector::zeros(3 * all.bodies.len());
-    let before = residual(all, &ties).amax();
+    let constraints = all.constraints();
+    let no_force = DVector::zeros(3 * all.bodies.len());
+    let before = residual(&all.bodies, &constraints).amax();
     for _ in 0..2 {
-        let (change, _) = Constrained::new(all, &ties).solve(&nothing, &-residual(all, &ties));
+        let violation = residual(&all.bodies, &constraints);
+        let (change, _) = KktSystem::new(all, &constraints).solve(&no_force, &-violation);
         for (body, change) in all.bodies.iter_mut().zip(change.as_slice().chunks_exact(3)) {
             body.pose.iter_mut().zip(change).for_each(|(pose, change)| *pose += change);
         }
     }
-    let system = Constrained::new(all, &ties);
-    let (twists, _) = system.close(&all.twists());
+    let system = KktSystem::new(all, &constraints);
+    let (twists, _) = system.project_twists(&all.twists());
     all.set_twists(&twists);
-    [before, residual(all, &ties).amax(), system.margin]
+    [before, residual(&all.bodies, &constraints).amax(), system.margin]
 }
 
-/// Moves the bodies for a time, by equal steps of at most `longest`.
+/// Integrates the motion for `duration`, by equal steps of at most `longest`, s.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some hundred steps")]
 pub fn run(all: &mut System, duration: f64, longest: f64, law: &Torques<'_>) -> Monitor {
     let steps = (duration / longest - 1e-9).ceil().max(1.0) as u32;
     let h = duration / f64::from(steps);
     let (momentum, energy) = (all.momentum(), all.kinetic_energy());
     let (mut largest, mut scale) = (energy, all.momentum_scale());
-    let mut seen = Monitor { margin: 1.0, ..Monitor::default() };
+    let mut monitor = Monitor { margin: 1.0, ..Monitor::default() };
     let (mut drift, mut error) = ([0.0_f64; 2], 0.0_f64);
     for i in 0..steps {
-        let y = pack(all, seen.work);
+        let y = pack(all, monitor.work);
         let y = step(all, f64::from(i) * h, h, &y, law);
-        seen.work = unpack(&y, all);
+        monitor.work = unpack(&y, all);
         let [before, after, margin] = project(all);
-        seen.margin = seen.margin.min(margin);
-        seen.constraint = seen.constraint.max(before);
-        seen.projected = seen.projected.max(after);
+        monitor.margin = monitor.margin.min(margin);
+        monitor.constraint = monitor.constraint.max(before);
+        monitor.projected = monitor.projected.max(after);
         let now = all.momentum();
         drift[0] = drift[0].max((now[0] - momentum[0]).abs());
         drift[1] = drift[1].max((now[1] - momentum[1]).hypot(now[2] - momentum[2]));
-        error = error.max((all.kinetic_energy() - energy - seen.work).abs());
+        error = error.max((all.kinetic_energy() - energy - monitor.work).abs());
         largest = largest.max(all.kinetic_energy());
         scale = std::array::from_fn(|k| scale[k].max(all.momentum_scale()[k]));
     }
-    seen.momentum = std::array::from_fn(|k| if scale[k] > 0.0 { drift[k] / scale[k] } else { 0.0 });
-    seen.energy = if largest > 0.0 { error / largest } else { 0.0 };
-    seen
+    monitor.momentum = std::array::from_fn(|k| if scale[k] > 0.0 { drift[k] / scale[k] } else { 0.0 });
+    monitor.energy = if largest > 0.0 { error / largest } else { 0.0 };
+    monitor
 }

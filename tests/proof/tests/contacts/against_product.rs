@@ -1,4 +1,4 @@
-//! What the product computes in joint coordinates, by recursion, elimination and merging.
+//! The reference against the product's recursion, elimination and merging in joint coordinates.
 
 use crate::{rigid_targets, robot, simulated, targets};
 use planar_capture::control::{Control, ZeroTorque};
@@ -22,7 +22,7 @@ fn model(layout: &Layout) -> Box<dyn CloneModel> {
     registry::generated(layout).unwrap_or_else(|_| registry::generic(layout))
 }
 
-/// Bodies' poses and twists, and the way back to joints.
+/// Poses and twists of bodies, joint coordinates, momentum and energy.
 fn check_kinematics(layout: &Layout, s: &RandomState) {
     let all = robot(layout, s);
     let (mut poses, mut twists) = (vec![[0.0; 3]; all.bodies.len()], vec![[0.0; 3]; all.bodies.len()]);
@@ -74,16 +74,16 @@ fn check_capture(layout: &Layout, s: &RandomState) -> (System, Box<dyn CloneMode
     (all, model, motion)
 }
 
-/// Springs and dampers at the joints, and something that shakes them.
-pub(crate) fn shaken(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
+/// Springs, dampers and a periodic torque at the joints.
+pub(crate) fn excitation_torques(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
     let law = |(angle, rate): (&f64, &f64)| 0.3 * (2.0 * time).sin() - 0.2 * angle - 0.5 * rate;
     angles.iter().zip(rates).map(law).collect()
 }
 
 /// The same as a control law.
-pub(crate) struct Shaken;
+pub(crate) struct Excitation;
 
-impl Control<f64> for Shaken {
+impl Control<f64> for Excitation {
     fn joint_torques(
         &mut self,
         time: f64,
@@ -91,7 +91,7 @@ impl Control<f64> for Shaken {
         state: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {
-        torques.copy_from_slice(&shaken(time, state.joint_angles, state.joint_rates));
+        torques.copy_from_slice(&excitation_torques(time, state.joint_angles, state.joint_rates));
         Ok(())
     }
 }
@@ -99,17 +99,17 @@ impl Control<f64> for Shaken {
 /// Motion after the capture against that of the merged robot.
 fn check_motion(layout: &Layout, s: &RandomState, duration: f64, controlled: bool) {
     let (mut all, merged, motion) = check_capture(layout, s);
-    let control: &mut dyn Control<f64> = if controlled { &mut Shaken } else { &mut ZeroTorque };
+    let control: &mut dyn Control<f64> = if controlled { &mut Excitation } else { &mut ZeroTorque };
     let end = simulated(&*merged, control, &motion, duration);
-    let nothing = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
-    let seen = run(&mut all, duration, 0.25, if controlled { &shaken } else { &nothing });
+    let zero = |_: f64, angles: &[f64], _: &[f64]| vec![0.0; angles.len()];
+    let monitor = run(&mut all, duration, 0.25, if controlled { &excitation_torques } else { &zero });
     let bound = tolerance::MAXIMAL_MOTION;
     close("angles", &all.joint_angles(), &end.joint_angles, bound);
     close("rates", &all.joint_rates(), &end.joint_rates, bound);
     close("base pose", &all.bodies[0].pose, &end.base_pose, bound);
     close("base twist", &all.bodies[0].twist, &end.base_twist, bound);
-    assert!(seen.momentum[0].max(seen.momentum[1]).max(seen.energy) < tolerance::MAXIMAL_DRIFT, "{seen:?}");
-    assert!(seen.projected < tolerance::MAXIMAL_TIE, "{seen:?}");
+    assert!(monitor.momentum[0].max(monitor.momentum[1]).max(monitor.energy) < tolerance::MAXIMAL_DRIFT, "{monitor:?}");
+    assert!(monitor.projected < tolerance::MAXIMAL_CONSTRAINT, "{monitor:?}");
 }
 
 macro_rules! instantly {
@@ -134,7 +134,7 @@ fn every_shipped_layout_is_here() {
     assert_eq!(registry::SHIPPED.len(), 7, "one line of `instantly` each");
 }
 
-/// As the sample, but slower: ten seconds are some turns of every joint, not hundreds.
+/// The sample with lower speeds, so that joints make few turns in ten seconds.
 fn slowly(mut s: RandomState) -> RandomState {
     let slow = |twist: &mut [f64]| twist.iter_mut().for_each(|value| *value *= 0.3);
     slow(&mut s.base_twist);

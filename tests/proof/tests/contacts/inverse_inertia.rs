@@ -1,6 +1,7 @@
-//! How an end effector answers impulses: the extended inverse inertia and what follows from it, by dense algebra and by impacts.
+//! The inverse inertia at an end effector, and impulses, effective masses and ellipses from it, against dense algebra
+//! and impacts.
 
-use crate::product::{both_models, strike};
+use crate::product::{both_models, solve_impact};
 use nalgebra::{DMatrix, Matrix2, Matrix3, Vector2};
 use planar_capture::body::Body;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, InverseInertia};
@@ -32,7 +33,7 @@ fn dense(layout: &Layout, s: &RandomState, arm: usize) -> DMatrix<f64> {
     &jacobian * mass.cholesky().expect("positive definite").solve(&jacobian.transpose())
 }
 
-fn check_tips(layout: &Layout, s: &RandomState) {
+fn check_end_effectors(layout: &Layout, s: &RandomState) {
     for arm in 0..layout.arms.len() {
         let wanted = dense(layout, s, arm);
         for model in both_models(layout) {
@@ -45,21 +46,21 @@ fn check_tips(layout: &Layout, s: &RandomState) {
     }
 }
 
-macro_rules! tips {
+macro_rules! end_effectors {
     ($($layout:ident $arms:literal $joints:literal),*) => {
         proptest! {
             #![proptest_config(ProptestConfig { cases: 16, ..config() })]
             $(
             #[test]
             fn $layout(s in sample($arms, $joints)) {
-                check_tips(&layout(stringify!($layout)), &s);
+                check_end_effectors(&layout(stringify!($layout)), &s);
             })*
         }
     };
 }
-tips!(asymmetric_wheel 3 6, boom_7r 1 7, dual_arm_2r 2 4, dual_arm_3r 2 6, single_arm_2r 1 2, single_arm_3r 1 3, triple_arm_3r 3 9);
+end_effectors!(asymmetric_wheel 3 6, boom_7r 1 7, dual_arm_2r 2 4, dual_arm_3r 2 6, single_arm_2r 1 2, single_arm_3r 1 3, triple_arm_3r 3 9);
 
-/// The part of it that forces at a point meet, a symmetric matrix.
+/// Its symmetric linear part, velocity per impulse.
 fn force_part(inertia: &InverseInertia<f64>) -> Matrix2<f64> {
     let [_, [_, a, b], [_, c, d]] = inertia.0;
     Matrix2::new(a, b, c, d)
@@ -76,7 +77,7 @@ fn check_ellipse(inertia: &InverseInertia<f64>) {
     assert!(ellipse.direction > -FRAC_PI_2 && ellipse.direction <= FRAC_PI_2, "{ellipse:?}");
     let axis = Vector2::new(ellipse.direction.cos(), ellipse.direction.sin());
     let across = axis.perp(&eigen.eigenvectors.column(small).into_owned());
-    // where it is nearly a circle, it has hardly a direction
+    // the direction of a near circle is ill-conditioned
     assert!(across.abs() * (longer - shorter) <= tolerance::ELLIPSE * longer, "{ellipse:?} {eigen:?}");
     for (axis, length) in [(axis, longer), (Vector2::new(-axis.y, axis.x), shorter)] {
         let on_it = (g * axis * length).norm();
@@ -88,7 +89,7 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn a_free_body_answers_by_its_jacobian(s in sample(1, 3)) {
+    fn inverse_inertia_of_a_free_body(s in sample(1, 3)) {
         let ([mass, inertia, rx, ry], twist) = s.targets[0];
         let target = Target { mass, inertia, contact: [rx, ry], twist };
         let jacobian = matrix(&target.contact_jacobian());
@@ -97,7 +98,7 @@ proptest! {
         close("J I⁻¹ Jᵀ", InverseInertia::of_body(mass, inertia, [rx, ry]).0.as_flattened(), wanted.as_slice(), tolerance::POLYNOMIAL);
     }
 
-    /// What a stopping impulse stops, what an effective mass weighs, and where the ellipse lies.
+    /// Stopping impulse, effective mass and ellipse by their definitions.
     #[test]
     fn impulses_at_a_point(s in sample(2, 6), direction in -3.2..3.2_f64) {
         let layout = layout("dual_arm_3r");
@@ -120,28 +121,29 @@ proptest! {
         }
     }
 
-    /// A tip that pins a free body, plastically, is stopped by that impulse; a bounce is 1 + e times what weighs there.
+    /// The impulse of a pin is the stopping impulse of the relative velocity; that of a bounce is 1 + e times the effective
+    /// mass times the approach speed.
     #[test]
     fn a_plastic_pin_is_the_stopping_impulse(s in sample(2, 6), direction in -3.2..3.2_f64, restitution in 0.0..1.0_f64) {
         let layout = layout("dual_arm_3r");
         let model = registry::generated(&layout).expect("generated code");
         let ([mass, inertia, rx, ry], twist @ [omega, vx, vy]) = s.targets[0];
         let body = Body { mass, inertia, pose: [0.0; 3], twist };
-        let mut tips = [[0.0; 3]; 2];
-        model.end_effector_twists(&s.state(), &mut tips).expect("twists");
-        let closing = [tips[1][1] - (vx - omega * ry), tips[1][2] - (vy + omega * rx)];
+        let mut twists = [[0.0; 3]; 2];
+        model.end_effector_twists(&s.state(), &mut twists).expect("twists");
+        let closing = [twists[1][1] - (vx - omega * ry), twists[1][2] - (vy + omega * rx)];
         let speed = Vector2::from(closing);
         let both = of_end_effector(&*model, &s, 1).expect("an inverse inertia").plus(&InverseInertia::of_body(mass, inertia, [rx, ry]));
-        let hit = |law| {
+        let impulse = |law| {
             let contact = Contact { arm: 1, partner: ContactPartner::Body(0), offset: [rx, ry], law };
-            strike(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]
+            solve_impact(&*model, &s.state(), &[body], &[contact]).expect("an impact").impulses[0]
         };
         let [fx, fy] = both.stopping_impulse(&closing);
-        close("pin", &hit(ContactLaw::Pin), &[0.0, fx, fy], tolerance::SAME_IMPACT);
+        close("pin", &impulse(ContactLaw::Pin), &[0.0, fx, fy], tolerance::SAME_IMPACT);
         let towards = Vector2::new(direction.cos(), direction.sin());
         let normal = -towards * towards.dot(&speed).signum();
-        let impulse = normal * ((1.0 + restitution) * -normal.dot(&speed) * both.effective_mass(&normal.into()));
-        close("bounce", &hit(ContactLaw::Bounce { normal: normal.into(), restitution }), &[0.0, impulse.x, impulse.y], tolerance::SAME_IMPACT);
+        let expected = normal * ((1.0 + restitution) * -normal.dot(&speed) * both.effective_mass(&normal.into()));
+        close("bounce", &impulse(ContactLaw::Bounce { normal: normal.into(), restitution }), &[0.0, expected.x, expected.y], tolerance::SAME_IMPACT);
     }
 }
 

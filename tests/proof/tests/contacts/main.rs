@@ -1,4 +1,5 @@
-//! The reference in maximal coordinates, held to what the product has by another way, and to mechanics.
+//! The product's contacts and closed loops against the reference in maximal coordinates, and the reference against
+//! mechanics.
 
 mod against_product;
 mod constrained_motion;
@@ -28,14 +29,14 @@ fn robot(layout: &Layout, s: &RandomState) -> System {
     System::new(layout, s.base_pose, &s.joint_angles, s.base_twist, &s.joint_rates)
 }
 
-/// The sample's targets, one per arm, held so by the tips: contacts in arm order.
+/// The sample's targets, one per arm, and their rigid contacts in arm order.
 fn rigid_targets(all: &mut System, s: &RandomState) -> Vec<Contact> {
-    let hold = |(arm, ([mass, inertia, rx, ry], twist)): (usize, &([f64; 4], [f64; 3]))| {
-        let com = all.position(&all.tips[arm]) - Vector2::new(*rx, *ry);
+    let contact = |(arm, ([mass, inertia, rx, ry], twist)): (usize, &([f64; 4], [f64; 3]))| {
+        let com = all.end_effector(arm) - Vector2::new(*rx, *ry);
         let body = all.add(Body { mass: *mass, inertia: *inertia, pose: [0.3, com.x, com.y], twist: *twist });
         Contact::new(all, arm, body, Kind::Rigid)
     };
-    s.targets.iter().enumerate().map(hold).collect()
+    s.targets.iter().enumerate().map(contact).collect()
 }
 
 fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
@@ -45,7 +46,7 @@ fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
     s.targets.iter().map(target).collect()
 }
 
-/// How the product's robot moves for a time, by Runge–Kutta steps of a millisecond.
+/// State of the product's robot after `duration`, by Runge–Kutta steps of 1 ms.
 fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
     let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
     let robot = planar_capture::simulate::system::System::alone(model);

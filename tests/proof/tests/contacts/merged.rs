@@ -1,4 +1,4 @@
-//! Contacts of all kinds: against the rigid capture, in free motion with holds, and what the laws promise.
+//! Rigid contacts against the capture in full coordinates, loop constraints against merged links, and drift of loops.
 
 use planar_capture::body::Body;
 use planar_capture::contact::{
@@ -23,7 +23,7 @@ fn state() -> State<'static, f64> {
     State { base_pose: [0.9, 1.5, -2.5], joint_angles: &ANGLES, base_twist: [0.2, -0.3, 0.1], joint_rates: &RATES }
 }
 
-/// What is after an impact: base, joints, bodies, impulses.
+/// Base twist, joint rates, body twists and impulses after an impact.
 type Outcome = ([f64; 3], [f64; 6], Vec<[f64; 3]>, Vec<[f64; 3]>);
 
 fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], contacts: &[Contact<f64>]) -> Outcome {
@@ -37,14 +37,14 @@ fn solve(model: &Model<f64>, state: &State<'_, f64>, bodies: &[Body<f64>], conta
     (base, rates, twists, impulses)
 }
 
-fn tips(state: &State<'_, f64>) -> [[f64; 3]; 2] {
-    let mut tips = [[0.0; 3]; 2];
-    Kinematics::end_effector_poses(&Model::<f64>::default(), &state.base_pose, state.joint_angles, &mut tips)
+fn end_effector_poses(state: &State<'_, f64>) -> [[f64; 3]; 2] {
+    let mut poses = [[0.0; 3]; 2];
+    Kinematics::end_effector_poses(&Model::<f64>::default(), &state.base_pose, state.joint_angles, &mut poses)
         .expect("poses");
-    tips
+    poses
 }
 
-/// Each tip takes hold of a body: the same as the capture solved in full coordinates.
+/// Each end effector captures a body: the same as the capture in full coordinates.
 #[test]
 fn rigid_contacts_are_the_rigid_capture() {
     let (model, state) = (Model::<f64>::default(), state());
@@ -74,38 +74,43 @@ fn rigid_contacts_are_the_rigid_capture() {
     assert_close("impulses", found.3.as_flattened(), impulses.as_flattened(), tolerance::SAME_IMPACT);
 }
 
-/// A body held by constraint forces moves as the link that it is merged with.
+/// A body under a rigid loop constraint moves as one merged with the last link.
 #[test]
-fn a_rigid_hold_is_a_merged_link() {
+fn a_rigid_constraint_is_a_merged_link() {
     let state = state();
     let timing = Timing { duration: 4.0, step: 0.005, sample: 4.0, ..Timing::default() };
     let contact = Contact { arm: 1, partner: ContactPartner::Body(0), offset: [0.3, -0.4], law: ContactLaw::Rigid };
-    let tip = tips(&state)[1];
-    let body = Body { mass: 60.0, inertia: 9.0, pose: [0.2, tip[1] - 0.3, tip[2] + 0.4], twist: [0.1, 0.2, -0.3] };
+    let end_effector = end_effector_poses(&state)[1];
+    let body = Body {
+        mass: 60.0,
+        inertia: 9.0,
+        pose: [0.2, end_effector[1] - 0.3, end_effector[2] + 0.4],
+        twist: [0.1, 0.2, -0.3],
+    };
     let model = Model::<f64>::default();
     let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &[contact]);
     let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::from_view(&state) };
-    let held = [Body { twist: twists[0], ..body }];
-    let constraints = [LoopConstraint::new(&contact, &tip, &body.pose).expect("a hold")];
-    let system = System { model: &model, bodies: &held, constraints: &constraints, joint_limits: &[] };
-    let by_forces = simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
+    let bodies = [Body { twist: twists[0], ..body }];
+    let constraints = [LoopConstraint::new(&contact, &end_effector, &body.pose).expect("a constraint")];
+    let system = System { model: &model, bodies: &bodies, constraints: &constraints, joint_limits: &[] };
+    let constrained = simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
     let mut merged = model;
     let target = Target { mass: body.mass, inertia: body.inertia, contact: contact.offset, twist: body.twist };
     Merge::merge(&mut merged, &state.base_pose, &ANGLES, &[None, Some(target)]).expect("merged");
-    let as_one = simulate(&System::alone(&merged), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {})
+    let rigid = simulate(&System::alone(&merged), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {})
         .expect("a motion");
-    let (a, b) = (by_forces.end(), as_one.end());
+    let (a, b) = (constrained.end(), rigid.end());
     assert_close("base pose", &a.state.base_pose, &b.state.base_pose, tolerance::MERGED_MOTION);
     assert_close("joint angles", &a.state.joint_angles, &b.state.joint_angles, tolerance::MERGED_MOTION);
     assert_close("joint rates", &a.state.joint_rates, &b.state.joint_rates, tolerance::MERGED_MOTION);
 }
 
-/// Both tips on one body, in every mixture of grips.
+/// Both end effectors on one body, with rigid and pinned contacts.
 #[test]
 fn a_loop_stays_closed() {
     let state = state();
-    let both @ [left, right] = tips(&state);
+    let both @ [left, right] = end_effector_poses(&state);
     let com = [f64::midpoint(left[1], right[1]) + 0.2, f64::midpoint(left[2], right[2])];
     let body = Body { mass: 200.0, inertia: 150.0, pose: [0.0, com[0], com[1]], twist: [0.3, 0.1, -0.2] };
     for kinds in [
@@ -113,34 +118,39 @@ fn a_loop_stays_closed() {
         [ContactLaw::Pin, ContactLaw::Rigid],
         [ContactLaw::Pin, ContactLaw::Pin],
     ] {
-        let touching = both.iter().zip(kinds).enumerate();
-        let contacts: Vec<_> = touching
-            .map(|(arm, (tip, kind))| Contact {
+        let contacts: Vec<_> = both
+            .iter()
+            .zip(kinds)
+            .enumerate()
+            .map(|(arm, (pose, law))| Contact {
                 arm,
                 partner: ContactPartner::Body(0),
-                offset: [tip[1] - com[0], tip[2] - com[1]],
-                law: kind,
+                offset: [pose[1] - com[0], pose[2] - com[1]],
+                law,
             })
             .collect();
         let model = Model::<f64>::default();
         let (base_twist, rates, twists, _) = solve(&model, &state, &[body], &contacts);
         let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::from_view(&state) };
-        let held = [Body { twist: twists[0], ..body }];
-        let constraint = |(contact, tip)| LoopConstraint::new(contact, tip, &body.pose).expect("a hold");
+        let bodies = [Body { twist: twists[0], ..body }];
+        let constraint = |(contact, pose)| LoopConstraint::new(contact, pose, &body.pose).expect("a constraint");
         let constraints: Vec<_> = contacts.iter().zip(&both).map(constraint).collect();
-        let system = System { model: &model, bodies: &held, constraints: &constraints, joint_limits: &[] };
+        let system = System { model: &model, bodies: &bodies, constraints: &constraints, joint_limits: &[] };
         let drift = |step: f64| {
             let timing = Timing { duration: 2.0, step, sample: 2.0, ..Timing::default() };
             let phase =
                 simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
             let [open, opening] = phase.constraint_errors;
-            assert!(open < tolerance::HOLD && opening < tolerance::HOLD, "{kinds:?}: {open} {opening}");
+            assert!(
+                open < tolerance::PROJECTED_CONSTRAINT && opening < tolerance::PROJECTED_CONSTRAINT,
+                "{kinds:?}: {open} {opening}"
+            );
             phase.drift
         };
-        // what is left is the integrator's: of order 4 in the step
+        // the remaining drift is the integrator's, of order 4 in the step
         let (coarse, fine) = (drift(0.01), drift(0.005));
         for (coarse, fine) in [(coarse.momentum_drift, fine.momentum_drift), (coarse.energy_error, fine.energy_error)] {
-            assert!(fine < coarse / 10.0 && fine < tolerance::HELD_DRIFT, "{kinds:?}: {coarse:e} {fine:e}");
+            assert!(fine < coarse / 10.0 && fine < tolerance::CONSTRAINED_DRIFT, "{kinds:?}: {coarse:e} {fine:e}");
         }
     }
 }

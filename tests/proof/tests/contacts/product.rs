@@ -1,4 +1,4 @@
-//! The product's impacts, in the reference's terms.
+//! The product's impacts, from the reference's scenes.
 
 use planar_capture::body::Body;
 use planar_capture::contact::{self, Contact, ContactPartner, DelassusMatrix, ImpactOutput, workspace_length};
@@ -9,10 +9,11 @@ use planar_capture::owned::CloneModel;
 use planar_capture::registry;
 use planar_capture::scalar::Real;
 use planar_capture::state::State;
+use planar_proof::maximal;
 use planar_proof::maximal::impact::Kind;
-use planar_proof::maximal::random::{Object, PlannedContact, Scene};
+use planar_proof::maximal::random::{PlannedContact, Scene};
 
-/// What an impact leaves, by the product.
+/// Result of an impact by the product.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<T> {
     pub base_twist: [T; 3],
@@ -42,21 +43,25 @@ pub fn law(kind: Kind) -> contact::ContactLaw<f64> {
     }
 }
 
+/// A body of the reference as one of the product.
+pub fn body(body: &maximal::body::Body) -> Body<f64> {
+    let maximal::body::Body { mass, inertia, pose, twist } = *body;
+    Body { mass, inertia, pose, twist }
+}
+
 /// The scene's targets and contacts.
-pub fn described(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
-    let body =
-        |target: &Object| Body { mass: target.mass, inertia: target.inertia, pose: target.pose, twist: target.twist };
-    let contact = |touch: &PlannedContact| Contact {
-        arm: touch.arm,
-        partner: ContactPartner::Body(touch.target),
-        offset: touch.offset,
-        law: law(touch.kind),
+pub fn targets_and_contacts(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>) {
+    let contact = |planned: &PlannedContact| Contact {
+        arm: planned.arm,
+        partner: ContactPartner::Body(planned.target),
+        offset: planned.offset,
+        law: law(planned.kind),
     };
-    (scene.targets.iter().map(body).collect(), scene.touches.iter().map(contact).collect())
+    (scene.targets.iter().map(body).collect(), scene.planned.iter().map(contact).collect())
 }
 
 /// All contacts at once, by [`contact::impact`].
-pub fn strike<T: Real>(
+pub fn solve_impact<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
     bodies: &[Body<T>],

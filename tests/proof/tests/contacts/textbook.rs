@@ -1,27 +1,27 @@
-//! Impacts with an answer on paper.
+//! The reference's impacts against closed-form solutions.
 
 use nalgebra::Vector2;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_proof::maximal::body::Body;
-use planar_proof::maximal::constraint::BodyPoint;
+use planar_proof::maximal::body::BodyPoint;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::system::System;
 use planar_proof::{assert_close, layout, tolerance};
 
-/// Discs in a row along x with these masses and speeds, in contact with their neighbours; n = x throughout.
+/// Discs in a row along x with these masses and speeds, each in contact with its neighbours; all normals are x.
 fn row(masses: &[f64], speeds: &[f64], restitution: &[f64]) -> (System, Vec<Contact>) {
-    let mut all = System { bodies: vec![], joints: vec![], tips: vec![], held: vec![] };
+    let mut all = System { bodies: vec![], joints: vec![], end_effectors: vec![], captures: vec![] };
     let mut x = 0.0;
     for (mass, speed) in masses.iter().zip(speeds) {
         all.add(Body { mass: *mass, inertia: 0.02 * mass, pose: [0.4, x, 0.0], twist: [0.7, *speed, 0.3] });
         x -= 0.4;
     }
-    let touch = |(i, e): (usize, &f64)| {
+    let contact = |(i, e): (usize, &f64)| {
         let point = Vector2::new(-0.2 - 0.4 * f64::from(u8::try_from(i).expect("few")), 0.0);
         let kind = Kind::Bounce { normal: [1.0, 0.0], restitution: *e };
-        Contact { robot: all.place(i, point), target: all.place(i + 1, point), kind }
+        Contact { robot: all.body_point(i, point), target: all.body_point(i + 1, point), kind }
     };
-    let contacts = restitution.iter().enumerate().map(touch).collect();
+    let contacts = restitution.iter().enumerate().map(contact).collect();
     (all, contacts)
 }
 
@@ -34,7 +34,7 @@ fn speeds(masses: &[f64], before: &[f64], restitution: &[f64]) -> Vec<f64> {
     all.bodies.iter().map(|body| body.twist[1]).collect()
 }
 
-/// Textbook: exchange, common speed, e between; unequal masses; and balls in a row, where contacts push at once.
+/// Two discs with e = 1, 0 and ½, unequal masses, and three discs with simultaneous contacts.
 #[test]
 fn discs_in_a_row() {
     let check = |masses: &[f64], before: &[f64], e: &[f64], wanted: &[f64]| {
@@ -45,41 +45,41 @@ fn discs_in_a_row() {
     check(&[2.0, 2.0], &[-1.0, 3.0], &[0.5], &[2.0, 0.0]);
     check(&[3.0, 1.0], &[0.0, 4.0], &[1.0], &[2.0, -2.0]);
     check(&[2.0, 2.0], &[3.0, -1.0], &[1.0], &[3.0, -1.0]);
-    // p₁ = m v (1/3, 2/3) from the far end; by Poisson the same again, or less
+    // p₁ = m v (1/3, 2/3) from the far end; restitution adds up to the same again
     let third = 1.0 / 3.0;
     check(&[1.0; 3], &[0.0, 0.0, 1.0], &[1.0, 1.0], &[2.0 * third, 2.0 * third, -third]);
     check(&[1.0; 3], &[0.0, 0.0, 1.0], &[0.0, 0.0], &[third; 3]);
-    // the near contact gives 2/3 more, the far one nothing of its own: but it may not close, so it gives 1/3 too
+    // restitution gives 2/3 at the near contact and none at the far one, which must not close: 1/3 there too
     check(&[1.0; 3], &[0.0, 0.0, 1.0], &[0.0, 1.0], &[2.0 * third, 2.0 * third, -third]);
-    // the far contact gives 1/3 more, which pushes the near one closed by 1/3: it gives 1/6
+    // restitution gives 1/3 at the far contact, which closes the near one by 1/3: 1/6 there
     check(&[1.0; 3], &[0.0, 0.0, 1.0], &[1.0, 0.0], &[2.0 * third, third / 2.0, third / 2.0]);
 }
 
-/// Off the line of the COMs: p = −(1 + e) u / (Σ 1/m + (r × n)²/I).
+/// Contact off the line of the COMs: p = −(1 + e) u / (Σ 1/m + (r × n)²/I).
 #[test]
 fn eccentric_bounce() {
     let first = Body { mass: 3.0, inertia: 0.5, pose: [0.3, 0.0, 0.0], twist: [0.4, 0.1, -0.2] };
     let second = Body { mass: 5.0, inertia: 0.9, pose: [1.0, 1.0, 0.5], twist: [-0.6, -1.5, 0.3] };
-    let all = System { bodies: vec![first, second], joints: vec![], tips: vec![], held: vec![] };
+    let all = System { bodies: vec![first, second], joints: vec![], end_effectors: vec![], captures: vec![] };
     let (point, normal, e) = (Vector2::new(0.4, 0.3), Vector2::new(-0.6, 0.8), 0.4);
     let kind = Kind::Bounce { normal: normal.into(), restitution: e };
-    let contact = Contact { robot: all.place(0, point), target: all.place(1, point), kind };
-    let arm = |body: &Body| (point - body.com()).perp(&normal);
-    let u = contact.opening(&all).expect("u");
+    let contact = Contact { robot: all.body_point(0, point), target: all.body_point(1, point), kind };
+    let lever_arm = |body: &Body| (point - body.com()).perp(&normal);
+    let u = contact.normal_velocity(&all).expect("u");
     assert!(u < -0.1, "they approach");
-    let each = |body: &Body| 1.0 / body.mass + arm(body) * arm(body) / body.inertia;
+    let each = |body: &Body| 1.0 / body.mass + lever_arm(body) * lever_arm(body) / body.inertia;
     let p = -(1.0 + e) * u / (each(&first) + each(&second));
     let found = impact(&all, &[contact]);
     assert_close("impulse", &found.impulses[0], &[0.0, p * normal.x, p * normal.y], tolerance::POLYNOMIAL);
     let moved = |body: &Body, p: f64| {
         let [omega, vx, vy] = body.twist;
-        [omega + p * arm(body) / body.inertia, vx + p * normal.x / body.mass, vy + p * normal.y / body.mass]
+        [omega + p * lever_arm(body) / body.inertia, vx + p * normal.x / body.mass, vy + p * normal.y / body.mass]
     };
     let wanted = [moved(&first, p), moved(&second, -p)];
     assert_close("twists", found.twists.as_slice(), wanted.as_flattened(), tolerance::POLYNOMIAL);
 }
 
-/// A link at rest on a base that nothing moves is struck at its tip by a ball: it turns about its joint.
+/// A ball hits the end effector of a link at rest on a heavy base: the link rotates about its joint.
 #[test]
 fn link_on_a_heavy_base() {
     let (length, mass, inertia, com) = (1.5, 4.0, 0.6, [0.7, 0.1]);
@@ -89,15 +89,19 @@ fn link_on_a_heavy_base() {
     let angle: f64 = -0.2;
     let mut all = System::new(&layout, [0.1, 2.0, -1.0], &[angle], [0.0; 3], &[0.0]);
     let across = Vector2::new(-(angle + 0.4).sin(), (angle + 0.4).cos());
-    let tip = all.position(&all.tips[0]);
+    let end_effector = all.end_effector(0);
     let (ball, speed, spin) = (2.5, -3.0, 1.1);
     let velocity = speed * across;
-    let body =
-        all.add(Body { mass: ball, inertia: 0.05, pose: [0.0, tip.x, tip.y], twist: [spin, velocity.x, velocity.y] });
+    let body = all.add(Body {
+        mass: ball,
+        inertia: 0.05,
+        pose: [0.0, end_effector.x, end_effector.y],
+        twist: [spin, velocity.x, velocity.y],
+    });
     let about_joint = inertia + mass * (com[0] * com[0] + com[1] * com[1]);
     let together = ball * length * speed / (about_joint + ball * length * length);
     let wanted = [
-        // as one body; with its own spin left; at e = ½ with half as much again of the impulse
+        // as one body; with unchanged spin; with e = ½ and 1.5 times the impulse
         (Kind::Rigid, (ball * length * speed + 0.05 * spin) / (about_joint + ball * length * length + 0.05)),
         (Kind::Pin, together),
         (Kind::Bounce { normal: (-across).into(), restitution: 0.5 }, 1.5 * together),
@@ -112,13 +116,18 @@ fn link_on_a_heavy_base() {
     }
 }
 
-/// Captures and bounces that say the same twice give the same twists as once.
+/// Repeated captures and bounces give the same twists as single ones.
 #[test]
 fn the_same_contact_twice() {
     let layout = layout("dual_arm_3r");
     let mut all = System::new(&layout, [0.2, 0.0, 0.0], &[0.3, -1.2, 0.7, 2.1, 1.4, -0.6], [0.1, 0.2, 0.0], &[0.3; 6]);
-    let tip = all.position(&all.tips[0]);
-    let body = all.add(Body { mass: 9.0, inertia: 2.0, pose: [0.0, tip.x + 0.3, tip.y], twist: [0.5, -1.0, 0.2] });
+    let end_effector = all.end_effector(0);
+    let body = all.add(Body {
+        mass: 9.0,
+        inertia: 2.0,
+        pose: [0.0, end_effector.x + 0.3, end_effector.y],
+        twist: [0.5, -1.0, 0.2],
+    });
     for kind in [Kind::Rigid, Kind::Pin, Kind::Bounce { normal: [-1.0, 0.0], restitution: 0.6 }] {
         let contact = Contact::new(&all, 0, body, kind);
         let (once, twice) = (impact(&all, &[contact]), impact(&all, &[contact, contact]));
@@ -127,14 +136,14 @@ fn the_same_contact_twice() {
         let sum: Vec<f64> = twice.impulses[0].iter().zip(&twice.impulses[1]).map(|(a, b)| a + b).collect();
         assert_close("impulse", &sum, &once.impulses[0], tolerance::IDENTITY * 10.0);
     }
-    // on a target that is held already, a bounce has nothing to do
-    let hold = [Contact::new(&all, 0, body, Kind::Rigid)];
-    let caught = impact(&all, &hold);
-    all.apply(&hold, &caught);
-    let place = BodyPoint { body, at: Vector2::new(0.1, 0.2) };
-    let robot = all.place(all.tips[0].body, all.position(&place));
+    // a bounce on a captured target has no impulse
+    let capture = [Contact::new(&all, 0, body, Kind::Rigid)];
+    let captured = impact(&all, &capture);
+    all.apply(&capture, &captured);
+    let target = BodyPoint { body, offset: Vector2::new(0.1, 0.2) };
+    let robot = all.body_point(all.end_effectors[0].body, target.position(&all.bodies));
     let kind = Kind::Bounce { normal: [0.0, 1.0], restitution: 1.0 };
-    let idle = impact(&all, &[Contact { robot, target: place, kind }]);
-    assert_close("twists", idle.twists.as_slice(), caught.twists.as_slice(), tolerance::IDENTITY);
+    let idle = impact(&all, &[Contact { robot, target, kind }]);
+    assert_close("twists", idle.twists.as_slice(), captured.twists.as_slice(), tolerance::IDENTITY);
     assert_close("impulse", &idle.impulses[0], &[0.0; 3], tolerance::IDENTITY);
 }
