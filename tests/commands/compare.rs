@@ -1,4 +1,4 @@
-//! `planar-capture compare`: what it prints, and that the states it leaves can be computed again.
+//! `planar-capture compare`: its table, and its states as input of `eval`.
 
 use crate::said;
 use planar_capture::compare::{Comparison, LargestError};

@@ -1,4 +1,4 @@
-//! The derivation's own tests, and that the committed graphs are what the layouts give.
+//! The derivation's own tests, and the committed graphs against the layouts.
 //!
 //! `PLANAR_CAPTURE_NO_PYTHON=1` leaves these out and says so; without Python they fail and say what to install.
 
@@ -22,7 +22,8 @@ fn python() -> Result<&'static str, String> {
     })
 }
 
-/// Runs `python -m codegen` with these arguments from the repository's root; `None` where Python is not wanted.
+/// Runs `python -m codegen` with these arguments from the repository's root; `None` where the environment excludes
+/// Python.
 fn codegen(arguments: &[&str]) -> Option<Output> {
     if std::env::var("PLANAR_CAPTURE_NO_PYTHON").is_ok_and(|value| value == "1") {
         // straight to the stream: what the macros print is shown for failing tests only

@@ -1,5 +1,4 @@
-//! Broken layouts and scenarios, and what is said about each: file, line, key, value and what
-//! would be right.
+//! Invalid layouts and scenarios, and the message for each: file, line, key, value and correction.
 
 use std::collections::HashSet;
 use std::error::Error;
@@ -64,8 +63,7 @@ fn scenario(text: &str) -> Result<Scenario, Report> {
     Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
 }
 
-/// One edit of a valid file: what is replaced by what, the line reported, and texts that the
-/// message must have.
+/// One edit of a valid file: replaced text, its replacement, the line reported, and texts of the message.
 type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
 
 fn check<T>(base: &str, file: &str, edits: &[Edit], parse: impl Fn(&str) -> Result<T, Report>) {
@@ -153,7 +151,7 @@ fn arms_are_lists_with_distinct_names() {
 /// The scenario's trajectory, end and end rates.
 const STEERED: &str = "\"quartic\"\nfinal_joint_angles = [0.5, 0.6]\nfinal_end_effector_twists = [[0, -0.1, 0]]";
 
-/// Tips on paths of their own in place of that, with one more line.
+/// End effector paths in place of that, with one more line.
 macro_rules! steered {
     ($line:literal) => {
         concat!("\"quintic\"\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1]]\n", $line)
@@ -459,9 +457,9 @@ fn an_arm_captures_one_target() {
     assert!(shown.contains("demo.toml:20:7") && shown.contains("at most one target"), "{shown}");
 }
 
-/// Where targets share a name, or one has none, nothing can be said of what the cases say of them.
+/// Where targets share a name or have none, their keys in the cases are not checked.
 #[test]
-fn target_names_are_complained_of_once() {
+fn target_names_are_reported_once() {
     let start = SCENARIO.find("[[target]]").unwrap_or(0);
     let end = SCENARIO.find("[[case]]").unwrap_or(0);
     let (target, cases) = (&SCENARIO[start..end], SCENARIO[end..].replace("{ ball =", "{ box ="));
@@ -800,7 +798,7 @@ const CONTACT_EDITS: &[Edit] = &[
         25,
         &["`case[1].kinds` is \"pin\", expected a table with `panel`"],
     ),
-    // the restitution beside it needs the bounce
+    // its restitution needs a bounce
     ("{ panel = [", "{ pannel = \"pin\", panel = [", 25, &["`case[1].kinds.pannel`", "mean `panel`?"]),
     ("{ panel = 0.9 }", "{ panel = 9 }", 26, &["`case[1].restitutions.panel` is 9, expected a restitution"]),
     ("{ panel = 0.9 }", "0.9", 26, &["`case[1].restitutions` is 0.9, expected a table with `panel`"]),
@@ -847,7 +845,7 @@ fn broken_contacts() {
     assert!(count == 1 && shown.contains("`case[1].restitutions.panel` is 0.9: no contact"), "{shown}");
     let (count, shown) = report(&held.replace("restitutions = { panel = 0.9 }\n", ""));
     assert!(count == 1 && shown.contains("demo.toml:20:15") && shown.contains("is 0.5: no contact"), "{shown}");
-    // reduced coordinates where a target stays beside the robot
+    // reduced coordinates with a free target
     let reduced = format!("{CONTACTS}coordinates = \"reduced\"\n");
     let (count, shown) = report(&reduced);
     assert!(count == 1 && shown.contains("`post_impact.coordinates` is \"reduced\""), "{shown}");

@@ -1,4 +1,4 @@
-//! `planar-capture eval`: its numbers against Pinocchio's, and what it says of states that are wrong.
+//! `planar-capture eval`: its numbers against Pinocchio's, and its errors for invalid states.
 
 use crate::command;
 use assert_cmd::Command;
@@ -14,7 +14,7 @@ fn eval(layout: &str, states: &str, dynamics: &str) -> (i32, Vec<Value>, String)
     (code, results, err)
 }
 
-/// The reference's states, without what is expected of them, and that.
+/// The reference's states without the expected results, and these.
 fn reference() -> (Vec<Value>, Vec<Value>) {
     let mut reference = planar_proof::json("tests/reference/pinocchio_dual_arm_3r.json");
     let states = reference["states"].as_array_mut().expect("an array").iter_mut();
@@ -115,8 +115,8 @@ fn no_states_give_no_results() {
     assert_eq!(eval("dual_arm_3r", " [ ]\n", "generated"), (0, Vec::new(), String::new()));
 }
 
-/// Two good states, then one that `change` spoils: exit code 2, two results, and what is said.
-fn complaint(change: impl FnOnce(&mut Value)) -> String {
+/// Error for two valid states and one made invalid by `change`: exit code 2 and two results.
+fn error_of(change: impl FnOnce(&mut Value)) -> String {
     let (states, _) = reference();
     let mut bad = states[2].clone();
     change(&mut bad);
@@ -129,7 +129,7 @@ fn complaint(change: impl FnOnce(&mut Value)) -> String {
 
 #[test]
 fn a_bad_state_is_named_with_key_value_and_what_would_be_right() {
-    let said = |change: &dyn Fn(&mut Value)| complaint(|state| change(state));
+    let said = |change: &dyn Fn(&mut Value)| error_of(|state| change(state));
     let holds = |text: String, parts: &[&str]| {
         for part in parts {
             assert!(text.contains(part), "`{part}` is not in: {text}");

@@ -1,6 +1,6 @@
-//! `generate`: from a layout of one's own to a module that compiles alone and passes its own test, and what goes wrong.
+//! `generate`: from a user's layout to a module that compiles alone and passes its own test, and its errors.
 //!
-//! What needs Python is left out, and said to be, with `PLANAR_CAPTURE_NO_PYTHON=1`.
+//! `PLANAR_CAPTURE_NO_PYTHON=1` skips the tests that need Python, with a message.
 
 use crate::command;
 use planar_capture::build::Module;
@@ -157,7 +157,7 @@ fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
 }
 
 #[test]
-fn a_graph_of_ones_own_is_rendered_without_python() {
+fn a_user_graph_is_rendered_without_python() {
     if without_python() {
         return;
     }
@@ -247,7 +247,7 @@ fn a_module_is_the_same_every_time() {
     }
 }
 
-/// A command that can be pasted, whatever the folders are called.
+/// Paths in messages are quoted as single words of the shell.
 #[test]
 fn paths_are_single_words() {
     use planar_capture::build::quoted;
@@ -264,9 +264,9 @@ fn paths_are_single_words() {
     assert!(message.contains(" (in "), "{message}");
 }
 
-/// Neither a URDF nor a layout is written over somebody's file.
+/// Neither a URDF nor a layout overwrites an existing file.
 #[test]
-fn import_and_export_leave_what_is_there() {
+fn import_and_export_do_not_overwrite() {
     let folder = folder();
     let run =
         |arguments: &[&str]| said(command().args(arguments).current_dir(folder.path()).output().expect("it runs"));
@@ -279,7 +279,7 @@ fn import_and_export_leave_what_is_there() {
 }
 
 #[test]
-fn what_goes_wrong_says_what_to_do_and_writes_nothing() {
+fn errors_name_a_remedy_and_write_nothing() {
     let folder = folder();
     let at = |name: &str| folder.path().join(name);
     fs::write(at("mine.rs"), "fn main() {}\n").expect("written");

@@ -1,5 +1,4 @@
-//! What a user types and sees: the commands from a layout to its code, what they print, and what is said of wrong
-//! input.
+//! The command line: commands, output, exit codes and messages for invalid input.
 
 #[cfg(not(feature = "all_layouts"))]
 compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
@@ -16,7 +15,7 @@ mod urdf;
 
 use std::process::Command;
 
-/// The product.
+/// The installed command.
 fn command() -> Command {
     Command::new(env!("CARGO_BIN_EXE_planar-capture"))
 }

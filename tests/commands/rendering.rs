@@ -1,4 +1,4 @@
-//! From graph to Rust: the same text every time, no more operations than its table says, and what stops the build.
+//! From graph to Rust: reproducible text, operation counts, and errors that stop the build.
 
 use planar_build::pipeline;
 use planar_capture::{diagnostic, layout};
@@ -16,7 +16,7 @@ fn rendered(name: &str) -> String {
     pipeline::render_one(&file("codegen"), name).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The library was compiled from what the committed graph renders to now.
+/// The library was compiled from the code rendered from the committed graph.
 #[test]
 fn built_code_is_the_committed_graphs() {
     for name in layouts() {
@@ -38,7 +38,7 @@ fn body<'a>(text: &'a str, signature: &str) -> &'a str {
     &rest[..rest.find("\n        }\n").expect("an end")]
 }
 
-/// Binary operations of a body, counted in the rendered text: what the compiler is given.
+/// Binary operations of a body, counted in the rendered text.
 fn operations(body: &str) -> usize {
     let binary = |line: &str| [" + ", " - ", " * ", " / "].iter().map(|op| line.matches(op).count()).sum::<usize>();
     body.lines().filter(|line| line.trim_start().starts_with("let ")).map(binary).sum()
@@ -117,7 +117,7 @@ fn edit(path: &Path, from: &str, to: &str) {
 }
 
 #[test]
-fn what_stops_the_build_says_how_to_mend_it() {
+fn build_errors_name_a_remedy() {
     let mend = "python -m codegen dual_arm_3r";
     let stale = broken(|dir| edit(&dir.join("layouts/dual_arm_3r.toml"), "mass = 10.0", "mass = 11.0"));
     assert!(stale.contains("is stale") && stale.contains(mend), "{stale}");

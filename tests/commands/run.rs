@@ -1,4 +1,4 @@
-//! The command line as its users meet it: results, messages, exit codes.
+//! `planar-capture run`: results, messages, exit codes.
 
 use crate::command;
 use planar_proof::{assert_close, file, numbers, said, tolerance};
@@ -97,7 +97,7 @@ fn motion(phase: &serde_json::Value) -> Vec<f64> {
     keys.iter().flat_map(|key| numbers(&phase[*key])).collect()
 }
 
-/// The same of a row of the time series, found by the names of the columns: tips in the approach only.
+/// The same of a row of the time series, found by the names of the columns: end effectors in the approach only.
 fn motion_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Vec<f64> {
     let pose = ["yaw [rad]", "x [m]", "y [m]"];
     let twist = ["omega [rad/s]", "vx [m/s]", "vy [m/s]"];
@@ -118,7 +118,7 @@ fn motion_of(header: &csv::StringRecord, row: &csv::StringRecord) -> Vec<f64> {
     names.iter().map(value).collect()
 }
 
-/// The printed table holds the summary's numbers, each in its column.
+/// The printed table has the summary's numbers, each in its column.
 #[test]
 fn the_table_is_the_summary() {
     let (_, out, _, folder) = run_text(&paper());
@@ -175,7 +175,7 @@ fn an_approach_alone_has_no_impact() {
     assert!(folder.path().join("redysim_single_arm_3r.csv").exists());
 }
 
-/// A layout beside the scenario, with numbers of its own, runs on the generated code of its structure.
+/// A layout file in the scenario's folder, with other parameters, runs on the generated code of its structure.
 #[test]
 fn numbers_of_a_users_layout_are_parameters() {
     let folder = TempDir::new().expect("a folder");
@@ -284,7 +284,7 @@ fn a_twist_out_of_reach_is_refused_with_its_numbers() {
     let (code, _, err, _) = run_text(&text);
     assert_eq!(code, 2, "{err}");
     assert!(err.contains("close to singular") && err.contains("final_joint_angles"), "{err}");
-    // a straight arm cannot move its tip along itself
+    // a straight arm cannot move its end effector along itself
     let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
     let wanted = "trajectory = \"quartic\"\nfinal_end_effector_twists = [[0.0, 5.0, 0.0]]";
     let straight = "final_joint_angles = [0.0, 0.0, 0.0]";
@@ -296,8 +296,8 @@ fn a_twist_out_of_reach_is_refused_with_its_numbers() {
     assert!(err.contains("out of reach") && err.contains("singular values"), "{err}");
 }
 
-/// What an integrator cannot do is said with what would help: bad input where it never can, a stopped study where a
-/// step can.
+/// Limits of an integrator are reported with a remedy: as invalid input where it never applies, as a stopped study
+/// where a step fails.
 #[test]
 fn integrators_say_what_they_cannot_do() {
     let held = fs::read_to_string(file("scenarios/large_target.toml")).expect("the scenario");
@@ -330,7 +330,7 @@ fn usage_errors_are_exit_code_2() {
     }
 }
 
-/// The page holds everything that it shows; a browser opens it in `report_browser.py`.
+/// The page needs no other files; `report_browser.py` opens it in a browser.
 #[test]
 fn a_report_is_one_file_without_a_network() {
     let folder = TempDir::new().expect("a folder");

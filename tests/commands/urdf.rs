@@ -1,6 +1,6 @@
-//! URDF files: what becomes a layout, what is refused and how, and that export and import undo each other.
+//! URDF files: import to layouts, refusals and their messages, and round trips of export and import.
 //!
-//! That they move alike in other simulators is shown by `urdf_dynamics.py`.
+//! `urdf_dynamics.py` compares their motion in other simulators.
 
 use crate::said;
 use planar_capture::layout::{Arm, Base, Layout, Link};
@@ -13,7 +13,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
 use tempfile::TempDir;
 
-/// A robot on a base of 100 kg and 20 kg m², with what is added.
+/// A robot on a base of 100 kg and 20 kg m², with these parts.
 fn robot(parts: &str) -> String {
     format!("<?xml version=\"1.0\"?>\n<robot name=\"bot\">\n{}{parts}</robot>", link("base", 100.0, "0 0 0", [20.0; 3]))
 }
@@ -72,17 +72,17 @@ fn remarks(import: &ImportedLayout) -> String {
 
 /// [length, mass, inertia, com x, com y] of each link of an arm.
 #[track_caller]
-fn assert_links(import: &ImportedLayout, arm: usize, wanted: &[[f64; 5]]) {
+fn assert_links(import: &ImportedLayout, arm: usize, expected: &[[f64; 5]]) {
     let numbers = |l: &Link| [l.length, l.mass, l.inertia, l.com[0], l.com[1]];
     let found: Vec<[f64; 5]> = import.layout.arms[arm].links.iter().map(numbers).collect();
-    assert_close("links", found.as_flattened(), wanted.as_flattened(), tolerance::URDF);
+    assert_close("links", found.as_flattened(), expected.as_flattened(), tolerance::URDF);
 }
 
 /// [sign, offset] of each joint.
 #[track_caller]
-fn assert_angles(import: &ImportedLayout, wanted: &[[f64; 2]]) {
+fn assert_angles(import: &ImportedLayout, expected: &[[f64; 2]]) {
     let found: Vec<[f64; 2]> = import.joints.iter().map(|joint| [joint.sign, joint.offset]).collect();
-    assert_close("angles", found.as_flattened(), wanted.as_flattened(), tolerance::URDF);
+    assert_close("angles", found.as_flattened(), expected.as_flattened(), tolerance::URDF);
 }
 
 #[test]
@@ -139,9 +139,9 @@ fn an_axis_the_other_way_changes_the_sign_of_its_joint_alone() {
     assert_eq!(import.joints[1].to_string(), "arm `shoulder`, joint 2 = -`elbow`");
 }
 
-/// The frame of the lower arm is turned; link frames are not, the joint's zero is elsewhere.
+/// The frame of the lower arm is rotated; the layout has an offset of the joint's zero instead.
 #[test]
-fn turned_frames_are_offsets_and_mount_angles() {
+fn rotated_frames_are_offsets_and_mount_angles() {
     let from = "<child link=\"lower\"/><origin xyz=\"1 0 0\"/>";
     let import = imported(&changed(from, "<child link=\"lower\"/><origin xyz=\"1 0 0\" rpy=\"0 0 0.5\"/>"));
     assert_angles(&import, &[[1.0, 0.0], [1.0, 0.5]]);
@@ -289,7 +289,7 @@ fn losses_limits_and_missing_axes_are_reported() {
 }
 
 #[test]
-fn names_become_names() {
+fn names_become_valid_names() {
     let named =
         |name: &str| import(&robot(&arm()).replace("\"bot\"", &format!("\"{name}\"")), &ImportOptions::default());
     for (robot, layout) in

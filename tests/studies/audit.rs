@@ -1,4 +1,4 @@
-//! What the audit sees besides momentum and energy: where the centre of mass goes, and joints beyond their limits.
+//! The audit of the centre of mass and of joint limits.
 
 use crate::command;
 use crate::{run, scenario};
@@ -15,10 +15,9 @@ use planar_proof::{assert_close, file, said, tolerance};
 use std::fs;
 use tempfile::TempDir;
 
-/// A robot that moves on as it started is where it should be; one that is elsewhere by δ has strayed by δ over its
-/// extent.
+/// The drift is the distance of the centre of mass from its uniform motion, over the robot's extent.
 #[test]
-fn the_centre_of_mass_goes_its_way() {
+fn the_drift_of_the_centre_of_mass_is_measured() {
     let layout = scenario("redysim_single_arm_3r").layout;
     let model = registry::generated(&layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
@@ -42,9 +41,9 @@ fn the_centre_of_mass_goes_its_way() {
     assert_close("beside it", &[audit.drift().center_of_mass_drift], &[0.005 / extent], tolerance::IDENTITY);
 }
 
-/// A body beside the robot counts with its mass, and is part of the extent.
+/// A free body counts with its mass, and is part of the extent.
 #[test]
-fn bodies_beside_the_robot_count() {
+fn free_bodies_count_in_the_centre_of_mass() {
     let layout = scenario("redysim_single_arm_3r").layout;
     let model = registry::generated(&layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
@@ -73,23 +72,23 @@ fn bodies_beside_the_robot_count() {
     );
 }
 
-/// Of a phase and one that goes on from its end the larger excess counts, at its time since the start of the first.
+/// Of two consecutive phases the larger violation is kept, at its time since the start of the first.
 #[test]
-fn excesses_of_phases_that_follow_each_other() {
-    let excess = |value, time| Some(LimitViolation { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
-    let first = LimitViolations { joint_angle: excess(1.5, 2.0), joint_rate: None };
-    let second = LimitViolations { joint_angle: excess(1.2, 3.0), joint_rate: excess(1.1, 0.5) };
-    let both = LimitViolations { joint_angle: excess(1.5, 2.0), joint_rate: excess(1.1, 10.5) };
+fn limit_violations_of_consecutive_phases() {
+    let violation = |value, time| Some(LimitViolation { joint: "joint 1 of arm".to_owned(), time, value, limit: 1.0 });
+    let first = LimitViolations { joint_angle: violation(1.5, 2.0), joint_rate: None };
+    let second = LimitViolations { joint_angle: violation(1.2, 3.0), joint_rate: violation(1.1, 0.5) };
+    let both = LimitViolations { joint_angle: violation(1.5, 2.0), joint_rate: violation(1.1, 10.5) };
     assert_eq!(first.clone().then(second.clone(), 10.0), both);
     assert_eq!(
         second.then(first, 10.0),
-        LimitViolations { joint_angle: excess(1.5, 12.0), joint_rate: excess(1.1, 0.5) }
+        LimitViolations { joint_angle: violation(1.5, 12.0), joint_rate: violation(1.1, 0.5) }
     );
 }
 
-/// The audit says so where the way of the centre of mass is lost.
+/// A drift of the centre of mass beyond its bound is an objection.
 #[test]
-fn a_centre_of_mass_that_strays_is_objected_to() {
+fn a_drift_of_the_centre_of_mass_is_an_objection() {
     let mut study = run(&scenario("redysim_single_arm_3r"));
     assert!(study.approach.drift.center_of_mass_drift < 1e-12, "{:?}", study.approach.drift);
     study.approach.drift.center_of_mass_drift = 1.1e-9;
@@ -107,7 +106,7 @@ fn limited(layout: &Layout, angles: [f64; 2], rate: f64) -> Vec<JointLimits> {
     (0..layout.joints()).map(limits).collect()
 }
 
-/// The largest excess of the samples, which are as dense as the steps: (joint, time, value).
+/// Largest violation over the samples, one per step: (joint, time, value).
 fn worst(phase: &Phase, values: impl Fn(usize) -> Vec<f64>, beyond: impl Fn(f64) -> f64) -> (usize, f64, f64) {
     let mut worst = (0, 0.0, 0.0);
     let mut most = 0.0;
@@ -121,9 +120,9 @@ fn worst(phase: &Phase, values: impl Fn(usize) -> Vec<f64>, beyond: impl Fn(f64)
     worst
 }
 
-/// In every kind of phase, what is reported is the worst that the time series has.
+/// In every kind of phase the reported violation is the largest of the time series.
 #[test]
-fn the_largest_excess_is_found() {
+fn the_largest_limit_violation_is_found() {
     let mut studies = Vec::new();
     for (name, tracking) in [
         ("raina_shah_2017", None),
@@ -168,10 +167,16 @@ fn the_largest_excess_is_found() {
     assert!(seen > 10, "{seen} excesses");
     let (scenario, study) = &studies[0];
     let value = summary(scenario, "generated", study);
-    let excess = &value["cases"][0]["approach"]["limits"]["joint_angle"];
-    let wanted = study.approach.limit_violations.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
-    assert_eq!((excess["joint"].as_str(), excess["time"].as_f64()), (Some(wanted.joint.as_str()), Some(wanted.time)));
-    assert_eq!((excess["value"].as_f64(), excess["limit"].as_f64()), (Some(wanted.value), Some(wanted.limit)));
+    let violation = &value["cases"][0]["approach"]["limits"]["joint_angle"];
+    let expected = study.approach.limit_violations.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
+    assert_eq!(
+        (violation["joint"].as_str(), violation["time"].as_f64()),
+        (Some(expected.joint.as_str()), Some(expected.time))
+    );
+    assert_eq!(
+        (violation["value"].as_f64(), violation["limit"].as_f64()),
+        (Some(expected.value), Some(expected.limit))
+    );
 }
 
 /// Read from a file: one pair or one per joint, and none where none is given.
@@ -194,7 +199,7 @@ fn limits_are_read_joint_by_joint() {
     assert_eq!(found[1], JointLimits { name: "joint 2 of arm1".to_owned(), angles: None, rate: Some(0.2) });
 }
 
-/// Both phases keep them, the table says so, and what goes beyond them makes the exit code 1.
+/// The table says whether both phases keep the limits; a violation gives exit code 1.
 #[test]
 fn the_exit_code_says_that_a_limit_was_exceeded() {
     let folder = TempDir::new().expect("a folder");
@@ -220,20 +225,20 @@ fn the_exit_code_says_that_a_limit_was_exceeded() {
     assert!(err.contains("(`limits.joint_angles`)") && err.contains("it.toml:12:"), "{err}");
 }
 
-/// Limits change nothing in what is computed.
+/// Limits do not change the motion.
 #[test]
-fn limits_are_watched_and_not_enforced() {
+fn limits_are_monitored_and_not_enforced() {
     let mut scenario = scenario("stabilised_capture");
     scenario.cases.truncate(1);
     let free = run(&scenario);
     scenario.joint_limits = limited(&scenario.layout, [-0.1, 0.1], 0.01);
     let after = scenario.post_impact.as_ref().expect("a capture");
     assert!(matches!(after.control, PostCaptureControl::Stabilise { .. }));
-    let watched = run(&scenario);
-    assert_eq!(free.approach.samples, watched.approach.samples);
+    let monitored = run(&scenario);
+    assert_eq!(free.approach.samples, monitored.approach.samples);
     let of = |study: &planar_capture::capture::Study| {
         study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone()
     };
-    assert_eq!(of(&free), of(&watched));
-    assert!(free.approach.limit_violations.is_none() && watched.approach.limit_violations.is_some());
+    assert_eq!(of(&free), of(&monitored));
+    assert!(free.approach.limit_violations.is_none() && monitored.approach.limit_violations.is_some());
 }

@@ -1,4 +1,4 @@
-//! Laws do what they promise: computed torque, limits, samples that are held.
+//! Control laws: computed torque, torque limits, sampled control.
 
 use crate::scenario;
 use planar_capture::capture::approach::Approach;
@@ -38,7 +38,7 @@ fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
     (motion.joint_angles.clone(), motion.base_pose)
 }
 
-/// Started on the trajectory, feedback has nothing to do: computed torque is exact tracking.
+/// Started on the trajectory, computed torque is exact tracking.
 #[test]
 fn computed_torque_on_the_trajectory_is_exact_tracking() {
     let (exact, computed) = (track(&short(Tracking::Exact), &[]), track(&short(computed_torque()), &[]));
@@ -60,13 +60,13 @@ fn errors_under_computed_torque_decay_joint_by_joint() {
     for (sample, desired) in phase.samples.iter().zip(&exact.samples) {
         let errors =
             [(3.0, 0.2), (2.0, -0.3), (1.0, 0.1)].map(|(k, r): (f64, f64)| r * sample.time * (-k * sample.time).exp());
-        let wanted: Vec<_> = desired.state.joint_angles.iter().zip(errors).map(|(a, e)| a + e).collect();
-        assert_close("angles", &sample.state.joint_angles, &wanted, tolerance::CONTROLLED);
+        let expected: Vec<_> = desired.state.joint_angles.iter().zip(errors).map(|(a, e)| a + e).collect();
+        assert_close("angles", &sample.state.joint_angles, &expected, tolerance::CONTROLLED);
     }
     assert!(phase.drift.momentum_drift < 1e-9 && phase.drift.energy_error < 1e-6, "{:?}", phase.drift);
 }
 
-/// A quintic started with a rate: tracked exactly, the arms end where and as fast as they should.
+/// A quintic with initial rates ends at the final angles and rates.
 #[test]
 fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
     for tracking in [Tracking::Exact, computed_torque()] {
@@ -109,9 +109,9 @@ fn torques_stay_within_their_limits() {
     }
 }
 
-/// The limiter alone, at the limit and beyond it.
+/// The limiter at the limit and beyond it.
 #[test]
-fn a_limit_is_not_saturated_until_more_is_wanted() {
+fn a_torque_at_its_limit_is_not_saturated() {
     let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
     let state =
         State { base_pose: [0.0; 3], joint_angles: &[1.0, -1.0, 0.5], base_twist: [0.0; 3], joint_rates: &[0.0; 3] };
@@ -126,9 +126,9 @@ fn a_limit_is_not_saturated_until_more_is_wanted() {
     assert_eq!((torques, limited.saturated()), ([-2.0, 1.5, 0.0], &[false, true, true][..]));
 }
 
-/// Held torques are those of the law when the sample was taken, and change only there.
+/// Sampled torques are those of the law at the sample, and constant until the next.
 #[test]
-fn held_torques_are_the_laws_at_the_sample() {
+fn torques_are_constant_between_samples() {
     let mut scenario = short(pd());
     scenario.approach.actuation = Actuation { steps_per_sample: Some(20), ..Actuation::default() }; // 0.1 s
     let samples = track(&scenario, &[]).samples; // every 0.05 s
@@ -142,8 +142,7 @@ fn held_torques_are_the_laws_at_the_sample() {
     assert_eq!(changes, 39, "a new torque at every sample after the first, but not at the end");
 }
 
-/// The shorter the sample time, the closer to the continuous law: the hold delays by half a sample, an error of first
-/// order.
+/// Sampling delays by half a sample time, an error of first order.
 #[test]
 fn sampled_control_converges_to_the_continuous_law() {
     for tracking in [pd(), computed_torque()] {

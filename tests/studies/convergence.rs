@@ -1,5 +1,4 @@
-//! Integrators converge with their orders, keep what they promise to keep, and agree with each other, in full and in
-//! reduced coordinates.
+//! Orders of convergence and conservation of the integrators, and their agreement, in full and in reduced coordinates.
 
 use crate::scenario;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, LoopConstraint};
@@ -22,7 +21,7 @@ fn model() -> Box<dyn CloneModel> {
     registry::generated(&scenario("raina_shah_2017").layout).expect("the paper's robot")
 }
 
-/// Both arms swing, the base tumbles and drifts away.
+/// Moving arms and a rotating, drifting base.
 fn tumbling() -> RobotState {
     RobotState {
         base_pose: [0.3, 1.0, -2.0],
@@ -38,7 +37,7 @@ fn run(law: &mut dyn Control<f64>, duration: f64, step: f64, scheme: Scheme, coo
     simulate(&System::alone(&*model), law, &tumbling(), &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
-/// Under a law that knows of time, angles and rates.
+/// Under a law that depends on time, angles and rates.
 fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
     let start = tumbling();
     let motion =
@@ -113,8 +112,8 @@ fn dense_output_is_as_good_as_steps() {
     }
 }
 
-/// In full coordinates and in reduced ones: the same motion, but for errors of fourth order; and the momentum of the
-/// latter strays by rounding, however long the step.
+/// Full and reduced coordinates give the same motion up to errors of fourth order; and the momentum
+/// error of the latter is rounding for any step.
 #[test]
 fn full_and_reduced_coordinates_agree() {
     let differences = [0.05, 0.025].map(|step| {
@@ -161,9 +160,9 @@ fn both_coordinates_take_a_base_torque() {
     assert!(drift < tolerance::MOMENTUM_RECOVERED, "{drift:e}");
 }
 
-/// Reduced coordinates are for a robot alone, canonical variables for bodies beside it too.
+/// Reduced coordinates are refused with free bodies; canonical variables integrate these too.
 #[test]
-fn bodies_beside_the_robot() {
+fn free_bodies_are_integrated() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
     let system = System { model: &*model, bodies: &[body], constraints: &[], joint_limits: &[] };
@@ -184,31 +183,31 @@ fn bodies_beside_the_robot() {
     }
 }
 
-/// A body in both hands, one clamped and one on a pin, while a law moves the joints: the loop stays closed, the
-/// momentum stays, and all schemes agree.
+/// A body captured by both arms, one contact rigid and one pinned, under joint control: constraints and momentum hold,
+/// and all schemes agree.
 #[test]
 fn a_closed_loop_by_every_scheme() {
     let model = model();
     let start = RobotState { joint_rates: vec![0.0; 6], ..tumbling() };
     let [omega, vx, vy] = start.base_twist;
-    let mut tips = [[0.0; 3]; 2];
-    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut tips).expect("tips");
-    // all of it moves as one
-    let pose @ [_, x, y] = [0.4, 0.5 * (tips[0][1] + tips[1][1]), 0.5 * (tips[0][2] + tips[1][2])];
+    let mut poses = [[0.0; 3]; 2];
+    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut poses).expect("tips");
+    // the whole moves as one rigid body
+    let pose @ [_, x, y] = [0.4, 0.5 * (poses[0][1] + poses[1][1]), 0.5 * (poses[0][2] + poses[1][2])];
     let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);
     let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [omega, vx - omega * ry, vy + omega * rx] };
-    let hold = |arm: usize, kind| {
-        let contact = Contact { arm, partner: ContactPartner::Body(0), offset: [0.0; 2], law: kind };
-        LoopConstraint::new(&contact, &tips[arm], &pose).expect("a hold")
+    let constraint = |arm: usize, law| {
+        let contact = Contact { arm, partner: ContactPartner::Body(0), offset: [0.0; 2], law };
+        LoopConstraint::new(&contact, &poses[arm], &pose).expect("a constraint")
     };
-    let constraints = [hold(0, ContactLaw::Rigid), hold(1, ContactLaw::Pin)];
+    let constraints = [constraint(0, ContactLaw::Rigid), constraint(1, ContactLaw::Pin)];
     let system = System { model: &*model, bodies: &[body], constraints: &constraints, joint_limits: &[] };
-    let wanted: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
+    let expected: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |scheme, step| {
         let timing =
             Timing { duration: 1.0, step, sample: 1.0, integration: Integration { scheme, coordinates: FULL } };
         let mut law = ProportionalDerivative {
-            trajectory: ConstantSetpoint { angles: &wanted },
+            trajectory: ConstantSetpoint { angles: &expected },
             proportional_gain: &[5.0; 6],
             derivative_gain: &[3.0; 6],
         };
@@ -226,19 +225,19 @@ fn a_closed_loop_by_every_scheme() {
     assert!(moved > 0.01, "{moved} rad");
 }
 
-/// Held torques: the adaptive integrator starts anew at every sample, and agrees with short steps.
+/// Sampled torques: the adaptive integrator restarts at every sample, and agrees with short steps.
 #[test]
 fn sampled_torques_and_adaptive_steps() {
     let start = tumbling();
-    let standing = ConstantSetpoint { angles: &start.joint_angles };
+    let setpoint = ConstantSetpoint { angles: &start.joint_angles };
     let mut phases = [(Scheme::RungeKutta4, 0.002, 75), (ADAPTIVE, 0.05, 3), (Scheme::GaussLegendre, 0.05, 3)].map(
         |(scheme, step, steps)| {
             let gains = ([2.0; 6], [1.5; 6]);
             let law =
-                ProportionalDerivative { trajectory: standing, proportional_gain: &gains.0, derivative_gain: &gains.1 };
-            let mut held = [0.0; 6];
+                ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains.0, derivative_gain: &gains.1 };
+            let mut torques = [0.0; 6];
             // 0.15 s: the last sample is cut short by the end
-            run(&mut SampledControl::new(law, steps, &mut held), 1.0, step, scheme, FULL)
+            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, step, scheme, FULL)
         },
     );
     let reference = phases[0].samples.pop().expect("an end");
@@ -248,19 +247,19 @@ fn sampled_torques_and_adaptive_steps() {
     }
 }
 
-/// However many steps a sample is held for: its end is a sum of steps, which rounding puts before or after the time
-/// that is meant.
+/// Any number of steps per sample: the end of a sample is a sum of steps, which rounding puts before or after the
+/// exact time.
 #[test]
 fn samples_of_any_number_of_steps() {
     let start = tumbling();
-    let standing = ConstantSetpoint { angles: &start.joint_angles };
+    let setpoint = ConstantSetpoint { angles: &start.joint_angles };
     for steps in [1, 2, 3, 5, 7, 10, 20, 50, 100] {
         let mut ends = [Scheme::RungeKutta4, ADAPTIVE].map(|scheme| {
             let gains = ([2.0; 6], [1.5; 6]);
             let law =
-                ProportionalDerivative { trajectory: standing, proportional_gain: &gains.0, derivative_gain: &gains.1 };
-            let mut held = [0.0; 6];
-            run(&mut SampledControl::new(law, steps, &mut held), 1.0, 0.005, scheme, FULL)
+                ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains.0, derivative_gain: &gains.1 };
+            let mut torques = [0.0; 6];
+            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, 0.005, scheme, FULL)
         });
         let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).state));
         assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);

@@ -1,4 +1,4 @@
-//! Events end a phase when a value falls to zero: at the right time, whatever integrates, however short they are.
+//! Events end a phase where a value decreases to zero: at the exact time for every integrator, also for short events.
 
 use crate::scenario;
 use planar_capture::control::{Control, ProportionalDerivative, SampledControl, ZeroTorque};
@@ -14,7 +14,7 @@ use planar_proof::{assert_close, difference, tolerance};
 
 const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-12 };
 
-/// With how far the end of a phase may be from the true motion, in s.
+/// Every integrator, with the bound on the error of the event time, s.
 const ALL: [(Scheme, Formulation, f64); 7] = [
     (Scheme::RungeKutta4, Formulation::Full, 1e-9),
     (Scheme::RungeKutta4, Formulation::Reduced, 1e-9),
@@ -29,7 +29,7 @@ fn model() -> Box<dyn CloneModel> {
     registry::generated(&scenario("redysim_single_arm_3r").layout).expect("the robot of ReDySim")
 }
 
-/// How far a tip is from a circle.
+/// Distance of an end effector from a circle.
 struct Circle {
     centre: [f64; 2],
     radius: f64,
@@ -47,9 +47,9 @@ impl Events for Circle {
     }
 
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
-        let mut tips = [[0.0; 3]];
-        now.system.model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut tips)?;
-        values[0] = self.value(tips[0]);
+        let mut poses = [[0.0; 3]];
+        now.system.model.end_effector_poses(&now.state.base_pose, now.state.joint_angles, &mut poses)?;
+        values[0] = self.value(poses[0]);
         Ok(())
     }
 }
@@ -100,43 +100,44 @@ fn end(phase: &Phase) -> &Sample {
     phase.end()
 }
 
-fn tip(motion: &RobotState) -> [f64; 3] {
-    let mut tips = [[0.0; 3]];
-    model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut tips).expect("a tip");
-    tips[0]
+fn end_effector(motion: &RobotState) -> [f64; 3] {
+    let mut poses = [[0.0; 3]];
+    model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut poses).expect("a tip");
+    poses[0]
 }
 
-/// A robot that keeps its shape: its tip is on a straight line, and on the circle when the quadratic equation says.
+/// A robot at constant joint angles: its end effector moves on a straight line and meets the circle at the root of a
+/// quadratic equation.
 #[test]
-fn a_straight_way_to_a_circle() {
+fn a_straight_path_meets_a_circle() {
     let start = drifting();
-    let [_, x, y] = tip(&start);
+    let [_, x, y] = end_effector(&start);
     let circle = || Circle { centre: [x + 1.0, y + 0.2], radius: 0.5 };
     // |d − v t|² = r²
     let (dd, dv, vv): (f64, f64, f64) = (1.04 - 0.25, 0.3 + 0.02, 0.1);
-    let wanted = (dv - (dv * dv - dd * vv).sqrt()) / vv;
+    let expected = (dv - (dv * dv - dd * vv).sqrt()) / vv;
     for (scheme, coordinates, _) in ALL {
         // the same from steps of any length
         for step in [0.005, 0.3] {
             let phase = run(&start, 10.0, step, (scheme, coordinates), &mut ZeroTorque, &mut circle());
             let (event, when) = phase.event.expect("the circle is met");
             assert_eq!((event, phase.duration, end(&phase).time), (0, when, when));
-            assert!((when - wanted).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {wanted}");
-            assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+            assert!((when - expected).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {expected}");
+            assert!(circle().value(end_effector(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
             let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
             assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
         }
     }
 }
 
-/// A tumbling one: the time is that of a root found by whole phases of other lengths, without events.
+/// A tumbling robot: the time is that of a root found from phases of other lengths, without events.
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
     let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Formulation::Full));
-    let [_, x, y] = tip(&end(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents)).state);
+    let [_, x, y] = end_effector(&end(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents)).state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
-        circle().value(tip(&end(&run(&start, duration, duration, best, &mut ZeroTorque, &mut NoEvents)).state))
+        circle().value(end_effector(&end(&run(&start, duration, duration, best, &mut ZeroTorque, &mut NoEvents)).state))
     };
     let (mut early, mut late) = (0.1, 0.2);
     while value(late) > 0.0 {
@@ -151,72 +152,72 @@ fn a_tumbling_robot_meets_a_circle() {
         let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut circle());
         let (_, when) = phase.event.expect("the circle is met");
         assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
-        assert!(circle().value(tip(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+        assert!(circle().value(end_effector(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
     }
 }
 
-/// The tip goes by at 0.5 m: a circle a nanometre smaller is not met, one a nanometre larger is, for a fraction of a
-/// step.
+/// The end effector passes at 0.5 m: a circle a nanometre smaller is not met, one a nanometre larger is, for a fraction
+/// of a step.
 #[test]
 fn grazing() {
     let start = drifting();
-    let [_, x, y] = tip(&start);
+    let [_, x, y] = end_effector(&start);
     let (along, across) = ([0.3 / 0.1_f64.sqrt(), 0.1 / 0.1_f64.sqrt()], [-0.1 / 0.1_f64.sqrt(), 0.3 / 0.1_f64.sqrt()]);
     let centre = [x + along[0] + 0.5 * across[0], y + along[1] + 0.5 * across[1]];
     let closest = 1.0 / 0.1_f64.sqrt();
     for (scheme, coordinates, _) in ALL {
-        let go =
+        let event_run =
             |radius| run(&start, 6.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut Circle { centre, radius });
-        assert_eq!(go(0.5 - 1e-9).event, None, "{scheme:?}");
-        let (_, when) = go(0.5 + 1e-9).event.expect("it is touched");
+        assert_eq!(event_run(0.5 - 1e-9).event, None, "{scheme:?}");
+        let (_, when) = event_run(0.5 + 1e-9).event.expect("it is touched");
         let early = (1e-9_f64 * (1.0 + 1e-9)).sqrt() / 0.1_f64.sqrt();
         assert!((when - (closest - early)).abs() < tolerance::GRAZING, "{scheme:?}: {when}");
     }
 }
 
-/// What is below zero at first has to rise before it can fall; the first of several events counts.
+/// A value below zero at the start is armed when it rises; the first of several events ends the phase.
 #[test]
 fn arming_and_the_first_of_several() {
-    let go = |functions: &[fn(f64) -> f64]| {
+    let event_run = |functions: &[fn(f64) -> f64]| {
         run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Formulation::Full), &mut ZeroTorque, &mut Times(functions))
             .event
     };
-    assert_eq!(go(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);
-    let (event, when) = go(&[|t| (t - 0.1003) * (0.3507 - t)]).expect("it rises and falls");
+    assert_eq!(event_run(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);
+    let (event, when) = event_run(&[|t| (t - 0.1003) * (0.3507 - t)]).expect("it rises and falls");
     assert!(event == 0 && (when - 0.3507).abs() < tolerance::EVENT_TIME, "{when}");
-    let (event, when) = go(&[|t| 0.7 - t, |t| 0.2034 + 1e-9 - t, |t| 0.2034 - t]).expect("three fall");
+    let (event, when) = event_run(&[|t| 0.7 - t, |t| 0.2034 + 1e-9 - t, |t| 0.2034 - t]).expect("three fall");
     assert!(event == 2 && (when - 0.2034).abs() < tolerance::EVENT_TIME, "{event} {when}");
     // in the first step, and in the last instant
-    let (_, when) = go(&[|t| 1e-5 - t]).expect("it falls at once");
+    let (_, when) = event_run(&[|t| 1e-5 - t]).expect("it falls at once");
     assert!((when - 1e-5).abs() < tolerance::EVENT_TIME, "{when}");
-    assert_eq!(go(&[|t| 1.0 - t]), Some((0, 1.0)));
+    assert_eq!(event_run(&[|t| 1.0 - t]), Some((0, 1.0)));
 }
 
-/// Up to the event, the phase is as without it; after it there is nothing. Held torques are held up to there.
+/// Up to the event the phase equals one without events, with sampled torques too, and it ends there.
 #[test]
 fn a_phase_with_an_event_is_a_part_of_one_without() {
     let angles = [0.0; 3];
     for (scheme, coordinates, _) in ALL {
-        let go = |events: &mut dyn Events, duration: f64, step: f64| {
-            let standing = ConstantSetpoint { angles: &angles };
+        let event_run = |events: &mut dyn Events, duration: f64, step: f64| {
+            let setpoint = ConstantSetpoint { angles: &angles };
             let gains = [3.0; 3];
             let law =
-                ProportionalDerivative { trajectory: standing, proportional_gain: &gains, derivative_gain: &gains };
-            let mut held = [0.0; 3];
-            let mut law = SampledControl::new(law, 5, &mut held);
+                ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains, derivative_gain: &gains };
+            let mut torques = [0.0; 3];
+            let mut law = SampledControl::new(law, 5, &mut torques);
             run(&tumbling(), duration, step, (scheme, coordinates), &mut law, events)
         };
-        let whole = go(&mut NoEvents, 2.0, 0.01);
-        let part = go(&mut Times(&[|t| 1.3 - t]), 2.0, 0.01);
+        let whole = event_run(&mut NoEvents, 2.0, 0.01);
+        let part = event_run(&mut Times(&[|t| 1.3 - t]), 2.0, 0.01);
         assert_eq!((whole.event, part.samples.len()), (None, 7), "0, 0.25, … 1.25, 1.3");
         for (a, b) in whole.samples.iter().zip(&part.samples[..6]) {
             assert_eq!(a, b, "{scheme:?}");
         }
-        let alone = go(&mut NoEvents, 1.3, 0.01);
-        let [found, wanted] = [&part, &alone].map(|phase| end(phase).state.clone());
-        let error = difference(&found.joint_rates, &wanted.joint_rates);
+        let alone = event_run(&mut NoEvents, 1.3, 0.01);
+        let [found, expected] = [&part, &alone].map(|phase| end(phase).state.clone());
+        let error = difference(&found.joint_rates, &expected.joint_rates);
         assert!(error < tolerance::SAME_STEPS, "{scheme:?}: {error:e}");
-        assert_close("pose", &found.base_pose, &wanted.base_pose, tolerance::SAME_STEPS);
+        assert_close("pose", &found.base_pose, &expected.base_pose, tolerance::SAME_STEPS);
         assert_close("torques", &end(&part).joint_torques, &end(&alone).joint_torques, tolerance::SAME_STEPS);
     }
 }

@@ -1,4 +1,4 @@
-//! Figures: which there are, what stands in them, and what a build without them says.
+//! Figures: their names and content, and the message of a build without them.
 
 use crate::command;
 use planar_proof::file;
@@ -55,7 +55,7 @@ mod drawn {
         assert!(!svg.contains("NaN") && !svg.contains("inf\""), "{name}: a coordinate is no number");
     }
 
-    /// All that is to be read in a figure is in its SVG, as text.
+    /// All labels of a figure are in its SVG, as text.
     fn assert_labelled(figure: &Figure, svg: &str) {
         let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;");
         for panel in &figure.panels {
@@ -71,7 +71,7 @@ mod drawn {
         }
     }
 
-    /// A label stands once in each legend: of each panel, or of all.
+    /// A label is once in each legend, of a panel or of all panels.
     fn assert_one_legend_entry_each(figure: &Figure, svg: &str) {
         let has = |panel: &Panel, label: &str| panel.series.iter().any(|s| s.label.as_deref() == Some(label));
         for label in figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|s| s.label.as_ref()) {
@@ -100,7 +100,7 @@ mod drawn {
         let all = figures(&scenario, &study);
         let names = names(&all);
         assert_eq!(names.len(), all.len(), "no two figures have the same name");
-        for wanted in [
+        for expected in [
             "initial_configuration",
             "impact_configuration",
             "approach_joint_angles",
@@ -111,7 +111,7 @@ mod drawn {
             "post_impact_motion_case2",
             "post_impact_motion_case3",
         ] {
-            assert!(names.contains(wanted), "no {wanted} in {names:?}");
+            assert!(names.contains(expected), "no {expected} in {names:?}");
         }
         for figure in &all {
             let svg = draw::svg(figure);
@@ -122,7 +122,7 @@ mod drawn {
         }
     }
 
-    /// What a figure shows is what was computed.
+    /// Figures show the computed values.
     #[test]
     fn curves_are_the_samples() {
         let scenario = scenario("raina_shah_2017");
@@ -138,14 +138,14 @@ mod drawn {
         // the colour says which joint, the dash which arm: no two curves look the same
         let looks: Vec<(Colour, Mark)> = angles.iter().map(|series| (series.colour, series.mark)).collect();
         assert!((1..6).all(|i| !looks[..i].contains(&looks[i])));
-        // robot and targets together: the same before and after, and what the literal equations make of it
+        // robot and targets together: equal before and after, but not by the literal equations
         let momentum = &of("momentum_case1").panels[1].series;
         assert!(momentum[0].points.iter().all(|(_, l)| (l - 0.4).abs() < 1e-9), "two targets of 1 kg m² at 0.2 rad/s");
         let jump =
             study.cases[0].capture.as_ref().expect("a capture").impact.paper.as_ref().expect("literal").momentum_jump
                 [0];
         assert!((momentum[1].points[0].1 - (0.4 + jump)).abs() < 1e-9);
-        // the pictures' last joints and tips, by another way
+        // last joints and end effectors of the pictures, from the last link's pose
         let end = study.approach.end();
         let robot = &of("impact_configuration").panels[0].series;
         for (arm, tip) in scenario.layout.arms.iter().zip(&end.end_effector_poses) {
@@ -155,7 +155,7 @@ mod drawn {
         }
     }
 
-    /// All that is drawn in a picture of the plane is inside of its frame, far targets or not.
+    /// All that is drawn in a picture of the plane is inside its frame, with far targets too.
     fn assert_inside(figure: &Figure) {
         for panel in figure.panels.iter().filter(|panel| panel.equal_scale) {
             let (AxisRange::Fixed(left, right), AxisRange::Fixed(low, high)) = (&panel.x.range, &panel.y.range) else {
@@ -193,7 +193,7 @@ mod drawn {
         of.flat_map(|series| series.points.clone()).collect()
     }
 
-    /// Each impact that was found by detection has its picture: robot, targets and impulse as they are then.
+    /// Each detected impact has its picture: robot, targets and impulse at that time.
     #[test]
     fn impacts_are_pictured_where_they_were_found() {
         let scenario = scenario("elastic_rebound");
@@ -217,7 +217,7 @@ mod drawn {
                 assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the tip");
                 let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), result.impulse);
                 assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
-                // a line from the target's COM to the tip that touches it
+                // a line from the target's COM to the end effector in contact
                 let target = points(panel, &scenario.targets[result.contact.target].name);
                 let [rx, ry] = result.contact.offset;
                 let (from, to) = (target[target.len() - 2], target[target.len() - 1]);
@@ -229,7 +229,7 @@ mod drawn {
         assert_eq!(shown, 5, "impacts of three cases");
     }
 
-    /// A bounce parts along the normal by Poisson's law and turns nobody into one; a pin leaves the turning free.
+    /// Velocities after a bounce follow Poisson's law along the normal; a pin leaves the relative rotation free.
     #[test]
     fn velocities_at_contacts_say_what_kind_they_are() {
         let (rebound, loops) = (scenario("elastic_rebound"), scenario("large_target"));
@@ -272,7 +272,7 @@ mod drawn {
         }
     }
 
-    /// A target that flew away is pointed at, and does not make the robot small.
+    /// A distant target is an arrow at the edge, and does not scale down the robot.
     #[test]
     fn a_target_far_away_is_an_arrow_at_the_edge() {
         let scenario = scenario("elastic_rebound");
@@ -291,7 +291,7 @@ mod drawn {
         assert!(((to.1 - from.1) / (to.0 - from.0)).abs() < 0.2 && y.abs() < 2.0);
     }
 
-    /// Momentum goes on through every impact; energy steps there, by what it costs.
+    /// Momentum is continuous at every impact; energy steps there by its loss.
     #[test]
     fn momentum_and_energy_over_all_impacts() {
         let scenario = scenario("elastic_rebound");

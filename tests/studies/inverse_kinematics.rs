@@ -1,4 +1,4 @@
-//! Wanted tip poses are reached by the exactly tracked approach, or it is said why not.
+//! Inverse kinematics of the exactly tracked approach: goals are reached, or the reason is reported.
 
 use crate::{Silent, run, scenario};
 use planar_capture::capture::approach::inverse_kinematics::{
@@ -9,7 +9,7 @@ use planar_capture::registry;
 use planar_capture::scenario::{EndEffectorGoal, FinalRates, Scenario, Tracking};
 use planar_proof::{assert_close, tolerance};
 
-fn wanting(name: &str, goals: &[EndEffectorGoal]) -> Scenario {
+fn with_goals(name: &str, goals: &[EndEffectorGoal]) -> Scenario {
     let mut scenario = scenario(name);
     scenario.approach.tracking = Tracking::Exact;
     scenario.approach.step = 0.02;
@@ -18,44 +18,43 @@ fn wanting(name: &str, goals: &[EndEffectorGoal]) -> Scenario {
     scenario
 }
 
-fn tips(study: &Study) -> Vec<[f64; 3]> {
+fn end_effector_poses(study: &Study) -> Vec<[f64; 3]> {
     study.approach.end().end_effector_poses.clone()
 }
 
 /// What another approach reached is reached again, with the same angles and rates from a first guess near them (from
 /// the initial angles it may be with other elbows).
 #[test]
-fn the_papers_final_pose_is_found_from_its_tips() {
+fn the_papers_final_pose_is_found_from_its_end_effectors() {
     let mut original = scenario("raina_shah_2017_exact_tracking");
     original.approach.step = 0.02;
     let study = run(&original);
-    let goals: Vec<_> = tips(&study).into_iter().map(EndEffectorGoal::Pose).collect();
-    let mut scenario = wanting("raina_shah_2017_exact_tracking", &goals);
+    let goals: Vec<_> = end_effector_poses(&study).into_iter().map(EndEffectorGoal::Pose).collect();
+    let mut scenario = with_goals("raina_shah_2017_exact_tracking", &goals);
     let elsewhere = run(&scenario);
-    for (found, wanted) in tips(&elsewhere).iter().zip(tips(&study)) {
-        assert_close("tip", &found[1..], &wanted[1..], tolerance::REACHED);
+    for (found, expected) in end_effector_poses(&elsewhere).iter().zip(end_effector_poses(&study)) {
+        assert_close("tip", &found[1..], &expected[1..], tolerance::REACHED);
     }
     let guess = [0.3, -0.2, 0.25, -0.3, 0.2, -0.3];
     let near = original.approach.final_joint_angles.iter().zip(guess).map(|(angle, by)| angle + by);
     scenario.approach.final_joint_angles = near.collect();
     let found = run(&scenario);
-    for (found, wanted) in tips(&found).iter().zip(tips(&study)) {
-        assert_close("tip", found, &wanted, tolerance::REACHED);
+    for (found, expected) in end_effector_poses(&found).iter().zip(end_effector_poses(&study)) {
+        assert_close("tip", found, &expected, tolerance::REACHED);
     }
     let InverseKinematics { joint_angles, rounds, spare_joints, .. } =
-        found.inverse_kinematics.as_ref().expect("a posture");
+        found.inverse_kinematics.as_ref().expect("a solution");
     assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
     let rates = |study: &Study| study.terminal_rates.as_ref().expect("rates").joint_rates.clone();
     assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
     assert_eq!(*spare_joints, 0);
     assert!(*rounds < 40, "{rounds} rounds");
-    for (twist, wanted) in found.approach.end().end_effector_twists.iter().zip([-0.1, 0.1]) {
-        assert_close("twist", twist, &[0.0, wanted, 0.0], tolerance::REACHED);
+    for (twist, expected) in found.approach.end().end_effector_twists.iter().zip([-0.1, 0.1]) {
+        assert_close("twist", twist, &[0.0, expected, 0.0], tolerance::REACHED);
     }
 }
 
-/// A tip's velocity alone, at any turning rate: two numbers for three joints, or for two; and an arm of which nothing
-/// is wanted.
+/// Goals of the linear velocity alone, two numbers for three joints or for two, and an arm without a goal.
 #[test]
 fn velocities_alone_are_designed() {
     let mut free = scenario("raina_shah_2017_exact_tracking");
@@ -82,8 +81,8 @@ tracking = "exact"
         Scenario::parse(two_links, "two.toml", std::path::Path::new(""), registry::SHIPPED).expect("a scenario");
     let model = registry::generic(&scenario.layout);
     let study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
-    for (twist, wanted) in study.approach.end().end_effector_twists.iter().zip([[0.03, 0.01], [-0.02, 0.0]]) {
-        assert_close("velocity", &twist[1..], &wanted, tolerance::REACHED);
+    for (twist, expected) in study.approach.end().end_effector_twists.iter().zip([[0.03, 0.01], [-0.02, 0.0]]) {
+        assert_close("velocity", &twist[1..], &expected, tolerance::REACHED);
     }
 }
 
@@ -92,27 +91,27 @@ tracking = "exact"
 fn positions_alone_are_reached_with_joints_to_spare() {
     let places = [[2.0, -1.5], [-2.0, 1.5]];
     let goals = places.map(EndEffectorGoal::Position);
-    let study = run(&wanting("raina_shah_2017_exact_tracking", &goals));
-    for (tip, wanted) in tips(&study).iter().zip(places) {
-        assert_close("tip", &tip[1..], &wanted, tolerance::REACHED);
+    let study = run(&with_goals("raina_shah_2017_exact_tracking", &goals));
+    for (tip, expected) in end_effector_poses(&study).iter().zip(places) {
+        assert_close("tip", &tip[1..], &expected, tolerance::REACHED);
     }
-    assert_eq!(study.inverse_kinematics.as_ref().expect("a posture").spare_joints, 2);
+    assert_eq!(study.inverse_kinematics.as_ref().expect("a solution").spare_joints, 2);
 
-    let mut alone = wanting("raina_shah_2017_exact_tracking", &[goals[0], EndEffectorGoal::Any]);
+    let mut alone = with_goals("raina_shah_2017_exact_tracking", &[goals[0], EndEffectorGoal::Any]);
     alone.approach.end = FinalRates::JointRates(vec![0.01; 6]);
     let study = run(&alone);
-    assert_close("tip", &tips(&study)[0][1..], &places[0], tolerance::REACHED);
-    assert_eq!(study.inverse_kinematics.expect("a posture").spare_joints, 4);
+    assert_close("tip", &end_effector_poses(&study)[0][1..], &places[0], tolerance::REACHED);
+    assert_eq!(study.inverse_kinematics.expect("a solution").spare_joints, 4);
 }
 
-/// Yaws are wanted up to whole turns.
+/// Yaw goals are modulo one turn.
 #[test]
 fn a_yaw_more_than_a_turn_away_is_the_same_pose() {
-    let one = run(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]));
+    let one = run(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]));
     let other =
-        run(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
-    assert_close("tip", &tips(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
-    assert_close("tips", &tips(&one)[0], &tips(&other)[0], tolerance::REACHED);
+        run(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
+    assert_close("tip", &end_effector_poses(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
+    assert_close("tips", &end_effector_poses(&one)[0], &end_effector_poses(&other)[0], tolerance::REACHED);
 }
 
 fn fails(scenario: &Scenario) -> InverseKinematicsError {
@@ -124,25 +123,26 @@ fn fails(scenario: &Scenario) -> InverseKinematicsError {
 }
 
 #[test]
-fn what_is_out_of_reach_is_said_to_be() {
-    let far = fails(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Position([5.0, 0.0])]));
+fn goals_out_of_reach_are_reported() {
+    let far = fails(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Position([5.0, 0.0])]));
     assert!(matches!(&far, InverseKinematicsError::OutOfReach { distance, limit, .. } if distance > limit), "{far:?}");
     assert!(far.to_string().contains("out of reach"), "{far}");
     // within the bound that needs no search, but not within the arm's own: the base is heavy
-    let edge = fails(&wanting("redysim_single_arm_3r", &[EndEffectorGoal::Position([3.6, 0.0])]));
+    let edge = fails(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Position([3.6, 0.0])]));
     let InverseKinematicsError::NotConverged { residual, history, rounds, .. } = &edge else { panic!("{edge:?}") };
     assert!(*residual > 1e-3 && history.len() == *rounds, "{edge:?}");
     assert!(edge.to_string().contains("may be out of reach") && edge.to_string().contains('…'), "{edge}");
 }
 
-/// The report is that of the approach: the residual is what the tips miss, and the Jacobian that of the final pose.
+/// The report is that of the approach: the residual is the error of the end effectors, the Jacobian that of the final
+/// pose.
 #[test]
 fn the_report_is_of_the_approach() {
-    let scenario = wanting("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]);
+    let scenario = with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]);
     let model = registry::generated(&scenario.layout).expect("generated code");
     let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
     let mut ticks = 0_usize;
-    let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a posture");
+    let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a solution");
     assert_eq!(ticks, found.rounds * 1000, "every round tracks one approach of 1000 steps");
     assert!(found.residual <= 1e-11 && (0.01..1.0).contains(&found.rates.singularity_margin), "{found:?}");
 }

@@ -1,4 +1,4 @@
-//! From a scenario to its results: approach, capture, the motion after it, and what is written of them.
+//! From a scenario to its results: approach, capture, post-capture motion, and output files.
 
 #[cfg(not(feature = "all_layouts"))]
 compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
@@ -36,7 +36,7 @@ fn run(scenario: &Scenario) -> Study {
     study.unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
 }
 
-/// Nobody watches.
+/// An observer without output.
 struct Silent;
 
 impl Observer for Silent {

@@ -89,8 +89,8 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) 
             contact::ContactLaw::Rigid => Kind::Rigid,
             contact::ContactLaw::Pin => Kind::Pin,
             contact::ContactLaw::Bounce { normal, restitution } => {
-                let (_, wanted) = signed_distance(scenario, before, contact.arm, contact.target);
-                assert_close("normal", &normal, &wanted, tolerance::IN_SERIES);
+                let (_, expected) = signed_distance(scenario, before, touching.arm, touching.target);
+                assert_close("normal", &normal, &expected, tolerance::IN_SERIES);
                 Kind::Bounce { normal, restitution }
             }
         };
@@ -100,10 +100,14 @@ fn check_impact(scenario: &Scenario, before: &System, capture: &ImpactSolution) 
         touches.push(Touch { arm: touching.arm, target: touching.target, kind });
     }
     let contacts: Vec<_> = touches.iter().map(|touch| touch.contact(before)).collect();
-    let wanted = impact(before, &contacts);
+    let expected = impact(before, &contacts);
     let mut after = before.clone();
-    after.apply(&contacts, &wanted);
-    product_impact(capture).assert_agrees(&after, &wanted.impulses, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));
+    after.apply(&contacts, &expected);
+    product_impact(capture).assert_agrees(
+        &after,
+        &expected.impulses,
+        tolerance::CONTACT_IMPACT / expected.margin.powi(2),
+    );
     touches.retain(|touch| !matches!(touch.kind, Kind::Bounce { .. }));
     touches
 }
@@ -216,7 +220,8 @@ fn a_missed_target_moves_freely() {
     assert!(missed >= 3, "{missed}");
 }
 
-/// End effectors are on the outline at contacts, to 1e-10 m, and outside before and after; elastic impacts keep the energy.
+/// End effectors are on the outline at contacts, to 1e-10 m, and outside before and after; elastic impacts keep the
+/// energy.
 #[test]
 fn rebounds_are_detected() {
     let (scenario, study, impacts) = check_scenario("elastic_rebound");

@@ -1,11 +1,11 @@
-//! Parquet and MCAP: the same numbers as the CSV, what a failing disk does, and what a build without them says.
+//! Parquet and MCAP: the numbers of the CSV, errors on a full disk, and the message of a build without them.
 #![allow(clippy::float_cmp, reason = "what is written is what is computed, bit by bit")]
 
 use crate::command;
 use planar_proof::file;
 use tempfile::TempDir;
 
-/// Asks for something that this build lacks; what it says.
+/// Message of a run that asks for an output which this build lacks.
 #[cfg(not(any(feature = "figures", feature = "parquet", feature = "mcap")))]
 fn refused(flags: &[&str]) -> String {
     let folder = TempDir::new().expect("a folder");
@@ -45,7 +45,7 @@ mod written {
     use planar_capture::scenario::Scenario;
     use std::io::{self, Write};
 
-    /// What a case's CSV says: headings, and the cells of each row.
+    /// A case's CSV: headings, and the cells of each row.
     pub fn csv(scenario: &Scenario, study: &Study, case: &CaseResult) -> (Vec<String>, Vec<Vec<String>>) {
         let mut text = Vec::new();
         write_csv(scenario, study, case, &mut text).expect("written");
@@ -74,7 +74,7 @@ mod written {
         }
     }
 
-    /// Wherever the disk is full, it is an error and says so: never a panic, never a short file taken for a whole one.
+    /// A full disk is an error at any byte: never a panic, never a truncated file taken for a complete one.
     pub fn assert_survives_a_full_disk(whole: usize, write: impl Fn(Full) -> io::Result<()>) {
         for room in [0, 3, 4, 1000, whole / 2, whole - 1] {
             let error = write(Full(room)).expect_err("the disk is full");
@@ -89,19 +89,19 @@ mod written {
         let results = folder.path().join("results");
         let mut command = command();
         command.arg("run").arg(file("scenarios/redysim_single_arm_3r.toml")).arg("--out").arg(&results);
-        let mut wanted = vec!["redysim_single_arm_3r.csv".to_owned(), "summary.json".to_owned()];
+        let mut expected = vec!["redysim_single_arm_3r.csv".to_owned(), "summary.json".to_owned()];
         for (there, kind) in [(cfg!(feature = "parquet"), "parquet"), (cfg!(feature = "mcap"), "mcap")] {
             if there {
                 command.arg(format!("--{kind}"));
-                wanted.push(format!("redysim_single_arm_3r.{kind}"));
+                expected.push(format!("redysim_single_arm_3r.{kind}"));
             }
         }
         assert!(command.output().expect("it runs").status.success());
         let names = std::fs::read_dir(&results).expect("results").map(|entry| entry.expect("an entry").file_name());
         let mut names: Vec<_> = names.map(|name| name.into_string().expect("UTF-8")).collect();
         names.sort();
-        wanted.sort();
-        assert_eq!(names, wanted);
+        expected.sort();
+        assert_eq!(names, expected);
     }
 }
 
@@ -268,9 +268,9 @@ mod mcap_files {
                     assert_eq!(found.insert(heading, value.to_bits()), None, "each is there once");
                 }
             }
-            let wanted: BTreeMap<String, u64> =
+            let expected: BTreeMap<String, u64> =
                 headings.iter().zip(row).skip(2).map(|(heading, cell)| (heading.clone(), bits(cell))).collect();
-            assert_eq!(found, wanted, "row {i}");
+            assert_eq!(found, expected, "row {i}");
         }
         assert_eq!(file.messages["/tf"].len(), rows.len());
         let impact = numbers(&file, "/impact", &file.messages["/impact"][0].1);
@@ -281,7 +281,7 @@ mod mcap_files {
     }
 
     #[test]
-    fn put_every_body_where_it_is() {
+    fn have_the_pose_of_every_body() {
         let mut scenario = scenario("raina_shah_2017");
         scenario.cases[1].target_twists = vec![[0.3, 0.02, -0.01], [-0.2, 0.0, 0.03]];
         let mut study = run(&scenario);
@@ -312,8 +312,8 @@ mod mcap_files {
                 let (name, start) = (&scenario.targets[target].name, study.cases[1].targets[target].pose[0]);
                 let [yaw, x, y] = poses[&format!("targets/{name}")];
                 let (tip, end) = (sample.end_effector_poses[arm], contact_sample.end_effector_poses[arm]);
-                // where the contact point is: it turns with the target
-                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), result.contact.offset);
+                // the contact point, which rotates with the target
+                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), contact.contact.offset);
                 if i + 1 >= before {
                     let held = [x + cos * rx - sin * ry, y + sin * rx + cos * ry];
                     assert_close("the target is held by the tip", &held, &tip[1..], tolerance::TRANSFORMS);
@@ -335,7 +335,7 @@ mod mcap_files {
     }
 
     #[test]
-    fn draw_each_body_in_a_frame_that_there_is() {
+    fn draw_each_body_in_its_frame() {
         let scenario = scenario("raina_shah_2017");
         let study = run(&scenario);
         let (_, file) = record(&scenario, &study, &study.cases[0]);
@@ -379,9 +379,9 @@ mod mcap_files {
         }
     }
 
-    /// Bounces come in rows, and not every arm is part of each.
+    /// Repeated bounces, in which not every arm takes part.
     #[test]
-    fn tell_of_every_impact() {
+    fn have_every_impact() {
         let scenario = scenario("raina_shah_2017");
         let mut study = run(&scenario);
         let captured = study.cases[0].capture.as_mut().expect("a capture");

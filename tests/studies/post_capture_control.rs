@@ -1,4 +1,4 @@
-//! After the capture: what the laws keep, what they bring to rest, and what they say remains.
+//! Post-capture control: hold, damping and stabilisation, by joints, base torque and wheel, and the residual motion.
 
 use crate::{run, scenario};
 use planar_capture::capture::CaptureResult;
@@ -16,7 +16,7 @@ use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::{assert_close, layout, tolerance};
 use proptest::prelude::*;
 
-/// The paper's study with another end.
+/// The paper's study with this post-capture control.
 fn study_with(control: PostCaptureControl) -> (Scenario, Vec<CaptureResult>) {
     let mut scenario = scenario("raina_shah_2017");
     scenario.post_impact.as_mut().expect("a capture").control = control;
@@ -42,16 +42,16 @@ fn ends(captured: &CaptureResult) -> (&RobotState, &RobotState, &ResidualMotion)
 fn hold_keeps_the_angles_of_the_capture() {
     let gains = PostCaptureControl::Hold { proportional_gain: vec![49.0; 6], derivative_gain: vec![14.0; 6] };
     for captured in study_with(gains).1 {
-        let (start, end, left) = ends(&captured);
+        let (start, end, residual) = ends(&captured);
         assert_close("angles", &end.joint_angles, &start.joint_angles, tolerance::HELD);
-        assert!(left.largest_joint_rate < tolerance::HELD, "{left:?}");
+        assert!(residual.largest_joint_rate < tolerance::HELD, "{residual:?}");
     }
 }
 
 #[test]
 fn damping_stops_the_joints_and_leaves_one_body() {
     for captured in study_with(PostCaptureControl::Damping { derivative_gain: vec![7.0; 6] }).1 {
-        let (start, end, left) = ends(&captured);
+        let (start, end, residual) = ends(&captured);
         let largest = |rates: &[f64]| rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         assert!(
             largest(&end.joint_rates) < 0.2 * largest(&start.joint_rates),
@@ -59,19 +59,19 @@ fn damping_stops_the_joints_and_leaves_one_body() {
             largest(&end.joint_rates),
             largest(&start.joint_rates)
         );
-        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], 10.0 * left.largest_joint_rate);
+        assert_close("base rate", &[residual.base_rate], &[residual.rigid_rate], 10.0 * residual.largest_joint_rate);
     }
 }
 
-/// Without an actuator that reaches outside, the whole turns as one body with l/I, and its momentum is what it was.
+/// With joint torques alone, the whole ends up rotating as one body at l/I, with constant momentum.
 #[test]
 fn stabilised_by_joints_alone_the_robot_turns_as_one_body() {
     for captured in study_with(stabilise(None)).1 {
-        let (start, end, left) = ends(&captured);
+        let (start, end, residual) = ends(&captured);
         let decay = (-0.5 * captured.post_impact.duration).exp();
-        let wanted: Vec<_> = start.joint_rates.iter().map(|rate| rate * decay).collect();
-        assert_close("joint rates", &end.joint_rates, &wanted, tolerance::STABILISED);
-        assert_close("base rate", &[left.base_rate], &[left.rigid_rate], tolerance::STABILISED);
+        let expected: Vec<_> = start.joint_rates.iter().map(|rate| rate * decay).collect();
+        assert_close("joint rates", &end.joint_rates, &expected, tolerance::STABILISED);
+        assert_close("base rate", &[residual.base_rate], &[residual.rigid_rate], tolerance::STABILISED);
         assert!({
             let end = captured.post_impact.end();
             end.base_torque.is_none() && end.work.base_impulse == 0.0
@@ -79,24 +79,24 @@ fn stabilised_by_joints_alone_the_robot_turns_as_one_body() {
     }
 }
 
-/// A base torque takes all of the angular momentum about the COM; the linear momentum stays.
+/// A base torque removes the angular momentum about the COM; the linear momentum is constant.
 #[test]
 fn a_base_torque_takes_the_angular_momentum() {
     let (_, free) = study_with(stabilise(None));
     let (_, cases) = study_with(stabilise(Some(1e3)));
     for (captured, free) in cases.iter().zip(&free) {
-        let (start, end, left) = ends(captured);
+        let (start, end, residual) = ends(captured);
         let decay = (-0.5 * captured.post_impact.duration).exp();
         assert_close("base rate", &[end.base_twist[0]], &[start.base_twist[0] * decay], tolerance::STABILISED);
         let [before, rest @ ..] = free.residual_motion.as_ref().expect("a residual motion").momentum;
-        assert_close("momentum", &left.momentum, &[0.0, rest[0], rest[1]], tolerance::STABILISED);
+        assert_close("momentum", &residual.momentum, &[0.0, rest[0], rest[1]], tolerance::STABILISED);
         let end = captured.post_impact.end();
         assert_close("impulse", &[end.work.base_impulse], &[-before], tolerance::STABILISED);
         assert!(captured.post_impact.saturation.base == 0.0);
     }
 }
 
-/// A weak base torque is at its limit until most is done, never over it.
+/// A limited base torque saturates first and never exceeds its limit.
 #[test]
 fn a_weak_base_torque_takes_longer() {
     let limit = 0.005;
@@ -120,7 +120,7 @@ fn a_weak_base_torque_takes_longer() {
 }
 
 #[test]
-fn without_control_nothing_is_said_of_it() {
+fn without_control_the_summary_has_no_control_keys() {
     let scenario = scenario("raina_shah_2017");
     let value = summary(&scenario, "generated", &run(&scenario));
     let after = value["cases"][0]["post_impact"].as_object().expect("a phase");
@@ -130,18 +130,18 @@ fn without_control_nothing_is_said_of_it() {
     assert_eq!(keys, contract);
 }
 
-/// The shipped study does what its head says.
+/// The shipped study comes to rest as its header states.
 #[test]
 fn the_shipped_study_comes_to_rest() {
     for case in run(&scenario("stabilised_capture")).cases {
-        let left = case.capture.expect("a capture").residual_motion.expect("a residual motion");
-        assert!(left.base_rate.abs() < 1e-6 && left.largest_joint_rate < 1e-9, "{left:?}");
-        assert!(left.rigid_rate.abs() < 1e-6, "{left:?}");
+        let residual = case.capture.expect("a capture").residual_motion.expect("a residual motion");
+        assert!(residual.base_rate.abs() < 1e-6 && residual.largest_joint_rate < 1e-9, "{residual:?}");
+        assert!(residual.rigid_rate.abs() < 1e-6, "{residual:?}");
     }
 }
 
 /// Four seconds of stabilisation of a shipped layout from any state; joints at 1 1/s, the base at 0.7 1/s.
-fn settle_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>) -> (Phase, ResidualMotion, Vec<bool>) {
+fn stabilise_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>) -> (Phase, ResidualMotion, Vec<bool>) {
     let layout = layout(name);
     // the generic implementation where this build has no code: slower, the same to rounding
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
@@ -160,12 +160,12 @@ fn settle_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>) ->
         base_twist: s.base_twist,
         joint_rates: s.joint_rates.clone(),
     };
-    let wanted = PostCaptureLaw { after: &after, wheels: &wheels, angles: &s.joint_angles };
-    let phase =
-        run_post_capture(&System::alone(&*model), wanted, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    let expected = PostCaptureLaw { after: &after, wheels: &wheels, angles: &s.joint_angles };
+    let phase = run_post_capture(&System::alone(&*model), expected, &start, &timing, &mut NoEvents, &mut || ())
+        .expect("a phase");
     let end = phase.end().state.clone();
-    let left = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a residual motion");
-    (phase, left, wheels)
+    let residual = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a residual motion");
+    (phase, residual, wheels)
 }
 
 /// Every second: joint rates but the wheels', and the base rate where it is `controlled`, have decayed as they should.
@@ -177,8 +177,8 @@ fn check_decay(phase: &Phase, wheels: &[bool], wheels_too: bool, base: bool) {
             assert_close(&format!("joint ({wheel})"), &[*to], &[from * (-sample.time).exp()], tolerance::DECAY);
         }
         if base {
-            let wanted = start.base_twist[0] * (-0.7 * sample.time).exp();
-            assert_close("base", &[sample.state.base_twist[0]], &[wanted], tolerance::DECAY);
+            let expected = start.base_twist[0] * (-0.7 * sample.time).exp();
+            assert_close("base", &[sample.state.base_twist[0]], &[expected], tolerance::DECAY);
         }
     }
     assert!(
@@ -193,28 +193,28 @@ proptest! {
 
     #[test]
     fn joints_of_any_robot_come_to_rest(s in sample(2, 6)) {
-        let (phase, _, wheels) = settle_layout("dual_arm_3r", &s, None);
+        let (phase, _, wheels) = stabilise_layout("dual_arm_3r", &s, None);
         check_decay(&phase, &wheels, true, false);
-        let (phase, ..) = settle_layout("dual_arm_3r", &s, Some(1e6));
+        let (phase, ..) = stabilise_layout("dual_arm_3r", &s, Some(1e6));
         check_decay(&phase, &wheels, true, true);
     }
 
     #[test]
     fn a_wheel_takes_what_the_base_loses(s in sample(3, 6)) {
-        let (phase, left, wheels) = settle_layout("asymmetric_wheel", &s, None);
+        let (phase, residual, wheels) = stabilise_layout("asymmetric_wheel", &s, None);
         prop_assert_eq!(&wheels, &[false, false, false, false, false, true]);
         check_decay(&phase, &wheels, false, true);
-        prop_assert_eq!(left.wheel_rates.len(), 1);
+        prop_assert_eq!(residual.wheel_rates.len(), 1);
     }
 
     #[test]
-    fn a_base_torque_takes_what_the_wheel_holds(s in sample(3, 6)) {
-        let (phase, left, wheels) = settle_layout("asymmetric_wheel", &s, Some(1e6));
+    fn a_base_torque_takes_the_momentum_of_the_wheel(s in sample(3, 6)) {
+        let (phase, residual, wheels) = stabilise_layout("asymmetric_wheel", &s, Some(1e6));
         check_decay(&phase, &wheels, true, true);
-        // with a limit, the wheel does what the torque cannot
-        let (limited, ..) = settle_layout("asymmetric_wheel", &s, Some(1e-3));
+        // with a limit, the wheel supplies the rest of the torque
+        let (limited, ..) = stabilise_layout("asymmetric_wheel", &s, Some(1e-3));
         check_decay(&limited, &wheels, false, true);
         prop_assert!(limited.saturation.base > 3.9, "{:?}", limited.saturation);
-        prop_assert_eq!(left.wheel_rates.len(), 1);
+        prop_assert_eq!(residual.wheel_rates.len(), 1);
     }
 }

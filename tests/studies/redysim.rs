@@ -77,8 +77,8 @@ fn both_arms() {
     );
 }
 
-/// A minute of such approaches by the independent model (DOP853 at 1e-13): trajectories that end earlier, after which
-/// their last angles are held, and other angles. What is read from files is what is run.
+/// Approaches of 60 s by the independent model (DOP853 at 1e-13): other angles, and trajectories
+/// that end earlier and then hold their final angles. Scenarios are read from text.
 #[test]
 fn a_minute_of_other_approaches() {
     let reference = planar_proof::json("tests/reference/long_approaches.json");

@@ -1,4 +1,4 @@
-//! The committed report on the paper's reproduction is what the command gives, and what its text says holds.
+//! The committed report on the paper's reproduction equals the command's output, and its statements are true.
 #![cfg(feature = "figures")]
 
 use crate::Silent;

@@ -1,4 +1,4 @@
-//! End effectors steered by the generalized Jacobian: they stay on their paths, come back to them, and arrive.
+//! Resolved motion rate control by the generalized Jacobian: path errors, their decay, and terminal errors.
 
 use crate::{run, scenario};
 use planar_capture::capture::Study;
@@ -22,8 +22,8 @@ const GAINS: [f64; 2] = [2.0, 10.0];
 const POSES: [[f64; 3]; 2] = [[-1.2, 2.0, -1.5], [1.9, -2.0, 1.5]];
 const TWISTS: [[f64; 3]; 2] = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]];
 
-/// The paper's robot and the shipped scenario's law without a sample time, for goals of one's own.
-fn steered(goals: &[EndEffectorGoal], twists: &[[f64; 3]]) -> Scenario {
+/// The paper's robot and the shipped scenario's law without a sample time, with other goals.
+fn with_goals(goals: &[EndEffectorGoal], twists: &[[f64; 3]]) -> Scenario {
     let mut scenario = scenario("resolved_motion_rate");
     scenario.approach.actuation = Actuation::default();
     scenario.approach.final_end_effector_poses = Some(goals.to_vec());
@@ -34,7 +34,7 @@ fn steered(goals: &[EndEffectorGoal], twists: &[[f64; 3]]) -> Scenario {
 }
 
 fn by_poses() -> Scenario {
-    steered(&POSES.map(EndEffectorGoal::Pose), &TWISTS)
+    with_goals(&POSES.map(EndEffectorGoal::Pose), &TWISTS)
 }
 
 fn generated(scenario: &Scenario) -> Box<dyn CloneModel> {
@@ -51,17 +51,17 @@ fn check_end(study: &Study, poses: &[[f64; 3]], twists: &[[f64; 3]], tolerance: 
     assert!(study.inverse_kinematics.is_none() && study.terminal_rates.is_none(), "nothing to design");
 }
 
-/// The largest distance of tip poses from quintic paths between the first and the wanted ones.
+/// Largest difference of end effector poses from quintic paths between the first and the final ones.
 fn off_path(study: &Study, poses: &[[f64; 3]], twists: &[[f64; 3]]) -> f64 {
     let first = &study.approach.samples[0];
     let mut most = 0.0_f64;
     for sample in &study.approach.samples {
-        let tips = first.end_effector_poses.iter().zip(&first.end_effector_twists).zip(poses.iter().zip(twists));
-        for (((from, start), (to, end)), found) in tips.zip(&sample.end_effector_poses) {
+        let feedback = first.end_effector_poses.iter().zip(&first.end_effector_twists).zip(poses.iter().zip(twists));
+        for (((from, start), (to, end)), found) in feedback.zip(&sample.end_effector_poses) {
             for i in 0..3 {
                 let tau = sample.time / study.approach.duration;
-                let wanted = quintic([from[i], to[i]], [start[i], end[i]], study.approach.duration, tau);
-                most = most.max((found[i] - wanted.angle).abs());
+                let expected = quintic([from[i], to[i]], [start[i], end[i]], study.approach.duration, tau);
+                most = most.max((found[i] - expected.angle).abs());
             }
         }
     }
@@ -69,13 +69,13 @@ fn off_path(study: &Study, poses: &[[f64; 3]], twists: &[[f64; 3]]) -> f64 {
 }
 
 #[test]
-fn tips_follow_their_paths_to_poses_and_twists() {
+fn end_effectors_follow_their_paths_to_poses_and_twists() {
     let study = run(&by_poses());
     check_end(&study, &POSES, &TWISTS, tolerance::STEERED);
     let off = off_path(&study, &POSES, &TWISTS);
     assert!(off < tolerance::STEERED, "{off:e}");
     // from rest to rest the lines are straight: one parameter for x and y
-    let study = run(&steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]));
+    let study = run(&with_goals(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]));
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
     let from = &study.approach.samples[0].end_effector_poses;
     for sample in &study.approach.samples {
@@ -86,9 +86,9 @@ fn tips_follow_their_paths_to_poses_and_twists() {
     }
 }
 
-/// What the momentum does to the tips is part of the law.
+/// The law takes the momentum into account.
 #[test]
-fn a_robot_with_momentum_is_steered_as_well() {
+fn a_robot_with_momentum_follows_its_paths() {
     let mut scenario = by_poses();
     scenario.approach.duration = 10.0; // later the robot has drifted away from the poses
     scenario.initial.base_twist = [-0.02, 0.01, 0.006];
@@ -99,7 +99,7 @@ fn a_robot_with_momentum_is_steered_as_well() {
     assert!(off < tolerance::STEERED, "{off:e}");
 }
 
-/// Beside the path, every component of the error obeys ë + (K + k) ė + K k e = 0.
+/// Off the path, every component of the error obeys ë + (K + k) ė + K k e = 0.
 #[test]
 fn errors_decay_with_the_two_gains() {
     let planned = by_poses();
@@ -110,8 +110,8 @@ fn errors_decay_with_the_two_gains() {
     }
     start.joint_rates = vec![0.01, 0.0, -0.02, 0.01, 0.02, 0.0];
     start.base_twist = [0.003, 0.002, -0.004];
-    let mut tips = EndEffectorFeedback::new(&*model, &planned).expect("paths");
-    let mut law = tips.law(GAINS, 0.01);
+    let mut feedback = EndEffectorFeedback::new(&*model, &planned).expect("paths");
+    let mut law = feedback.law(GAINS, 0.01);
     let timing = Timing { duration: 4.0, step: 0.0025, sample: 0.1, ..Timing::default() };
     let phase =
         drive(&System::alone(&*model), &mut law, &Actuation::default(), &start, &timing, &mut NoEvents, &mut || ())
@@ -127,18 +127,18 @@ fn errors_decay_with_the_two_gains() {
                 let e = first.end_effector_poses[arm][part] - begin.end_effector_poses[arm][part];
                 let rate = first.end_effector_twists[arm][part] - begin.end_effector_twists[arm][part];
                 let (slow, fast) = ((k2 * e + rate) / (k2 - k1), (k1 * e + rate) / (k2 - k1));
-                let wanted = slow * (-k1 * sample.time).exp() - fast * (-k2 * sample.time).exp();
+                let expected = slow * (-k1 * sample.time).exp() - fast * (-k2 * sample.time).exp();
                 let found = sample.end_effector_poses[arm][part] - path.end_effector_poses[arm][part];
-                assert_close(&format!("error at {} s", sample.time), &[found], &[wanted], tolerance::CONTROLLED);
+                assert_close(&format!("error at {} s", sample.time), &[found], &[expected], tolerance::CONTROLLED);
             }
         }
     }
     assert!(phase.drift.momentum_drift < 1e-9 && phase.drift.energy_error < 1e-6, "{:?}", phase.drift);
 }
 
-/// Held torques: an error of first order in the sample time. The shipped scenario's is 20 ms.
+/// Sampled torques give an error of first order in the sample time, 20 ms in the shipped scenario.
 #[test]
-fn sampled_it_stays_near_the_paths() {
+fn sampled_control_stays_near_the_paths() {
     let errors = [8, 4, 2, 1].map(|steps| {
         let mut scenario = by_poses();
         scenario.approach.actuation.steps_per_sample = Some(steps);
@@ -173,12 +173,12 @@ fn the_shipped_study_meets_its_targets() {
     assert!(run(&crate::scenario("raina_shah_2017")).approach.singularity_margin.is_none());
 }
 
-/// Earlier there, they stay; a quintic of the joints does so too.
+/// A path that ends before the approach holds its end; so does a quintic of the joints.
 #[test]
-fn tips_stay_where_their_paths_end() {
-    let mut scenario = steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
+fn end_effectors_stay_where_their_paths_end() {
+    let mut scenario = with_goals(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
     scenario.approach.trajectory_duration = Some(14.0);
-    scenario.initial.base_twist = [0.002, 0.001, -0.001]; // the robot drifts on, the tips do not
+    scenario.initial.base_twist = [0.002, 0.001, -0.001]; // the robot drifts, the end effectors do not
     let study = run(&scenario);
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
     for sample in study.approach.samples.iter().filter(|sample| sample.time >= 14.0) {
@@ -196,9 +196,9 @@ fn tips_stay_where_their_paths_end() {
     }
 }
 
-/// Torques that are not enough: the tips fall behind, and come back to their paths.
+/// Saturated torques cause path errors, which decay afterwards.
 #[test]
-fn weak_joints_catch_up() {
+fn errors_under_torque_limits_decay() {
     let mut scenario = by_poses();
     scenario.approach.actuation.torque_limits = Some(vec![0.35; 6]);
     let study = run(&scenario);
@@ -207,12 +207,12 @@ fn weak_joints_catch_up() {
     check_end(&study, &POSES, &TWISTS, 1e-3);
 }
 
-/// An arm of which nothing is wanted keeps its angles while the base moves; a yaw goes to its nearest turn.
+/// An arm without a goal keeps its angles while the base moves; a yaw goal is reached at the nearest turn.
 #[test]
-fn an_arm_that_may_end_anywhere_holds_still() {
+fn an_arm_without_a_goal_keeps_its_angles() {
     let pose = [-1.2, 1.8, -1.4];
-    let turned = EndEffectorGoal::Pose([pose[0] + 2.0 * std::f64::consts::TAU, pose[1], pose[2]]);
-    let study = run(&steered(&[turned, EndEffectorGoal::Any], &[[0.0; 3]; 2]));
+    let rotated = EndEffectorGoal::Pose([pose[0] + 2.0 * std::f64::consts::TAU, pose[1], pose[2]]);
+    let study = run(&with_goals(&[rotated, EndEffectorGoal::Any], &[[0.0; 3]; 2]));
     let end = study.approach.end();
     assert_close("tip", &end.end_effector_poses[0], &pose, tolerance::STEERED);
     let angles = &study.approach.samples[0].state.joint_angles;
@@ -220,10 +220,10 @@ fn an_arm_that_may_end_anywhere_holds_still() {
     assert!(difference(&end.state.base_pose, &[0.0; 3]) > 0.05 && study.terminal_errors[1].is_none());
 }
 
-/// Stretched arms cannot move their tips inwards at first; they start gently, and get there.
+/// Stretched arms are singular at the start: rates and torques stay bounded, and the goals are reached.
 #[test]
-fn a_singular_start_does_not_blow_up() {
-    let mut scenario = steered(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
+fn a_singular_start_stays_bounded() {
+    let mut scenario = with_goals(&POSES.map(EndEffectorGoal::Pose), &[[0.0; 3]; 2]);
     scenario.initial.joint_angles = vec![0.0, 1e-3, 0.0, std::f64::consts::PI, 0.0, -1e-3];
     let study = run(&scenario);
     check_end(&study, &POSES, &[[0.0; 3]; 2], tolerance::STEERED);
@@ -234,11 +234,11 @@ fn a_singular_start_does_not_blow_up() {
     }
 }
 
-/// The arm stretches towards a place out of reach and waits there; the other arm gets where it should.
+/// The arm stretches towards a goal out of reach; the other arm reaches its goal.
 #[test]
-fn out_of_reach_the_run_ends_with_what_was_reached() {
+fn a_goal_out_of_reach_is_reported_with_its_distance() {
     let mut scenario =
-        steered(&[EndEffectorGoal::Position([3.45, -0.3]), EndEffectorGoal::Position([-2.0, 1.5])], &[[0.0; 3]; 2]);
+        with_goals(&[EndEffectorGoal::Position([3.45, -0.3]), EndEffectorGoal::Position([-2.0, 1.5])], &[[0.0; 3]; 2]);
     scenario.approach.duration = 30.0;
     let study = run(&scenario);
     assert_eq!(study.audit_failures(), Vec::<String>::new());
@@ -249,8 +249,8 @@ fn out_of_reach_the_run_ends_with_what_was_reached() {
     assert!(shown.contains("DID NOT REACH the wanted pose: misses it by") && shown.contains("damped below"), "{shown}");
 }
 
-/// What the law promises at one state, for any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the wanted rows, `θ̈ = −k
-/// θ̇` in joints that are held. The tips' accelerations are differences of their twists along the motion.
+/// The law at one state of any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the controlled rows, `θ̈ = −k θ̇` in
+/// locked joints. Accelerations of the end effectors are differences of their twists along the motion.
 fn check_law(name: &str, goals: &[EndEffectorGoal], s: &RandomState) -> Result<(), TestCaseError> {
     let layout = layout(name);
     let model = registry::generated(&layout).unwrap_or_else(|_| registry::generic(&layout));
@@ -269,14 +269,14 @@ fn check_law(name: &str, goals: &[EndEffectorGoal], s: &RandomState) -> Result<(
         base_twist: s.base_twist,
         joint_rates: &s.joint_rates,
     };
-    let mut tips = EndEffectorFeedback::new(&*model, &planned).expect("paths");
-    let mut law = tips.law(GAINS, 1e-9);
-    let (path, wanted, held) = (law.path, law.controlled, law.locked);
+    let mut feedback = EndEffectorFeedback::new(&*model, &planned).expect("paths");
+    let mut law = feedback.law(GAINS, 1e-9);
+    let (path, expected, locked) = (law.path, law.controlled, law.locked);
     let (joints, time) = (layout.joints(), 3.0);
     let mut torques = vec![0.0; joints];
     law.joint_torques(time, &*model, &state, &mut torques).expect("torques");
     let margin = law.singularity_margin.expect("rows");
-    prop_assume!(margin > 0.02); // the rest is for `a_singular_start_does_not_blow_up`
+    prop_assume!(margin > 0.02); // the rest is for `a_singular_start_stays_bounded`
     let mut accelerations = vec![0.0; joints];
     let base = model.forward_dynamics(&state, &Forces::torques(&torques), &mut accelerations).expect("accelerations");
     let h = 1e-6;
@@ -299,23 +299,23 @@ fn check_law(name: &str, goals: &[EndEffectorGoal], s: &RandomState) -> Result<(
     let (before, now, after) = (twists_at(-h), twists_at(0.0), twists_at(h));
     let mut poses = vec![[0.0; 3]; layout.arms.len()];
     model.end_effector_poses(&s.base_pose, &s.joint_angles, &mut poses).expect("poses");
-    for (arm, wanted) in wanted.iter().enumerate() {
+    for (arm, expected) in expected.iter().enumerate() {
         let desired = path.end_effector(arm, time).expect("a path");
-        for part in (0..3).filter(|part| wanted[*part]) {
+        for part in (0..3).filter(|part| expected[*part]) {
             let error = desired.pose[part] - poses[arm][part];
             let limit = 0.05 * if part == 0 { 1.0 } else { layout.arms[arm].reach() };
             let error = error.clamp(-limit, limit);
             let lag = desired.twist[part] - now[arm][part];
-            let wanted = desired.acceleration[part] + (GAINS[0] + GAINS[1]) * lag + GAINS[0] * GAINS[1] * error;
+            let expected = desired.acceleration[part] + (GAINS[0] + GAINS[1]) * lag + GAINS[0] * GAINS[1] * error;
             let found = (after[arm][part] - before[arm][part]) / (2.0 * h);
             prop_assert!(
-                (found - wanted).abs() < tolerance::STEERED_ACCELERATION * (1.0 + wanted.abs()) / margin,
-                "arm {arm}, part {part}: {found} and {wanted}, margin {margin}"
+                (found - expected).abs() < tolerance::STEERED_ACCELERATION * (1.0 + expected.abs()) / margin,
+                "arm {arm}, part {part}: {found} and {expected}, margin {margin}"
             );
         }
     }
-    for ((acceleration, rate), held) in accelerations.iter().zip(&s.joint_rates).zip(held) {
-        if *held {
+    for ((acceleration, rate), locked) in accelerations.iter().zip(&s.joint_rates).zip(locked) {
+        if *locked {
             prop_assert!((acceleration + GAINS[1] * rate).abs() < tolerance::STEERED_ACCELERATION / margin);
         }
     }
@@ -326,7 +326,7 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn the_tips_accelerate_as_the_law_says(s in sample(2, 6)) {
+    fn end_effectors_accelerate_by_the_law(s in sample(2, 6)) {
         check_law("dual_arm_3r", &POSES.map(EndEffectorGoal::Pose), &s)?;
         check_law("dual_arm_3r", &[EndEffectorGoal::Any, EndEffectorGoal::Position([1.0, 2.0])], &s)?;
     }
@@ -342,10 +342,10 @@ proptest! {
     }
 }
 
-/// At rest but for joints, without momentum, the rates that the law wants are those of Umetani and Yoshida: with them,
-/// the generalized Jacobian gives the tips the path's twist and the correction.
+/// Without momentum the rates of the law are those of Umetani and Yoshida: the generalized Jacobian maps them to the
+/// path's twist and the correction.
 #[test]
-fn without_momentum_the_wanted_rates_are_those_of_the_generalized_jacobian() {
+fn without_momentum_the_rates_are_those_of_the_generalized_jacobian() {
     let scenario = by_poses();
     let model = generated(&scenario);
     let study = run(&scenario);

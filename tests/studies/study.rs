@@ -67,9 +67,9 @@ fn exact_tracking_gives_the_notes_digits() {
     assert_close("yaw, y", &[yaw, y], &[0.687_457_5, 0.019_422_8], 10.0 * tolerance::PRINTED_DIGITS);
     assert_close("x", &[x], &[6.8e-6], 10.0 * tolerance::PRINTED_DIGITS);
     let tips: Vec<f64> = end.end_effector_poses.iter().flat_map(|pose| [pose[1], pose[2]]).collect();
-    let wanted = [2.009_266_1, -1.396_365_1, -2.009_958_2, 1.434_549_4];
-    assert_close("tips", &tips, &wanted, 10.0 * tolerance::PRINTED_DIGITS);
-    // the tips have the twists that the design was for
+    let expected = [2.009_266_1, -1.396_365_1, -2.009_958_2, 1.434_549_4];
+    assert_close("tips", &tips, &expected, 10.0 * tolerance::PRINTED_DIGITS);
+    // the end effectors have the designed twists
     assert_close("tip twist 1", &end.end_effector_twists[0], &[0.0, -0.1, 0.0], tolerance::APPROACH);
     assert_close("tip twist 2", &end.end_effector_twists[1], &[0.0, 0.1, 0.0], tolerance::APPROACH);
 }
@@ -86,12 +86,12 @@ fn impulses_of_the_notes_table() {
     assert_eq!(study.cases.len(), table.len());
     for (case, (first, second, literal)) in study.cases.iter().zip(table) {
         let impact = &case.capture.as_ref().expect("a capture").impact;
-        for (impulse, wanted) in [
+        for (impulse, expected) in [
             (impact.exact.impulses[0], first),
             (impact.exact.impulses[1], second),
             (impact.paper.as_ref().expect("literal").impulses[0], literal),
         ] {
-            assert_close(&case.name, &impulse.expect("captured"), &wanted, tolerance::PRINTED_IMPULSE);
+            assert_close(&case.name, &impulse.expect("captured"), &expected, tolerance::PRINTED_IMPULSE);
         }
     }
 }
@@ -117,7 +117,7 @@ fn patterns_that_must_hold() {
 /// A robot that moves on without turning, faster by a part δ: all of it is drift, relative to what it has then, and
 /// what was gained without work is an error of the energy.
 #[test]
-fn the_audit_measures_what_strays() {
+fn the_audit_measures_drift() {
     let model = registry::generated(&scenario("redysim_single_arm_3r").layout).expect("generated code");
     let joint_angles = [0.3, -1.2, 0.7];
     let state = |speed: f64| State {
@@ -136,8 +136,8 @@ fn the_audit_measures_what_strays() {
             .record(&state(1.0 + delta), &[], &AccumulatedInput { work: part * gained, ..AccumulatedInput::default() })
             .expect("a state");
         let ConservationErrors { momentum_drift, energy_error, .. } = audit.drift();
-        let wanted = [delta.abs() / (1.0 + delta).max(1.0), (1.0 - part) * gained.abs() / largest];
-        assert_close("drift, error", &[momentum_drift, energy_error], &wanted, tolerance::IDENTITY);
+        let expected = [delta.abs() / (1.0 + delta).max(1.0), (1.0 - part) * gained.abs() / largest];
+        assert_close("drift, error", &[momentum_drift, energy_error], &expected, tolerance::IDENTITY);
     }
 }
 
@@ -161,8 +161,8 @@ fn the_audit_measures_angular_momentum_too() {
     for delta in [0.25, -0.25] {
         let mut audit = ConservationAudit::new(&*model, &state(1.0), &[]).expect("a state");
         audit.record(&state(1.0 + delta), &[], &AccumulatedInput::default()).expect("a state");
-        let wanted = delta.abs() / (1.0_f64 + delta).max(1.0);
-        assert_close("angular drift", &[audit.drift().momentum_drift], &[wanted], tolerance::IDENTITY);
+        let expected = delta.abs() / (1.0_f64 + delta).max(1.0);
+        assert_close("angular drift", &[audit.drift().momentum_drift], &[expected], tolerance::IDENTITY);
     }
 }
 
@@ -200,12 +200,12 @@ fn every_shipped_study_passes_its_audit() {
 #[test]
 fn a_study_is_the_same_with_generic_dynamics() {
     let scenario = scenario("redysim_single_arm_3r");
-    let wanted = summary(&scenario, "either", &run(&scenario));
+    let expected = summary(&scenario, "either", &run(&scenario));
     let model = generic(&scenario.layout);
     let found = study(&scenario, &|| model.clone_box(), 0.05, &mut Silent).expect("a study");
     let found = summary(&scenario, "either", &found);
     let end = |summary: &Value, key: &str| numbers(&summary["cases"][0]["approach"][key]);
     for key in ["base_pose", "joint_angles", "base_twist", "joint_rates", "end_effector_poses"] {
-        assert_close(key, &end(&found, key), &end(&wanted, key), tolerance::SAME_STUDY);
+        assert_close(key, &end(&found, key), &end(&expected, key), tolerance::SAME_STUDY);
     }
 }

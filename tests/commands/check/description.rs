@@ -1,6 +1,6 @@
-//! What a layout or a scenario is said to be.
+//! `check`: descriptions of layouts and scenarios.
 
-use super::{LAYOUT, SCENARIO, check, look};
+use super::{LAYOUT, SCENARIO, check, inspect_text};
 use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::file;
@@ -8,9 +8,9 @@ use std::fs;
 use std::path::Path;
 
 #[test]
-fn what_a_layout_is() {
+fn description_of_a_layout() {
     let (_, out, _) = check(&["dual_arm_3r"], Path::new("."));
-    for wanted in [
+    for expected in [
         "dual_arm_3r: a layout, sha256 a6de99dfde72\n",
         "degrees of freedom  9: base 3, joints 6\n",
         "mass                560 kg, 89.29 % of it in the base\n",
@@ -20,22 +20,22 @@ fn what_a_layout_is() {
         "generated code      generated::dual_arm_3r\n",
         "  arm1                 3         30          3               3.5  (0.5, 0)\n",
     ] {
-        assert!(out.contains(wanted), "no `{wanted}` in\n{out}");
+        assert!(out.contains(expected), "no `{expected}` in\n{out}");
     }
     // all bodies in line: Σ I + m x² − M x̄², by hand: links at 1, 2, 3 and 0, 1, 2 m
     let (squares, first): (f64, f64) = (10.0 * (1.0 + 4.0 + 9.0 + 0.0 + 1.0 + 4.0), 10.0 * (6.0 + 3.0));
     let inertia = 83.61 + 6.0 * 1.05 + squares - first * first / 560.0;
     assert_eq!(format!("{inertia:.1}"), "265.4");
-    let CheckReport { description, .. } = look(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
+    let CheckReport { description, .. } = inspect_text(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
     assert!(description.contains("(-0.5, 0.3) at 3\n") && description.contains("a mount angle"), "{description}");
     assert!(description.contains("none of this structure in this build"), "{description}");
     assert!(description.contains("codegen/layouts/robot.toml"), "the way to the code\n{description}");
 }
 
 #[test]
-fn what_a_scenario_is() {
+fn description_of_a_scenario() {
     let (_, out, _) = check(&["raina_shah_2017.toml"], &file("scenarios"));
-    for wanted in [
+    for expected in [
         "raina_shah_2017: a scenario\n",
         "robot               dual_arm_3r, 560 kg, sha256 a6de99dfde72\n",
         "generated code      generated::dual_arm_3r\n",
@@ -49,10 +49,10 @@ fn what_a_scenario_is() {
         "2.512 of at most 3.714\n",
         "case3        target1 [0.2, 0, 0] rigid, target2 [-0.2, 0, 0] rigid\n",
     ] {
-        assert!(out.contains(wanted), "no `{wanted}` in\n{out}");
+        assert!(out.contains(expected), "no `{expected}` in\n{out}");
     }
     // a base of 500 kg and 80 kg m², 39 kg on it, all moving as one with 2 m/s
-    let moving = look(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
+    let moving = inspect_text(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
     assert!(moving.contains("1078, 0] N m s, N s; 1078 J\n"), "{moving}");
 }
 
@@ -77,6 +77,6 @@ fn the_fastest_mode_decays_as_fast_as_a_simulation() {
     let end = start + there[start..].find('#').expect("a comment");
     let stay = there.replace(&there[start..end], &format!("final_joint_angles = {angles:?} "));
     let shown = inspect(&stay, "it.toml", Path::new(""), SHIPPED).expect("a scenario").description;
-    let wanted = format!("fastest mode {growth:.2} 1/s");
-    assert!(shown.contains(&wanted), "{wanted} in\n{shown}");
+    let expected = format!("fastest mode {growth:.2} 1/s");
+    assert!(shown.contains(&expected), "{expected} in\n{shown}");
 }

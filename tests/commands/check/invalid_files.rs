@@ -1,4 +1,4 @@
-//! Broken layouts, each with a message that a stranger can act on.
+//! `check`: invalid layouts, and the messages for them.
 
 use super::{LAYOUT, SCENARIO, check};
 use planar_capture::check::inspect;
@@ -135,27 +135,28 @@ fn broken_files() -> Vec<(&'static str, Vec<u8>, &'static [&'static str], usize)
 }
 
 #[test]
-fn broken_layouts_are_told_what_would_be_right() {
+fn broken_layouts_are_reported_with_a_correction() {
     let folder = TempDir::new().expect("a folder");
-    let edited = BROKEN.iter().map(|(what, from, to, wanted, count)| {
+    let edited = BROKEN.iter().map(|(what, from, to, expected, count)| {
         assert!(LAYOUT.contains(from), "{what}");
-        (*what, LAYOUT.replacen(from, to, 1).into_bytes(), *wanted, *count)
+        (*what, LAYOUT.replacen(from, to, 1).into_bytes(), *expected, *count)
     });
     let all: Vec<_> = edited.chain(broken_files()).collect();
     assert!(all.len() >= 20);
-    for (what, content, wanted, count) in all {
+    for (what, content, expected, count) in all {
         fs::write(folder.path().join("broken.toml"), content).expect("written");
         let (code, out, err) = check(&["broken.toml"], folder.path());
         assert_eq!((code, out.as_str()), (2, ""), "{what}: {err}");
         assert_eq!(err.matches("error: ").count(), count, "{what}:\n{err}");
-        for wanted in wanted {
-            let wanted = if wanted.starts_with(':') { format!("broken.toml{wanted}") } else { (*wanted).to_owned() };
-            assert!(err.contains(&wanted), "{what}: no `{wanted}` in\n{err}");
+        for expected in expected {
+            let expected =
+                if expected.starts_with(':') { format!("broken.toml{expected}") } else { (*expected).to_owned() };
+            assert!(err.contains(&expected), "{what}: no `{expected}` in\n{err}");
         }
     }
 }
 
-/// A file is what most of its keys say, misspelt or not, and its reader says what is wrong.
+/// The kind of a file is that of most of its keys, misspelt ones included; its reader reports the errors.
 #[test]
 fn the_kind_is_seen_in_broken_files_too() {
     let wrong = |text: &str| match inspect(text, "it.toml", Path::new(""), &[("robot", LAYOUT)]) {
@@ -176,21 +177,21 @@ fn the_kind_is_seen_in_broken_files_too() {
 #[test]
 fn any_number_and_any_cut_is_described_or_refused() {
     let shipped = [("robot", LAYOUT)];
-    let look = |text: &str| match inspect(text, "it.toml", Path::new(""), &shipped) {
+    let inspect_text = |text: &str| match inspect(text, "it.toml", Path::new(""), &shipped) {
         Ok(inspection) => assert!(inspection.description.len() > 100),
         Err(report) => assert!(report.count() > 0),
     };
     for text in [LAYOUT, SCENARIO] {
         for (at, _) in text.match_indices(|c: char| c.is_ascii_digit()) {
             for number in ["1e308", "5e-324", "-1e308", "0"] {
-                look(&format!("{}{number} #{}", &text[..at], &text[at..]));
-                look(&format!(
+                inspect_text(&format!("{}{number} #{}", &text[..at], &text[at..]));
+                inspect_text(&format!(
                     "{}{number}{}",
                     &text[..at],
                     text[at..].trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
                 ));
             }
         }
-        (0..text.len()).for_each(|at| look(&text[..at]));
+        (0..text.len()).for_each(|at| inspect_text(&text[..at]));
     }
 }

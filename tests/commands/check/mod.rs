@@ -1,4 +1,4 @@
-//! `planar-capture check`: what files are, what is odd about them and what is wrong.
+//! `planar-capture check`: descriptions, warnings and errors.
 
 mod description;
 mod invalid_files;
@@ -12,7 +12,7 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A robot without anything odd: two arms, and a wheel.
+/// A robot without warnings: two arms and a wheel.
 const LAYOUT: &str = r#"name = "robot"
 [base]
 mass = 500.0
@@ -49,7 +49,7 @@ mass = 4.0
 inertia = 0.5
 "#;
 
-/// A scenario of that robot without anything odd.
+/// A scenario of that robot without warnings.
 const SCENARIO: &str = r#"name = "study"
 layout = "robot"
 [initial]
@@ -77,7 +77,7 @@ target_twists = { ball = [0.0, 0.0, 0.0] }
 duration = 50.0
 "#;
 
-fn look(text: &str) -> CheckReport {
+fn inspect_text(text: &str) -> CheckReport {
     let shipped = [("robot", LAYOUT)];
     inspect(text, "it.toml", Path::new(""), &shipped).unwrap_or_else(|report| panic!("{report}\nin\n{text}"))
 }
@@ -87,7 +87,7 @@ fn check(arguments: &[&str], folder: &Path) -> (i32, String, String) {
 }
 
 #[test]
-fn nothing_shipped_is_odd() {
+fn shipped_files_have_no_warnings() {
     let layouts = SHIPPED.iter().map(|(name, _)| (*name).to_owned());
     let paths = ["codegen/layouts", "scenarios"].map(|folder| fs::read_dir(file(folder)).expect("a folder"));
     let paths = paths.into_iter().flatten().map(|entry| entry.expect("an entry").path().display().to_string());
@@ -101,14 +101,14 @@ fn nothing_shipped_is_odd() {
 }
 
 #[test]
-fn warnings_go_beside_the_description() {
+fn warnings_accompany_the_description() {
     let folder = TempDir::new().expect("a folder");
     fs::write(folder.path().join("odd.toml"), LAYOUT.replace("inertia = 3.0", "inertia = 30")).expect("written");
     let (code, out, err) = check(&["odd.toml"], folder.path());
     assert_eq!(code, 0);
     assert!(out.starts_with("robot: a layout") && !out.contains("no warnings"), "{out}");
     assert!(err.starts_with("warning: `arm[1].link[0].inertia` is 30") && err.ends_with("\n\n1 warning\n"), "{err}");
-    // a scenario beside its layout, from elsewhere
+    // a scenario in its layout's folder, from another folder
     fs::write(folder.path().join("study.toml"), SCENARIO.replace("\"robot\"", "\"odd.toml\"")).expect("written");
     let path = folder.path().join("study.toml");
     let (code, out, err) = check(&[&path.display().to_string()], Path::new("."));
@@ -117,10 +117,10 @@ fn warnings_go_beside_the_description() {
 }
 
 #[test]
-fn a_name_that_is_none_and_a_file_that_is_not_there() {
-    for (argument, wanted) in [("dual_arm_4r", "`dual_arm_3r`"), ("nowhere.toml", "no file `nowhere.toml`")] {
+fn unknown_names_and_missing_files() {
+    for (argument, expected) in [("dual_arm_4r", "`dual_arm_3r`"), ("nowhere.toml", "no file `nowhere.toml`")] {
         let (code, out, err) = check(&[argument], Path::new("."));
         assert_eq!((code, out.as_str()), (2, ""), "{err}");
-        assert!(err.contains(wanted), "{err}");
+        assert!(err.contains(expected), "{err}");
     }
 }

@@ -1,17 +1,17 @@
-//! Every oddity seen once, and none where there is none.
+//! `check`: every warning once, and none for valid files.
 
-use super::{LAYOUT, SCENARIO, look};
+use super::{LAYOUT, SCENARIO, inspect_text};
 use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
 use std::path::Path;
 
-/// What is replaced by what, the line of the warning, and what it says.
+/// Replaced text, its replacement, the line of the warning, and texts of the warning.
 type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
 
 /// Each gives one warning and no more.
-const ODD_LAYOUTS: &[Edit] = &[
+const LAYOUT_EDITS: &[Edit] = &[
     // inertia and COM of links
     (
         "inertia = 3.0",
@@ -68,7 +68,7 @@ const WHEELS: &str = "name = \"wheels\"\n[base]\nmass = 50.0\ninertia = 8.0\n[[a
                       [[arm.link]]\nlength = 0\nmass = 4.0\ninertia = 0.5\n";
 
 /// As above.
-const ODD_SCENARIOS: &[Edit] = &[
+const SCENARIO_EDITS: &[Edit] = &[
     // angles
     (
         "joint_angles = [0.7",
@@ -178,62 +178,63 @@ const ODD_SCENARIOS: &[Edit] = &[
 ];
 
 #[track_caller]
-fn one_warning(text: &str, line: usize, wanted: &[&str]) {
-    let CheckReport { warnings, .. } = look(text);
+fn one_warning(text: &str, line: usize, expected: &[&str]) {
+    let CheckReport { warnings, .. } = inspect_text(text);
     let shown = warnings.to_string();
     assert_eq!(warnings.count(), 1, "one warning is wanted in\n{text}\nnot\n{shown}");
     let place = format!("it.toml:{line}:");
-    for wanted in wanted.iter().chain(&[place.as_str(), "warning: `", "help: "]) {
-        assert!(shown.contains(wanted), "no `{wanted}` in\n{shown}");
+    for expected in expected.iter().chain(&[place.as_str(), "warning: `", "help: "]) {
+        assert!(shown.contains(expected), "no `{expected}` in\n{shown}");
     }
 }
 
 #[track_caller]
-fn odd(valid: &str, edits: &[Edit]) {
-    assert_eq!(look(valid).warnings.to_string(), "");
-    for (from, to, line, wanted) in edits {
+fn assert_warnings(valid: &str, edits: &[Edit]) {
+    assert_eq!(inspect_text(valid).warnings.to_string(), "");
+    for (from, to, line, expected) in edits {
         assert!(valid.contains(from), "`{from}` is not in the valid file");
-        one_warning(&valid.replacen(from, to, 1), *line, wanted);
+        one_warning(&valid.replacen(from, to, 1), *line, expected);
     }
 }
 
 #[test]
-fn odd_layouts() {
-    odd(LAYOUT, ODD_LAYOUTS);
+fn layouts_with_warnings() {
+    assert_warnings(LAYOUT, LAYOUT_EDITS);
     one_warning(WHEELS, 9, &["`arm[0].link[0].length` is 0", "wheels alone"]);
 }
 
 #[test]
-fn odd_scenarios() {
-    odd(SCENARIO, ODD_SCENARIOS);
+fn scenarios_with_warnings() {
+    assert_warnings(SCENARIO, SCENARIO_EDITS);
     let twists = "end_effector_twists = [[0, -100, 0], [7, 0, 0]]";
     let paper = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
     let paper = paper.replace("end_effector_twists = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]", twists);
     let shown = inspect(&paper, "it.toml", Path::new(""), SHIPPED).expect("a scenario").warnings;
     assert_eq!(shown.count(), 2, "{shown}");
-    for wanted in ["twists[0]` is [0, -100, 0]: faster than arm1", "twists[1]` is [7, 0, 0]: faster than arm2"] {
-        assert!(shown.to_string().contains(wanted), "{shown}");
+    for expected in ["twists[0]` is [0, -100, 0]: faster than arm1", "twists[1]` is [7, 0, 0]: faster than arm2"] {
+        assert!(shown.to_string().contains(expected), "{shown}");
     }
 }
 
-/// Tips that are to be where no pose brings them, whichever law takes them there.
+/// End effector goals out of reach, under every tracking law.
 #[test]
-fn tip_poses_out_of_reach() {
+fn end_effector_poses_out_of_reach() {
     let end = "final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]";
     let steer = |x: &str| {
         let goals = format!("tracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[{x}, -1.0], [], []]");
         SCENARIO.replace("\"quartic\"", "\"quintic\"").replace(end, &goals)
     };
-    assert_eq!(look(&steer("1.8")).warnings.to_string(), "");
-    let wanted = ["`approach.final_end_effector_poses[0]` is [4.8, -1.0]", "out of reach, 4.827 m", "no pose of left"];
-    one_warning(&steer("4.8"), 9, &wanted);
+    assert_eq!(inspect_text(&steer("1.8")).warnings.to_string(), "");
+    let expected =
+        ["`approach.final_end_effector_poses[0]` is [4.8, -1.0]", "out of reach, 4.827 m", "no pose of left"];
+    one_warning(&steer("4.8"), 9, &expected);
     let designed = SCENARIO.replace("trajectory", "final_end_effector_poses = [[4.8, -1.0], [], []]\ntrajectory");
-    one_warning(&designed, 7, &wanted);
+    one_warning(&designed, 7, &expected);
     let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
 }
 
-/// The bound on the modes after the impact: with a target in its hand a robot resists any joint rates more, not less.
+/// The bound on the modes after the impact: a captured target increases the inertia against joint rates.
 #[test]
 fn a_merged_robot_is_no_stiffer() {
     use planar_capture::state::State;
@@ -258,22 +259,22 @@ fn a_merged_robot_is_no_stiffer() {
 #[test]
 fn ends_beyond_limits() {
     let with = |limits: &str| SCENARIO.replace("[approach]", &format!("[limits]\n{limits}\n[approach]"));
-    assert_eq!(look(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
-    let wanted =
+    assert_eq!(inspect_text(&with("joint_angles = [-3, 3]\njoint_rates = 0.01")).warnings.to_string(), "");
+    let expected =
         ["`approach.final_joint_angles[2]` is -0.1", "beyond the limit of joint 3 of left, 0 rad", "exit code 1"];
-    one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &wanted);
-    let wanted = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
-    one_warning(&with("joint_rates = 0.009"), 11, &wanted);
+    one_warning(&with("joint_angles = [[], [], [0, 2], [], []]"), 10, &expected);
+    let expected = ["`approach.final_joint_rates[0]` is 0.01", "joint 1 of left, 0.009 rad/s"];
+    one_warning(&with("joint_rates = 0.009"), 11, &expected);
 }
 
-/// A solid rod, a dumbbell with all its mass at its ends, and every wheel are bodies that there are.
+/// A solid rod, a dumbbell with all its mass at its ends, and every wheel are possible bodies.
 #[test]
 fn the_bound_on_inertias_is_that_of_bodies() {
     for inertia in ["3.3333333333333335", "10.0"] {
-        assert_eq!(look(&LAYOUT.replace("inertia = 3.0", &format!("inertia = {inertia}"))).warnings.count(), 0);
+        assert_eq!(inspect_text(&LAYOUT.replace("inertia = 3.0", &format!("inertia = {inertia}"))).warnings.count(), 0);
     }
-    assert_eq!(look(&LAYOUT.replace("inertia = 3.0", "inertia = 10.001")).warnings.count(), 1);
-    assert_eq!(look(&LAYOUT.replace("inertia = 0.5", "inertia = 50.0")).warnings.count(), 0);
+    assert_eq!(inspect_text(&LAYOUT.replace("inertia = 3.0", "inertia = 10.001")).warnings.count(), 1);
+    assert_eq!(inspect_text(&LAYOUT.replace("inertia = 0.5", "inertia = 50.0")).warnings.count(), 0);
 }
 
 /// A wheel turns about any axis, also that of an arm's first joint.
@@ -282,20 +283,20 @@ fn a_wheel_shares_its_mount_with_an_arm() {
     let wheel = LAYOUT.rfind("[[arm]]").expect("a wheel");
     let arms = LAYOUT.find("[[arm]]").expect("arms");
     let wheel_first = [&LAYOUT[..arms], &LAYOUT[wheel..], &LAYOUT[arms..wheel]].concat();
-    assert_eq!(look(&wheel_first).warnings.to_string(), "");
+    assert_eq!(inspect_text(&wheel_first).warnings.to_string(), "");
 }
 
-/// What moves takes its target along: the place that is out of reach of a robot at rest is not out of reach then.
+/// The reach of a drifting robot is that at the end of the approach.
 #[test]
-fn the_reach_is_from_where_the_robot_is_by_then() {
+fn reach_is_relative_to_the_drifted_robot() {
     let far = SCENARIO.replace("[1.5, -2.0]", "[21.5, -2.0]");
     one_warning(&far, 18, &["no pose"]);
     let moving = far.replace("[approach]", "base_twist = [0.0, 1.0, 0.0]\n[approach]");
-    assert_eq!(look(&moving).warnings.to_string(), "");
+    assert_eq!(inspect_text(&moving).warnings.to_string(), "");
 }
 
 #[test]
-fn warnings_stand_in_the_order_of_the_files() {
+fn warnings_are_in_the_order_of_the_files() {
     let text = SCENARIO.replace("radius = 0.5", "radius = 5.0").replace("rates = [0.01", "rates = [10");
     let layout = LAYOUT.replace("inertia = 3.0", "inertia = 30.0").replace("mass = 500.0", "mass = 5.0");
     let warnings = inspect(&text, "it.toml", Path::new(""), &[("robot", &layout)]).expect("a scenario").warnings;

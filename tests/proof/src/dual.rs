@@ -1,4 +1,4 @@
-//! Dual numbers: the derivative of everything that generated code computes, to rounding.
+//! Dual numbers: derivatives of generated functions, exact to rounding.
 
 use planar_dynamics::scalar::Scalar;
 use std::ops::{Add, Div, Mul, Neg, Sub};

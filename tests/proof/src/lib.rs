@@ -1,7 +1,7 @@
-//! What the tests of several crates share: random states, dual numbers, an independent reference for contacts, and how
-//! numbers are compared. Every bound of a comparison stands in [`tolerance`], with its reason.
+//! Fixtures of the tests: random states, dual numbers, an independent reference for contacts, and comparison of
+//! numbers. [`tolerance`] has every bound of a comparison, with its reason.
 //!
-//! It never contains: the product, which its own tests and those of the root package bring along.
+//! It never contains the product, which its own tests and those of the root package depend on.
 #![cfg(feature = "fixtures")]
 #![allow(
     clippy::must_use_candidate,
@@ -36,13 +36,13 @@ pub fn json(name: &str) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// What a command left: exit code, standard output, standard error.
+/// Result of a command: exit code, standard output, standard error.
 pub fn said(output: Output) -> (i32, String, String) {
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     (output.status.code().expect("an exit code"), text(output.stdout), text(output.stderr))
 }
 
-/// Largest difference of two lists, after checking that they are as long.
+/// Largest difference of two lists of equal length.
 pub fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).fold(0.0, |most, (a, b)| if (a - b).abs() <= most { most } else { (a - b).abs() })
@@ -59,14 +59,14 @@ pub fn numbers(value: &Value) -> Vec<f64> {
 
 /// Fails with the name, the difference and the bound.
 #[track_caller]
-pub fn assert_close(what: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
-    let difference = difference(found, wanted);
-    assert!(difference <= tolerance, "{what}: differs by {difference:e}, bound {tolerance:e}\n{found:?}\n{wanted:?}");
+pub fn assert_close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
+    let difference = difference(found, expected);
+    assert!(difference <= tolerance, "{what}: differs by {difference:e}, bound {tolerance:e}\n{found:?}\n{expected:?}");
 }
 
-/// The same with a bound relative to the largest entry.
+/// [`assert_close`] with a bound relative to the largest expected entry.
 #[track_caller]
-pub fn close(what: &str, found: &[f64], wanted: &[f64], tolerance: f64) {
-    let size = wanted.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    assert_close(what, found, wanted, tolerance * size);
+pub fn close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
+    let size = expected.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    assert_close(what, found, expected, tolerance * size);
 }

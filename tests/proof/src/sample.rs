@@ -1,4 +1,4 @@
-//! Random states that shrink and print themselves as `planar-capture eval` reads them.
+//! Random states that shrink and are printed as input of `planar-capture eval`.
 
 use planar_dynamics::state::State;
 use proptest::collection::vec;
@@ -15,7 +15,7 @@ pub fn config() -> Config {
     Config { cases: 48, rng_seed: RngSeed::Fixed(SEED), failure_persistence: None, ..Config::default() }
 }
 
-/// Where the robot is, how it moves, what acts on it, and what it captures.
+/// State of a robot, forces on it, and its targets.
 #[derive(Clone)]
 pub struct RandomState {
     /// [yaw, x, y].
@@ -30,14 +30,14 @@ pub struct RandomState {
     pub joint_torques: Vec<f64>,
     /// [n, fx, fy] at the base COM.
     pub base_wrench: [f64; 3],
-    /// [n, fx, fy] at each tip.
+    /// [n, fx, fy] at each end effector.
     pub end_effector_wrenches: Vec<[f64; 3]>,
     /// [mass, inertia, rx, ry], and the twist; one per arm.
     pub targets: Vec<([f64; 4], [f64; 3])>,
 }
 
 impl RandomState {
-    /// Where the robot is and how it moves.
+    /// The robot's state.
     pub fn state(&self) -> State<'_, f64> {
         State {
             base_pose: self.base_pose,

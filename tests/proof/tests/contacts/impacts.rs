@@ -31,20 +31,20 @@ fn reference(layout: &Layout, scene: &Scene) -> (Impact, System) {
 
 /// Compares velocities and impulses; dependent contacts are refused.
 fn check(layout: &Layout, scene: &Scene) {
-    let (wanted, after) = reference(layout, scene);
+    let (expected, after) = reference(layout, scene);
     let (bodies, contacts) = targets_and_contacts(scene);
     for model in both_models(layout) {
         match product::solve_impact(&*model, &scene.state.state(), &bodies, &contacts) {
             Ok(found) => {
-                let admissible = !wanted.redundant || wanted.margin < tolerance::DEPENDENCE_MARGIN;
-                assert!(admissible, "dependent contacts were solved: {found:?}\n{wanted:?}");
-                let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
+                let admissible = !expected.redundant || expected.margin < tolerance::DEPENDENCE_MARGIN;
+                assert!(admissible, "dependent contacts were solved: {found:?}\n{expected:?}");
+                let bound = tolerance::CONTACT_IMPACT / expected.margin.powi(2);
                 close("velocities", &found.velocities(), &after.velocities(), bound);
-                if !wanted.redundant && !wanted.bounces_redundant {
-                    close("impulses", found.impulses.as_flattened(), wanted.impulses.as_flattened(), bound);
+                if !expected.redundant && !expected.bounces_redundant {
+                    close("impulses", found.impulses.as_flattened(), expected.impulses.as_flattened(), bound);
                 }
             }
-            Err(Error::Singular { .. }) => assert!(wanted.redundant || wanted.bounces_redundant, "{wanted:?}"),
+            Err(Error::Singular { .. }) => assert!(expected.redundant || expected.bounces_redundant, "{expected:?}"),
             Err(error) => panic!("{error}"),
         }
     }
@@ -111,10 +111,10 @@ proptest! {
     #[test]
     fn the_same_contact_twice(scene in random_contacts(layout("dual_arm_3r"))) {
         let layout = layout("dual_arm_3r");
-        let (wanted, after) = reference(&layout, &scene);
+        let (expected, after) = reference(&layout, &scene);
         let (bodies, mut contacts) = targets_and_contacts(&scene);
         contacts.push(contacts[0]);
-        let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
+        let bound = tolerance::CONTACT_IMPACT / expected.margin.powi(2);
         for model in both_models(&layout) {
             let found = product::solve_impact(&*model, &scene.state.state(), &bodies, &contacts);
             if let Kind::Bounce { .. } = scene.planned[0].kind {
@@ -122,7 +122,7 @@ proptest! {
                 close("velocities", &found.velocities(), &after.velocities(), bound);
                 let again = found.impulses.pop().expect("an impulse");
                 found.impulses[0].iter_mut().zip(again).for_each(|(sum, part)| *sum += part);
-                close("impulses", found.impulses.as_flattened(), wanted.impulses.as_flattened(), bound);
+                close("impulses", found.impulses.as_flattened(), expected.impulses.as_flattened(), bound);
             } else {
                 prop_assert!(matches!(found, Err(Error::Singular { .. })), "{:?}", found);
             }
@@ -133,13 +133,13 @@ proptest! {
     #[test]
     fn in_single_precision(scene in random_contacts(layout("dual_arm_3r"))) {
         let layout = layout("dual_arm_3r");
-        let (wanted, after) = reference(&layout, &scene);
+        let (expected, after) = reference(&layout, &scene);
         let (bodies, contacts) = targets_and_contacts(&scene);
         let found = solve_in_single_precision(&scene.state, &bodies, &contacts).expect("an impact");
-        let bound = tolerance::CONTACT_IMPACT_SINGLE / wanted.margin.powi(2);
+        let bound = tolerance::CONTACT_IMPACT_SINGLE / expected.margin.powi(2);
         close("velocities", &found.velocities(), &after.velocities(), bound);
         let impulses: Vec<f64> = found.impulses.as_flattened().iter().map(|p| f64::from(*p)).collect();
-        close("impulses", &impulses, wanted.impulses.as_flattened(), bound);
+        close("impulses", &impulses, expected.impulses.as_flattened(), bound);
     }
 }
 
@@ -241,9 +241,9 @@ proptest! {
         let partners = [captured.bodies[0], captured.bodies[usize::from(!same)]];
         let contacts = [(0, partners[0], first), (2, partners[1], second)]
             .map(|(arm, body, kind)| Contact::new(&captured.before, arm, body, kind));
-        let wanted = impact(&captured.before, &contacts);
+        let expected = impact(&captured.before, &contacts);
         let mut after = captured.before.clone();
-        after.apply(&contacts, &wanted);
+        after.apply(&contacts, &expected);
 
         let point = |arm: usize| captured.before.end_effector(arm);
         let offset_to_end_effector = |arm: usize| (point(arm) - point(1)).into();
@@ -262,9 +262,9 @@ proptest! {
             let found = product::solve_impact(&*merged, &motion.view(), &[second], &contacts).expect("an impact");
             let all = after.velocities();
             let without_captured = [&all[..12], &all[15..]].concat();
-            close("velocities", &found.velocities(), &without_captured, tolerance::CONTACT_IMPACT / wanted.margin.powi(2));
-            let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
-            close("impulses", found.impulses.as_flattened(), wanted.impulses.as_flattened(), bound);
+            close("velocities", &found.velocities(), &without_captured, tolerance::CONTACT_IMPACT / expected.margin.powi(2));
+            let bound = tolerance::CONTACT_IMPACT / expected.margin.powi(2);
+            close("impulses", found.impulses.as_flattened(), expected.impulses.as_flattened(), bound);
         }
     }
 
@@ -279,9 +279,9 @@ proptest! {
         let layout = layout("triple_arm_3r");
         let captured = after_capture(&layout, &s, &[(0, kinds[0]), (1, kinds[1])]);
         let contacts = [Contact::new(&captured.before, 2, captured.bodies[usize::from(!same)], third)];
-        let wanted = impact(&captured.before, &contacts);
+        let expected = impact(&captured.before, &contacts);
         let mut after = captured.before.clone();
-        after.apply(&contacts, &wanted);
+        after.apply(&contacts, &expected);
 
         let motion = captured.motion(&s);
         let attachments = [0, 1].map(|arm| Attachment { target: 0, arm, kind: law(kinds[arm]).kind() });
@@ -291,8 +291,8 @@ proptest! {
         for model in both_models(&layout) {
             let assembly = Assembly::new(model, &motion, &captured.targets(), &attachments).expect("an assembly");
             let found = solve_impact(&assembly, &motion, &captured.targets(), &contacts).expect("an impact");
-            let bound = tolerance::CONTACT_IMPACT / wanted.margin.powi(2);
-            product_impact(&found).assert_agrees(&after, &wanted.impulses, bound);
+            let bound = tolerance::CONTACT_IMPACT / expected.margin.powi(2);
+            product_impact(&found).assert_agrees(&after, &expected.impulses, bound);
         }
         prop_assert_eq!(captured.captures.len(), 2);
     }

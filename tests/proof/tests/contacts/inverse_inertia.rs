@@ -35,11 +35,11 @@ fn dense(layout: &Layout, s: &RandomState, arm: usize) -> DMatrix<f64> {
 
 fn check_end_effectors(layout: &Layout, s: &RandomState) {
     for arm in 0..layout.arms.len() {
-        let wanted = dense(layout, s, arm);
+        let expected = dense(layout, s, arm);
         for model in both_models(layout) {
             let found = of_end_effector(&*model, s, arm).expect("an inverse inertia");
             // symmetric: columns are rows
-            close("J M⁻¹ Jᵀ", found.0.as_flattened(), wanted.as_slice(), tolerance::SAME_IMPACT);
+            close("J M⁻¹ Jᵀ", found.0.as_flattened(), expected.as_slice(), tolerance::SAME_IMPACT);
             let missing = of_end_effector(&*model, s, layout.arms.len());
             assert!(matches!(missing, Err(Error::Index { what: "arm", .. })), "{missing:?}");
         }
@@ -94,8 +94,8 @@ proptest! {
         let target = Target { mass, inertia, contact: [rx, ry], twist };
         let jacobian = matrix(&target.contact_jacobian());
         let inverse = Matrix3::from_diagonal(&[1.0 / inertia, 1.0 / mass, 1.0 / mass].into());
-        let wanted = jacobian * inverse * jacobian.transpose();
-        close("J I⁻¹ Jᵀ", InverseInertia::of_body(mass, inertia, [rx, ry]).0.as_flattened(), wanted.as_slice(), tolerance::POLYNOMIAL);
+        let expected = jacobian * inverse * jacobian.transpose();
+        close("J I⁻¹ Jᵀ", InverseInertia::of_body(mass, inertia, [rx, ry]).0.as_flattened(), expected.as_slice(), tolerance::POLYNOMIAL);
     }
 
     /// Stopping impulse, effective mass and ellipse by their definitions.
@@ -121,8 +121,8 @@ proptest! {
         }
     }
 
-    /// The impulse of a pin is the stopping impulse of the relative velocity; that of a bounce is 1 + e times the effective
-    /// mass times the approach speed.
+    /// The impulse of a pin is the stopping impulse of the relative velocity; that of a bounce is 1 + e times the
+    /// effective mass times the approach speed.
     #[test]
     fn a_plastic_pin_is_the_stopping_impulse(s in sample(2, 6), direction in -3.2..3.2_f64, restitution in 0.0..1.0_f64) {
         let layout = layout("dual_arm_3r");

@@ -60,9 +60,9 @@ proptest! {
                 forces[3 * constraint.a.body] += torque;
                 forces[3 * constraint.b.body] -= torque;
             }
-            let (wanted, wanted_multipliers) = dense_solution(&all, &forces);
+            let (expected, wanted_multipliers) = dense_solution(&all, &forces);
             let found = accelerations(&all, &s.joint_torques);
-            close("accelerations", found.as_slice(), wanted.as_slice(), tolerance::MAXIMAL_ACCELERATION);
+            close("accelerations", found.as_slice(), expected.as_slice(), tolerance::MAXIMAL_ACCELERATION);
             let constraints = all.constraints();
             let system = KktSystem::new(&all, &constraints);
             prop_assert!(!system.redundant);

@@ -37,8 +37,8 @@ fn speeds(masses: &[f64], before: &[f64], restitution: &[f64]) -> Vec<f64> {
 /// Two discs with e = 1, 0 and ½, unequal masses, and three discs with simultaneous contacts.
 #[test]
 fn discs_in_a_row() {
-    let check = |masses: &[f64], before: &[f64], e: &[f64], wanted: &[f64]| {
-        assert_close("speeds", &speeds(masses, before, e), wanted, tolerance::POLYNOMIAL);
+    let check = |masses: &[f64], before: &[f64], e: &[f64], expected: &[f64]| {
+        assert_close("speeds", &speeds(masses, before, e), expected, tolerance::POLYNOMIAL);
     };
     check(&[2.0, 2.0], &[-1.0, 3.0], &[1.0], &[3.0, -1.0]);
     check(&[2.0, 2.0], &[-1.0, 3.0], &[0.0], &[1.0, 1.0]);
@@ -75,8 +75,8 @@ fn eccentric_bounce() {
         let [omega, vx, vy] = body.twist;
         [omega + p * lever_arm(body) / body.inertia, vx + p * normal.x / body.mass, vy + p * normal.y / body.mass]
     };
-    let wanted = [moved(&first, p), moved(&second, -p)];
-    assert_close("twists", found.twists.as_slice(), wanted.as_flattened(), tolerance::POLYNOMIAL);
+    let expected = [moved(&first, p), moved(&second, -p)];
+    assert_close("twists", found.twists.as_slice(), expected.as_flattened(), tolerance::POLYNOMIAL);
 }
 
 /// A ball hits the end effector of a link at rest on a heavy base: the link rotates about its joint.
@@ -100,13 +100,13 @@ fn link_on_a_heavy_base() {
     });
     let about_joint = inertia + mass * (com[0] * com[0] + com[1] * com[1]);
     let together = ball * length * speed / (about_joint + ball * length * length);
-    let wanted = [
+    let expected = [
         // as one body; with unchanged spin; with e = ½ and 1.5 times the impulse
         (Kind::Rigid, (ball * length * speed + 0.05 * spin) / (about_joint + ball * length * length + 0.05)),
         (Kind::Pin, together),
         (Kind::Bounce { normal: (-across).into(), restitution: 0.5 }, 1.5 * together),
     ];
-    for (kind, rate) in wanted {
+    for (kind, rate) in expected {
         let mut after = all.clone();
         let contacts = [Contact::new(&all, 0, body, kind)];
         after.apply(&contacts, &impact(&all, &contacts));

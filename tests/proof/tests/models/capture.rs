@@ -1,4 +1,4 @@
-//! Two ways to one answer: the impact solved in full coordinates, and as accelerations of the merged robot.
+//! The impact solved in full coordinates against accelerations of the merged robot.
 
 use planar_capture::dynamics::{EquationsOfMotion, ForwardDynamics, Impact, Kinematics, Merge, MomentumAndEnergy};
 use planar_capture::generated::dual_arm_3r::Model;
@@ -45,7 +45,7 @@ fn impact_is_forward_dynamics_of_the_merged_robot() {
         let mut momentum: Vec<f64> =
             mass.chunks(9).map(|row| row.iter().zip(&velocity).map(|(m, v)| m * v).sum()).collect();
         for (target, rows) in targets.iter().zip(jacobian.chunks(27)) {
-            // J_t⁻ᵀ I_t t_t: what the target brings, moved to the contact point
+            // J_t⁻ᵀ I_t t_t: the target's momentum about the contact point
             let Some(t) = target else { continue };
             let [px, py] = [t.mass * t.twist[1], t.mass * t.twist[2]];
             let spin = t.inertia * t.twist[0] + t.contact[1] * px - t.contact[0] * py;
@@ -122,14 +122,14 @@ fn the_papers_base_twist_keeps_the_robots_momentum() {
     let targets = [Some(target(1.0)), Some(target(40.0))];
     let base_twist = impact::paper(&model, &state, &targets, &mut workspace, &mut after).expect("an impact");
     let moving = State { base_twist, joint_rates: &joint_rates, ..state };
-    let [wanted, found] = [&state, &moving].map(|state| {
+    let [expected, found] = [&state, &moving].map(|state| {
         let momentum = MomentumAndEnergy::momentum(&model, state).expect("momentum");
         [momentum.angular_momentum, momentum.linear_momentum[0], momentum.linear_momentum[1]]
     });
-    let [l, px, py] = wanted;
+    let [l, px, py] = expected;
     assert!(l.abs().min(px.abs()).min(py.abs()) > 10.0, "a robot that is at rest would show nothing");
     let size = 2000.0; // kg m²/s and kg m/s that this state has at most
-    assert_close("momentum", &found, &wanted, tolerance::MOMENTUM_JUMP * size);
+    assert_close("momentum", &found, &expected, tolerance::MOMENTUM_JUMP * size);
 }
 
 /// v + ω × r at the contact, and `J_t⁻¹` back: with R in place of −R both fail.

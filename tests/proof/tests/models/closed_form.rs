@@ -1,8 +1,10 @@
-//! The two-link free-floating robot by hand: barycentric vectors, as in E. Papadopoulos and S. Dubowsky, *Dynamic
-//! Singularities in Free-Floating Space Manipulators*, ASME J. Dyn. Syst. Meas. Control 115 (1993), planar example.
+//! The two-link free-floating robot against a hand derivation: barycentric vectors, as in E. Papadopoulos and S.
+//! Dubowsky, *Dynamic Singularities in Free-Floating Space Manipulators*, ASME J. Dyn. Syst. Meas. Control 115 (1993),
+//! planar example.
 //!
-//! With the system's COM at rest, T = ½ Σ `D_ij` `ω_i` `ω_j` over the absolute rates of base and links, and the tip is
-//! a e₀ + b e₁ + c e₂ from the COM, the e being the bodies' directions. Zero angular momentum eliminates `ω_0`.
+//! With the system's COM at rest, T = ½ Σ `D_ij` `ω_i` `ω_j` over the absolute rates of base and links, and the end
+//! effector is a e₀ + b e₁ + c e₂ from the COM, with the directions e of the bodies. Zero angular momentum eliminates
+//! `ω_0`.
 
 use planar_capture::generated::single_arm_2r::{Model, Parameters};
 use planar_proof::sample::{config, sample};
@@ -16,7 +18,7 @@ fn by_hand(p: &Parameters<f64>, yaw: f64, theta: [f64; 2]) -> ([[f64; 2]; 2], [[
     let m = m0 + m1 + m2;
     let r0 = p.arm1_mount_x; // base COM to joint 1
     let (l1, r1) = (p.arm1_link1_com_x, p.arm1_link1_length - p.arm1_link1_com_x); // joint 1 to COM 1 to joint 2
-    let (l2, r2) = (p.arm1_link2_com_x, p.arm1_link2_length - p.arm1_link2_com_x); // joint 2 to COM 2 to tip
+    let (l2, r2) = (p.arm1_link2_com_x, p.arm1_link2_length - p.arm1_link2_com_x); // joint 2 to COM 2 to end effector
     let d00 = p.base_inertia + m0 * (m1 + m2) / m * r0 * r0;
     let d11 = p.arm1_link1_inertia + (m0 * m1 * l1 * l1 + m1 * m2 * r1 * r1 + m0 * m2 * (l1 + r1).powi(2)) / m;
     let d22 = p.arm1_link2_inertia + m2 * (m0 + m1) / m * l2 * l2;

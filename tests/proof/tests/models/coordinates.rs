@@ -30,8 +30,8 @@ fn mass_times(model: &dyn Model<f64>, pose: &[f64; 3], angles: &[f64], v: &[f64]
 }
 
 #[track_caller]
-fn close(what: &str, found: &[f64], wanted: &[f64], scale: f64, tolerance: f64) {
-    planar_proof::assert_close(what, found, wanted, tolerance * scale);
+fn close(what: &str, found: &[f64], expected: &[f64], scale: f64, tolerance: f64) {
+    planar_proof::assert_close(what, found, expected, tolerance * scale);
 }
 
 #[test]
@@ -39,7 +39,7 @@ fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
     for_every_layout(|model, s| {
         let (joints, state) = (model.joints(), s.state());
         let v = [&s.base_twist[..], &s.joint_rates].concat();
-        let (wanted, scale) = mass_times(model, &s.base_pose, &s.joint_angles, &v);
+        let (expected, scale) = mass_times(model, &s.base_pose, &s.joint_angles, &v);
         let mut momenta = vec![0.0; 3 + joints];
         let (mut back, mut gradient) = (vec![0.0; joints], vec![0.0; 3 + joints]);
         with_canonical(model, s, |canonical| {
@@ -49,7 +49,7 @@ fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
             back = [&twist[..], &back].concat();
             Ok(())
         });
-        close("momenta", &momenta, &wanted, scale, tolerance::IDENTITY);
+        close("momenta", &momenta, &expected, scale, tolerance::IDENTITY);
         let [l, px, py] =
             [momenta[0] + s.base_pose[1] * momenta[2] - s.base_pose[2] * momenta[1], momenta[1], momenta[2]];
         let robot = model.momentum(&state).expect("a momentum");
@@ -108,8 +108,8 @@ impl Control<f64> for Given<'_> {
     }
 }
 
-/// Eq. (2) at the twist recovered from the momentum has the joint accelerations of eq. (1) with that momentum, whatever
-/// stood in the place of the twist.
+/// Eq. (2) at the twist recovered from the momentum has the joint accelerations of eq. (1) with that momentum, for
+/// any previous twist.
 #[test]
 fn reduced_coordinates_accelerate_as_full_ones() {
     for_every_layout(|model, s| {

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 const SAMPLES: u64 = 40;
 const SEED: u64 = 20_261_121;
 
-/// What to run to see it again.
+/// Command that reproduces the state.
 fn replay(regime: Regime, index: u64, sample: &RegimeSample) -> String {
     format!(
         "seed {SEED}, regime `{}`, state {index}; replay with `planar-capture eval`:\n{}\n[{}]",
@@ -67,7 +67,7 @@ fn every_layout_has_an_entry() {
     assert!(sorted(GENERATED).is_subset(&sorted(&names)), "tests/proof/src/tolerance.rs: LAYOUTS");
 }
 
-/// Names, units and shapes: what a graph says of its results, and what the table does.
+/// Names, units and shapes of results are equal in graphs and the table of quantities.
 #[test]
 fn every_result_of_every_graph_is_in_the_table_of_quantities() {
     for (name, _) in SHIPPED {
@@ -75,7 +75,7 @@ fn every_result_of_every_graph_is_in_the_table_of_quantities() {
         let arms = graph["layout"]["arms"].as_array().expect("arms");
         let joints = arms.iter().map(|arm| arm["links"].as_u64().expect("links")).sum::<u64>();
         let (arms, joints) = (arms.len(), usize::try_from(joints).expect("a few"));
-        let wanted: BTreeSet<String> = Quantity::ALL
+        let expected: BTreeSet<String> = Quantity::ALL
             .iter()
             .flat_map(|quantity| {
                 let row = quantity.row();
@@ -100,7 +100,7 @@ fn every_result_of_every_graph_is_in_the_table_of_quantities() {
         }
         // a pivot says how well a result is conditioned; it is no quantity
         found.retain(|result| !result.contains(".smallest_pivot "));
-        assert_eq!(found, wanted, "{name}: the graph's results, and the table's");
+        assert_eq!(found, expected, "{name}: the graph's results, and the table's");
     }
 }
 
@@ -193,8 +193,8 @@ mod outputs_without_a_trait {
 /// Joint angles, joint rates, targets.
 type Input<'a> = (&'a [f64], &'a [f64], &'a [Option<Target<f64>>]);
 
-/// Every method of a model with one thing wrong, and what it says.
-fn complaints(model: &dyn CloneModel, (angles, rates, targets): Input<'_>) -> Vec<Result<(), Error>> {
+/// Result of every method of a model with one invalid argument.
+fn errors(model: &dyn CloneModel, (angles, rates, targets): Input<'_>) -> Vec<Result<(), Error>> {
     let (arms, joints) = (model.arms(), model.joints());
     let size = 3 + joints;
     let state = State { base_pose: [0.1, 0.2, 0.3], joint_angles: angles, base_twist: [0.1; 3], joint_rates: rates };
@@ -229,7 +229,7 @@ fn both_refuse_the_same_input_in_the_same_words() {
         let nan = [vec![0.3; joints - 1], vec![f64::NAN]].concat();
         let target = Target { mass: 1.0, inertia: 1.0, contact: [0.0, f64::INFINITY], twist: [0.0; 3] };
         let none = vec![None; arms];
-        assert!(complaints(&*model, (&good, &good, &none)).iter().all(Result::is_ok));
+        assert!(errors(&*model, (&good, &good, &none)).iter().all(Result::is_ok));
         let cases: [Input<'_>; 6] = [
             (&good[1..], &good, &none),
             (&good, &good[1..], &none),
@@ -239,8 +239,8 @@ fn both_refuse_the_same_input_in_the_same_words() {
             (&good, &good, &vec![Some(target); arms]),
         ];
         for input in cases {
-            let found = complaints(&*model, input);
-            let expected = complaints(&*reference, input);
+            let found = errors(&*model, input);
+            let expected = errors(&*reference, input);
             assert!(found.iter().any(Result::is_err));
             // a NaN is not equal to itself, its text is
             let texts = |all: &[Result<(), Error>]| all.iter().map(|r| format!("{r:?}")).collect::<Vec<_>>();

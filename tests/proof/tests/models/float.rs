@@ -1,4 +1,4 @@
-//! The core's own roots and arctangents, against the standard library's.
+//! The core's square roots and arctangents, against the standard library's.
 
 use planar_capture::scalar::Scalar;
 use planar_proof::tolerance;

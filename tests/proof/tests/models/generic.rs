@@ -1,4 +1,4 @@
-//! The generic implementation by itself: identities of mechanics, on layouts that nobody generated code for.
+//! The generic implementation: identities of mechanics, on layouts without generated code.
 
 use planar_capture::dynamics::Model;
 use planar_capture::layout::{Arm, Base, Layout, Link};
@@ -67,8 +67,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// Differs by no more than the tolerance times the size.
 #[track_caller]
-fn close(what: &str, found: f64, wanted: f64, size: f64, tolerance: f64) {
-    assert_close(what, &[found], &[wanted], tolerance * size);
+fn close(what: &str, found: f64, expected: f64, size: f64, tolerance: f64) {
+    assert_close(what, &[found], &[expected], tolerance * size);
 }
 
 #[test]
@@ -127,8 +127,8 @@ fn a_mount_angle_is_an_offset_of_the_first_joint() {
     }
     let pose = &sample.instant.state.base_pose;
     let found = mass_matrix(&*generic(&turned), pose, &sample.instant.state.joint_angles);
-    let wanted = mass_matrix(&*generic(&straight), pose, &angles);
-    assert_close("M", &found, &wanted, tolerance::IDENTITY * wanted[0]);
+    let expected = mass_matrix(&*generic(&straight), pose, &angles);
+    assert_close("M", &found, &expected, tolerance::IDENTITY * expected[0]);
 }
 
 #[test]

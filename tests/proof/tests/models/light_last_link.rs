@@ -1,4 +1,4 @@
-//! A tip link of mass and inertia ε, without torque, changes the rest by O(ε): a robot of one link less is its limit.
+//! A last link of mass and inertia ε, without torque, changes the rest by O(ε): a robot of one link less is its limit.
 
 use planar_capture::generated::{dual_arm_2r, dual_arm_3r, single_arm_2r, single_arm_3r};
 use planar_capture::manifest::{Manifest, ParameterKind};
@@ -33,7 +33,7 @@ fn inner<'a>(values: &'a [f64], links: &'a [usize]) -> impl Iterator<Item = f64>
     })
 }
 
-macro_rules! light_tip {
+macro_rules! light_last_link {
     ($test:ident, $shorter:ident, $longer:ident) => {
         proptest! {
             #![proptest_config(config())]
@@ -53,7 +53,7 @@ macro_rules! light_tip {
                     with_tip[place..place + n].copy_from_slice(&torques[from..from + n]);
                     (place, from) = (place + n + 1, from + n);
                 }
-                let wanted = $shorter::Model::<f64>::default().forward_dynamics(
+                let expected = $shorter::Model::<f64>::default().forward_dynamics(
                     base_pose, &short(joint_angles), base_twist, &short(joint_rates), &torques,
                 );
                 let difference = |epsilon: f64| {
@@ -62,18 +62,18 @@ macro_rules! light_tip {
                     let found = model.forward_dynamics(
                         base_pose, &long(joint_angles), base_twist, &long(joint_rates), &with_tip,
                     );
-                    let joints = short(&found.joint_accelerations).into_iter().zip(wanted.joint_accelerations);
-                    let base = found.base_acceleration.into_iter().zip(wanted.base_acceleration);
+                    let joints = short(&found.joint_accelerations).into_iter().zip(expected.joint_accelerations);
+                    let base = found.base_acceleration.into_iter().zip(expected.base_acceleration);
                     joints.chain(base).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
                 };
                 // ε = 1e-4 kg and 1e-6 kg: a hundredth of the mass, a hundredth of the difference
                 let (coarse, fine) = (difference(1e-4), difference(1e-6));
-                prop_assume!(coarse > 1e-8); // else rounding is what is left
+                prop_assume!(coarse > 1e-8); // below it, rounding dominates
                 prop_assert!((coarse / fine / 100.0 - 1.0).abs() < 0.05, "{coarse:e} and {fine:e} are not a hundred apart");
             }
         }
     };
 }
 
-light_tip!(single_arm, single_arm_2r, single_arm_3r);
-light_tip!(both_arms, dual_arm_2r, dual_arm_3r);
+light_last_link!(single_arm, single_arm_2r, single_arm_3r);
+light_last_link!(both_arms, dual_arm_2r, dual_arm_3r);

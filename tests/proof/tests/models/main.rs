@@ -1,5 +1,5 @@
-//! Generated and generic models: against each other, against outside numbers and derivations by hand, and the laws of
-//! mechanics.
+//! Generated and generic models: against each other, against independent numbers and derivations by hand, and the laws
+//! of mechanics.
 
 mod capture;
 mod closed_form;

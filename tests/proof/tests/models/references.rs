@@ -1,5 +1,4 @@
-//! Every quantity of layouts of different shape against states that Pinocchio and MuJoCo computed: see `README.md`
-//! here.
+//! Every quantity of layouts of different structure against Pinocchio and MuJoCo: see `tests/README.md`.
 
 use planar_capture::dynamics::Model;
 use planar_capture::impact::{RigidImpactOutput, exact};
@@ -16,7 +15,7 @@ use std::f64::consts::TAU;
 /// Layouts with a file written by `reference/pinocchio_states.py`.
 const LAYOUTS: [&str; 4] = ["asymmetric_wheel", "boom_7r", "single_arm_2r", "triple_arm_3r"];
 
-/// What MuJoCo computes too.
+/// Quantities that MuJoCo computes too.
 const MUJOCO: [&str; 9] = [
     "angular_momentum",
     "base_acceleration",
@@ -29,7 +28,7 @@ const MUJOCO: [&str; 9] = [
     "mass_matrix",
 ];
 
-/// Everything that computes a layout's dynamics.
+/// The implementations of a layout's dynamics.
 fn implementations(layout: &Layout) -> Vec<(&'static str, Box<dyn CloneModel>)> {
     vec![
         ("generated", registry::generated(layout).unwrap_or_else(|e| panic!("{e}"))),
@@ -78,7 +77,7 @@ fn every_quantity_is_pinocchios_and_mujocos() {
     println!("{:#?}", worst.0); // cargo test --test references -- --nocapture
 }
 
-/// Somebody else's Pinocchio model of the paper's robot; this file alone wraps the yaw of the tips.
+/// An independent author's Pinocchio model of the paper's robot, with the yaw of the end effectors wrapped to one turn.
 #[test]
 fn the_papers_robot_is_pinocchios() {
     let reference = json("tests/reference/pinocchio_dual_arm_3r.json");
@@ -175,7 +174,7 @@ fn matrix(values: &[f64], columns: usize) -> Value {
     values.chunks_exact(columns).collect()
 }
 
-/// What `eval` says of a state, under its keys.
+/// Results of a state under the keys of `eval`.
 fn evaluate(model: &dyn Model<f64>, value: &Value) -> Value {
     let (arms, joints) = (model.arms(), model.joints());
     let size = 3 + joints;

@@ -1,4 +1,4 @@
-//! One generated text, every scalar: f64, f32, lanes, dual numbers; and what is an error.
+//! Generated code with every scalar (f64, f32, lanes, dual numbers), and its errors.
 
 use planar_capture::dynamics::{ForwardDynamics, Kinematics, MomentumAndEnergy, ReducedDynamics};
 use planar_capture::error::Error;
@@ -50,8 +50,8 @@ fn every_lane_agrees_with_the_scalar() {
     }
 }
 
-/// Along a motion, dT/dt = τ·θ̇, d(momentum)/dt = 0 and d(tip pose)/dt = tip twist: the derivative part of dual
-/// numbers through forward dynamics, momentum and kinematics.
+/// Along a motion, dT/dt = τ·θ̇, d(momentum)/dt = 0 and d(end effector pose)/dt = its twist: the derivative part of
+/// dual numbers through forward dynamics, momentum and kinematics.
 #[test]
 fn dual_numbers_give_the_power_balance() {
     let acceleration = accelerations(|x| x);

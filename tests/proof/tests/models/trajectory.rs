@@ -1,4 +1,4 @@
-//! Trajectories do at their ends what they promise, and their rates are the derivatives of their angles.
+//! Trajectories satisfy their end conditions, and their rates are the derivatives of their angles.
 
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::trajectory::{
@@ -73,7 +73,7 @@ fn quintic_goes_from_its_first_rates_to_its_last() {
     );
 }
 
-/// The rate of a quintic is a quartic, and from rest both are held to the same six conditions.
+/// From rest, the quintic and eq. (6) satisfy the same six conditions.
 #[test]
 fn quintic_from_rest_is_eq_6() {
     let quartic = Quartic { motion: motion(), final_rates: &RATES };
@@ -143,9 +143,9 @@ fn runge_kutta_has_order_four() {
     assert!((order - 4.0).abs() < 0.15, "observed order {order}");
 }
 
-/// The paths of tips are that polynomial, part by part, and stand at their ends.
+/// Each component of an end effector path is that polynomial, and is constant after its end.
 #[test]
-fn tips_go_along_quintics() {
+fn end_effector_paths_are_quintics() {
     let (twists, start) = ([[0.1, -0.2, 0.3]; 2], [[-0.1, 0.0, 0.2]; 2]);
     let path = EndEffectorPath {
         initial_poses: &[TO, FROM],
@@ -159,9 +159,9 @@ fn tips_go_along_quintics() {
         let found = path.end_effector(1, time).expect("a tip");
         for part in 0..3 {
             let tau = (time / DURATION).clamp(0.0, 1.0);
-            let wanted = quintic([FROM[part], TO[part]], [start[1][part], twists[1][part]], DURATION, tau);
+            let expected = quintic([FROM[part], TO[part]], [start[1][part], twists[1][part]], DURATION, tau);
             let found = [found.pose[part], found.twist[part], found.acceleration[part]];
-            assert_close("tip", &found, &[wanted.angle, wanted.rate, wanted.acceleration], 0.0);
+            assert_close("tip", &found, &[expected.angle, expected.rate, expected.acceleration], 0.0);
         }
     }
     assert_eq!(path.end_effector(2, 0.0), None);

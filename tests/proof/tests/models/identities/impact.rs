@@ -1,4 +1,4 @@
-//! A rigid capture, exact and literal, and the robot that it makes.
+//! A rigid capture, exact and after the paper, and the merged robot.
 
 macro_rules! impact {
     ($($layout:ident)*) => {$(
@@ -94,7 +94,7 @@ macro_rules! impact {
                     for (arm, target) in targets.iter().enumerate() {
                         let link = MANIFEST.links[arm] - 1;
                         let at = |quantity| MANIFEST.position(quantity, arm, link).expect("a parameter");
-                        // both COMs in the inertial frame, from the tip
+                        // both COMs from the end effector, inertial axes
                         let (sin, cos) = poses[arm][0].sin_cos();
                         let (cx, cy) = (values[at(ParameterKind::LinkComX)] - values[at(ParameterKind::LinkLength)], values[at(ParameterKind::LinkComY)]);
                         let own = [cos * cx - sin * cy, sin * cx + cos * cy];

@@ -1,4 +1,4 @@
-//! Mass matrix, bias, Jacobians and their reduced forms are one robot's.
+//! Mass matrix, bias, Jacobians and their reduced forms are consistent.
 
 macro_rules! inertia {
     ($($layout:ident)*) => {$(
@@ -14,7 +14,7 @@ macro_rules! inertia {
             proptest! {
                 #![proptest_config(config())]
 
-                /// M is symmetric and positive definite, ½ vᵀ M v = T, and M v holds the momenta.
+                /// M is symmetric and positive definite, ½ vᵀ M v = T, and M v is the vector of momenta.
                 #[test]
                 fn mass_matrix_is_that_of_the_kinetic_energy(s in sample(ARMS, JOINTS)) {
                     let (pose, angles, twist, rates) = inputs::<JOINTS>(&s);
@@ -54,24 +54,24 @@ macro_rules! inertia {
                     let mut power = 0.0;
                     let mut scale = 1e-3;
                     for i in 0..SIZE {
-                        let mut wanted = 0.0;
+                        let mut expected = 0.0;
                         let mut size = 0.0_f64;
                         for j in 0..SIZE {
                             for k in 0..SIZE {
                                 let term = (slope[k][i][j] - 0.5 * slope[i][j][k]) * v[j] * v[k];
-                                wanted += term;
+                                expected += term;
                                 size += term.abs();
                                 power += slope[k][i][j] * v[i] * v[j] * v[k];
                                 scale += (slope[k][i][j] * v[i] * v[j] * v[k]).abs();
                             }
                         }
-                        close("bias", bias[i], wanted, size + 1e-3, tolerance::IDENTITY);
+                        close("bias", bias[i], expected, size + 1e-3, tolerance::IDENTITY);
                         power -= 2.0 * bias[i] * v[i];
                     }
                     close("vᵀ(Ṁ v − 2 bias)", power, 0.0, scale, tolerance::IDENTITY);
                 }
 
-                /// d(pose)/dt = twist for tips and bodies, and the Jacobian says the same.
+                /// d(pose)/dt = twist for end effectors and bodies, and the Jacobian gives the same twists.
                 #[test]
                 fn twists_are_the_rates_of_poses(s in sample(ARMS, JOINTS)) {
                     let (pose, angles, twist, rates) = inputs::<JOINTS>(&s);
@@ -96,11 +96,11 @@ macro_rules! inertia {
                     let mut inertias = [[0.0; 2]; BODIES];
                     planar_capture::dynamics::Robot::body_inertias(&model, &mut inertias).expect("inertias");
                     let energy: f64 = inertias.iter().zip(bodies).map(|([m, i], [w, x, y])| 0.5 * (i * w * w + m * (x * x + y * y))).sum();
-                    let wanted = model.momentum(&pose, &angles, &twist, &rates).kinetic_energy;
-                    close("T of the bodies", energy, wanted, wanted, tolerance::IDENTITY);
+                    let expected = model.momentum(&pose, &angles, &twist, &rates).kinetic_energy;
+                    close("T of the bodies", energy, expected, expected, tolerance::IDENTITY);
                 }
 
-                /// I, c and J are what is left when the base is eliminated from the full equations.
+                /// I, c and J follow from the full equations by elimination of the base.
                 #[test]
                 fn reduced_dynamics_is_the_eliminated_base(s in sample(ARMS, JOINTS)) {
                     let (pose, angles, twist, rates) = inputs::<JOINTS>(&s);
@@ -131,7 +131,7 @@ macro_rules! inertia {
                     prop_assert!(found.smallest_pivot > 0.0 && found.smallest_pivot <= 1.0);
                 }
 
-                /// With a base that grows heavier, J → J_me: the difference falls as 1/base.
+                /// With increasing base mass, J → J_me: the difference decreases as 1/mass.
                 #[test]
                 fn generalized_jacobian_tends_to_that_of_a_fixed_base(s in sample(ARMS, JOINTS)) {
                     let (pose, angles, ..) = inputs::<JOINTS>(&s);

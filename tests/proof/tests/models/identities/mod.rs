@@ -37,11 +37,11 @@ fn every_shipped_layout_is_here() {
 
 /// Fails unless two numbers agree relative to a scale.
 #[track_caller]
-fn close(what: &str, found: f64, wanted: f64, scale: f64, tolerance: f64) {
-    let difference = (found - wanted).abs();
+fn close(what: &str, found: f64, expected: f64, scale: f64, tolerance: f64) {
+    let difference = (found - expected).abs();
     assert!(
         difference <= tolerance * scale,
-        "{what}: {found:e} and {wanted:e} differ by {:e} of {scale:e}, bound {tolerance:e}",
+        "{what}: {found:e} and {expected:e} differ by {:e} of {scale:e}, bound {tolerance:e}",
         difference / scale
     );
 }

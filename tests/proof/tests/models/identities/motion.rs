@@ -1,4 +1,4 @@
-//! What moves conserves what must be conserved.
+//! Power and momentum balance, conservation laws and order of integration of the motion.
 
 use planar_capture::control::ZeroTorque;
 use planar_capture::dynamics::Model;
@@ -91,7 +91,8 @@ macro_rules! motion {
                     }
                 }
 
-                /// Nobody acts: momentum stays, the COM moves on a line, and reversing all velocities leads back.
+                /// Without forces momentum is constant, the COM moves on a line, and reversed velocities return to the
+                /// start.
                 #[test]
                 fn free_motion_conserves_and_reverses(s in sample(ARMS, JOINTS)) {
                     let model = Model::<f64>::default();
@@ -129,7 +130,7 @@ macro_rules! motion {
                 }
             }
 
-            /// Joints that go round a loop leave the base turned; the other way round, turned back.
+            /// A closed path of the joint angles rotates the base; the reversed path rotates it back.
             #[test]
             fn a_closed_loop_of_the_joints_turns_the_base() {
                 if JOINTS < 2 {
