@@ -1,9 +1,9 @@
-"""Makes deliberate faults, one at a time, and prints which test catches each: the break table of tests/README.md.
+"""Makes deliberate faults, one at a time, and prints the tests that detect each: the break table of tests/README.md.
 
 ``python3 tests/break_table.py [--jobs N] [--only NAME ...] [--check]`` works on copies of the tracked files in a
-temporary folder, so that the repository itself stays as it is. A fault in the derivation is derived again there: its
-graphs are fresh, and it is left to the numbers to give it away. Exits 1 where a fault is not caught, or where its text
-is not there exactly once; ``--check`` looks for the texts alone.
+temporary folder and does not change the repository. After a fault in the derivation the graphs are derived again, so
+that only their numbers are wrong. Exits with 1 if a fault is not detected, or if its text is not found exactly once;
+``--check`` looks for the texts only.
 """
 
 import argparse
@@ -27,7 +27,7 @@ BINARIES = ["models", "contacts", "studies", "commands"]
 
 @dataclass(frozen=True)
 class Fault:
-    """One wrong text in place of a right one."""
+    """A replacement of one text in one file."""
 
     name: str
     file: str
@@ -321,7 +321,7 @@ FAULTS = [
 
 @dataclass(frozen=True)
 class Outcome:
-    """What gave a fault away: failing tests as `binary::name`, or how the build stopped."""
+    """Detection of a fault: failing tests as `binary::name`, or the error that stopped the build."""
 
     rust: list[str]
     derivation: list[str]
@@ -338,7 +338,7 @@ class Broken(Exception):
 
 @dataclass(frozen=True)
 class Place:
-    """A copy of the repository, and where what is compiled from it is kept over the faults and runs."""
+    """A copy of the repository, with a build folder that is kept between faults and runs."""
 
     tree: Path
     target: Path
@@ -398,7 +398,7 @@ def test(place: Place, with_derivation: bool) -> Outcome:
 
 
 def right(fault: Fault, tree: Path) -> str:
-    """The file that a fault is to be made in, which has its text exactly once."""
+    """The file of a fault, which has its text exactly once."""
     path = tree / fault.file
     text = path.read_text(encoding="utf-8") if path.exists() else ""
     if text.count(fault.old) != 1:
@@ -420,7 +420,7 @@ def check(faults: list[Fault]) -> int:
 
 
 def attempt(fault: Fault, place: Place) -> Outcome:
-    """Makes a fault in the copy, tests, and mends it."""
+    """Makes a fault in the copy, runs the tests, and restores the file."""
     path = place.tree / fault.file
     text = right(fault, place.tree)
     graphs = {graph: graph.read_bytes() for graph in (place.tree / "codegen" / "graphs").iterdir()}

@@ -1,11 +1,11 @@
-"""What the workspace promises of its own order; exits 1 with a line for each thing that is not so.
+"""Checks the structure of the workspace; exits with 1 and a line for each violation.
 
     python3 tests/house.py
 
-- A published crate depends on those before it in ORDER and nothing looks back; planar-proof is for tests alone.
+- A published crate depends only on those before it in ORDER; only tests depend on planar-proof.
 - No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed.
-- A target that is not tested (`test = false`) has no tests; a workspace of its own has its lock committed.
-- Modules of a crate, and those of each of its folders, name each other in one direction: no circles.
+- A target with `test = false` has no tests; every nested workspace has its lock committed.
+- Modules of a crate, and those of each of its folders, use each other in one direction: no circles.
 """
 
 import argparse
@@ -22,7 +22,7 @@ OWN_FILES = {"lib", "main", "mod"}
 
 
 def output(*command):
-    """What a command prints."""
+    """Standard output of a command."""
     return subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
@@ -33,7 +33,7 @@ def tracked(pattern):
 
 
 def directions(packages):
-    """Dependencies among this workspace's packages that look back."""
+    """Dependencies between this workspace's packages in a direction that ORDER excludes."""
     names = {package["name"] for package in packages}
     for package in packages:
         name, published = package["name"], package["publish"] is None
@@ -60,7 +60,7 @@ def code(path):
 
 
 def texts(path):
-    """What a source file should not say."""
+    """Texts that a source file must not contain."""
     text = code(path)
     if re.search(r"#!?\[path\b", text):
         yield f"{path}: #[path]"
@@ -94,7 +94,7 @@ def place(path, folder):
 
 
 def named(path, source, folder):
-    """The names that a file takes from the module of a folder: by the path from the crate's root, or by `super`."""
+    """The names that a file uses from the module of a folder, by the path from the crate's root or by `super`."""
     supers = len(path.relative_to(folder).parts) - (path.name == "mod.rs")
     absolute = "::".join(["crate", *folder.relative_to(source).parts])
     root = rf"(?:\b{absolute}|(?<!super::)\bsuper(?:::super){{{supers - 1}}})"
@@ -107,7 +107,7 @@ def named(path, source, folder):
 
 
 def exported(folder):
-    """Which of its modules each name is from that a folder's own file hands on."""
+    """Pairs of name and module for the names that a folder's own file re-exports."""
     file = folder / "mod.rs"
     text = code(file) if (ROOT / file).exists() else ""
     for module, name, group in re.findall(r"\buse (?:self::)?(\w+)::(?:(\w+)|\{(.*?)\});", text, flags=re.S):
@@ -115,7 +115,7 @@ def exported(folder):
 
 
 def circles(source, folder):
-    """Modules of a folder that need each other: a shortest circle through each, once."""
+    """Circles among the modules of a folder: a shortest one through each module, once."""
     files = [path for path in tracked(f"{folder}/*.rs") if path.parent != folder or path.stem not in OWN_FILES]
     modules = {place(path, folder) for path in files}
     module_of = {name: module for name, module in exported(folder) if module in modules}
@@ -136,7 +136,7 @@ def circles(source, folder):
 
 
 def shortest(edges, start):
-    """The shortest way from a module back to it."""
+    """The shortest circle through a module; `None` if there is none."""
     ways, reached = [[start]], {start}
     while ways:
         ways = [[*way, other] for way in ways for other in sorted(edges[way[-1]])]
@@ -148,7 +148,7 @@ def shortest(edges, start):
 
 
 def main():
-    """Exit code 1 where something is out of order."""
+    """Exit code 1 if there is a violation."""
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     packages = json.loads(output("cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"))["packages"]
     problems = [*directions(packages), *untested(packages)]
@@ -163,7 +163,9 @@ def main():
     for package in packages:
         source = Path(package["manifest_path"]).parent.relative_to(ROOT) / "src"
         folders = sorted({source, *(folder for path in tracked(f"{source}/*.rs") for folder in path.parents[:-1])})
-        problems += [circle for folder in folders if source in [folder, *folder.parents] for circle in circles(source, folder)]
+        problems += [
+            circle for folder in folders if source in [folder, *folder.parents] for circle in circles(source, folder)
+        ]
     for problem in problems:
         print(f"house: {problem}")
     sys.exit(1 if problems else 0)

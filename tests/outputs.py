@@ -1,4 +1,4 @@
-"""Parquet and MCAP by their own readers, pyarrow and mcap: every value, unit and transform against the CSV.
+"""Parquet and MCAP, read by pyarrow and mcap: every value, unit and transform against the CSV.
 
     python tests/outputs.py [--binary planar-capture] [--keep FOLDER]
 
@@ -20,12 +20,12 @@ from mcap_protobuf.decoder import DecoderFactory
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENARIOS = ("raina_shah_2017", "stabilised_capture", "redysim_single_arm_3r")
-# Tips by the chain of transforms, m and rad: rounding of four turns, 2e-15 measured.
+# End effectors by the chain of transforms, m and rad: rounding of four turns, 2e-15 measured.
 BOUND = 1e-13
 
 
 def read_csv(path):
-    """Headings, and the rows: numbers, but for the phase."""
+    """Headings and rows; all cells but the phase are numbers."""
     with path.open(newline="", encoding="utf-8") as file:
         headings, *rows = csv.reader(file)
     return headings, [
@@ -39,7 +39,7 @@ def unit_of(heading):
 
 
 def check_parquet(path, headings, rows, origin):
-    """The CSV's columns, names, units and values, exactly; the scenario it is of."""
+    """The CSV's columns, names, units and values, exactly, and the name of the scenario."""
     table = pyarrow.parquet.read_table(path)
     assert table.column_names == headings
     columns = list(zip(*rows, strict=True))
@@ -58,7 +58,7 @@ def check_parquet(path, headings, rows, origin):
 
 
 def read_mcap(path):
-    """Of each topic the messages as (log time in ns, message), schema and units; what the file says of itself."""
+    """Messages of each topic as (log time in ns, message), with schema and units; metadata of the file."""
     with path.open("rb") as file:
         reader = make_reader(file, decoder_factories=[DecoderFactory()], validate_crcs=True)
         summary = reader.get_summary()
@@ -93,7 +93,7 @@ def in_world(transforms):
 
 
 def check_mcap(path, headings, rows, summary, origin):
-    """The CSV's numbers at the CSV's times; how far tips are from where the CSV has them."""
+    """The CSV's numbers at the CSV's times; returns the error of the end effectors."""
     messages, schemas, units, metadata = read_mcap(path)
     assert metadata == origin, metadata
     known = {"/tf": "FrameTransforms", "/scene": "SceneUpdate", "/log": "Log", "/impulses": "SceneUpdate"}
@@ -133,7 +133,7 @@ def check_mcap(path, headings, rows, summary, origin):
 
 
 def strays(transforms, headings, rows):
-    """How far tips are from where the CSV has them, m and rad."""
+    """Largest error of the end effectors against the CSV, m and rad."""
     for (_, message), row in zip(transforms, rows, strict=True):
         for frame, (yaw, x, y) in in_world(message.transforms).items():
             if frame.endswith("/tip"):
@@ -144,7 +144,7 @@ def strays(transforms, headings, rows):
 
 
 def main():
-    """Exit code 1 with what differs."""
+    """Exit code 1 with the differences."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--binary", type=Path, default=ROOT / "target" / "debug" / "planar-capture")
     parser.add_argument("--keep", type=Path, help="where the files stay")

@@ -1,4 +1,4 @@
-"""The report in a real browser: opens from disk without errors or requests, plays, scrubs, changes the case.
+"""The report in a browser: opens from disk without errors or requests, plays, scrubs, changes the case.
 
     python tests/report_browser.py [--binary planar-capture] [--pictures FOLDER]
 
@@ -24,12 +24,12 @@ QUIET = ("--no-sandbox", "--disable-gpu", "--disable-background-networking", "--
 
 
 def browser():
-    """The browser's path; None leaves it to Playwright's own."""
+    """The browser's path; `None` for Playwright's own."""
     return os.environ.get("PLANAR_CAPTURE_BROWSER") or next(filter(None, map(shutil.which, BROWSERS)), None)
 
 
 def use(page, file, pictures, check):
-    """Goes through one report as its reader would."""
+    """Uses one report as a reader would."""
     heard, asked = [], []
     page.on("console", lambda message: heard.append(message.text) if message.type in ("error", "warning") else None)
     page.on("pageerror", lambda error: heard.append(str(error)))
@@ -78,7 +78,7 @@ def use(page, file, pictures, check):
 
 
 def main():
-    """Exit code 1 with what went wrong."""
+    """Exit code 1 with the errors."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--binary", type=Path, default=ROOT / "target" / "debug" / "planar-capture")
     parser.add_argument("--pictures", type=Path, help="where screenshots go")

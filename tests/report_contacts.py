@@ -1,4 +1,4 @@
-"""What the report shows of contacts, against summary.json and the time series; `report_browser.py` opens the page."""
+"""Contacts in the report against summary.json and the time series; `report_browser.py` opens the page."""
 
 import csv
 import math
@@ -7,18 +7,18 @@ SIX_DIGITS = 2e-5  # what the page keeps of a number below 10; m, rad
 
 
 def picture(page):
-    """What the canvas shows, as a text to compare."""
+    """The canvas as a text to compare."""
     return page.evaluate("document.getElementById('scene').toDataURL()")
 
 
 def scrub(page, time):
-    """Moves the slider as a hand would."""
+    """Moves the slider to a time."""
     act = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
     page.locator("#scrub").evaluate(act, time)
 
 
 def red_pixels(page):
-    """How much of the picture has the colour of impulses."""
+    """Number of pixels in the colour of impulses."""
     return page.evaluate(
         """() => { const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
         Object.assign(copy.canvas, { width: canvas.width, height: canvas.height });
@@ -50,7 +50,7 @@ def curves(page, title):
 
 
 def tips_at(folder, case, time):
-    """[x, y] of each tip at the row next to a time, the last one there, and that row's time."""
+    """[x, y] of each end effector at the last row nearest to a time, and that row's time."""
     with (folder / f"{case}.csv").open() as rows:
         row = min(reversed(list(csv.DictReader(rows))), key=lambda row: abs(float(row["time [s]"]) - time))
     arms = [name.removesuffix("_tip_x [m]") for name in row if name.endswith("_tip_x [m]")]
@@ -58,7 +58,7 @@ def tips_at(folder, case, time):
 
 
 def conserved(page, impacts):
-    """Momentum is what it was, and energy steps at impacts alone, by what they cost."""
+    """Momentum is constant, and energy steps only at impacts, by their losses."""
     for title in ("Angular momentum", "Linear momentum"):
         for curve in curves(page, title)[1]:
             assert max(curve) - min(curve) < 1e-4 * max(map(abs, curve), default=0) + 1e-9, f"{title} changes"
@@ -69,7 +69,7 @@ def conserved(page, impacts):
 
 
 def large_target(page, folder, summary, _scenario):
-    """The panel is drawn with its contacts at the tips; the holds are marked, and how closed they stay is plotted."""
+    """The panel is drawn with contacts at the end effectors; constraints are marked, and their errors plotted."""
     for index, case in enumerate(summary["cases"]):
         page.select_option("#case", index=index)
         contacts = case["impact"]["contacts"]
@@ -102,7 +102,7 @@ def large_target(page, folder, summary, _scenario):
 
 
 def elastic_rebound(page, folder, summary, scenario):
-    """Targets fly freely but for their impacts; each impact has its arrows, marks and words."""
+    """Targets move freely between impacts; each impact has its arrows, marks and text."""
     for index, case in enumerate(summary["cases"]):
         page.select_option("#case", index=index)
         first = case["approach"]["duration"]

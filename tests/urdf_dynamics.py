@@ -1,14 +1,14 @@
-"""Exported and imported URDFs move as the layouts do: planar-capture, Pinocchio and MuJoCo at random states.
+"""Dynamics of exported and imported URDFs: planar-capture against Pinocchio and MuJoCo at random states.
 
-Every shipped layout and those of tests/urdf are exported, and loaded as they are by Pinocchio and by MuJoCo, each with
-its own parser. tests/urdf/clutter.urdf is imported, and loaded by Pinocchio as it was. Compared are the accelerations
-under torques and a base wrench, in the paper's coordinates (the twist of the base's centre of mass, inertial axes), and
-the positions of the tips.
+Every shipped layout and those of tests/urdf are exported and loaded by Pinocchio and by MuJoCo, each with its own
+parser. tests/urdf/clutter.urdf is imported, and the original is loaded by Pinocchio. Compared are accelerations under
+torques and a base wrench, in the paper's coordinates (the twist of the base's centre of mass, inertial axes), and
+positions of the end effectors.
 
     PYTHON=$(python3 -m codegen.environment --reference)
     PYTHONPATH=. $PYTHON tests/urdf_dynamics.py [planar-capture, or another command that runs it]
 
-prints the largest differences and exits with 1 where one is over its bound.
+prints the largest differences and exits with 1 if one exceeds its bound.
 """
 
 import json
@@ -62,7 +62,7 @@ class Product:
         return result.stdout
 
     def evaluate(self, layout: Path, states: list[dict]) -> list[dict]:
-        """By the implementation that knows any layout; the test of equivalence holds the generated code to it."""
+        """By the generic implementation; a test of equivalence compares the generated code with it."""
         return json.loads(self.run("eval", str(layout), "-", "--dynamics", "generic", text=json.dumps(states)))
 
 
@@ -71,7 +71,7 @@ def rotation(angle: float) -> np.ndarray:
 
 
 def coordinate(joint, angle: float) -> list[float]:
-    """Pinocchio has a joint without limits as a point of the circle."""
+    """Configuration in Pinocchio, which represents a joint without limits by a point on the circle."""
     return [angle] if joint.nq == 1 else [np.cos(angle), np.sin(angle)]
 
 
@@ -112,7 +112,7 @@ class Pinocchio:
 
 
 class MuJoCo:
-    """An exported URDF: the base has slides along inertial axes, and a hinge; massless tips are merged."""
+    """An exported URDF: the base has slides along inertial axes and a hinge; massless end effectors are merged."""
 
     def __init__(self, urdf: str, layout: Layout):
         self.model = mujoco.MjModel.from_xml_string(urdf)
@@ -134,7 +134,7 @@ class MuJoCo:
 
 
 class Original:
-    """A URDF of somebody else as Pinocchio sees it, on a base that moves in the plane that the import chose."""
+    """An original URDF in Pinocchio, on a base that moves in the plane of the import."""
 
     def __init__(self, urdf: str, header: str):
         def triple(name):
@@ -185,7 +185,7 @@ class Original:
 
 
 def relative(found: list[np.ndarray], results: list[dict]) -> float:
-    """Largest difference, each entry relative to its own largest value: those of a heavy base count as much."""
+    """Largest difference, each entry relative to its own largest value, so that a heavy base counts equally."""
     wanted = np.array([result["base_acceleration"] + result["joint_accelerations"] for result in results])
     return float((np.abs(np.array(found) - wanted).max(axis=0) / np.abs(wanted).max(axis=0)).max())
 
@@ -197,7 +197,7 @@ def tip_error(result: dict, tips: list[np.ndarray]) -> float:
 
 
 def exported(product: Product, path: Path, random: np.random.Generator) -> list[float]:
-    """Largest errors: accelerations of Pinocchio and of MuJoCo, tips of Pinocchio."""
+    """Largest errors: accelerations by Pinocchio and by MuJoCo, end effectors by Pinocchio."""
     layout = read(path)
     states = [draw(layout, random) for _ in range(STATES)]
     results = product.evaluate(path, states)
@@ -209,7 +209,7 @@ def exported(product: Product, path: Path, random: np.random.Generator) -> list[
 
 
 def imported(product: Product, path: Path, random: np.random.Generator) -> list[float]:
-    """Largest errors: accelerations and tips of Pinocchio with the file as it was."""
+    """Largest errors: accelerations and end effectors by Pinocchio with the original file."""
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "layout.toml"
         product.run("import", str(path), "--out", str(target))
