@@ -52,12 +52,8 @@ fn values(motion: &RobotState) -> Vec<f64> {
     [&motion.base_pose[..], &motion.joint_angles, &motion.base_twist, &motion.joint_rates].concat()
 }
 
-fn end(phase: &Phase) -> &Sample {
-    phase.end()
-}
-
 fn error(phase: &Phase, reference: &Phase) -> f64 {
-    let values = |phase| [&values(&end(phase).state)[..], &[end(phase).work.joint_work]].concat();
+    let values = |phase: &Phase| [&values(&phase.end().state)[..], &[phase.end().work.joint_work]].concat();
     difference(&values(phase), &values(reference))
 }
 
@@ -88,12 +84,12 @@ fn orders_of_convergence() {
 fn the_adaptive_integrator_keeps_its_tolerance() {
     // a reference of another kind: Richardson's extrapolation of two Gauss–Legendre solutions
     let [coarse, fine] = [0.02, 0.01].map(|step| swing(2.0, step, Scheme::GaussLegendre, FULL));
-    let [coarse, fine] = [&coarse, &fine].map(|phase| values(&end(phase).state));
+    let [coarse, fine] = [&coarse, &fine].map(|phase| values(&phase.end().state));
     let reference: Vec<f64> = fine.iter().zip(&coarse).map(|(fine, coarse)| fine + (fine - coarse) / 63.0).collect();
     for coordinates in [FULL, REDUCED] {
         for tolerance in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
             let phase = swing(2.0, 0.05, Scheme::Adaptive { tolerance }, coordinates);
-            let error = difference(&values(&end(&phase).state), &reference);
+            let error = difference(&values(&phase.end().state), &reference);
             let bound = tolerance::ADAPTIVE * tolerance + tolerance::ROUNDED_MOTION;
             assert!(error <= bound, "{coordinates:?}, {tolerance:e}: {error:e}");
         }
@@ -108,7 +104,7 @@ fn dense_output_is_as_good_as_steps() {
     assert_eq!(long.samples.len(), 9);
     for sample in &long.samples[1..8] {
         let short = run(&mut ZeroTorque, sample.time, sample.time, scheme, FULL);
-        assert_close("sample", &values(&sample.state), &values(&end(&short).state), tolerance::DENSE);
+        assert_close("sample", &values(&sample.state), &values(&short.end().state), tolerance::DENSE);
     }
 }
 
@@ -130,7 +126,7 @@ fn full_and_reduced_coordinates_agree() {
     let order = (differences[0] / differences[1]).log2();
     assert!((order - 4.0).abs() < tolerance::ORDER_OF_DIFFERENCE, "{order} {differences:?}");
     let adaptive = [FULL, REDUCED].map(|mode| run(&mut ZeroTorque, 4.0, 0.05, ADAPTIVE, mode));
-    let [full, reduced] = adaptive.each_ref().map(|phase| values(&end(phase).state));
+    let [full, reduced] = adaptive.each_ref().map(|phase| values(&phase.end().state));
     assert_close("full and reduced", &full, &reduced, tolerance::SAME_MOTION);
 }
 
@@ -150,7 +146,7 @@ fn both_coordinates_take_a_base_torque() {
         };
         run(&mut law, 4.0, 0.01, Scheme::RungeKutta4, coordinates)
     });
-    let [full, reduced] = phases.each_ref().map(end);
+    let [full, reduced] = phases.each_ref().map(Phase::end);
     assert!(full.work.base_impulse.abs() > 1.0, "{} N m s", full.work.base_impulse);
     assert_close("motion", &values(&full.state), &values(&reduced.state), tolerance::CONTROLLED);
     let [of_full, of_reduced] =
@@ -176,10 +172,10 @@ fn free_bodies_are_integrated() {
     let alone = self::run(&mut ZeroTorque, 1.0, 0.02, Scheme::GaussLegendre, FULL);
     for scheme in [Scheme::GaussLegendre, ADAPTIVE] {
         let phase = run(scheme, FULL).expect("a phase");
-        let end = end(&phase);
+        let end = phase.end();
         assert_close("pose", &end.bodies[0].pose, &[0.8, 1.8, 3.5], tolerance::STRAIGHT);
         assert_close("twist", &end.bodies[0].twist, &body.twist, 0.0);
-        assert_close("robot", &values(&end.state), &values(&self::end(&alone).state), tolerance::SAME_MOTION_COARSE);
+        assert_close("robot", &values(&end.state), &values(&alone.end().state), tolerance::SAME_MOTION_COARSE);
     }
 }
 
@@ -216,12 +212,12 @@ fn a_closed_loop_by_every_scheme() {
     let reference = run(Scheme::RungeKutta4, 0.002);
     for (scheme, step) in [(Scheme::GaussLegendre, 0.02), (ADAPTIVE, 0.02), (Scheme::RungeKutta4, 0.004)] {
         let phase = run(scheme, step);
-        let motion = |phase: &Phase| [&values(&end(phase).state)[..], &end(phase).bodies[0].pose].concat();
+        let motion = |phase: &Phase| [&values(&phase.end().state)[..], &phase.end().bodies[0].pose].concat();
         assert_close(&format!("{scheme:?}"), &motion(&phase), &motion(&reference), tolerance::CLOSED_LOOP);
         let open = phase.constraint_errors[0];
         assert!(open < 1e-10 && phase.drift.momentum_drift < 1e-9, "{scheme:?}: {open:e} {:?}", phase.drift);
     }
-    let moved = difference(&end(&reference).state.joint_angles, &start.joint_angles);
+    let moved = difference(&reference.end().state.joint_angles, &start.joint_angles);
     assert!(moved > 0.01, "{moved} rad");
 }
 
@@ -242,8 +238,8 @@ fn sampled_torques_and_adaptive_steps() {
     );
     let reference = phases[0].samples.pop().expect("an end");
     for phase in &phases[1..] {
-        assert_close("motion", &values(&end(phase).state), &values(&reference.state), tolerance::SAMPLED);
-        assert_close("time", &[end(phase).time], &[1.0], 0.0);
+        assert_close("motion", &values(&phase.end().state), &values(&reference.state), tolerance::SAMPLED);
+        assert_close("time", &[phase.end().time], &[1.0], 0.0);
     }
 }
 
@@ -261,7 +257,7 @@ fn samples_of_any_number_of_steps() {
             let mut torques = [0.0; 6];
             run(&mut SampledControl::new(law, steps, &mut torques), 1.0, 0.005, scheme, FULL)
         });
-        let [fixed, adaptive] = ends.each_mut().map(|phase| values(&end(phase).state));
+        let [fixed, adaptive] = ends.each_mut().map(|phase| values(&phase.end().state));
         assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);
     }
 }

@@ -8,7 +8,7 @@ use planar_capture::registry;
 use planar_capture::simulate::event::{EventState, Events, NoEvents};
 use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
 use planar_capture::simulate::system::System;
-use planar_capture::simulate::{Phase, Sample, Timing, simulate};
+use planar_capture::simulate::{Phase, Timing, simulate};
 use planar_capture::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, difference, tolerance};
 
@@ -96,13 +96,9 @@ fn run(
     simulate(&System::alone(&*model), law, start, &timing, events, &mut || ()).expect("a phase")
 }
 
-fn end(phase: &Phase) -> &Sample {
-    phase.end()
-}
-
 fn end_effector(motion: &RobotState) -> [f64; 3] {
     let mut poses = [[0.0; 3]];
-    model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut poses).expect("a tip");
+    model().end_effector_poses(&motion.base_pose, &motion.joint_angles, &mut poses).expect("poses");
     poses[0]
 }
 
@@ -121,9 +117,9 @@ fn a_straight_path_meets_a_circle() {
         for step in [0.005, 0.3] {
             let phase = run(&start, 10.0, step, (scheme, coordinates), &mut ZeroTorque, &mut circle());
             let (event, when) = phase.event.expect("the circle is met");
-            assert_eq!((event, phase.duration, end(&phase).time), (0, when, when));
+            assert_eq!((event, phase.duration, phase.end().time), (0, when, when));
             assert!((when - expected).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {expected}");
-            assert!(circle().value(end_effector(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+            assert!(circle().value(end_effector(&phase.end().state)).abs() < tolerance::EVENT_TIME);
             let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
             assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
         }
@@ -134,10 +130,10 @@ fn a_straight_path_meets_a_circle() {
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
     let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Formulation::Full));
-    let [_, x, y] = end_effector(&end(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents)).state);
+    let [_, x, y] = end_effector(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents).end().state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
-        circle().value(end_effector(&end(&run(&start, duration, duration, best, &mut ZeroTorque, &mut NoEvents)).state))
+        circle().value(end_effector(&run(&start, duration, duration, best, &mut ZeroTorque, &mut NoEvents).end().state))
     };
     let (mut early, mut late) = (0.1, 0.2);
     while value(late) > 0.0 {
@@ -152,7 +148,7 @@ fn a_tumbling_robot_meets_a_circle() {
         let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut circle());
         let (_, when) = phase.event.expect("the circle is met");
         assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
-        assert!(circle().value(end_effector(&end(&phase).state)).abs() < tolerance::EVENT_TIME);
+        assert!(circle().value(end_effector(&phase.end().state)).abs() < tolerance::EVENT_TIME);
     }
 }
 
@@ -214,10 +210,10 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
             assert_eq!(a, b, "{scheme:?}");
         }
         let alone = event_run(&mut NoEvents, 1.3, 0.01);
-        let [found, expected] = [&part, &alone].map(|phase| end(phase).state.clone());
+        let [found, expected] = [&part, &alone].map(|phase| phase.end().state.clone());
         let error = difference(&found.joint_rates, &expected.joint_rates);
         assert!(error < tolerance::SAME_STEPS, "{scheme:?}: {error:e}");
         assert_close("pose", &found.base_pose, &expected.base_pose, tolerance::SAME_STEPS);
-        assert_close("torques", &end(&part).joint_torques, &end(&alone).joint_torques, tolerance::SAME_STEPS);
+        assert_close("torques", &part.end().joint_torques, &alone.end().joint_torques, tolerance::SAME_STEPS);
     }
 }

@@ -154,12 +154,7 @@ fn stabilise_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>)
     let integration = Integration::default();
     let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
     let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
-    let start = RobotState {
-        base_pose: s.base_pose,
-        joint_angles: s.joint_angles.clone(),
-        base_twist: s.base_twist,
-        joint_rates: s.joint_rates.clone(),
-    };
+    let start = RobotState::from_view(&s.state());
     let expected = PostCaptureLaw { after: &after, wheels: &wheels, angles: &s.joint_angles };
     let phase = run_post_capture(&System::alone(&*model), expected, &start, &timing, &mut NoEvents, &mut || ())
         .expect("a phase");

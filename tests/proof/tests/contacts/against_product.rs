@@ -1,6 +1,6 @@
 //! The reference against the product's recursion, elimination and merging in joint coordinates.
 
-use crate::{rigid_targets, robot, simulated, targets};
+use crate::{rigid_targets, robot, scaled_velocities, simulated, targets};
 use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
@@ -134,27 +134,18 @@ fn every_shipped_layout_is_here() {
     assert_eq!(registry::SHIPPED.len(), 7, "one line of `instantly` each");
 }
 
-/// The sample with lower speeds, so that joints make few turns in ten seconds.
-fn slowly(mut s: RandomState) -> RandomState {
-    let slow = |twist: &mut [f64]| twist.iter_mut().for_each(|value| *value *= 0.3);
-    slow(&mut s.base_twist);
-    slow(&mut s.joint_rates);
-    s.targets.iter_mut().for_each(|(_, twist)| slow(twist));
-    s
-}
-
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2, ..config() })]
 
     #[test]
     fn the_merged_robot_moves_freely(one in sample(2, 6), other in sample(3, 6)) {
-        check_motion(&layout("dual_arm_3r"), &slowly(one), 10.0, false);
-        check_motion(&layout("asymmetric_wheel"), &slowly(other), 10.0, false);
+        check_motion(&layout("dual_arm_3r"), &scaled_velocities(one, 0.3), 10.0, false);
+        check_motion(&layout("asymmetric_wheel"), &scaled_velocities(other, 0.3), 10.0, false);
     }
 
     #[test]
     fn the_merged_robot_moves_under_torques(one in sample(1, 3), other in sample(3, 9)) {
-        check_motion(&layout("single_arm_3r"), &slowly(one), 5.0, true);
-        check_motion(&layout("triple_arm_3r"), &slowly(other), 5.0, true);
+        check_motion(&layout("single_arm_3r"), &scaled_velocities(one, 0.3), 5.0, true);
+        check_motion(&layout("triple_arm_3r"), &scaled_velocities(other, 0.3), 5.0, true);
     }
 }

@@ -2,8 +2,7 @@
 
 use crate::against_product::{Excitation, excitation_torques};
 use crate::product::{self, law};
-use crate::robot;
-use nalgebra::Vector2;
+use crate::{add_target, robot, robot_state, scaled_velocities};
 use planar_capture::capture::assembly::{Assembly, Attachment};
 use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::layout::Layout;
@@ -13,7 +12,6 @@ use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::stepper::{Integration, Scheme};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::state::State;
-use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
 use planar_proof::maximal::motion::run;
 use planar_proof::maximal::system::System;
@@ -31,17 +29,10 @@ struct Capture {
 
 fn capture(layout: &Layout, s: &RandomState, kinds: &[(usize, Kind)]) -> Capture {
     let mut all = robot(layout, s);
-    let ([mass, inertia, rx, ry], twist) = s.targets[0];
-    let com = all.end_effector(kinds[0].0) - Vector2::new(rx, ry);
-    let body = all.add(Body { mass, inertia, pose: [0.7, com.x, com.y], twist });
+    let body = add_target(&mut all, &s.targets[0], kinds[0].0, 0.7);
     let contacts: Vec<_> = kinds.iter().map(|(arm, kind)| Contact::new(&all, *arm, body, *kind)).collect();
     all.apply(&contacts, &impact(&all, &contacts));
-    let state = RobotState {
-        base_pose: s.base_pose,
-        joint_angles: s.joint_angles.clone(),
-        base_twist: all.bodies[0].twist,
-        joint_rates: all.joint_rates(),
-    };
+    let state = robot_state(&all, s);
     let target = product::body(&all.bodies[body]);
     let attachments: Vec<_> =
         kinds.iter().map(|(arm, kind)| Attachment { target: 0, arm: *arm, kind: law(*kind).kind() }).collect();
@@ -83,14 +74,6 @@ const MIXTURES: [&[(usize, Kind)]; 5] = [
     &[(1, Kind::Pin)],
 ];
 
-/// The sample with lower speeds.
-fn slowly(mut s: RandomState) -> RandomState {
-    s.base_twist = s.base_twist.map(|value| 0.2 * value);
-    s.joint_rates.iter_mut().for_each(|value| *value *= 0.2);
-    s.targets.iter_mut().for_each(|(_, twist)| *twist = twist.map(|value| 0.2 * value));
-    s
-}
-
 /// Compares the end of a motion with the reference's; `false` where a loop came near a singular configuration.
 fn check(layout: &Layout, s: &RandomState, kinds: &[(usize, Kind)], controlled: bool, duration: f64) -> bool {
     let mut capture = capture(layout, s, kinds);
@@ -120,14 +103,14 @@ proptest! {
     #[test]
     fn constrained_motion_without_torques(s in sample(2, 6)) {
         for kinds in MIXTURES {
-            prop_assume!(check(&layout("dual_arm_3r"), &slowly(s.clone()), kinds, false, 8.0));
+            prop_assume!(check(&layout("dual_arm_3r"), &scaled_velocities(s.clone(), 0.2), kinds, false, 8.0));
         }
     }
 
     #[test]
     fn constrained_motion_under_torques(s in sample(2, 6)) {
         for kinds in MIXTURES {
-            prop_assume!(check(&layout("dual_arm_3r"), &slowly(s.clone()), kinds, true, 5.0));
+            prop_assume!(check(&layout("dual_arm_3r"), &scaled_velocities(s.clone(), 0.2), kinds, true, 5.0));
         }
     }
 
@@ -135,7 +118,7 @@ proptest! {
     #[test]
     fn three_arms_hold_one_target(s in sample(3, 9)) {
         for kinds in [[(0, Kind::Pin), (1, Kind::Rigid), (2, Kind::Pin)], [(2, Kind::Pin), (0, Kind::Pin), (1, Kind::Pin)]] {
-            prop_assume!(check(&layout("triple_arm_3r"), &slowly(s.clone()), &kinds, true, 4.0));
+            prop_assume!(check(&layout("triple_arm_3r"), &scaled_velocities(s.clone(), 0.2), &kinds, true, 4.0));
         }
     }
 }

@@ -1,8 +1,7 @@
 //! The product's impacts, in joint coordinates with the inverse inertia at the contacts, against the reference.
 
 use crate::product::{self, Outcome, body, both_models, law, targets_and_contacts};
-use crate::robot;
-use nalgebra::Vector2;
+use crate::{add_target, robot, robot_state};
 use planar_capture::capture::assembly::{Assembly, Attachment};
 use planar_capture::capture::contact_at_time::ImpactContact;
 use planar_capture::capture::impact::{ImpactResult, ImpactSolution, solve_impact};
@@ -10,9 +9,7 @@ use planar_capture::contact::{self, ContactKind, ContactPartner};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r;
 use planar_capture::layout::Layout;
-use planar_capture::owned::RobotState;
 use planar_capture::state::State;
-use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, ProductImpact, impact};
 use planar_proof::maximal::random::{PlannedContact, Scene, random_contacts};
 use planar_proof::maximal::system::System;
@@ -208,22 +205,13 @@ struct AfterCapture {
 
 fn after_capture(layout: &Layout, s: &RandomState, kinds: &[(usize, Kind)]) -> AfterCapture {
     let mut before = robot(layout, s);
-    let bodies = [0, 1].map(|i| {
-        let ([mass, inertia, rx, ry], twist) = s.targets[i];
-        let com = before.end_effector(2 * i) - Vector2::new(rx, ry);
-        before.add(Body { mass, inertia, pose: [0.2, com.x, com.y], twist })
-    });
+    let bodies = [0, 1].map(|i| add_target(&mut before, &s.targets[i], 2 * i, 0.2));
     let captures: Vec<_> = kinds.iter().map(|(arm, kind)| Contact::new(&before, *arm, bodies[0], *kind)).collect();
     before.apply(&captures, &impact(&before, &captures));
     AfterCapture { before, bodies, captures }
 }
 
 impl AfterCapture {
-    fn motion(&self, s: &RandomState) -> RobotState {
-        let (base_twist, joint_rates) = (self.before.bodies[0].twist, self.before.joint_rates());
-        RobotState { base_pose: s.base_pose, joint_angles: s.joint_angles.clone(), base_twist, joint_rates }
-    }
-
     /// The targets in the product's terms.
     fn targets(&self) -> Vec<planar_capture::body::Body<f64>> {
         self.bodies.iter().map(|index| body(&self.before.bodies[*index])).collect()
@@ -255,7 +243,7 @@ proptest! {
             contact::Contact { arm: 2, partner: second_partner, offset: second_offset, law: law(second) },
         ];
         let [first, second] = captured.targets()[..] else { unreachable!() };
-        let motion = captured.motion(&s);
+        let motion = robot_state(&captured.before, &s);
         let attachments = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
         for model in both_models(&layout) {
             let merged = Assembly::new(model, &motion, &[first, second], &attachments).expect("a merged model").model;
@@ -283,7 +271,7 @@ proptest! {
         let mut after = captured.before.clone();
         after.apply(&contacts, &expected);
 
-        let motion = captured.motion(&s);
+        let motion = robot_state(&captured.before, &s);
         let attachments = [0, 1].map(|arm| Attachment { target: 0, arm, kind: law(kinds[arm]).kind() });
         let target = usize::from(!same);
         let offset = captured.before.end_effector(2) - captured.before.bodies[captured.bodies[target]].com();

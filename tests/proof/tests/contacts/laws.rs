@@ -1,9 +1,9 @@
 //! The reference's impacts at random states and contacts: conservation laws and contact laws.
 
+use crate::add_target;
 use nalgebra::{DMatrix, DVector, Vector2};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
-use planar_proof::maximal::body::Body;
 use planar_proof::maximal::impact::{Contact, Impact, Kind, impact};
 use planar_proof::maximal::random::{Scene, random_contacts};
 use planar_proof::maximal::system::System;
@@ -208,9 +208,7 @@ proptest! {
         let layout = layout("triple_arm_3r");
         let mut before = Scene { planned: vec![], targets: vec![], ..scene.clone() }.system(&layout);
         let bodies = [0, 1].map(|i| {
-            let ([mass, inertia, rx, ry], twist) = scene.state.targets[i];
-            let com = before.end_effector(2 * i) - Vector2::new(rx, ry);
-            before.add(Body { mass, inertia, pose: [0.2, com.x, com.y], twist })
+            add_target(&mut before, &scene.state.targets[i], 2 * i, 0.2)
         });
         let captures = [0, 1].map(|arm| Contact::new(&before, arm, bodies[0], kinds[arm]));
         before.apply(&captures, &impact(&before, &captures));

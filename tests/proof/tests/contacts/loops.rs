@@ -1,7 +1,7 @@
 //! The reference's motion of closed loops: two arms that have captured one target, rigid or pinned.
 
-use crate::{robot, simulated};
-use nalgebra::{DMatrix, DVector, Vector2};
+use crate::{add_target, robot, scaled_velocities, simulated};
+use nalgebra::{DMatrix, DVector};
 use planar_capture::control::ZeroTorque;
 use planar_capture::layout::{Layout, Link};
 use planar_capture::owned::RobotState;
@@ -19,9 +19,7 @@ use proptest::prelude::*;
 /// The robot after the capture of one target by its first two arms, with contacts of these kinds.
 fn closed_loop(layout: &Layout, s: &RandomState, kinds: [Kind; 2]) -> System {
     let mut all = robot(layout, s);
-    let ([mass, inertia, rx, ry], twist) = s.targets[0];
-    let com = all.end_effector(0) - Vector2::new(rx, ry);
-    let body = all.add(Body { mass, inertia, pose: [0.7, com.x, com.y], twist });
+    let body = add_target(&mut all, &s.targets[0], 0, 0.7);
     let contacts = [0, 1].map(|arm| Contact::new(&all, arm, body, kinds[arm]));
     let found = impact(&all, &contacts);
     all.apply(&contacts, &found);
@@ -91,15 +89,7 @@ proptest! {
     }
 }
 
-/// Slower by a factor.
-fn slowly(mut s: RandomState) -> RandomState {
-    s.base_twist = s.base_twist.map(|value| 0.3 * value);
-    s.joint_rates.iter_mut().for_each(|value| *value *= 0.3);
-    s.targets.iter_mut().for_each(|(_, twist)| *twist = twist.map(|value| 0.3 * value));
-    s
-}
-
-/// A spring, a damper and something that shakes each joint.
+/// A spring, a damper and a periodic torque at each joint.
 fn law(time: f64, angles: &[f64], rates: &[f64]) -> Vec<f64> {
     angles.iter().zip(rates).map(|(angle, rate)| 0.4 * (3.0 * time).cos() - 0.1 * angle - 0.3 * rate).collect()
 }
@@ -111,7 +101,7 @@ proptest! {
     #[test]
     fn closed_loops_conserve_and_reverse(s in sample(2, 6)) {
         for kinds in MIXTURES {
-            let start = closed_loop(&layout("dual_arm_3r"), &slowly(s.clone()), kinds);
+            let start = closed_loop(&layout("dual_arm_3r"), &scaled_velocities(s.clone(), 0.3), kinds);
             let mut all = start.clone();
             let seen = run(&mut all, 3.0, 0.2, &law);
             prop_assert!(seen.momentum[0].max(seen.momentum[1]).max(seen.energy) < tolerance::MAXIMAL_DRIFT, "{:?}", seen);
@@ -131,9 +121,8 @@ proptest! {
     fn a_pinned_target_is_a_link(s in sample(2, 6)) {
         let layout = layout("dual_arm_3r");
         let mut all = robot(&layout, &s);
-        let ([mass, inertia, rx, ry], twist) = s.targets[1];
-        let com = all.end_effector(1) - Vector2::new(rx, ry);
-        let body = all.add(Body { mass, inertia, pose: [0.4, com.x, com.y], twist });
+        let ([mass, inertia, ..], _) = s.targets[1];
+        let body = add_target(&mut all, &s.targets[1], 1, 0.4);
         let contacts = [Contact::new(&all, 1, body, Kind::Pin)];
         all.apply(&contacts, &impact(&all, &contacts));
 

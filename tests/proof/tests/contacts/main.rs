@@ -29,14 +29,39 @@ fn robot(layout: &Layout, s: &RandomState) -> System {
     System::new(layout, s.base_pose, &s.joint_angles, s.base_twist, &s.joint_rates)
 }
 
+/// Adds a target of the sample with its contact point at an end effector; returns the index of its body.
+fn add_target(all: &mut System, target: &([f64; 4], [f64; 3]), arm: usize, yaw: f64) -> usize {
+    let ([mass, inertia, rx, ry], twist) = *target;
+    let com = all.end_effector(arm) - Vector2::new(rx, ry);
+    all.add(Body { mass, inertia, pose: [yaw, com.x, com.y], twist })
+}
+
 /// The sample's targets, one per arm, and their rigid contacts in arm order.
 fn rigid_targets(all: &mut System, s: &RandomState) -> Vec<Contact> {
-    let contact = |(arm, ([mass, inertia, rx, ry], twist)): (usize, &([f64; 4], [f64; 3]))| {
-        let com = all.end_effector(arm) - Vector2::new(*rx, *ry);
-        let body = all.add(Body { mass: *mass, inertia: *inertia, pose: [0.3, com.x, com.y], twist: *twist });
+    let contact = |(arm, target)| {
+        let body = add_target(all, target, arm, 0.3);
         Contact::new(all, arm, body, Kind::Rigid)
     };
     s.targets.iter().enumerate().map(contact).collect()
+}
+
+/// The sample with all velocities scaled by a factor, so that joints make few turns in a motion of some seconds.
+fn scaled_velocities(mut s: RandomState, factor: f64) -> RandomState {
+    let scale = |values: &mut [f64]| values.iter_mut().for_each(|value| *value *= factor);
+    scale(&mut s.base_twist);
+    scale(&mut s.joint_rates);
+    s.targets.iter_mut().for_each(|(_, twist)| scale(twist));
+    s
+}
+
+/// State of the product's robot for the reference's bodies, at the sample's configuration.
+fn robot_state(all: &System, s: &RandomState) -> RobotState {
+    RobotState {
+        base_pose: s.base_pose,
+        joint_angles: s.joint_angles.clone(),
+        base_twist: all.bodies[0].twist,
+        joint_rates: all.joint_rates(),
+    }
 }
 
 fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
