@@ -187,7 +187,7 @@ fn a_closed_loop_by_every_scheme() {
     let start = RobotState { joint_rates: vec![0.0; 6], ..tumbling() };
     let [omega, vx, vy] = start.base_twist;
     let mut poses = [[0.0; 3]; 2];
-    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut poses).expect("tips");
+    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut poses).expect("poses");
     // the whole moves as one rigid body
     let pose @ [_, x, y] = [0.4, 0.5 * (poses[0][1] + poses[1][1]), 0.5 * (poses[0][2] + poses[1][2])];
     let (rx, ry) = (x - start.base_pose[1], y - start.base_pose[2]);

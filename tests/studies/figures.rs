@@ -148,10 +148,10 @@ mod drawn {
         // last joints and end effectors of the pictures, from the last link's pose
         let end = study.approach.end();
         let robot = &of("impact_configuration").panels[0].series;
-        for (arm, tip) in scenario.layout.arms.iter().zip(&end.end_effector_poses) {
+        for (arm, end_effector) in scenario.layout.arms.iter().zip(&end.end_effector_poses) {
             let line = robot.iter().find(|series| series.label.as_ref() == Some(&arm.name)).expect("the arm");
             let (x, y) = line.points[3];
-            assert!((x - tip[1]).abs() + (y - tip[2]).abs() < 1e-12, "{}", arm.name);
+            assert!((x - end_effector[1]).abs() + (y - end_effector[2]).abs() < 1e-12, "{}", arm.name);
         }
     }
 
@@ -214,7 +214,7 @@ mod drawn {
                 let result = &impact.contacts[0];
                 let [_, x, y] = now.end_effector_poses[result.contact.arm];
                 let arrow = points(panel, "impulse on the robot");
-                assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the tip");
+                assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the end effector");
                 let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), result.impulse);
                 assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
                 // a line from the target's COM to the end effector in contact

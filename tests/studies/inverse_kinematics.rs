@@ -33,14 +33,14 @@ fn the_papers_final_pose_is_found_from_its_end_effectors() {
     let mut scenario = with_goals("raina_shah_2017_exact_tracking", &goals);
     let elsewhere = run(&scenario);
     for (found, expected) in end_effector_poses(&elsewhere).iter().zip(end_effector_poses(&study)) {
-        assert_close("tip", &found[1..], &expected[1..], tolerance::REACHED);
+        assert_close("end effector", &found[1..], &expected[1..], tolerance::REACHED);
     }
     let guess = [0.3, -0.2, 0.25, -0.3, 0.2, -0.3];
     let near = original.approach.final_joint_angles.iter().zip(guess).map(|(angle, by)| angle + by);
     scenario.approach.final_joint_angles = near.collect();
     let found = run(&scenario);
     for (found, expected) in end_effector_poses(&found).iter().zip(end_effector_poses(&study)) {
-        assert_close("tip", found, &expected, tolerance::REACHED);
+        assert_close("end effector", found, &expected, tolerance::REACHED);
     }
     let InverseKinematics { joint_angles, rounds, spare_joints, .. } =
         found.inverse_kinematics.as_ref().expect("a solution");
@@ -61,9 +61,9 @@ fn velocities_alone_are_designed() {
     free.approach.step = 0.02;
     free.approach.end = FinalRates::EndEffectorTwists(vec![[None, Some(-0.1), Some(0.02)], [None; 3]]);
     let designed = run(&free);
-    let [first, _] = designed.approach.end().end_effector_twists[..] else { panic!("two tips") };
+    let [first, _] = designed.approach.end().end_effector_twists[..] else { panic!("two end effectors") };
     assert_close("velocity", &first[1..], &[-0.1, 0.02], tolerance::REACHED);
-    assert!(first[0].abs() > 1e-3, "the least rates turn the tip");
+    assert!(first[0].abs() > 1e-3, "the least rates rotate the end effector");
 
     let two_links = r#"
 name = "two"
@@ -92,15 +92,15 @@ fn positions_alone_are_reached_with_joints_to_spare() {
     let places = [[2.0, -1.5], [-2.0, 1.5]];
     let goals = places.map(EndEffectorGoal::Position);
     let study = run(&with_goals("raina_shah_2017_exact_tracking", &goals));
-    for (tip, expected) in end_effector_poses(&study).iter().zip(places) {
-        assert_close("tip", &tip[1..], &expected, tolerance::REACHED);
+    for (end_effector, expected) in end_effector_poses(&study).iter().zip(places) {
+        assert_close("end effector", &end_effector[1..], &expected, tolerance::REACHED);
     }
     assert_eq!(study.inverse_kinematics.as_ref().expect("a solution").spare_joints, 2);
 
     let mut alone = with_goals("raina_shah_2017_exact_tracking", &[goals[0], EndEffectorGoal::Any]);
     alone.approach.end = FinalRates::JointRates(vec![0.01; 6]);
     let study = run(&alone);
-    assert_close("tip", &end_effector_poses(&study)[0][1..], &places[0], tolerance::REACHED);
+    assert_close("end effector", &end_effector_poses(&study)[0][1..], &places[0], tolerance::REACHED);
     assert_eq!(study.inverse_kinematics.expect("a solution").spare_joints, 4);
 }
 
@@ -110,8 +110,8 @@ fn a_yaw_more_than_a_turn_away_is_the_same_pose() {
     let one = run(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0, 1.6, -1.2])]));
     let other =
         run(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Pose([-1.0 + std::f64::consts::TAU, 1.6, -1.2])]));
-    assert_close("tip", &end_effector_poses(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
-    assert_close("tips", &end_effector_poses(&one)[0], &end_effector_poses(&other)[0], tolerance::REACHED);
+    assert_close("end effector", &end_effector_poses(&one)[0], &[-1.0, 1.6, -1.2], tolerance::REACHED);
+    assert_close("end effectors", &end_effector_poses(&one)[0], &end_effector_poses(&other)[0], tolerance::REACHED);
 }
 
 fn fails(scenario: &Scenario) -> InverseKinematicsError {

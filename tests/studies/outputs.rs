@@ -301,29 +301,39 @@ mod mcap_files {
         assert_eq!(captured.impact.contacts.len(), 2);
         for (i, (sample, (time, message))) in samples.iter().zip(&file.messages["/tf"]).enumerate() {
             let poses = poses(message);
-            for (arm, tip) in scenario.layout.arms.iter().zip(&sample.end_effector_poses) {
+            for (arm, end_effector) in scenario.layout.arms.iter().zip(&sample.end_effector_poses) {
                 let pose = poses[&format!("arms/{}/tip", arm.name)];
-                let turns = (pose[0] - tip[0]) / std::f64::consts::TAU;
+                let turns = (pose[0] - end_effector[0]) / std::f64::consts::TAU;
                 assert_close("yaw, but for whole turns", &[turns], &[turns.round()], tolerance::TRANSFORMS);
-                assert_close("tip", &pose[1..], &tip[1..], tolerance::TRANSFORMS);
+                assert_close("tip", &pose[1..], &end_effector[1..], tolerance::TRANSFORMS);
             }
             for result in &captured.impact.contacts {
                 let (target, arm) = (result.contact.target, result.contact.arm);
                 let (name, start) = (&scenario.targets[target].name, study.cases[1].targets[target].pose[0]);
                 let [yaw, x, y] = poses[&format!("targets/{name}")];
-                let (tip, end) = (sample.end_effector_poses[arm], contact_sample.end_effector_poses[arm]);
+                let (end_effector, end) = (sample.end_effector_poses[arm], contact_sample.end_effector_poses[arm]);
                 // the contact point, which rotates with the target
-                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), contact.contact.offset);
+                let ((sin, cos), [rx, ry]) = ((yaw - start).sin_cos(), result.contact.offset);
                 if i + 1 >= before {
                     let held = [x + cos * rx - sin * ry, y + sin * rx + cos * ry];
-                    assert_close("the target is held by the tip", &held, &tip[1..], tolerance::TRANSFORMS);
-                    let turns = (yaw - start - (tip[0] - end[0])) / std::f64::consts::TAU;
+                    assert_close(
+                        "the target moves with the end effector",
+                        &held,
+                        &end_effector[1..],
+                        tolerance::TRANSFORMS,
+                    );
+                    let turns = (yaw - start - (end_effector[0] - end[0])) / std::f64::consts::TAU;
                     assert_close("it turns with it", &[turns], &[turns.round()], tolerance::TRANSFORMS);
                 } else {
                     let twist = scenario.cases[1].target_twists[target];
                     let left = contact_sample.time - sample.time;
                     let meets = [x + twist[1] * left + rx, y + twist[2] * left + ry];
-                    assert_close("it will be at the tip", &meets, &end[1..], tolerance::TRANSFORMS);
+                    assert_close(
+                        "the contact point reaches the end effector",
+                        &meets,
+                        &end[1..],
+                        tolerance::TRANSFORMS,
+                    );
                     let turns = (yaw + twist[0] * left - start) / std::f64::consts::TAU;
                     assert_close("by its spin", &[turns], &[turns.round()], tolerance::TRANSFORMS);
                 }
@@ -394,14 +404,14 @@ mod mcap_files {
         assert_eq!(times("/impact"), [20_000_000_000, 30_000_000_000]);
         assert_eq!(times("/impulses"), times("/impact"));
         let sample = captured.post_impact.samples.iter().find(|sample| sample.time >= 10.0).expect("it goes on");
-        for (message, arms, tips) in [
+        for (message, arms, end_effectors) in [
             (0, &["arm1", "arm2"][..], &captured.post_impact.samples[0].end_effector_poses),
             (1, &["arm2"], &sample.end_effector_poses),
         ] {
             let scene = SceneUpdate::decode(&file.messages["/impulses"][message].1[..]).expect("a scene");
             assert_eq!(scene.entities.iter().map(|entity| entity.id.as_str()).collect::<Vec<_>>(), arms);
             let place = scene.entities.last().expect("an arrow").arrows[0].pose.expect("a pose").position.expect("one");
-            assert_eq!([place.x, place.y], tips[1][1..], "it starts at the tip");
+            assert_eq!([place.x, place.y], end_effectors[1][1..], "it starts at the end effector");
             let numbers: BTreeMap<_, _> =
                 numbers(&file, "/impact", &file.messages["/impact"][message].1).into_iter().collect();
             let [n, fx, fy] = captured.impact.exact.impulses[0].filter(|_| message == 0).unwrap_or_default();

@@ -214,7 +214,7 @@ fn an_arm_without_a_goal_keeps_its_angles() {
     let rotated = EndEffectorGoal::Pose([pose[0] + 2.0 * std::f64::consts::TAU, pose[1], pose[2]]);
     let study = run(&with_goals(&[rotated, EndEffectorGoal::Any], &[[0.0; 3]; 2]));
     let end = study.approach.end();
-    assert_close("tip", &end.end_effector_poses[0], &pose, tolerance::STEERED);
+    assert_close("end effector", &end.end_effector_poses[0], &pose, tolerance::STEERED);
     let angles = &study.approach.samples[0].state.joint_angles;
     assert_close("held", &end.state.joint_angles[3..], &angles[3..], tolerance::STEERED);
     assert!(difference(&end.state.base_pose, &[0.0; 3]) > 0.05 && study.terminal_errors[1].is_none());

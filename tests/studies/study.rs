@@ -66,12 +66,12 @@ fn exact_tracking_gives_the_notes_digits() {
     let [yaw, x, y] = end.state.base_pose;
     assert_close("yaw, y", &[yaw, y], &[0.687_457_5, 0.019_422_8], 10.0 * tolerance::PRINTED_DIGITS);
     assert_close("x", &[x], &[6.8e-6], 10.0 * tolerance::PRINTED_DIGITS);
-    let tips: Vec<f64> = end.end_effector_poses.iter().flat_map(|pose| [pose[1], pose[2]]).collect();
+    let end_effectors: Vec<f64> = end.end_effector_poses.iter().flat_map(|pose| [pose[1], pose[2]]).collect();
     let expected = [2.009_266_1, -1.396_365_1, -2.009_958_2, 1.434_549_4];
-    assert_close("tips", &tips, &expected, 10.0 * tolerance::PRINTED_DIGITS);
+    assert_close("end effectors", &end_effectors, &expected, 10.0 * tolerance::PRINTED_DIGITS);
     // the end effectors have the designed twists
-    assert_close("tip twist 1", &end.end_effector_twists[0], &[0.0, -0.1, 0.0], tolerance::APPROACH);
-    assert_close("tip twist 2", &end.end_effector_twists[1], &[0.0, 0.1, 0.0], tolerance::APPROACH);
+    assert_close("end effector twist 1", &end.end_effector_twists[0], &[0.0, -0.1, 0.0], tolerance::APPROACH);
+    assert_close("end effector twist 2", &end.end_effector_twists[1], &[0.0, 0.1, 0.0], tolerance::APPROACH);
 }
 
 #[test]

@@ -200,12 +200,12 @@ fn errors(model: &dyn CloneModel, (angles, rates, targets): Input<'_>) -> Vec<Re
     let state = State { base_pose: [0.1, 0.2, 0.3], joint_angles: angles, base_twist: [0.1; 3], joint_rates: rates };
     let (pose, mut joint) = (&state.base_pose, vec![0.0; joints]);
     let (mut square, mut reduced) = (vec![0.0; size * size], vec![0.0; joints * joints]);
-    let (mut tips, mut bodies) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; joints + 1]);
+    let (mut end_effectors, mut bodies) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; joints + 1]);
     let mut vector = vec![0.0; joints];
     vec![
-        model.end_effector_poses(pose, angles, &mut tips),
+        model.end_effector_poses(pose, angles, &mut end_effectors),
         model.end_effector_jacobian(pose, angles, &mut vec![0.0; 3 * arms * size]),
-        model.end_effector_twists(&state, &mut tips),
+        model.end_effector_twists(&state, &mut end_effectors),
         model.body_poses(pose, angles, &mut bodies),
         model.body_twists(&state, &mut bodies),
         model.mass_matrix(pose, angles, &mut square),

@@ -141,14 +141,15 @@ fn a_merged_robot_moves_on_as_after_the_capture() {
         merged.merge(&state.base_pose, state.joint_angles, targets).expect("merged");
         let found = merged.momentum(&state).expect("momentum");
         let apart = model.momentum(&state).expect("momentum");
-        let (mut tips, mut twists) = (vec![[0.0; 3]; model.arms()], vec![[0.0; 3]; model.arms()]);
-        model.end_effector_poses(&state.base_pose, state.joint_angles, &mut tips).expect("poses");
+        let (mut end_effectors, mut twists) = (vec![[0.0; 3]; model.arms()], vec![[0.0; 3]; model.arms()]);
+        model.end_effector_poses(&state.base_pose, state.joint_angles, &mut end_effectors).expect("poses");
         model.end_effector_twists(&state, &mut twists).expect("twists");
         let (mut angular, mut energy) = (apart.angular_momentum, apart.kinetic_energy);
         let mut size = angular.abs();
-        for ((target, tip), twist) in targets.iter().zip(&tips).zip(&twists) {
+        for ((target, end_effector), twist) in targets.iter().zip(&end_effectors).zip(&twists) {
             let Some(target) = target else { continue };
-            let (momentum, kinetic) = target.momentum(&target.position(tip), &target.twist_from_contact(twist));
+            let (momentum, kinetic) =
+                target.momentum(&target.position(end_effector), &target.twist_from_contact(twist));
             angular += momentum[0];
             size += momentum[0].abs() + kinetic;
             energy += kinetic;

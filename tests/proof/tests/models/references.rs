@@ -136,9 +136,15 @@ fn contacts_hold(what: &str, state: &Value) {
         let Some(target) = target else { continue };
         let twist = three(&after["target_twists_after"][arm]);
         let contact = target.contact_jacobian().map(|row| dot(&row, &twist));
-        let tip = [0, 1, 2].map(|row| dot(&numbers(&expect["end_effector_jacobian"][3 * arm + row]), &velocity));
-        let size = tip.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
-        assert_close(&format!("{what}: contact of arm {arm}"), &contact, &tip, tolerance::OUTSIDE_IMPACT * size);
+        let end_effector =
+            [0, 1, 2].map(|row| dot(&numbers(&expect["end_effector_jacobian"][3 * arm + row]), &velocity));
+        let size = end_effector.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+        assert_close(
+            &format!("{what}: contact of arm {arm}"),
+            &contact,
+            &end_effector,
+            tolerance::OUTSIDE_IMPACT * size,
+        );
     }
 }
 
@@ -186,9 +192,9 @@ fn evaluate(model: &dyn Model<f64>, value: &Value) -> Value {
     let (mut mass, mut bias) = (vec![0.0; size * size], vec![0.0; size]);
     model.mass_matrix(&pose, &angles, &mut mass).expect("mass matrix");
     model.bias(&state, &mut bias).expect("bias");
-    let (mut poses, mut tips) = (vec![[0.0; 3]; arms], vec![0.0; 3 * arms * size]);
+    let (mut poses, mut end_effectors) = (vec![[0.0; 3]; arms], vec![0.0; 3 * arms * size]);
     model.end_effector_poses(&pose, &angles, &mut poses).expect("poses");
-    model.end_effector_jacobian(&pose, &angles, &mut tips).expect("Jacobian");
+    model.end_effector_jacobian(&pose, &angles, &mut end_effectors).expect("Jacobian");
     let (mut inertia, mut reduced) = (vec![0.0; joints * joints], vec![0.0; joints]);
     let mut jacobian = vec![0.0; 3 * arms * joints];
     model.reduced_dynamics(&state, &mut inertia, &mut reduced, &mut jacobian).expect("reduced dynamics");
@@ -211,7 +217,7 @@ fn evaluate(model: &dyn Model<f64>, value: &Value) -> Value {
         "generalized_inertia": matrix(&inertia, joints),
         "generalized_bias": reduced,
         "end_effector_poses": poses,
-        "end_effector_jacobian": matrix(&tips, size),
+        "end_effector_jacobian": matrix(&end_effectors, size),
         "generalized_jacobian": matrix(&jacobian, joints),
         "base_acceleration": base,
         "joint_accelerations": accelerations,

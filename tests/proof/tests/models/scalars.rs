@@ -70,10 +70,10 @@ fn dual_numbers_give_the_power_balance() {
     let drift = [conserved.linear_momentum[0].1, conserved.linear_momentum[1].1, conserved.angular_momentum.1];
     assert_close("momentum rate", &drift, &[0.0; 3], tolerance::DUAL * scale);
 
-    let tips = model.end_effector_poses(&pose, &angles);
+    let end_effectors = model.end_effector_poses(&pose, &angles);
     let twists = Model::<f64>::default().end_effector_twists(&POSE, &ANGLES, &TWIST, &RATES);
-    for (tip, twist) in tips.iter().zip(twists) {
-        assert_close("tip", &tip.map(|d| d.1), &twist, tolerance::DUAL);
+    for (end_effector, twist) in end_effectors.iter().zip(twists) {
+        assert_close("end effector", &end_effector.map(|d| d.1), &twist, tolerance::DUAL);
     }
 }
 

@@ -30,7 +30,7 @@ macro_rules! impact {
                     let g = DMatrix::from_fn(SIZE, SIZE, |i, j| found.impact_matrix[i][j]);
                     prop_assert!(g == g.transpose() && g.clone().cholesky().is_some(), "G is symmetric positive definite");
                     let after: Vec<f64> = found.base_twist_after.into_iter().chain(found.joint_rates_after).collect();
-                    let tips = model.end_effector_twists(&pose, &angles, &found.base_twist_after, &found.joint_rates_after);
+                    let end_effectors = model.end_effector_twists(&pose, &angles, &found.base_twist_after, &found.joint_rates_after);
                     let m = DMatrix::from_fn(SIZE, SIZE, |i, j| model.mass_matrix(&pose, &angles)[i][j]);
                     let change = DVector::from_column_slice(&after) - DVector::from_column_slice(&velocity::<SIZE>(&s));
                     let je = model.end_effector_jacobian(&pose, &angles);
@@ -46,7 +46,7 @@ macro_rules! impact {
                         end.linear_momentum[1] - start.linear_momentum[1],
                     ];
                     for (arm, target) in targets.iter().enumerate() {
-                        let after = target.twist_from_contact(&tips[arm]);
+                        let after = target.twist_from_contact(&end_effectors[arm]);
                         impulses.rows_mut(3 * arm, 3).copy_from_slice(&target.impulse(&after));
                         let place = target.position(&poses[arm]);
                         let ((before, t0), (now, t1)) = (target.momentum(&place, &target.twist), target.momentum(&place, &after));

@@ -87,7 +87,7 @@ macro_rules! inertia {
                         close("J_e v", by_jacobian, twists[i / 3][i % 3], scale, tolerance::IDENTITY);
                     }
                     for (pose, twist) in dual.end_effector_poses(&dual_pose, &dual_angles).iter().zip(twists) {
-                        (0..3).for_each(|i| close("tip", pose[i].1, twist[i], scale, tolerance::IDENTITY));
+                        (0..3).for_each(|i| close("end effector", pose[i].1, twist[i], scale, tolerance::IDENTITY));
                     }
                     let bodies = model.body_twists(&pose, &angles, &twist, &rates);
                     for (pose, twist) in dual.body_poses(&dual_pose, &dual_angles).iter().zip(bodies) {

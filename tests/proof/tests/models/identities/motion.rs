@@ -62,8 +62,8 @@ macro_rules! motion {
                     let full = model.forward_dynamics_with_wrenches(
                         &pose, &angles, &twist, &rates, &torques, &s.base_wrench, &wrenches,
                     );
-                    let tips = model.end_effector_poses(&pose, &angles);
-                    let tip_twists = model.end_effector_twists(&pose, &angles, &twist, &rates);
+                    let end_effectors = model.end_effector_poses(&pose, &angles);
+                    let end_effector_twists = model.end_effector_twists(&pose, &angles, &twist, &rates);
                     for (base, joints, (base_wrench, wrenches)) in [
                         (free.base_acceleration, free.joint_accelerations, none),
                         (based.base_acceleration, based.joint_accelerations, (s.base_wrench, none.1)),
@@ -76,8 +76,8 @@ macro_rules! motion {
                         let mut power: f64 = torques.iter().zip(rates).map(|(t, r)| t * r).sum();
                         let mut force = [0.0; 3];
                         let at_base = std::iter::once((base_wrench, pose, twist));
-                        let at_tips = (0..ARMS).map(|i| (wrenches[i], tips[i], tip_twists[i]));
-                        for ([n, fx, fy], [_, x, y], [omega, vx, vy]) in at_base.chain(at_tips) {
+                        let at_end_effectors = (0..ARMS).map(|i| (wrenches[i], end_effectors[i], end_effector_twists[i]));
+                        for ([n, fx, fy], [_, x, y], [omega, vx, vy]) in at_base.chain(at_end_effectors) {
                             power += n * omega + fx * vx + fy * vy;
                             force[0] += n + x * fy - y * fx;
                             force[1] += fx;
