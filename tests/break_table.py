@@ -250,19 +250,19 @@ FAULTS = [
         "n - (rx * fy - ry * fx)",
     ),
     Fault(
-        "holds without the centripetal acceleration of the arms",
+        "constraint forces without the centripetal acceleration of the arms",
         "crates/planar-dynamics/src/contact/constraint_solver.rs",
         "(*ax + x, *ay + y)",
         "(*ax + T::ZERO * x, *ay + T::ZERO * y)",
     ),
     Fault(
-        "holds without the centripetal acceleration of what is held",
+        "constraint forces without the centripetal acceleration of the partner",
         "crates/planar-dynamics/src/contact/constraint_solver.rs",
         "? + omega * omega * row.partner_distance)",
         "? + T::ZERO * omega * row.partner_distance)",
     ),
     Fault(
-        "offset of a hold turned the wrong way",
+        "offset of a constraint rotated the wrong way",
         "crates/planar-dynamics/src/contact/loop_constraint.rs",
         "offset: [cos * dx + sin * dy, cos * dy - sin * dx]",
         "offset: [cos * dx - sin * dy, cos * dy + sin * dx]",
