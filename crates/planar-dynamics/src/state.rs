@@ -97,7 +97,7 @@ pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
     let wrong = Error::StateVector { found: vector.len() };
     let parts = vector.split_last_chunk::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
     let (halves, work) = parts.ok_or(wrong)?;
-    let (positions, rates) = halves.split_at(halves.len() / 2);
+    let (positions, rates) = halves.split_at_checked(halves.len() / 2).ok_or(wrong)?;
     Ok(StateVector { positions, rates, work })
 }
 
@@ -109,7 +109,7 @@ pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVector<&mut [T], &mut [T; 3
     let wrong = Error::StateVector { found: vector.len() };
     let parts = vector.split_last_chunk_mut::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
     let (halves, work) = parts.ok_or(wrong)?;
-    let (positions, rates) = halves.split_at_mut(halves.len() / 2);
+    let (positions, rates) = halves.split_at_mut_checked(halves.len() / 2).ok_or(wrong)?;
     Ok(StateVector { positions, rates, work })
 }
 

@@ -259,8 +259,9 @@ pub fn symplectic_step(model: &Model<f32>, time: f32, x: &mut [f32; LENGTH]) -> 
         rate.fill(0.0);
         now.write(rate)?;
         let StateVector { positions: velocities, rates: forces, .. } = split_mut(rate)?;
-        velocities.copy_from_slice(forces);
-        forces.fill(0.0);
+        for (velocity, force) in velocities.iter_mut().zip(forces.iter_mut()) {
+            *velocity = core::mem::take(force);
+        }
         canonical.add_energy_gradient(model, &now, forces)
     })
 }

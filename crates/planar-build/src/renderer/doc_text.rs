@@ -4,13 +4,14 @@ use crate::format::{Function, Graph, Operations, Variable};
 use serde_json::{Value, json};
 
 /// Documentation of a function without its arguments, as lines that start with `///`.
-pub fn function(function: &Function) -> String {
+pub fn function(function: &Function) -> Vec<String> {
     let Function { description, equation, source, outputs, .. } = function;
     let returns = match outputs.as_slice() {
         [only] => format!(" Returns {}.", variable(only)),
         _ => String::new(),
     };
-    format!("/// {description}\n///\n/// ```text\n/// {equation}\n/// ```\n///\n/// {source}.{returns}\n///")
+    let text = format!("{description}\n\n```text\n{equation}\n```\n\n{source}.{returns}\n\n");
+    text.lines().map(|line| format!("/// {line}").trim_end().to_owned()).collect()
 }
 
 /// Description, shape and unit of an input or output.

@@ -68,7 +68,7 @@ impl<T: Real> ConstraintSolver<'_, T> {
         let unconstrained = State { base_twist: *free.base, joint_rates: free.joints, ..state };
         self.model.end_effector_twists(&unconstrained, delassus.end_effectors)?;
         self.model.end_effector_jacobian(&state.base_pose, state.joint_angles, jacobian)?;
-        let jacobians = jacobian.chunks_exact(3 * (3 + state.joint_rates.len()));
+        let jacobians = jacobian.chunks_exact((3 * (3 + state.joint_rates.len())).max(1));
         for ([_, ax, ay], jacobian) in delassus.end_effectors.iter_mut().zip(jacobians) {
             let [x, y] = jacobian_rate_times_velocity(jacobian, &state);
             (*ax, *ay) = (*ax + x, *ay + y);

@@ -38,8 +38,7 @@ pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize)
 /// Solves `L D Lᵀ x = b` with the factors of [`factor`]; b becomes x.
 pub(crate) fn substitute<T: Real>(factors: &[T], right: &mut [T]) {
     let size = right.len();
-    let rows = || factors.chunks_exact(size.max(1)).enumerate().take(size);
-    for (i, row) in rows() {
+    for (i, row) in factors.chunks_exact(size.max(1)).enumerate().take(size) {
         if let Some((solved, [value, ..])) = right.split_at_mut_checked(i) {
             *value -= dot(solved, row);
         }
@@ -47,8 +46,8 @@ pub(crate) fn substitute<T: Real>(factors: &[T], right: &mut [T]) {
     for (value, divisor) in right.iter_mut().zip(factors.iter().step_by(size + 1)) {
         *value /= *divisor;
     }
-    for (i, row) in rows().rev() {
-        if let Some((unsolved, [value, ..])) = right.split_at_mut_checked(i) {
+    for i in (0..size).rev() {
+        if let (Some((unsolved, [value, ..])), Some(row)) = (right.split_at_mut_checked(i), factors.get(i * size..)) {
             add_scaled(unsolved, -*value, row);
         }
     }
