@@ -4,6 +4,12 @@
 //! plain Rust: [`generated`]. The phases follow Raina & Shah, *Impact Modeling and Estimation for Multi-Arm Space Robot
 //! while Capturing Tumbling Orbiting Objects* (2017).
 //!
+//! It never contains: a formula of the dynamics of its own, in place of the core's, the generated or the generic ones.
+//!
+//! Methods of models are traits: the derivation of each equation is in `codegen`, its generic formula in
+//! `planar_build::prove::generic`, in files of the same names (`reduced_dynamics.py` and `reduced.rs` for eq. (2),
+//! `impact.py` and `impact.rs` for eqs. (10) to (16)).
+//!
 //! # Equations of the paper
 //! | equation | meaning | item |
 //! |---|---|---|
@@ -12,10 +18,10 @@
 //! | (3)–(5) | target, contact Jacobian `J_t` | [`target::Target`], [`target::Target::contact_jacobian`] |
 //! | (6), (7) | approach trajectory; as printed | [`trajectory::Quartic`]; [`trajectory::QuarticAsPrinted`] |
 //! | (10), (11), (13) | momentum balance of the impact: in full coordinates; reduced | [`impact::exact`]; [`impact::paper`] |
-//! | (12) | impulse | [`target::Target::impulse`] |
+//! | (12) | impulse, solved from eq. (3) | [`target::Target::impulse`] |
 //! | (14) | target twist after the impact | [`target::Target::twist_from_contact`] |
 //! | (15), (16) | joint rates after the impact: G and H | [`dynamics::Impact::reduced_impact`], [`impact::paper`] |
-//! | (17) | base twist from the momentum | [`impact::paper`], [`formulation::ReducedCoordinates`] |
+//! | (17) | base twist from the momentum (`momentum_equation.rs` of the core) | [`impact::paper`], [`formulation::ReducedCoordinates`] |
 //! | (18) | PD control | [`control::ProportionalDerivative`] |
 //!
 //! # Beyond the paper
