@@ -204,7 +204,8 @@ pub fn simulate(
     let (mut before, mut rate) = (x.clone(), x.clone());
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
-        recorder.record(stepper.control(), time, &x, true, i % stride == 0).map_err(at(time))?;
+        stepper.begin_step(time, &x).map_err(at(time))?;
+        recorder.record(stepper.control(), time, &x, i % stride == 0).map_err(at(time))?;
         if locator.is_idle() {
             stepper.advance(span, &mut x).map_err(at(time))?;
         } else {
@@ -219,13 +220,13 @@ pub fn simulate(
             if let Some((event, when)) = locator.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
                 within(when, &mut x).map_err(at(when))?;
                 recorder.add_saturation(when - time);
-                recorder.record(stepper.control(), when, &x, false, true).map_err(at(when))?;
+                recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;
                 return Ok(recorder.end(when, Some((event, when))));
             }
         }
         recorder.add_saturation(end - time);
         tick();
     }
-    recorder.record(stepper.control(), timing.duration, &x, false, true).map_err(at(timing.duration))?;
+    recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
     Ok(recorder.end(timing.duration, None))
 }

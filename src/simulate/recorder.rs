@@ -39,13 +39,12 @@ impl<'a> Recorder<'a> {
         })
     }
 
-    /// Audits an instant, begins a step of the control law if `begins_step`, and keeps a sample if `sampled`.
+    /// Audits an instant, notes which actuators the law's torques saturate, and keeps a sample if `sampled`.
     pub(crate) fn record(
         &mut self,
         control: &mut dyn Control<f64>,
         time: f64,
         x: &[f64],
-        begins_step: bool,
         sampled: bool,
     ) -> Result<(), Error> {
         let model = self.system.model;
@@ -57,9 +56,6 @@ impl<'a> Recorder<'a> {
         self.limit_violations.record(self.system.joint_limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &input)?;
-        if begins_step {
-            control.begin_step(time, model, &state)?;
-        }
         // the law determines saturation together with its torques
         if sampled || !control.saturated().is_empty() || control.base_torque().is_some() {
             control.joint_torques(time, model, &state, &mut self.torques)?;

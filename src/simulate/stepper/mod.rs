@@ -9,6 +9,7 @@ use crate::control::Control;
 use crate::error::Error;
 use crate::simulate::equation::{Equation, Form};
 use crate::simulate::system::System;
+use crate::state::State;
 
 /// By which integrator, in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -131,6 +132,12 @@ impl<'a> Stepper<'a> {
         };
         let equation = Equation::new(system, control, form);
         Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
+    }
+
+    /// Begins a step of the control law at `x`, before its torques are evaluated.
+    pub(crate) fn begin_step(&mut self, time: f64, x: &[f64]) -> Result<(), Error> {
+        let Equation { system, control, .. } = &mut self.equation;
+        control.begin_step(time, system.model, &State::from_vector(x, system.model.joints())?)
     }
 
     /// The control law.
