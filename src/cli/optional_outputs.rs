@@ -1,16 +1,12 @@
 //! Files of `run` that only a build with the cargo feature of the same name can write.
 
 use super::CommandError;
-use planar_capture::capture::Study;
+use planar_capture::capture::{CaseResult, Study};
 use planar_capture::output::atomic_file::StagedFile;
 use planar_capture::scenario::Scenario;
+use std::fs::File;
+use std::io::{self, BufWriter};
 use std::path::Path;
-#[cfg(any(feature = "parquet", feature = "mcap"))]
-use {
-    planar_capture::capture::CaseResult,
-    std::fs::File,
-    std::io::{self, BufWriter},
-};
 
 /// A kind of output.
 #[derive(Clone, Copy)]
@@ -105,8 +101,8 @@ fn mcap(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedF
     file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, to))
 }
 
-#[cfg(any(feature = "parquet", feature = "mcap"))]
-fn file_per_case(
+/// Stages a file `CASE.extension` for each case.
+pub fn file_per_case(
     folder: &Path,
     study: &Study,
     extension: &str,

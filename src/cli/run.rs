@@ -73,11 +73,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 /// Writes all files before the first gets its name, so that a full disk leaves no mixture of two runs.
 fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, study: &Study) -> Result<(), CommandError> {
     create_folder(folder)?;
-    let mut files = Vec::new();
-    for case in &study.cases {
-        let path = folder.join(format!("{}.csv", case.name));
-        files.push(StagedFile::new(&path, |to| write_csv(scenario, study, case, to))?);
-    }
+    let mut files =
+        optional_outputs::file_per_case(folder, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
     let summary = summary(scenario, arguments.dynamics.name(), study);
     files.push(StagedFile::new(&folder.join("summary.json"), |to| {
         serde_json::to_writer_pretty(&mut *to, &summary)?;

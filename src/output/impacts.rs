@@ -31,7 +31,7 @@ pub fn impacts<'a>(study: &'a Study, case: &'a CaseResult) -> Vec<ImpactEvent<'a
     let first = ImpactEvent {
         time: approach.duration,
         solution: &capture.impact,
-        before: &approach.samples[approach.samples.len() - 1],
+        before: approach.end(),
         targets: &case.targets,
         after: 0,
     };

@@ -24,8 +24,7 @@ const ARROW: f64 = 0.3;
 /// The configuration at the start and at the end of the approach; with contact detection instead of the latter, at each
 /// impact of each case.
 pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
-    let samples = &study.approach.samples;
-    let (start, end) = (&samples[0], &samples[samples.len() - 1]);
+    let (start, end) = (&study.approach.samples[0], study.approach.end());
     let at_start = robot(&scenario.layout, &start.state);
     let single = |name: &str, series| Figure::column(name, panels(vec![Snapshot { series, ..Snapshot::default() }]));
     if scenario.contact.detection == Detection::Event {
@@ -76,8 +75,8 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
     let mut snapshots: Vec<Snapshot> = events.iter().take(MAX_IMPACTS).map(at_impact).collect();
     if snapshots.is_empty() {
         let approach = case.approach(study);
-        let end = &approach.samples[approach.samples.len() - 1];
-        snapshots.push(snapshot(format!("No contact by {} s", approach.duration), end, &case.targets, &[]));
+        let title = format!("No contact by {} s", approach.duration);
+        snapshots.push(snapshot(title, approach.end(), &case.targets, &[]));
     }
     Figure { name: format!("impact_configuration_{}", case.name), columns: 2, panels: panels(snapshots) }
 }
