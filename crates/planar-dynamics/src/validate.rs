@@ -1,6 +1,7 @@
 //! Checks of lengths and numbers between slices and straight-line code; public for generated code alone.
 
 use crate::error::Error;
+use crate::linear::copy;
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::target::Target;
@@ -19,7 +20,7 @@ pub fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(
 pub fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
     length(quantity, values.len(), into.len())?;
     finite(quantity, values)?;
-    into.copy_from_slice(values);
+    copy(values, into);
     Ok(())
 }
 

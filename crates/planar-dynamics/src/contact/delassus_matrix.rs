@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::linear::add_scaled;
 use crate::scalar::Real;
 use crate::state::{Coordinates, Forces, State, coordinates_mut};
-use crate::validate::{finite, length};
+use crate::validate::finite;
 
 /// The number of bits of a [`RowSet`].
 const MAXIMUM_ROWS: usize = 64;
@@ -63,7 +63,9 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         let (joints, arms, count) = (model.joints(), model.arms(), Self::count(contacts));
         let expected = workspace_length(joints, arms, bodies.len(), count);
         let wrong = Error::Length { quantity: "contact workspace", expected, found: workspace.len() };
-        length("contact workspace", expected, workspace.len())?;
+        if workspace.len() != expected {
+            return Err(wrong);
+        }
         if count > MAXIMUM_ROWS {
             return Err(Error::ContactRows { limit: MAXIMUM_ROWS, found: count });
         }

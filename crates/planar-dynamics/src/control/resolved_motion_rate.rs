@@ -108,9 +108,9 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
             let units = [T::ONE, *reach, *reach];
             let components =
                 jacobian.chunks_exact(joints.max(1)).zip(targets.zip(actual)).zip(controlled.iter().zip(&units));
-            for ((row, (((x_d, t_d), a_d), ((x, t), a))), (_, unit)) in components.filter(|(_, (on, _))| **on) {
-                let missing = Error::Length { quantity: "rows", expected: 3 * arms, found: count };
-                let (place, right) = equations.next().ok_or(missing)?;
+            let controlled = components.filter(|(_, (on, _))| **on);
+            for (((row, (((x_d, t_d), a_d), ((x, t), a))), (_, unit)), (place, right)) in controlled.zip(&mut equations)
+            {
                 let error = (*x_d - *x).limit_magnitude(self.error_limit * *unit);
                 let rate = *t_d + self.pose_gain * error - (*t - dot(row, state.joint_rates));
                 *right = (*a_d + self.pose_gain * (*t_d - *t) - *a + self.rate_gain * rate) / *unit;

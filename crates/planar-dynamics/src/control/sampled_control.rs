@@ -3,6 +3,7 @@
 use super::{BaseTorque, Control};
 use crate::dynamics::Model;
 use crate::error::Error;
+use crate::linear::copy;
 use crate::scalar::Real;
 use crate::state::State;
 use crate::validate::length;
@@ -29,7 +30,7 @@ impl<'a, T: Real, C: Control<T>> SampledControl<'a, T, C> {
 impl<T: Real, C: Control<T>> Control<T> for SampledControl<'_, T, C> {
     fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         length("joint_torques", self.held.len(), torques.len())?;
-        torques.copy_from_slice(self.held);
+        copy(self.held, torques);
         Ok(())
     }
 
