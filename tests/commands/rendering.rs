@@ -95,6 +95,20 @@ fn no_block_is_too_long_for_a_compiler_that_describes_its_variables() {
     assert!((250..=310).contains(&longest), "{longest} variables in scope");
 }
 
+/// Documentation stands in one column with what it documents, and ends with text.
+#[test]
+fn documentation_is_indented_like_its_item() {
+    let column = |line: &str| line.len() - line.trim_start().len();
+    let is_doc = |line: &str| line.trim_start().starts_with("///");
+    for name in layouts() {
+        let text = rendered(&name);
+        for (line, next) in text.lines().zip(text.lines().skip(1)).filter(|(line, _)| is_doc(line)) {
+            assert_eq!(column(line), column(next), "{name}:\n{line}\n{next}");
+            assert!(is_doc(next) || line.trim() != "///", "{name}: an empty line before\n{next}");
+        }
+    }
+}
+
 /// A copy of `codegen/` in which something is wrong.
 fn broken(change: impl Fn(&Path)) -> String {
     let folder = tempfile::tempdir().expect("a folder");
