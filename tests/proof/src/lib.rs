@@ -19,6 +19,14 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+/// Hands every shipped layout to a macro that makes tests of it; the tests say when one is missing.
+#[macro_export]
+macro_rules! for_every_layout {
+    ($tests:ident) => {
+        $tests!(asymmetric_wheel boom_7r dual_arm_2r dual_arm_3r single_arm_2r single_arm_3r triple_arm_3r);
+    };
+}
+
 /// A file of the repository.
 pub fn file(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2);

@@ -4,6 +4,7 @@ use crate::{rigid_targets, robot, scaled_velocities, simulated, targets};
 use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
+use planar_capture::generated;
 use planar_capture::impact::{RigidImpactOutput, exact};
 use planar_capture::layout::Layout;
 use planar_capture::owned::{CloneModel, RobotState};
@@ -14,7 +15,7 @@ use planar_proof::maximal::impact::impact;
 use planar_proof::maximal::motion::{accelerations, joint_accelerations, run};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{RandomState, config, sample};
-use planar_proof::{close, layout, tolerance};
+use planar_proof::{close, for_every_layout, layout, tolerance};
 use proptest::prelude::*;
 
 /// The product's model: generated code where this build has it.
@@ -113,12 +114,12 @@ fn check_motion(layout: &Layout, s: &RandomState, duration: f64, controlled: boo
 }
 
 macro_rules! instantly {
-    ($($layout:ident $arms:literal $joints:literal),*) => {
+    ($($layout:ident)*) => {
         proptest! {
             #![proptest_config(ProptestConfig { cases: 12, ..config() })]
             $(
             #[test]
-            fn $layout(s in sample($arms, $joints)) {
+            fn $layout(s in sample(generated::$layout::ARMS, generated::$layout::JOINTS)) {
                 let layout = layout(stringify!($layout));
                 check_kinematics(&layout, &s);
                 check_forward_dynamics(&layout, &s);
@@ -127,7 +128,7 @@ macro_rules! instantly {
         }
     };
 }
-instantly!(asymmetric_wheel 3 6, boom_7r 1 7, dual_arm_2r 2 4, dual_arm_3r 2 6, single_arm_2r 1 2, single_arm_3r 1 3, triple_arm_3r 3 9);
+for_every_layout!(instantly);
 
 #[test]
 fn every_shipped_layout_is_here() {

@@ -14,7 +14,7 @@ use planar_proof::maximal::impact::{Contact, Impact, Kind, ProductImpact, impact
 use planar_proof::maximal::random::{PlannedContact, Scene, random_contacts};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{RandomState, config, sample};
-use planar_proof::{close, layout, tolerance};
+use planar_proof::{close, for_every_layout, layout, tolerance};
 use proptest::prelude::*;
 
 /// The reference's impact and the bodies after it.
@@ -59,7 +59,7 @@ macro_rules! mixtures {
         }
     };
 }
-mixtures!(asymmetric_wheel boom_7r dual_arm_2r dual_arm_3r single_arm_2r single_arm_3r triple_arm_3r);
+for_every_layout!(mixtures);
 
 /// Arms of one link, which have too few joints for most loops.
 fn short_arms(name: &str) -> Layout {

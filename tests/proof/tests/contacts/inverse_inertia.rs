@@ -7,12 +7,13 @@ use planar_capture::body::Body;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, InverseInertia};
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
+use planar_capture::generated;
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::target::Target;
 use planar_dynamics::nalgebra::matrix;
 use planar_proof::sample::{RandomState, config, sample};
-use planar_proof::{assert_close, close, layout, tolerance};
+use planar_proof::{assert_close, close, for_every_layout, layout, tolerance};
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -47,18 +48,18 @@ fn check_end_effectors(layout: &Layout, s: &RandomState) {
 }
 
 macro_rules! end_effectors {
-    ($($layout:ident $arms:literal $joints:literal),*) => {
+    ($($layout:ident)*) => {
         proptest! {
             #![proptest_config(ProptestConfig { cases: 16, ..config() })]
             $(
             #[test]
-            fn $layout(s in sample($arms, $joints)) {
+            fn $layout(s in sample(generated::$layout::ARMS, generated::$layout::JOINTS)) {
                 check_end_effectors(&layout(stringify!($layout)), &s);
             })*
         }
     };
 }
-end_effectors!(asymmetric_wheel 3 6, boom_7r 1 7, dual_arm_2r 2 4, dual_arm_3r 2 6, single_arm_2r 1 2, single_arm_3r 1 3, triple_arm_3r 3 9);
+for_every_layout!(end_effectors);
 
 /// Its symmetric linear part, velocity per impulse.
 fn force_part(inertia: &InverseInertia<f64>) -> Matrix2<f64> {

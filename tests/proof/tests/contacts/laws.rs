@@ -8,7 +8,7 @@ use planar_proof::maximal::impact::{Contact, Impact, Kind, impact};
 use planar_proof::maximal::random::{Scene, random_contacts};
 use planar_proof::maximal::system::System;
 use planar_proof::sample::{RandomState, config};
-use planar_proof::{assert_close, layout, tolerance};
+use planar_proof::{assert_close, for_every_layout, layout, tolerance};
 use proptest::prelude::*;
 
 /// The scene's impact: bodies before, contacts, impact, bodies after.
@@ -148,7 +148,7 @@ macro_rules! mixtures {
         }
     };
 }
-mixtures!(asymmetric_wheel boom_7r dual_arm_2r dual_arm_3r single_arm_2r single_arm_3r triple_arm_3r);
+for_every_layout!(mixtures);
 
 /// The scene with its first contact alone, as an approaching bounce with e = 1.
 fn one_bounce(mut scene: Scene, layout: &Layout, direction: f64) -> Scene {

@@ -10,8 +10,8 @@ use planar_capture::registry::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::sampling::{REGIMES, Regime, RegimeSample};
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
-use planar_proof::layout;
 use planar_proof::tolerance::{INHERENT, LAYOUTS, SHORT_DISTANCE, equivalence};
+use planar_proof::{for_every_layout, layout};
 use std::collections::BTreeSet;
 
 /// States of each regime and layout.
@@ -138,11 +138,11 @@ fn full_impact(model: &dyn Model<f64>, state: &State<'_, f64>, targets: &[Target
 }
 
 macro_rules! inherent {
-    ($($name:ident $feature:literal),* $(,)?) => {$(
+    ($($name:ident)*) => {$(
         #[test]
         fn $name() {
             use planar_capture::generated::$name::{ARMS, JOINTS, Model};
-            let (model, layout) = (Model::<f64>::default(), layout($feature));
+            let (model, layout) = (Model::<f64>::default(), layout(stringify!($name)));
             let reference = generic(&layout);
             for index in 0..SAMPLES {
                 let sample = Regime::Moving.sample(&layout, SEED, index);
@@ -156,7 +156,7 @@ macro_rules! inherent {
                 let found = model.generalized_jacobian(&state.base_pose, angles).generalized_jacobian;
                 let (mut i, mut c, mut j) = ([0.0; JOINTS * JOINTS], [0.0; JOINTS], [0.0; 3 * ARMS * JOINTS]);
                 reference.reduced_dynamics(&state, &mut i, &mut c, &mut j).expect("J");
-                check($feature, "generalized_jacobian alone", found.as_flattened(), &j);
+                check(stringify!($name), "generalized_jacobian alone", found.as_flattened(), &j);
 
                 let found = model.full_impact(
                     &state.base_pose,
@@ -169,8 +169,8 @@ macro_rules! inherent {
                     &targets.map(|t| t.twist),
                 );
                 let (matrix, momentum) = full_impact(&*reference, &state, &targets);
-                check($feature, "full impact_matrix", found.impact_matrix.as_flattened(), &matrix);
-                check($feature, "full impact_momentum", &found.impact_momentum, &momentum);
+                check(stringify!($name), "full impact_matrix", found.impact_matrix.as_flattened(), &matrix);
+                check(stringify!($name), "full impact_momentum", &found.impact_momentum, &momentum);
             }
         }
     )*};
@@ -179,15 +179,7 @@ macro_rules! inherent {
 mod outputs_without_a_trait {
     use super::*;
 
-    inherent!(
-        asymmetric_wheel "asymmetric_wheel",
-        boom_7r "boom_7r",
-        dual_arm_2r "dual_arm_2r",
-        dual_arm_3r "dual_arm_3r",
-        single_arm_2r "single_arm_2r",
-        single_arm_3r "single_arm_3r",
-        triple_arm_3r "triple_arm_3r",
-    );
+    for_every_layout!(inherent);
 }
 
 /// Joint angles, joint rates, targets.

@@ -125,4 +125,4 @@ macro_rules! impact {
     )*};
 }
 
-for_every_layout!(impact);
+planar_proof::for_every_layout!(impact);

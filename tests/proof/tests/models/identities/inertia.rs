@@ -153,4 +153,4 @@ macro_rules! inertia {
     )*};
 }
 
-for_every_layout!(inertia);
+planar_proof::for_every_layout!(inertia);

@@ -4,14 +4,8 @@
 
 use planar_capture::target::Target;
 use planar_proof::dual::Dual;
+use planar_proof::for_every_layout;
 use planar_proof::sample::RandomState;
-
-/// Every shipped layout; the test below says when one is missing.
-macro_rules! for_every_layout {
-    ($tests:ident) => {
-        $tests!(asymmetric_wheel boom_7r dual_arm_2r dual_arm_3r single_arm_2r single_arm_3r triple_arm_3r);
-    };
-}
 
 mod impact;
 mod inertia;

@@ -194,4 +194,4 @@ macro_rules! motion {
     )*};
 }
 
-for_every_layout!(motion);
+planar_proof::for_every_layout!(motion);
