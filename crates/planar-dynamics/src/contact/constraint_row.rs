@@ -1,6 +1,6 @@
 //! The rows of a contact: wrench directions and their velocities.
 
-use super::{Contact, ContactLaw, ContactPartner, entry};
+use super::{Contact, ContactPartner, entry};
 use crate::error::Error;
 use crate::linear::dot;
 use crate::scalar::Real;
@@ -35,14 +35,8 @@ impl<T: Real> ConstraintRow<T> {
 impl<T: Real> Contact<T> {
     /// Its rows: 3, 2 or 1.
     pub(super) fn rows(&self) -> impl Iterator<Item = ConstraintRow<T>> + use<T> {
-        let (zero, one) = (T::ZERO, T::ONE);
-        let (wrenches, count, restitution) = match self.law {
-            ContactLaw::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3, None),
-            ContactLaw::Pin => ([[zero, one, zero], [zero, zero, one], [zero; 3]], 2, None),
-            ContactLaw::Bounce { normal: [x, y], restitution } => {
-                ([[zero, x, y], [zero; 3], [zero; 3]], 1, Some(restitution))
-            }
-        };
+        let (wrenches, count) = self.law.wrenches();
+        let restitution = self.law.bounce().map(|(_, restitution)| restitution);
         let Self { arm, partner, offset: [rx, ry], .. } = *self;
         wrenches.into_iter().take(count).map(move |wrench| {
             let [n, fx, fy] = wrench;

@@ -44,7 +44,7 @@ impl<T: Real> ConstraintSolver<'_, T> {
     /// Number of rows: 3 for each rigid constraint, 2 for each pin.
     #[must_use]
     pub fn rows(&self) -> usize {
-        self.constraints.iter().map(|constraint| if constraint.yaw.is_some() { 3 } else { 2 }).sum()
+        self.constraints.iter().map(|constraint| constraint.law().kind().constraints()).sum()
     }
 
     /// Length of [`ConstraintWorkspace::numbers`].

@@ -61,11 +61,6 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         workspace: &'a mut [T],
     ) -> Result<Self, Error> {
         let (joints, arms, count) = (model.joints(), model.arms(), Self::count(contacts));
-        let expected = workspace_length(joints, arms, bodies.len(), count);
-        let wrong = Error::Length { quantity: "contact workspace", expected, found: workspace.len() };
-        if workspace.len() != expected {
-            return Err(wrong);
-        }
         if count > MAXIMUM_ROWS {
             return Err(Error::ContactRows { limit: MAXIMUM_ROWS, found: count });
         }
@@ -75,12 +70,10 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
                 finite("contact normal and restitution", &[x, y, restitution])?;
             }
         }
+        let expected = workspace_length(joints, arms, bodies.len(), count);
+        let wrong = Error::Length { quantity: "contact workspace", expected, found: workspace.len() };
         let mut rest = workspace;
-        let mut part = |length: usize| {
-            let (part, others) = core::mem::take(&mut rest).split_at_mut_checked(length).ok_or(wrong)?;
-            rest = others;
-            Ok(part)
-        };
+        let mut part = |length: usize| rest.split_off_mut(..length).ok_or(wrong);
         let zero_rates = part(joints)?;
         zero_rates.fill(T::ZERO);
         let kinds = contacts.iter().flat_map(Contact::rows).enumerate();
@@ -95,6 +88,9 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
             zero_rates,
             bilateral: kinds.fold(0, |set, (i, row)| set | RowSet::from(row.restitution.is_none()) << i),
         };
+        if !rest.is_empty() {
+            return Err(wrong);
+        }
         delassus.compute(model, base_pose, joint_angles, bodies)?;
         Ok(delassus)
     }

@@ -1,4 +1,6 @@
-//! The kinds of contacts, their constraints and their laws of impact.
+//! The kinds of contacts, their constraints, the rows of each, and their laws of impact.
+
+use crate::scalar::Scalar;
 
 /// A kind of contact, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,6 +83,19 @@ impl<T: Copy> ContactLaw<T> {
         }
     }
 
+    /// The wrench directions [n, fx, fy] of its rows in inertial axes, and how many of the three there are.
+    pub(super) fn wrenches(&self) -> ([[T; 3]; 3], usize)
+    where
+        T: Scalar,
+    {
+        let (zero, one) = (T::ZERO, T::ONE);
+        match *self {
+            Self::Rigid => ([[one, zero, zero], [zero, one, zero], [zero, zero, one]], 3),
+            Self::Pin => ([[zero, one, zero], [zero, zero, one], [zero; 3]], 2),
+            Self::Bounce { normal: [x, y], .. } => ([[zero, x, y], [zero; 3], [zero; 3]], 1),
+        }
+    }
+
     /// Normal and restitution of a bounce.
     #[must_use]
     pub fn bounce(&self) -> Option<([T; 2], T)> {
@@ -88,6 +103,12 @@ impl<T: Copy> ContactLaw<T> {
             Self::Bounce { normal, restitution } => Some((*normal, *restitution)),
             Self::Rigid | Self::Pin => None,
         }
+    }
+
+    /// The law of a contact that continues, by whether it holds the relative yaw.
+    #[must_use]
+    pub const fn holding(yaw: bool) -> Self {
+        if yaw { Self::Rigid } else { Self::Pin }
     }
 
     /// The law of a kind; only a bounce uses `normal` and `restitution`.

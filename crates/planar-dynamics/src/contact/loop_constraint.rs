@@ -37,13 +37,19 @@ impl<T: Real> LoopConstraint<T> {
         })
     }
 
+    /// The law of its contact.
+    #[must_use]
+    pub const fn law(&self) -> ContactLaw<T> {
+        ContactLaw::holding(self.yaw.is_some())
+    }
+
     /// The contact for this pose of the partner.
     #[must_use]
     pub fn contact(&self, [yaw, ..]: &[T; 3]) -> Contact<T> {
         let (sin, cos) = Scalar::sin_cos(*yaw);
         let [x, y] = self.offset;
-        let law = if self.yaw.is_some() { ContactLaw::Rigid } else { ContactLaw::Pin };
-        Contact { arm: self.arm, partner: self.partner, offset: [cos * x - sin * y, sin * x + cos * y], law }
+        let offset = [cos * x - sin * y, sin * x + cos * y];
+        Contact { arm: self.arm, partner: self.partner, offset, law: self.law() }
     }
 
     /// The constraint errors in the order of the contact's rows: yaw (rad, rigid only), x and y (m).
