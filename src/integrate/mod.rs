@@ -1,4 +1,5 @@
-//! The integrators of the core ([`planar_dynamics::integrate`]), and one with adaptive steps.
+//! The integrators of the core ([`planar_dynamics::integrate`]), and with the feature `std` one with adaptive steps of
+//! order 9: 16 evaluations per step, and 10 for dense output; its error is the tolerance.
 
 #[cfg(feature = "std")]
 pub mod adaptive;

@@ -173,7 +173,7 @@ impl PhaseError {
 
     fn hint(&self) -> &'static str {
         match self.source {
-            Error::UnsupportedBodies { .. } => "",
+            Error::UnsupportedBodies { .. } => ", expected `coordinates = \"full\"`",
             Error::Tolerance { .. } => " (a larger one may help)",
             _ => " (a shorter step may help)",
         }

@@ -96,9 +96,7 @@ pub enum Error {
         step: f64,
     },
     /// Reduced coordinates of a system with more than the robot.
-    #[error(
-        "reduced coordinates are for a robot alone, found {count} bodies or holds beside it, expected `coordinates = \"full\"`"
-    )]
+    #[error("reduced coordinates are for a robot alone, found {count} bodies or constraints beside it")]
     UnsupportedBodies {
         /// How many bodies and constraints there are.
         count: usize,

@@ -1,4 +1,4 @@
-//! Eq. (18): the paper's control law.
+//! Proportional-derivative control, eq. (18): joint torques from the errors of joint angles and rates.
 
 use super::{Control, desired};
 use crate::dynamics::Model;

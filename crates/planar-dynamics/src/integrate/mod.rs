@@ -5,7 +5,6 @@
 //! | [`RungeKutta4`] | 4 | 4 | nothing; its error at 5 ms is below most others |
 //! | [`SemiImplicitEuler`] | 1 | 1 | nothing in these coordinates; for fast, rough results |
 //! | [`GaussLegendre`] | 6 | 3 per iteration | both momenta and symplecticity, in [canonical variables] |
-//! | `Adaptive` (feature `std`) | 9 | 16, and 10 for dense output | nothing; its error is the tolerance |
 //!
 //! [canonical variables]: crate::formulation::CanonicalVariables
 

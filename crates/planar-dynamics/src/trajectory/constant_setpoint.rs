@@ -1,4 +1,4 @@
-//! Constant joint angles.
+//! A trajectory of constant joint angles, for control laws that hold a configuration.
 
 use super::{DesiredJoint, Trajectory};
 use crate::scalar::Real;

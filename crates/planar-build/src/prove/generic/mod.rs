@@ -126,9 +126,20 @@ fn store_split(names: [&'static str; 2], vector: &DVector<f64>, joints: &mut [f6
 fn factor(what: &'static str, matrix: &DMatrix<f64>) -> Result<Cholesky<f64, Dyn>, Error> {
     finite(what, matrix.as_slice())?;
     let limit = 8.0 * f64::EPSILON;
-    let factors = matrix.clone().cholesky().ok_or(Error::Singular { what, pivot: 0.0, limit })?;
+    let Some(factors) = matrix.clone().cholesky() else {
+        return Err(Error::Singular { what, pivot: failing_pivot(matrix), limit });
+    };
     let lower = factors.l_dirty();
     let ratios = (0..matrix.nrows()).map(|k| lower[(k, k)] * lower[(k, k)] / matrix[(k, k)]);
     pivot(what, ratios.fold(1.0, f64::min))?;
     Ok(factors)
+}
+
+/// The first pivot that is not positive, relative to its diagonal entry: the Schur complement of the leading block.
+fn failing_pivot(matrix: &DMatrix<f64>) -> f64 {
+    let pivots = (0..matrix.nrows()).filter_map(|k| {
+        let (leading, column) = (matrix.view((0, 0), (k, k)).into_owned().cholesky()?, matrix.view((0, k), (k, 1)));
+        Some((matrix[(k, k)] - column.dot(&leading.solve(&column))) / matrix[(k, k)].abs().max(f64::MIN_POSITIVE))
+    });
+    pivots.fold(f64::INFINITY, f64::min)
 }
