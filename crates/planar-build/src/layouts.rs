@@ -1,4 +1,4 @@
-//! For build scripts of crates with a robot of their own: graphs to Rust, without Python.
+//! Rust modules from committed graphs, for build scripts: needs no Python.
 
 use crate::command::command;
 use crate::pipeline::{fresh, names, write};

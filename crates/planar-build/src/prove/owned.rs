@@ -1,4 +1,5 @@
-//! What the core only borrows, owned: states, and models behind a pointer.
+//! States and models on the heap, for the evaluation of one state here and for simulations in the root; the core
+//! borrows both.
 
 use planar_dynamics::dynamics::Model;
 use planar_dynamics::state;

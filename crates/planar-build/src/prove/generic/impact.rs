@@ -1,4 +1,4 @@
-//! Rigid capture with explicit contact matrices.
+//! Rigid capture, eqs. (10) to (16): impulses and velocities after the impact from explicit contact matrices G and H.
 
 use super::{Generic, GenericState, factor, length, store_matrix, store_split};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};

@@ -1,4 +1,4 @@
-//! How a solved system magnifies rounding.
+//! The factor by which a system of equations amplifies rounding errors, from its matrix.
 
 use nalgebra::{DMatrix, DVector};
 
