@@ -49,7 +49,7 @@ def curves(page, title):
     return found[0], found[1:]
 
 
-def tips_at(folder, case, time):
+def end_effectors_at(folder, case, time):
     """[x, y] of each end effector at the last row nearest to a time, and that row's time."""
     with (folder / f"{case}.csv").open() as rows:
         row = min(reversed(list(csv.DictReader(rows))), key=lambda row: abs(float(row["time [s]"]) - time))
@@ -75,16 +75,16 @@ def large_target(page, folder, summary, _scenario):
         contacts = case["impact"]["contacts"]
         end = float(page.get_attribute("#scrub", "max"))
         for wanted in (20.05, 0.5 * end, 0.97 * end):
-            tips, time = tips_at(folder, case["name"], wanted)
+            end_effectors, time = end_effectors_at(folder, case["name"], wanted)
             scrub(page, time)
             shown = page.evaluate("state.shown")
             (panel,) = shown["targets"]
             c, s = math.cos(panel["angle"]), math.sin(panel["angle"])
-            for contact, tip, arm in zip(contacts, tips, shown["arms"], strict=True):
-                near(arm["tip"], tip, f"{case['name']}: tip at {time} s")
+            for contact, end_effector, arm in zip(contacts, end_effectors, shown["arms"], strict=True):
+                near(arm["end_effector"], end_effector, f"{case['name']}: end_effector at {time} s")
                 x, y = contact["offset"]  # the panel's yaw at the impact is 0
                 point = [panel["point"][0] + c * x - s * y, panel["point"][1] + s * x + c * y]
-                near(point, tip, f"{case['name']}: contact at {time} s")
+                near(point, end_effector, f"{case['name']}: contact at {time} s")
         kinds = [hold["kind"] for hold in page.evaluate("current()[1].holds")]
         assert kinds == [contact["kind"] for contact in contacts], kinds
         conserved(page, [case["impact"]])
@@ -114,12 +114,12 @@ def elastic_rebound(page, folder, summary, scenario):
         for i, (time, impact) in enumerate(impacts):
             marks.nth(i).click()
             near([float(page.input_value("#scrub"))], [time], "the mark of an impact")
-            tips, _ = tips_at(folder, case["name"], time)
+            end_effectors, _ = end_effectors_at(folder, case["name"], time)
             arrows = [
                 one for one in page.evaluate("state.shown.arrows") if one["impulse"] == impact["contacts"][0]["impulse"]
             ]
             assert len(arrows) == 1, f"{case['name']}: no arrow at {time} s"
-            near(arrows[0]["tip"], tips[arrows[0]["arm"]], "where the arrow starts")
+            near(arrows[0]["end_effector"], end_effectors[arrows[0]["arm"]], "where the arrow starts")
             assert red_pixels(page) > 100, f"{case['name']}: no arrow is seen at {time} s"
         scrub(page, impacts[-1][0] + 4.5)
         assert red_pixels(page) < 20, "the arrow stays"

@@ -14,7 +14,7 @@ pub mod residual_motion;
 mod sequence;
 pub mod terminal_error;
 
-use crate::capture::approach::Approach;
+use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
 use crate::capture::impact::{ImpactResult, ImpactSolution};
@@ -128,7 +128,7 @@ pub enum StudyError {
     Approach(PhaseError),
     /// An end effector is inside its target when the approach begins.
     #[error(
-        "case `{case}`: the tip of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
+        "case `{case}`: the end effector of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
          detection begin apart"
     )]
     Inside {
@@ -209,7 +209,7 @@ pub fn study(
         }
         None => scenario,
     };
-    let approach = Approach::new(scenario, sample);
+    let approach = ApproachTracking::new(scenario, sample);
     let terminal_rates = match (&scenario.approach.end, &inverse_kinematics) {
         (FinalRates::EndEffectorTwists(_), Some(inverse_kinematics)) => Some(inverse_kinematics.rates.clone()),
         (FinalRates::EndEffectorTwists(wanted), None) if !by_end_effectors => {
@@ -287,7 +287,7 @@ impl Study {
             found.extend(phase_failures(&format!("{}, post-impact", case.name), &captured.post_impact));
             if captured.penetration > PENETRATION_BOUND {
                 found.push(format!(
-                    "{}: a tip is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    "{}: an end effector is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
                     case.name, captured.penetration
                 ));
             }

@@ -1,6 +1,6 @@
 //! The capture sequence of one case: impacts, and the motion between them.
 
-use crate::capture::approach::Approach;
+use crate::capture::approach::ApproachTracking;
 use crate::capture::assembly::{Assembly, Attachment};
 use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
 use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, signed_distance};
@@ -51,7 +51,7 @@ impl CaptureSequence<'_> {
         let start = self.targets_at_start();
         let pairs = self.pairs(&[]);
         self.check_apart(&start, &pairs)?;
-        let approach = Approach::new(self.scenario, self.sample);
+        let approach = ApproachTracking::new(self.scenario, self.sample);
         observer.begin(&format!("approach of {}", self.case.name), approach.steps());
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let model = (self.make)();

@@ -129,7 +129,7 @@ fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
     let far = goals.filter_map(|(i, goal)| {
         let Reach { distance, limit, .. } = Reach::new(scenario, i, goal.position()?).filter(Reach::is_exceeded)?;
         let why = format!(
-            "out of reach, {} m from where the robot's COM is at the end of the approach; no pose of {} brings its tip \
+            "out of reach, {} m from where the robot's COM is at the end of the approach; no pose of {} brings its end effector \
              further out than {} m",
             short(distance),
             scenario.layout.arms[i].name,

@@ -55,6 +55,6 @@ fn inner_wheels(i: usize, arm: &Arm) -> impl Iterator<Item = Warning> {
 fn wheels_alone(layout: &Layout) -> Option<Warning> {
     layout.arms.iter().all(|arm| arm.reach() == 0.0).then(|| {
         let why = "no link of any arm has a length: reaction wheels alone, nothing can be reached";
-        warning("arm[0].link[0].length", why, "length is the distance to the next joint or to the tip, m")
+        warning("arm[0].link[0].length", why, "length is the distance to the next joint or to the end effector, m")
     })
 }

@@ -58,12 +58,12 @@ fn singular(scenario: &Scenario) -> Option<Warning> {
     let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
     (margin < SINGULAR).then(|| {
         let why = format!(
-            "close to a singular pose of {}, where some tip motions take very high joint rates: the smallest singular \
+            "close to a singular pose of {}, where some end effector motions need very high joint rates: the smallest singular \
              value of the generalized Jacobian is {} of the largest",
             names.join(" and "),
             short(margin)
         );
-        let help = "bend the elbows: stretched and folded arms cannot move their tips along themselves";
+        let help = "choose bent arms: the end effector of a stretched or folded arm cannot move along the arm";
         warning("approach.final_joint_angles", why, help)
     })
 }
@@ -77,7 +77,7 @@ fn too_few_joints(scenario: &Scenario) -> Option<Warning> {
     let wanted = twists.as_flattened().iter().flatten().count();
     (wanted > joints).then(|| {
         let why = format!("{wanted} numbers to be given by {joints} joints, which can give few such twists");
-        let help = "an arm needs three links to move its tip any way, two for [vx, vy]; final_joint_rates sets the \
+        let help = "an arm needs three links for any twist of its end effector, two for [vx, vy]; final_joint_rates sets the \
                     rates themselves";
         warning("approach.final_end_effector_twists", why, help)
     })

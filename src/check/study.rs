@@ -32,7 +32,7 @@ fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;
     match &approach.final_end_effector_poses {
-        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  tips                to {}", goal_poses(goals))?,
+        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  end effectors       to {}", goal_poses(goals))?,
         Some(goals) => writeln!(out, "  final angles        to be designed, for {}", goal_poses(goals))?,
         None => writeln!(out, "  largest turn        {}", turn(scenario))?,
     }
@@ -96,10 +96,10 @@ fn trajectory(scenario: &Scenario) -> String {
         FinalRates::EndEffectorTwists(twists) => {
             let wanted = |twist: &EndEffectorTwistGoal| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
             let twists: Vec<_> = twists.iter().map(wanted).collect();
-            format!("tip twists {} rad/s, m/s", twists.join(", "))
+            format!("end effector twists {} rad/s, m/s", twists.join(", "))
         }
     };
-    let whose = if by_end_effectors(scenario) { " of the tips" } else { "" };
+    let whose = if by_end_effectors(scenario) { " of the end effectors" } else { "" };
     let then = scenario.approach.trajectory_duration;
     let then = then.map_or_else(String::new, |time| format!(" in {} s, and there until the end", short(time)));
     format!("{shape}{whose}, to {end}{then}")
@@ -108,8 +108,8 @@ fn trajectory(scenario: &Scenario) -> String {
 fn goal_poses(goals: &[EndEffectorGoal]) -> String {
     let goals = goals.iter().map(|goal| match goal {
         EndEffectorGoal::Any => "any pose".to_owned(),
-        EndEffectorGoal::Position(position) => format!("tip at {} m", point(*position)),
-        EndEffectorGoal::Pose(pose) => format!("tip pose {} rad, m", list(pose)),
+        EndEffectorGoal::Position(position) => format!("end effector at {} m", point(*position)),
+        EndEffectorGoal::Pose(pose) => format!("end effector pose {} rad, m", list(pose)),
     });
     goals.collect::<Vec<_>>().join(", ")
 }
@@ -159,7 +159,7 @@ fn law(scenario: &Scenario) -> String {
             short(*rate_gain),
             short(*singularity_threshold)
         ),
-        Tracking::Exact => "exact, torques from inverse dynamics".to_owned(),
+        Tracking::InverseDynamics => "exact, torques from inverse dynamics".to_owned(),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
             format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }

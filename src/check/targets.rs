@@ -53,7 +53,7 @@ fn off_outline(scenario: &Scenario, target: &Target) -> Option<Warning> {
         Outline::Polygon { .. } if distance > 0.0 => format!("{} m outside the polygon", short(distance)),
         Outline::Polygon { .. } => format!("{} m inside the polygon", short(-distance)),
     };
-    let help = "contact runs from the target's COM to the point on its rim that the tip takes hold of, m";
+    let help = "contact runs from the target's COM to the point on its rim that the end effector holds, m";
     Some(warning("contact", why, help))
 }
 
@@ -91,7 +91,7 @@ fn too_few_joints(scenario: &Scenario, i: usize, target: &Target) -> Option<Warn
     // the target itself brings three degrees of freedom
     (most > joints + 3).then(|| {
         let why = format!("{most} constraints hold it, but its arms' {joints} joints and itself have {}", joints + 3);
-        warning("kind", why, "such an impact has no unique solution; a pin has 2 constraints, a rigid grip 3")
+        warning("kind", why, "such an impact has no unique solution; a pin has 2 constraints, a rigid contact 3")
     })
 }
 
@@ -107,7 +107,7 @@ fn out_of_reach(scenario: &Scenario, target: &Target) -> Option<Warning> {
     let Reach { center_of_mass, distance, limit } = contact_reach(scenario, target).filter(Reach::is_exceeded)?;
     let why = format!(
         "puts the contact point {} m from where the robot's COM is at the end of the approach; no pose brings the \
-         arm's tip further out than {} m",
+         arm's end effector further out than {} m",
         short(distance),
         short(limit)
     );

@@ -1,4 +1,4 @@
-//! `planar-capture check FILE.toml`.
+//! `planar-capture check FILE.toml`: describes a layout or scenario and warns of unlikely numbers.
 
 use super::{CommandError, color, layout};
 use planar_capture::check::inspect;

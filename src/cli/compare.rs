@@ -1,4 +1,4 @@
-//! `planar-capture compare LAYOUT.toml`.
+//! `planar-capture compare LAYOUT.toml`: generated against generic dynamics at random states.
 
 use super::{CommandError, file_error, layout};
 use planar_capture::compare::{Comparison, LargestError, compare};

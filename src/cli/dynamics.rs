@@ -1,4 +1,4 @@
-//! The choice between implementations of the dynamics.
+//! The option `--dynamics`: generated or generic models of a layout.
 
 use planar_capture::layout::Layout;
 use planar_capture::owned::CloneModel;

@@ -1,4 +1,4 @@
-//! `planar-capture eval LAYOUT.toml STATES.json`.
+//! `planar-capture eval LAYOUT.toml STATES.json`: all quantities at given states, as JSON.
 
 use super::dynamics::Dynamics;
 use super::{CommandError, file_error, layout};

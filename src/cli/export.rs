@@ -1,4 +1,4 @@
-//! `planar-capture export LAYOUT.toml`.
+//! `planar-capture export LAYOUT.toml`: writes a layout as a URDF.
 
 use super::{CommandError, layout, write_new};
 use planar_capture::urdf;

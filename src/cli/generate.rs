@@ -1,4 +1,4 @@
-//! `planar-capture generate LAYOUT.toml --out FILE.rs`.
+//! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module.
 
 use super::progress::spinner;
 use super::{CommandError, file_error, layout};

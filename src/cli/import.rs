@@ -1,4 +1,4 @@
-//! `planar-capture import ROBOT.urdf`.
+//! `planar-capture import ROBOT.urdf`: writes the layout of a URDF.
 
 use super::{CommandError, file_error, write_new};
 use planar_capture::diagnostic::read_text;
@@ -19,7 +19,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
     /// Link whose frame is the tip of its arm, once for each arm [default: the first massless link fixed to its end].
     #[arg(long = "tip", value_name = "LINK")]
-    tips: Vec<String>,
+    end_effectors: Vec<String>,
     /// Name of the layout [default: from the robot's name].
     #[arg(long)]
     name: Option<String>,
@@ -28,7 +28,7 @@ pub struct Arguments {
 /// Converts the URDF and prints the remarks.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let file = arguments.urdf.display().to_string();
-    let options = ImportOptions { name: arguments.name.clone(), tips: arguments.tips.clone() };
+    let options = ImportOptions { name: arguments.name.clone(), end_effectors: arguments.end_effectors.clone() };
     let imported = urdf::import(&read_text(&arguments.urdf, "URDF")?, &options).map_err(file_error(&file))?;
     write_new(arguments.out.as_deref(), &imported.to_toml(&file))?;
     for joint in imported.joints.iter().filter(|joint| !joint.is_same_angle()) {

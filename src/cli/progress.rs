@@ -1,4 +1,4 @@
-//! Progress bars on a terminal; nothing elsewhere.
+//! Progress bars of simulations and derivations, drawn on terminals only.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use planar_capture::capture::Observer;

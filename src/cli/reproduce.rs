@@ -1,4 +1,4 @@
-//! `planar-capture reproduce --out FOLDER`.
+//! `planar-capture reproduce --out FOLDER`: the paper's tables and figures from simulations.
 
 use super::CommandError;
 use std::path::PathBuf;

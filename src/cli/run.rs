@@ -1,4 +1,4 @@
-//! `planar-capture run SCENARIO.toml`.
+//! `planar-capture run SCENARIO.toml`: simulates a scenario and writes its results.
 
 use super::dynamics::Dynamics;
 use super::progress::Progress;

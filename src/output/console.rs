@@ -40,7 +40,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
         writeln!(
             out,
             "  final joint angles found in {} iterations [rad]: {}\n  (end effectors miss by {:.1e}; {})",
-            found.rounds,
+            found.iterations,
             list(&found.joint_angles, 6),
             found.residual,
             redundancy(found.spare_joints)

@@ -28,7 +28,7 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
         value["approach"]["designed"] = json!({
             "final_joint_angles": found.joint_angles,
             "residual": found.residual,
-            "rounds": found.rounds,
+            "rounds": found.iterations,
             "singularity_margin": found.rates.singularity_margin,
             "spare_joints": found.spare_joints,
         });

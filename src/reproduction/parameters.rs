@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::markdown::{number, point, table};
-use super::printed::{BODIES, JOINT_ANGLES, LOCATIONS, TARGET, TIPS};
+use super::printed::{BODIES, END_EFFECTORS, JOINT_ANGLES, LOCATIONS, TARGET};
 use crate::scenario::PlannedContact;
 use crate::simulate::Sample;
 
@@ -12,8 +12,8 @@ pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
         ("bodies", bodies(&runs[0])),
         ("targets", targets(&runs[0])),
         ("joint_angles", joint_angles(runs)),
-        ("tips", end_effectors(runs)),
-        ("tip_velocities", velocities(runs)),
+        ("end_effectors", end_effectors(runs)),
+        ("end_effector_velocities", velocities(runs)),
         ("ends", ends(runs)),
     ]
 }
@@ -86,14 +86,14 @@ fn end_effectors(runs: &[Run; 3]) -> String {
         [x, y]
     };
     let mut rows = Vec::new();
-    let [initial, last] = TIPS;
+    let [initial, last] = END_EFFECTORS;
     for (i, (initial, last)) in initial.into_iter().zip(last).enumerate() {
         let start = end_effector(&runs[0].study.approach.samples[0], i);
-        let mut row = vec![format!("tip {}", i + 1), point(initial, 2), point(start, 4), point(last, 1)];
+        let mut row = vec![format!("end effector {}", i + 1), point(initial, 2), point(start, 4), point(last, 1)];
         row.extend(runs.iter().map(|run| point(end_effector(end(run), i), 4)));
         rows.push(row);
     }
-    let mut row = vec!["tip 1 from the base COM".to_owned(), String::new(), String::new()];
+    let mut row = vec!["end effector 1 from the base COM".to_owned(), String::new(), String::new()];
     row.push(number(last[0][0].hypot(last[0][1]), 4));
     row.extend(runs.iter().map(|run| {
         let [x, y] = end_effector(end(run), 0);
@@ -109,7 +109,7 @@ fn velocities(runs: &[Run; 3]) -> String {
     for (i, wanted) in [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]].into_iter().enumerate() {
         let text =
             |[omega, vx, vy]: [f64; 3], digits| format!("{}, {}", point([vx, vy], digits), number(omega, digits));
-        let mut row = vec![format!("tip {}", i + 1), text(wanted, 1)];
+        let mut row = vec![format!("end effector {}", i + 1), text(wanted, 1)];
         row.extend(runs.iter().map(|run| text(end(run).end_effector_twists[i], 4)));
         rows.push(row);
     }

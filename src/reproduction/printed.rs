@@ -10,6 +10,6 @@ pub(super) const LOCATIONS: [[f64; 2]; 2] = [[2.0, -2.0], [-2.0, 2.0]];
 pub(super) const JOINT_ANGLES: [[f64; 6]; 2] =
     [[0.698, -1.571, 1.047, 2.444, 1.571, -1.047], [-0.524, -1.393, -0.035, 2.618, -1.393, -0.035]];
 /// Table 4: initial and final positions of both end effectors, m.
-pub(super) const TIPS: [[[f64; 2]; 2]; 2] = [[[2.9, 0.05], [-2.9, 0.05]], [[2.0, -1.5], [-2.0, 1.5]]];
+pub(super) const END_EFFECTORS: [[[f64; 2]; 2]; 2] = [[[2.9, 0.05], [-2.9, 0.05]], [[2.0, -1.5], [-2.0, 1.5]]];
 /// Table 5: impulses at contact points 1 and 2 in cases 1 to 3, N s.
 pub(super) const IMPULSES: [[f64; 2]; 3] = [[0.0873, 0.0873], [0.0131, 0.0131], [0.0873, 0.0873]];

@@ -62,7 +62,7 @@ pub enum FinalRates {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tracking {
     /// Without error, with torques from inverse dynamics; the arms start at rest.
-    Exact,
+    InverseDynamics,
     /// τ = Kp (θd − θ) + Kd (θ̇d − θ̇), the default.
     ProportionalDerivative {
         /// Kp for each joint in N m/rad, 0 or more; default 49.
@@ -106,7 +106,7 @@ impl Tracking {
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
-            Self::Exact => "exact",
+            Self::InverseDynamics => "exact",
             Self::ProportionalDerivative { .. } => "pd",
             Self::ResolvedMotionRate { .. } => "resolved_motion_rate",
             Self::ComputedTorque { .. } => "computed_torque",

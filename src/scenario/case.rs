@@ -1,4 +1,4 @@
-//! `[[case]]`: variants of a capture.
+//! Cases: variants of a capture that differ in the kinds of their contacts.
 
 use crate::contact::ContactKind;
 use crate::scenario::Target;

@@ -11,11 +11,11 @@ pub(crate) struct Equation<'a> {
     pub(crate) system: &'a System<'a>,
     pub(crate) control: &'a mut dyn Control<f64>,
     torques: Vec<f64>,
-    form: Form,
+    form: FormulationWorkspace,
 }
 
 /// The coordinates of an equation, with their working space.
-pub(crate) enum Form {
+pub(crate) enum FormulationWorkspace {
     Full,
     Reduced(ReducedSpace),
     Canonical(CanonicalSpace),
@@ -80,7 +80,7 @@ pub(crate) struct CanonicalSpace {
     results: Vec<f64>,
 }
 
-impl Form {
+impl FormulationWorkspace {
     /// Reduced coordinates, with the momentum of `x`; [`Error::UnsupportedBodies`] where there are bodies beside the
     /// robot.
     pub(crate) fn reduced(system: &System<'_>, x: &[f64]) -> Result<Self, Error> {
@@ -127,7 +127,7 @@ impl Form {
 }
 
 impl<'a> Equation<'a> {
-    pub(crate) fn new(system: &'a System<'a>, control: &'a mut dyn Control<f64>, form: Form) -> Self {
+    pub(crate) fn new(system: &'a System<'a>, control: &'a mut dyn Control<f64>, form: FormulationWorkspace) -> Self {
         Self { system, control, torques: vec![0.0; system.model.joints()], form }
     }
 
@@ -135,8 +135,12 @@ impl<'a> Equation<'a> {
     pub(crate) fn derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
         let Self { system, control, torques, form } = self;
         match form {
-            Form::Reduced(space) => space.borrow().derivative(system.model, *control, time, x, rate, torques),
-            Form::Full | Form::Canonical(_) => system.derivative(*control, time, x, rate, torques),
+            FormulationWorkspace::Reduced(space) => {
+                space.borrow().derivative(system.model, *control, time, x, rate, torques)
+            }
+            FormulationWorkspace::Full | FormulationWorkspace::Canonical(_) => {
+                system.derivative(*control, time, x, rate, torques)
+            }
         }
     }
 
@@ -144,7 +148,7 @@ impl<'a> Equation<'a> {
     /// momenta without forces are constant to the last bit; with them `f = M v̇ + c` has the constraint forces too. The
     /// bodies keep twists in place of momenta, as their masses are constant.
     pub(crate) fn canonical_derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let Self { system, control, torques, form: Form::Canonical(space) } = self else {
+        let Self { system, control, torques, form: FormulationWorkspace::Canonical(space) } = self else {
             return self.derivative(time, x, rate);
         };
         let (model, joints) = (system.model, system.model.joints());
@@ -175,7 +179,7 @@ impl<'a> Equation<'a> {
     /// conversion there and back would round.
     pub(crate) fn convert_to_momenta(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &self.form {
-            Form::Canonical(space) if space.last_x == x => x.copy_from_slice(&space.last_momenta),
+            FormulationWorkspace::Canonical(space) if space.last_x == x => x.copy_from_slice(&space.last_momenta),
             _ => self.replace(x, Direction::ToMomenta)?,
         }
         Ok(())
@@ -185,22 +189,22 @@ impl<'a> Equation<'a> {
     pub(crate) fn convert_to_rates(&mut self, x: &mut [f64]) -> Result<(), Error> {
         let momenta = x.to_vec();
         self.replace(x, Direction::ToRates)?;
-        if let Form::Canonical(space) = &mut self.form {
+        if let FormulationWorkspace::Canonical(space) = &mut self.form {
             (space.last_x, space.last_momenta) = (x.to_vec(), momenta);
         }
         Ok(())
     }
 
     fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {
-        let Form::Canonical(space) = &mut self.form else { return Ok(()) };
+        let FormulationWorkspace::Canonical(space) = &mut self.form else { return Ok(()) };
         replace(&mut space.variables.borrow(), self.system, x, &mut space.results, direction)
     }
 
     /// In reduced coordinates, writes the base twist of the joint rates, eq. (17).
     pub(crate) fn recover(&mut self, x: &mut [f64]) -> Result<(), Error> {
         match &mut self.form {
-            Form::Reduced(space) => space.borrow().recover(self.system.model, x),
-            Form::Full | Form::Canonical(_) => Ok(()),
+            FormulationWorkspace::Reduced(space) => space.borrow().recover(self.system.model, x),
+            FormulationWorkspace::Full | FormulationWorkspace::Canonical(_) => Ok(()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Converts the tree of a URDF to a layout.
 
 use super::chain::{self, ChainJoint};
+use super::end_effector::{EndEffector, end_effectors};
 use super::imported_layout::{ImportedJoint, ImportedLayout};
 use super::link_group::LinkGroup;
 use super::names::{arm_names, layout_name};
@@ -8,7 +9,6 @@ use super::omissions::omissions;
 use super::planar_body::PlanarBody;
 use super::plane::{Plane, direction, in_rotated_axes, with_exact_zeros};
 use super::remark::Remark;
-use super::tip::{Tip, tips};
 use super::tree::Tree;
 use super::{UrdfError, reader};
 use crate::layout::{Arm, Base, Layout, Link};
@@ -21,7 +21,7 @@ pub struct ImportOptions {
     /// The name of the layout; by default that of the robot.
     pub name: Option<String>,
     /// Links at the end effectors, at most one for each arm.
-    pub tips: Vec<String>,
+    pub end_effectors: Vec<String>,
 }
 
 /// Reads a URDF as a free-floating planar robot.
@@ -56,7 +56,7 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
         base.joints.iter().map(|joint| chain::serial_chain(&tree, &plane, *joint)).collect::<Result<_, _>>()?;
     let first_joints: Vec<&str> = base.joints.iter().map(|(joint, _)| tree.joint(*joint).name.as_str()).collect();
     let names = arm_names(&first_joints);
-    let ends = tips(&tree, &steps, &names, &options.tips, &mut remarks)?;
+    let ends = end_effectors(&tree, &steps, &names, &options.end_effectors, &mut remarks)?;
 
     let mut bodies = vec![base_body.clone()];
     let (mut arms, mut joints) = (Vec::new(), Vec::new());
@@ -76,7 +76,7 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
         normal: plane.normal.into_inner().into(),
         x_axis: plane.x.into(),
         joints,
-        tips: ends.into_iter().map(|tip| tip.name).collect(),
+        end_effectors: ends.into_iter().map(|end| end.name).collect(),
         remarks,
     };
     Layout::parse(&result.to_toml(tree.name()), "the layout")?;
@@ -88,7 +88,7 @@ fn arm(
     tree: &Tree,
     base: &PlanarBody,
     name: &str,
-    (steps, end): (&[ChainJoint], &Tip),
+    (steps, end): (&[ChainJoint], &EndEffector),
     bodies: &mut Vec<PlanarBody>,
 ) -> Result<(Arm, Vec<ImportedJoint>), UrdfError> {
     let (mut links, mut joints) = (Vec::new(), Vec::new());

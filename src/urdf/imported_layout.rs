@@ -19,7 +19,7 @@ pub struct ImportedLayout {
     /// The joints in the order of the layout.
     pub joints: Vec<ImportedJoint>,
     /// Per arm the link at its end effector, if there is one.
-    pub tips: Vec<Option<String>>,
+    pub end_effectors: Vec<Option<String>>,
     /// Notes and warnings.
     pub remarks: Vec<Remark>,
 }
@@ -77,7 +77,7 @@ impl ImportedLayout {
         for joint in &self.joints {
             lines.push(format!("  {joint}; moves {}", list(&joint.links)));
         }
-        for (arm, tip) in self.layout.arms.iter().zip(&self.tips) {
+        for (arm, tip) in self.layout.arms.iter().zip(&self.end_effectors) {
             if let Some(tip) = tip {
                 lines.push(format!("  arm `{}`, tip = `{}`", printable(&arm.name), printable(tip)));
             }

@@ -5,6 +5,7 @@
 //! cannot represent is an [`UrdfError`] that names the link or joint.
 
 mod chain;
+mod end_effector;
 mod error;
 mod export;
 mod import;
@@ -18,7 +19,6 @@ mod reader;
 mod remark;
 mod spatial_body;
 mod tags;
-mod tip;
 mod tree;
 
 pub use error::UrdfError;

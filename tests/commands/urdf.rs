@@ -54,12 +54,16 @@ fn changed(from: &str, to: &str) -> String {
     text.replace(from, to)
 }
 
+fn options(end_effectors: &[&str]) -> ImportOptions {
+    ImportOptions { name: None, end_effectors: end_effectors.iter().map(|&name| name.to_owned()).collect() }
+}
+
 fn imported(text: &str) -> ImportedLayout {
     imported_with(text, &[])
 }
 
-fn imported_with(text: &str, tips: &[&str]) -> ImportedLayout {
-    let options = ImportOptions { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
+fn imported_with(text: &str, end_effectors: &[&str]) -> ImportedLayout {
+    let options = options(end_effectors);
     let import = import(text, &options).unwrap_or_else(|problem| panic!("{problem}\n{text}"));
     let read = Layout::parse(&import.to_toml("robot.urdf"), "layout.toml").unwrap_or_else(|report| panic!("{report}"));
     assert_eq!(read, import.layout, "the file is the layout");
@@ -93,7 +97,7 @@ fn an_arm_in_the_plane_is_taken_as_it_is() {
     let base = Base { mass: 100.0, inertia: 20.0 };
     assert_eq!(import.layout, Layout { name: "bot".to_owned(), base, arms: vec![arm] });
     assert_angles(&import, &[[1.0, 0.0]; 2]);
-    assert_eq!((import.tips, import.remarks), (vec![Some("tip".to_owned())], vec![]));
+    assert_eq!((import.end_effectors, import.remarks), (vec![Some("tip".to_owned())], vec![]));
 }
 
 /// About y, plane x is x and plane y is −z; the second link points along −z, a quarter of a turn from the first.
@@ -186,7 +190,11 @@ fn what_is_fixed_is_lumped() {
     ];
     let import = imported(&robot(&parts.concat()));
     assert_links(&import, 0, &[[1.0, 3.0, 0.1 + 0.05 + 2.0 / 36.0 + 1.0 / 9.0, 2.0 / 3.0, 0.0]]);
-    assert_eq!(import.tips, [Some("tool".to_owned())], "the only leaf is the tip, whatever it weighs");
+    assert_eq!(
+        import.end_effectors,
+        [Some("tool".to_owned())],
+        "the only leaf is the end effector, whatever it weighs"
+    );
     assert_eq!(import.joints[0].links, ["one", "tool"]);
 }
 
@@ -231,14 +239,14 @@ fn what_would_leave_the_plane_is_named_with_its_numbers() {
 }
 
 #[test]
-fn tips_are_chosen_named_or_made_up() {
+fn end_effectors_are_found_named_or_estimated() {
     let second = joint("fixed", "end2", ["lower", "tip2"], "xyz=\"0 2 0\"", "") + "<link name=\"tip2\"/>";
     let two = robot(&(arm() + &second));
     let import = imported(&two);
-    assert_eq!(import.tips, [Some("tip".to_owned())]);
+    assert_eq!(import.end_effectors, [Some("tip".to_owned())]);
     assert!(remarks(&import).contains("`tip` and `tip2`"), "{}", remarks(&import));
     let import = imported_with(&two, &["tip2"]);
-    assert_eq!((import.tips.clone(), import.remarks.len()), (vec![Some("tip2".to_owned())], 0));
+    assert_eq!((import.end_effectors.clone(), import.remarks.len()), (vec![Some("tip2".to_owned())], 0));
     assert_links(&import, 0, &[[1.0, 10.0, 1.0, 0.5, 0.0], [2.0, 10.0, 1.0, 0.0, -0.5]]);
     assert_angles(&import, &[[1.0, 0.0], [1.0, FRAC_PI_2]]);
 
@@ -252,7 +260,11 @@ fn tips_are_chosen_named_or_made_up() {
         "<link name=\"lower\"><inertial><origin xyz=\"0 0.3 0\"/>",
     ));
     assert_links(&import, 0, &[[1.0, 10.0, 1.0, 0.5, 0.0], [0.6, 10.0, 1.0, 0.3, 0.0]]);
-    assert!(remarks(&import).contains("no tip") && remarks(&import).contains("--tip"), "{}", remarks(&import));
+    assert!(
+        remarks(&import).contains("no frame for its end effector") && remarks(&import).contains("--tip"),
+        "{}",
+        remarks(&import)
+    );
     let wheel = without.replace(
         "<link name=\"lower\"><inertial><origin xyz=\"0.5 0 0\"/>",
         "<link name=\"lower\"><inertial><origin xyz=\"0 0 0\"/>",
@@ -460,15 +472,14 @@ fn what_a_layout_cannot_hold_is_refused_by_name() {
             assert!(problem.contains(hint), "{what}: no `{hint}` in\n{problem}");
         }
     }
-    for (tips, hints) in [
+    for (names, hints) in [
         (&["tips"][..], &["`tips`", "did you mean `tip`?", "`lower` or `tip` (arm `shoulder`)"][..]),
         (&["upper"], &["`upper`", "not at the end"]),
-        (&["tip", "lower"], &["`lower`", "`shoulder` has the tip `tip` already"]),
+        (&["tip", "lower"], &["`lower`", "`shoulder` has the end effector `tip` already"]),
     ] {
-        let options = ImportOptions { name: None, tips: tips.iter().map(|&tip| tip.to_owned()).collect() };
-        let problem = import(&robot(&arm()), &options).expect_err("no tip").to_string();
+        let problem = import(&robot(&arm()), &options(names)).expect_err("no end effector").to_string();
         for hint in hints {
-            assert!(problem.contains(hint), "{tips:?}: no `{hint}` in\n{problem}");
+            assert!(problem.contains(hint), "{names:?}: no `{hint}` in\n{problem}");
         }
     }
 }

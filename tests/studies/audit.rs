@@ -126,7 +126,7 @@ fn the_largest_limit_violation_is_found() {
     let mut studies = Vec::new();
     for (name, tracking) in [
         ("raina_shah_2017", None),
-        ("raina_shah_2017", Some(Tracking::Exact)),
+        ("raina_shah_2017", Some(Tracking::InverseDynamics)),
         ("resolved_motion_rate", None),
         ("stabilised_capture", None),
     ] {

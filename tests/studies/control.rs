@@ -1,7 +1,7 @@
 //! Control laws: computed torque, torque limits, sampled control.
 
 use crate::scenario;
-use planar_capture::capture::approach::Approach;
+use planar_capture::capture::approach::ApproachTracking;
 use planar_capture::control::{Control, ProportionalDerivative, TorqueLimiter};
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, FinalRates, Scenario, Tracking};
@@ -30,7 +30,7 @@ fn computed_torque() -> Tracking {
 
 fn track(scenario: &Scenario, rates: &[f64]) -> Phase {
     let model = registry::generated(&scenario.layout).expect("generated code");
-    Approach::new(scenario, 0.05).track(&*model, rates, &mut NoEvents, &mut || ()).expect("an approach")
+    ApproachTracking::new(scenario, 0.05).track(&*model, rates, &mut NoEvents, &mut || ()).expect("an approach")
 }
 
 fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
@@ -41,7 +41,7 @@ fn end(phase: &Phase) -> (Vec<f64>, [f64; 3]) {
 /// Started on the trajectory, computed torque is exact tracking.
 #[test]
 fn computed_torque_on_the_trajectory_is_exact_tracking() {
-    let (exact, computed) = (track(&short(Tracking::Exact), &[]), track(&short(computed_torque()), &[]));
+    let (exact, computed) = (track(&short(Tracking::InverseDynamics), &[]), track(&short(computed_torque()), &[]));
     for (exact, computed) in exact.samples.iter().zip(&computed.samples) {
         assert_close("angles", &exact.state.joint_angles, &computed.state.joint_angles, tolerance::CONTROLLED);
         assert_close("base", &exact.state.base_pose, &computed.state.base_pose, tolerance::CONTROLLED);
@@ -55,7 +55,7 @@ fn errors_under_computed_torque_decay_joint_by_joint() {
     let mut scenario = short(computed_torque());
     scenario.initial.joint_rates = vec![0.2, -0.3, 0.1];
     scenario.initial.base_twist = [0.1, 0.3, -0.2];
-    let exact = track(&short(Tracking::Exact), &[]); // where the joints should be
+    let exact = track(&short(Tracking::InverseDynamics), &[]); // where the joints should be
     let phase = track(&scenario, &[]);
     for (sample, desired) in phase.samples.iter().zip(&exact.samples) {
         let errors =
@@ -69,7 +69,7 @@ fn errors_under_computed_torque_decay_joint_by_joint() {
 /// A quintic with initial rates ends at the final angles and rates.
 #[test]
 fn a_quintic_is_tracked_from_its_first_rates_to_its_last() {
-    for tracking in [Tracking::Exact, computed_torque()] {
+    for tracking in [Tracking::InverseDynamics, computed_torque()] {
         let mut scenario = short(tracking);
         scenario.approach.trajectory = TrajectoryKind::Quintic;
         let last = vec![0.05, -0.1, 0.2];

@@ -6,7 +6,7 @@ use planar_capture::control::{Control, ProportionalDerivative, SampledControl, S
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, PointToPoint};
@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 
 const FULL: Formulation = Formulation::Full;
 const REDUCED: Formulation = Formulation::Reduced;
-const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-13 };
+const ADAPTIVE: Integrator = Integrator::Adaptive { tolerance: 1e-13 };
 
 fn model() -> Box<dyn CloneModel> {
     registry::generated(&scenario("raina_shah_2017").layout).expect("the paper's robot")
@@ -31,21 +31,28 @@ fn tumbling() -> RobotState {
     }
 }
 
-fn run(law: &mut dyn Control<f64>, duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
+fn run(
+    law: &mut dyn Control<f64>,
+    duration: f64,
+    step: f64,
+    integrator: Integrator,
+    coordinates: Formulation,
+) -> Phase {
     let model = model();
-    let timing = Timing { duration, step, sample: duration / 8.0, integration: Integration { scheme, coordinates } };
+    let timing =
+        Timing { duration, step, sample: duration / 8.0, integration: Integration { integrator, coordinates } };
     simulate(&System::alone(&*model), law, &tumbling(), &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
 /// Under a law that depends on time, angles and rates.
-fn swing(duration: f64, step: f64, scheme: Scheme, coordinates: Formulation) -> Phase {
+fn swing(duration: f64, step: f64, integrator: Integrator, coordinates: Formulation) -> Phase {
     let start = tumbling();
     let motion =
         PointToPoint { initial_angles: &start.joint_angles, final_angles: &[0.2, -0.5, 0.4, 2.0, 1.0, 0.1], duration };
     let (stiffness, damping) = ([2.0; 6], [1.5; 6]);
     let trajectory = Cycloidal { motion };
     let mut law = ProportionalDerivative { trajectory, proportional_gain: &stiffness, derivative_gain: &damping };
-    run(&mut law, duration, step, scheme, coordinates)
+    run(&mut law, duration, step, integrator, coordinates)
 }
 
 fn values(motion: &RobotState) -> Vec<f64> {
@@ -62,17 +69,17 @@ fn error(phase: &Phase, reference: &Phase) -> f64 {
 #[test]
 fn orders_of_convergence() {
     let reference = swing(2.0, 0.05, ADAPTIVE, FULL);
-    for (scheme, coordinates, order, steps) in [
-        (Scheme::RungeKutta4, FULL, 4.0, [40.0, 80.0, 160.0]),
-        (Scheme::RungeKutta4, REDUCED, 4.0, [40.0, 80.0, 160.0]),
-        (Scheme::SemiImplicitEuler, FULL, 1.0, [1000.0, 2000.0, 4000.0]),
-        (Scheme::SemiImplicitEuler, REDUCED, 1.0, [1000.0, 2000.0, 4000.0]),
-        (Scheme::GaussLegendre, FULL, 6.0, [20.0, 40.0, 80.0]),
+    for (integrator, coordinates, order, steps) in [
+        (Integrator::RungeKutta4, FULL, 4.0, [40.0, 80.0, 160.0]),
+        (Integrator::RungeKutta4, REDUCED, 4.0, [40.0, 80.0, 160.0]),
+        (Integrator::SemiImplicitEuler, FULL, 1.0, [1000.0, 2000.0, 4000.0]),
+        (Integrator::SemiImplicitEuler, REDUCED, 1.0, [1000.0, 2000.0, 4000.0]),
+        (Integrator::GaussLegendre, FULL, 6.0, [20.0, 40.0, 80.0]),
     ] {
-        let errors = steps.map(|steps| error(&swing(2.0, 2.0 / steps, scheme, coordinates), &reference));
+        let errors = steps.map(|steps| error(&swing(2.0, 2.0 / steps, integrator, coordinates), &reference));
         for pair in errors.windows(2) {
             let found = (pair[0] / pair[1]).log2();
-            let name = format!("{scheme:?}, {coordinates:?}");
+            let name = format!("{integrator:?}, {coordinates:?}");
             assert!((found - order).abs() < tolerance::ORDER, "{name}: order {found}, not {order}, {errors:?}");
         }
     }
@@ -83,12 +90,12 @@ fn orders_of_convergence() {
 #[test]
 fn the_adaptive_integrator_keeps_its_tolerance() {
     // a reference of another kind: Richardson's extrapolation of two Gauss–Legendre solutions
-    let [coarse, fine] = [0.02, 0.01].map(|step| swing(2.0, step, Scheme::GaussLegendre, FULL));
+    let [coarse, fine] = [0.02, 0.01].map(|step| swing(2.0, step, Integrator::GaussLegendre, FULL));
     let [coarse, fine] = [&coarse, &fine].map(|phase| values(&phase.end().state));
     let reference: Vec<f64> = fine.iter().zip(&coarse).map(|(fine, coarse)| fine + (fine - coarse) / 63.0).collect();
     for coordinates in [FULL, REDUCED] {
         for tolerance in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
-            let phase = swing(2.0, 0.05, Scheme::Adaptive { tolerance }, coordinates);
+            let phase = swing(2.0, 0.05, Integrator::Adaptive { tolerance }, coordinates);
             let error = difference(&values(&phase.end().state), &reference);
             let bound = tolerance::ADAPTIVE * tolerance + tolerance::ROUNDED_MOTION;
             assert!(error <= bound, "{coordinates:?}, {tolerance:e}: {error:e}");
@@ -99,11 +106,11 @@ fn the_adaptive_integrator_keeps_its_tolerance() {
 /// Between its steps the interpolant is as good as they are: samples of a long run are the ends of shorter ones.
 #[test]
 fn dense_output_is_as_good_as_steps() {
-    let scheme = Scheme::Adaptive { tolerance: 1e-10 };
-    let long = run(&mut ZeroTorque, 4.0, 0.01, scheme, FULL);
+    let integrator = Integrator::Adaptive { tolerance: 1e-10 };
+    let long = run(&mut ZeroTorque, 4.0, 0.01, integrator, FULL);
     assert_eq!(long.samples.len(), 9);
     for sample in &long.samples[1..8] {
-        let short = run(&mut ZeroTorque, sample.time, sample.time, scheme, FULL);
+        let short = run(&mut ZeroTorque, sample.time, sample.time, integrator, FULL);
         assert_close("sample", &values(&sample.state), &values(&short.end().state), tolerance::DENSE);
     }
 }
@@ -113,7 +120,8 @@ fn dense_output_is_as_good_as_steps() {
 #[test]
 fn full_and_reduced_coordinates_agree() {
     let differences = [0.05, 0.025].map(|step| {
-        let [full, reduced] = [FULL, REDUCED].map(|mode| run(&mut ZeroTorque, 4.0, step, Scheme::RungeKutta4, mode));
+        let [full, reduced] =
+            [FULL, REDUCED].map(|mode| run(&mut ZeroTorque, 4.0, step, Integrator::RungeKutta4, mode));
         let drift = reduced.drift.momentum_drift;
         assert!(drift < tolerance::MOMENTUM_RECOVERED, "{drift:e} at {step} s");
         assert!(full.drift.momentum_drift > 1e4 * drift, "the drift of full coordinates is there to be seen");
@@ -144,7 +152,7 @@ fn both_coordinates_take_a_base_torque() {
             mass_matrix: &mut vec![0.0; (3 + joints) * (3 + joints)],
             bias: &mut vec![0.0; 3 + joints],
         };
-        run(&mut law, 4.0, 0.01, Scheme::RungeKutta4, coordinates)
+        run(&mut law, 4.0, 0.01, Integrator::RungeKutta4, coordinates)
     });
     let [full, reduced] = phases.each_ref().map(Phase::end);
     assert!(full.work.base_impulse.abs() > 1.0, "{} N m s", full.work.base_impulse);
@@ -162,16 +170,16 @@ fn free_bodies_are_integrated() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
     let system = System { model: &*model, bodies: &[body], constraints: &[], joint_limits: &[] };
-    let run = |scheme, coordinates| {
-        let integration = Integration { scheme, coordinates };
+    let run = |integrator, coordinates| {
+        let integration = Integration { integrator, coordinates };
         let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
         simulate(&system, &mut ZeroTorque, &tumbling(), &timing, &mut NoEvents, &mut || ())
     };
-    let refused = run(Scheme::RungeKutta4, REDUCED).expect_err("a body is beside the robot").to_string();
+    let refused = run(Integrator::RungeKutta4, REDUCED).expect_err("a body is beside the robot").to_string();
     assert!(refused.contains("found 1 bodies") && refused.contains("`coordinates = \"full\"`"), "{refused}");
-    let alone = self::run(&mut ZeroTorque, 1.0, 0.02, Scheme::GaussLegendre, FULL);
-    for scheme in [Scheme::GaussLegendre, ADAPTIVE] {
-        let phase = run(scheme, FULL).expect("a phase");
+    let alone = self::run(&mut ZeroTorque, 1.0, 0.02, Integrator::GaussLegendre, FULL);
+    for integrator in [Integrator::GaussLegendre, ADAPTIVE] {
+        let phase = run(integrator, FULL).expect("a phase");
         let end = phase.end();
         assert_close("pose", &end.bodies[0].pose, &[0.8, 1.8, 3.5], tolerance::STRAIGHT);
         assert_close("twist", &end.bodies[0].twist, &body.twist, 0.0);
@@ -180,7 +188,7 @@ fn free_bodies_are_integrated() {
 }
 
 /// A body captured by both arms, one contact rigid and one pinned, under joint control: constraints and momentum hold,
-/// and all schemes agree.
+/// and all integrators agree.
 #[test]
 fn a_closed_loop_by_every_scheme() {
     let model = model();
@@ -199,9 +207,9 @@ fn a_closed_loop_by_every_scheme() {
     let constraints = [constraint(0, ContactLaw::Rigid), constraint(1, ContactLaw::Pin)];
     let system = System { model: &*model, bodies: &[body], constraints: &constraints, joint_limits: &[] };
     let expected: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
-    let run = |scheme, step| {
+    let run = |integrator, step| {
         let timing =
-            Timing { duration: 1.0, step, sample: 1.0, integration: Integration { scheme, coordinates: FULL } };
+            Timing { duration: 1.0, step, sample: 1.0, integration: Integration { integrator, coordinates: FULL } };
         let mut law = ProportionalDerivative {
             trajectory: ConstantSetpoint { angles: &expected },
             proportional_gain: &[5.0; 6],
@@ -209,13 +217,13 @@ fn a_closed_loop_by_every_scheme() {
         };
         simulate(&system, &mut law, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
     };
-    let reference = run(Scheme::RungeKutta4, 0.002);
-    for (scheme, step) in [(Scheme::GaussLegendre, 0.02), (ADAPTIVE, 0.02), (Scheme::RungeKutta4, 0.004)] {
-        let phase = run(scheme, step);
+    let reference = run(Integrator::RungeKutta4, 0.002);
+    for (integrator, step) in [(Integrator::GaussLegendre, 0.02), (ADAPTIVE, 0.02), (Integrator::RungeKutta4, 0.004)] {
+        let phase = run(integrator, step);
         let motion = |phase: &Phase| [&values(&phase.end().state)[..], &phase.end().bodies[0].pose].concat();
-        assert_close(&format!("{scheme:?}"), &motion(&phase), &motion(&reference), tolerance::CLOSED_LOOP);
+        assert_close(&format!("{integrator:?}"), &motion(&phase), &motion(&reference), tolerance::CLOSED_LOOP);
         let open = phase.constraint_errors[0];
-        assert!(open < 1e-10 && phase.drift.momentum_drift < 1e-9, "{scheme:?}: {open:e} {:?}", phase.drift);
+        assert!(open < 1e-10 && phase.drift.momentum_drift < 1e-9, "{integrator:?}: {open:e} {:?}", phase.drift);
     }
     let moved = difference(&reference.end().state.joint_angles, &start.joint_angles);
     assert!(moved > 0.01, "{moved} rad");
@@ -226,16 +234,15 @@ fn a_closed_loop_by_every_scheme() {
 fn sampled_torques_and_adaptive_steps() {
     let start = tumbling();
     let setpoint = ConstantSetpoint { angles: &start.joint_angles };
-    let mut phases = [(Scheme::RungeKutta4, 0.002, 75), (ADAPTIVE, 0.05, 3), (Scheme::GaussLegendre, 0.05, 3)].map(
-        |(scheme, step, steps)| {
+    let mut phases = [(Integrator::RungeKutta4, 0.002, 75), (ADAPTIVE, 0.05, 3), (Integrator::GaussLegendre, 0.05, 3)]
+        .map(|(integrator, step, steps)| {
             let gains = ([2.0; 6], [1.5; 6]);
             let law =
                 ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains.0, derivative_gain: &gains.1 };
             let mut torques = [0.0; 6];
             // 0.15 s: the last sample is cut short by the end
-            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, step, scheme, FULL)
-        },
-    );
+            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, step, integrator, FULL)
+        });
     let reference = phases[0].samples.pop().expect("an end");
     for phase in &phases[1..] {
         assert_close("motion", &values(&phase.end().state), &values(&reference.state), tolerance::SAMPLED);
@@ -250,12 +257,12 @@ fn samples_of_any_number_of_steps() {
     let start = tumbling();
     let setpoint = ConstantSetpoint { angles: &start.joint_angles };
     for steps in [1, 2, 3, 5, 7, 10, 20, 50, 100] {
-        let mut ends = [Scheme::RungeKutta4, ADAPTIVE].map(|scheme| {
+        let mut ends = [Integrator::RungeKutta4, ADAPTIVE].map(|integrator| {
             let gains = ([2.0; 6], [1.5; 6]);
             let law =
                 ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains.0, derivative_gain: &gains.1 };
             let mut torques = [0.0; 6];
-            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, 0.005, scheme, FULL)
+            run(&mut SampledControl::new(law, steps, &mut torques), 1.0, 0.005, integrator, FULL)
         });
         let [fixed, adaptive] = ends.each_mut().map(|phase| values(&phase.end().state));
         assert_close("motion", &adaptive, &fixed, tolerance::SAMPLED);
@@ -273,8 +280,8 @@ fn a_thousand_seconds() {
         joint_rates: vec![0.0; 6],
     };
     let model = model();
-    let run = |scheme, step| {
-        let integration = Integration { scheme, coordinates: FULL };
+    let run = |integrator, step| {
+        let integration = Integration { integrator, coordinates: FULL };
         let timing = Timing { duration: 1000.0, step, sample: 1.0, integration };
         simulate(&System::alone(&*model), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
     };
@@ -284,7 +291,7 @@ fn a_thousand_seconds() {
         let error = |sample: &Sample| (sample.momentum.kinetic_energy - energy).abs() / energy;
         phase.samples.chunks(251).map(|part| part.iter().map(error).fold(0.0, f64::max)).collect()
     };
-    let (gauss, runge_kutta) = (run(Scheme::GaussLegendre, 0.25), run(Scheme::RungeKutta4, 0.1));
+    let (gauss, runge_kutta) = (run(Integrator::GaussLegendre, 0.25), run(Integrator::RungeKutta4, 0.1));
     assert!(gauss.drift.momentum_drift < tolerance::MOMENTUM_KEPT, "{:?}", gauss.drift);
     assert!(runge_kutta.drift.momentum_drift > 1e4 * tolerance::MOMENTUM_KEPT, "{:?}", runge_kutta.drift);
     let [kept, strayed] = [&gauss, &runge_kutta].map(errors);

@@ -6,21 +6,21 @@ use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::{EventState, Events, NoEvents};
-use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Phase, Timing, simulate};
 use planar_capture::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, difference, tolerance};
 
-const ADAPTIVE: Scheme = Scheme::Adaptive { tolerance: 1e-12 };
+const ADAPTIVE: Integrator = Integrator::Adaptive { tolerance: 1e-12 };
 
 /// Every integrator, with the bound on the error of the event time, s.
-const ALL: [(Scheme, Formulation, f64); 7] = [
-    (Scheme::RungeKutta4, Formulation::Full, 1e-9),
-    (Scheme::RungeKutta4, Formulation::Reduced, 1e-9),
-    (Scheme::SemiImplicitEuler, Formulation::Full, 2e-2),
-    (Scheme::SemiImplicitEuler, Formulation::Reduced, 2e-2),
-    (Scheme::GaussLegendre, Formulation::Full, 1e-11),
+const ALL: [(Integrator, Formulation, f64); 7] = [
+    (Integrator::RungeKutta4, Formulation::Full, 1e-9),
+    (Integrator::RungeKutta4, Formulation::Reduced, 1e-9),
+    (Integrator::SemiImplicitEuler, Formulation::Full, 2e-2),
+    (Integrator::SemiImplicitEuler, Formulation::Reduced, 2e-2),
+    (Integrator::GaussLegendre, Formulation::Full, 1e-11),
     (ADAPTIVE, Formulation::Full, 1e-11),
     (ADAPTIVE, Formulation::Reduced, 1e-11),
 ];
@@ -87,11 +87,11 @@ fn run(
     start: &RobotState,
     duration: f64,
     step: f64,
-    (scheme, coordinates): (Scheme, Formulation),
+    (integrator, coordinates): (Integrator, Formulation),
     law: &mut dyn Control<f64>,
     events: &mut dyn Events,
 ) -> Phase {
-    let (model, integration) = (model(), Integration { scheme, coordinates });
+    let (model, integration) = (model(), Integration { integrator, coordinates });
     let timing = Timing { duration, step, sample: 0.25, integration };
     simulate(&System::alone(&*model), law, start, &timing, events, &mut || ()).expect("a phase")
 }
@@ -112,13 +112,13 @@ fn a_straight_path_meets_a_circle() {
     // |d − v t|² = r²
     let (dd, dv, vv): (f64, f64, f64) = (1.04 - 0.25, 0.3 + 0.02, 0.1);
     let expected = (dv - (dv * dv - dd * vv).sqrt()) / vv;
-    for (scheme, coordinates, _) in ALL {
+    for (integrator, coordinates, _) in ALL {
         // the same from steps of any length
         for step in [0.005, 0.3] {
-            let phase = run(&start, 10.0, step, (scheme, coordinates), &mut ZeroTorque, &mut circle());
+            let phase = run(&start, 10.0, step, (integrator, coordinates), &mut ZeroTorque, &mut circle());
             let (event, when) = phase.event.expect("the circle is met");
             assert_eq!((event, phase.duration, phase.end().time), (0, when, when));
-            assert!((when - expected).abs() < tolerance::EVENT_TIME, "{scheme:?}: {when}, not {expected}");
+            assert!((when - expected).abs() < tolerance::EVENT_TIME, "{integrator:?}: {when}, not {expected}");
             assert!(circle().value(end_effector(&phase.end().state)).abs() < tolerance::EVENT_TIME);
             let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
             assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
@@ -129,7 +129,7 @@ fn a_straight_path_meets_a_circle() {
 /// A tumbling robot: the time is that of a root found from phases of other lengths, without events.
 #[test]
 fn a_tumbling_robot_meets_a_circle() {
-    let (start, best) = (tumbling(), (Scheme::Adaptive { tolerance: 1e-13 }, Formulation::Full));
+    let (start, best) = (tumbling(), (Integrator::Adaptive { tolerance: 1e-13 }, Formulation::Full));
     let [_, x, y] = end_effector(&run(&start, 3.0, 3.0, best, &mut ZeroTorque, &mut NoEvents).end().state);
     let circle = || Circle { centre: [x, y], radius: 0.2 };
     let value = |duration: f64| {
@@ -144,10 +144,10 @@ fn a_tumbling_robot_meets_a_circle() {
         let middle = f64::midpoint(early, late);
         if value(middle) > 0.0 { early = middle } else { late = middle }
     }
-    for (scheme, coordinates, bound) in ALL {
-        let phase = run(&start, 10.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut circle());
+    for (integrator, coordinates, bound) in ALL {
+        let phase = run(&start, 10.0, 0.005, (integrator, coordinates), &mut ZeroTorque, &mut circle());
         let (_, when) = phase.event.expect("the circle is met");
-        assert!((when - late).abs() < bound, "{scheme:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
+        assert!((when - late).abs() < bound, "{integrator:?} {coordinates:?}: {when}, not {late}: {:e}", when - late);
         assert!(circle().value(end_effector(&phase.end().state)).abs() < tolerance::EVENT_TIME);
     }
 }
@@ -161,13 +161,14 @@ fn grazing() {
     let (along, across) = ([0.3 / 0.1_f64.sqrt(), 0.1 / 0.1_f64.sqrt()], [-0.1 / 0.1_f64.sqrt(), 0.3 / 0.1_f64.sqrt()]);
     let centre = [x + along[0] + 0.5 * across[0], y + along[1] + 0.5 * across[1]];
     let closest = 1.0 / 0.1_f64.sqrt();
-    for (scheme, coordinates, _) in ALL {
-        let event_run =
-            |radius| run(&start, 6.0, 0.005, (scheme, coordinates), &mut ZeroTorque, &mut Circle { centre, radius });
-        assert_eq!(event_run(0.5 - 1e-9).event, None, "{scheme:?}");
+    for (integrator, coordinates, _) in ALL {
+        let event_run = |radius| {
+            run(&start, 6.0, 0.005, (integrator, coordinates), &mut ZeroTorque, &mut Circle { centre, radius })
+        };
+        assert_eq!(event_run(0.5 - 1e-9).event, None, "{integrator:?}");
         let (_, when) = event_run(0.5 + 1e-9).event.expect("it is touched");
         let early = (1e-9_f64 * (1.0 + 1e-9)).sqrt() / 0.1_f64.sqrt();
-        assert!((when - (closest - early)).abs() < tolerance::GRAZING, "{scheme:?}: {when}");
+        assert!((when - (closest - early)).abs() < tolerance::GRAZING, "{integrator:?}: {when}");
     }
 }
 
@@ -175,8 +176,15 @@ fn grazing() {
 #[test]
 fn arming_and_the_first_of_several() {
     let event_run = |functions: &[fn(f64) -> f64]| {
-        run(&drifting(), 1.0, 0.01, (Scheme::RungeKutta4, Formulation::Full), &mut ZeroTorque, &mut Times(functions))
-            .event
+        run(
+            &drifting(),
+            1.0,
+            0.01,
+            (Integrator::RungeKutta4, Formulation::Full),
+            &mut ZeroTorque,
+            &mut Times(functions),
+        )
+        .event
     };
     assert_eq!(event_run(&[|_| -1.0, |_| 0.0, |t| t - 2.0, |_| 1.0]), None);
     let (event, when) = event_run(&[|t| (t - 0.1003) * (0.3507 - t)]).expect("it rises and falls");
@@ -193,7 +201,7 @@ fn arming_and_the_first_of_several() {
 #[test]
 fn a_phase_with_an_event_is_a_part_of_one_without() {
     let angles = [0.0; 3];
-    for (scheme, coordinates, _) in ALL {
+    for (integrator, coordinates, _) in ALL {
         let event_run = |events: &mut dyn Events, duration: f64, step: f64| {
             let setpoint = ConstantSetpoint { angles: &angles };
             let gains = [3.0; 3];
@@ -201,18 +209,18 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
                 ProportionalDerivative { trajectory: setpoint, proportional_gain: &gains, derivative_gain: &gains };
             let mut torques = [0.0; 3];
             let mut law = SampledControl::new(law, 5, &mut torques);
-            run(&tumbling(), duration, step, (scheme, coordinates), &mut law, events)
+            run(&tumbling(), duration, step, (integrator, coordinates), &mut law, events)
         };
         let whole = event_run(&mut NoEvents, 2.0, 0.01);
         let part = event_run(&mut Times(&[|t| 1.3 - t]), 2.0, 0.01);
         assert_eq!((whole.event, part.samples.len()), (None, 7), "0, 0.25, … 1.25, 1.3");
         for (a, b) in whole.samples.iter().zip(&part.samples[..6]) {
-            assert_eq!(a, b, "{scheme:?}");
+            assert_eq!(a, b, "{integrator:?}");
         }
         let alone = event_run(&mut NoEvents, 1.3, 0.01);
         let [found, expected] = [&part, &alone].map(|phase| phase.end().state.clone());
         let error = difference(&found.joint_rates, &expected.joint_rates);
-        assert!(error < tolerance::SAME_STEPS, "{scheme:?}: {error:e}");
+        assert!(error < tolerance::SAME_STEPS, "{integrator:?}: {error:e}");
         assert_close("pose", &found.base_pose, &expected.base_pose, tolerance::SAME_STEPS);
         assert_close("torques", &part.end().joint_torques, &alone.end().joint_torques, tolerance::SAME_STEPS);
     }

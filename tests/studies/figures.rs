@@ -242,7 +242,8 @@ mod drawn {
         let value = |panel: &Panel, label: &str, i: usize| points(panel, label)[i].0;
         let relative = |panels: &[Panel], when: &str, i: usize| {
             [0, 1, 2].map(|k| {
-                value(&panels[k], &format!("tip, {when}"), i) - value(&panels[k], &format!("target, {when}"), i)
+                value(&panels[k], &format!("end effector, {when}"), i)
+                    - value(&panels[k], &format!("target, {when}"), i)
             })
         };
         let mut contacts: Vec<_> = Vec::new();

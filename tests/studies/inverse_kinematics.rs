@@ -11,7 +11,7 @@ use planar_proof::{assert_close, tolerance};
 
 fn with_goals(name: &str, goals: &[EndEffectorGoal]) -> Scenario {
     let mut scenario = scenario(name);
-    scenario.approach.tracking = Tracking::Exact;
+    scenario.approach.tracking = Tracking::InverseDynamics;
     scenario.approach.step = 0.02;
     scenario.approach.final_end_effector_poses = Some(goals.to_vec());
     scenario.approach.final_joint_angles.clone_from(&scenario.initial.joint_angles);
@@ -42,13 +42,13 @@ fn the_papers_final_pose_is_found_from_its_end_effectors() {
     for (found, expected) in end_effector_poses(&found).iter().zip(end_effector_poses(&study)) {
         assert_close("end effector", found, &expected, tolerance::REACHED);
     }
-    let InverseKinematics { joint_angles, rounds, spare_joints, .. } =
+    let InverseKinematics { joint_angles, iterations, spare_joints, .. } =
         found.inverse_kinematics.as_ref().expect("a solution");
     assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
     let rates = |study: &Study| study.terminal_rates.as_ref().expect("rates").joint_rates.clone();
     assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
     assert_eq!(*spare_joints, 0);
-    assert!(*rounds < 40, "{rounds} rounds");
+    assert!(*iterations < 40, "{iterations} iterations");
     for (twist, expected) in found.approach.end().end_effector_twists.iter().zip([-0.1, 0.1]) {
         assert_close("twist", twist, &[0.0, expected, 0.0], tolerance::REACHED);
     }
@@ -129,8 +129,8 @@ fn goals_out_of_reach_are_reported() {
     assert!(far.to_string().contains("out of reach"), "{far}");
     // within the bound that needs no search, but not within the arm's own: the base is heavy
     let edge = fails(&with_goals("redysim_single_arm_3r", &[EndEffectorGoal::Position([3.6, 0.0])]));
-    let InverseKinematicsError::NotConverged { residual, history, rounds, .. } = &edge else { panic!("{edge:?}") };
-    assert!(*residual > 1e-3 && history.len() == *rounds, "{edge:?}");
+    let InverseKinematicsError::NotConverged { residual, history, iterations, .. } = &edge else { panic!("{edge:?}") };
+    assert!(*residual > 1e-3 && history.len() == *iterations, "{edge:?}");
     assert!(edge.to_string().contains("may be out of reach") && edge.to_string().contains('…'), "{edge}");
 }
 
@@ -143,6 +143,6 @@ fn the_report_is_of_the_approach() {
     let goals = scenario.approach.final_end_effector_poses.clone().expect("goals");
     let mut ticks = 0_usize;
     let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("a solution");
-    assert_eq!(ticks, found.rounds * 1000, "every round tracks one approach of 1000 steps");
+    assert_eq!(ticks, found.iterations * 1000, "every iteration tracks one approach of 1000 steps");
     assert!(found.residual <= 1e-11 && (0.01..1.0).contains(&found.rates.singularity_margin), "{found:?}");
 }

@@ -197,7 +197,7 @@ fn one_arm_on_a_spinning_target() {
     assert!(!impacts.is_empty() && impacts.iter().all(|count| *count == 1), "{impacts:?}");
 }
 
-/// A gripper that does not close has no effect on its target.
+/// A grasp that does not close has no effect on its target.
 #[test]
 fn a_missed_target_moves_freely() {
     let (scenario, study, _) = check_scenario("missed_grasp");

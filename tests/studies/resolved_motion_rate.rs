@@ -186,7 +186,7 @@ fn end_effectors_stay_where_their_paths_end() {
     }
     let mut joints = crate::scenario("stabilised_capture");
     joints.approach.end = FinalRates::JointRates(vec![0.0; 6]);
-    joints.approach.tracking = Tracking::Exact;
+    joints.approach.tracking = Tracking::InverseDynamics;
     joints.approach.trajectory_duration = Some(12.0);
     joints.approach.actuation = Actuation::default();
     joints.cases.truncate(1);

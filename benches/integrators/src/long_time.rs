@@ -6,7 +6,7 @@ use crate::motion::Problems;
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::owned::RobotState;
-use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 use planar_capture::simulate::{Phase, Sample};
 
 /// s.
@@ -58,19 +58,19 @@ pub fn motions() -> Result<[LongTime; 2], Problem> {
 
 /// The methods, with these steps of Gauss–Legendre and Runge–Kutta, s.
 fn methods(gauss: [f64; 2], runge_kutta: [f64; 2]) -> Vec<(Method, Fineness)> {
-    let method = |scheme, coordinates| Method { integration: Integration { scheme, coordinates } };
-    let adaptive = Scheme::Adaptive { tolerance: 0.0 };
+    let method = |integrator, coordinates| Method { integration: Integration { integrator, coordinates } };
+    let adaptive = Integrator::Adaptive { tolerance: 0.0 };
     let (full, reduced) = (Formulation::Full, Formulation::Reduced);
-    let mut all = Vec::from(gauss.map(|step| (method(Scheme::GaussLegendre, full), Fineness::Step(step))));
+    let mut all = Vec::from(gauss.map(|step| (method(Integrator::GaussLegendre, full), Fineness::Step(step))));
     for coordinates in [full, reduced] {
-        all.extend(runge_kutta.map(|step| (method(Scheme::RungeKutta4, coordinates), Fineness::Step(step))));
+        all.extend(runge_kutta.map(|step| (method(Integrator::RungeKutta4, coordinates), Fineness::Step(step))));
     }
     all.extend([
         (method(adaptive, full), Fineness::Tolerance(1e-8)),
         (method(adaptive, full), Fineness::Tolerance(1e-11)),
         (method(adaptive, reduced), Fineness::Tolerance(1e-11)),
-        (method(Scheme::SemiImplicitEuler, full), Fineness::Step(0.001)),
-        (method(Scheme::SemiImplicitEuler, reduced), Fineness::Step(0.001)),
+        (method(Integrator::SemiImplicitEuler, full), Fineness::Step(0.001)),
+        (method(Integrator::SemiImplicitEuler, reduced), Fineness::Step(0.001)),
     ]);
     all
 }

@@ -1,4 +1,4 @@
-//! Cost and accuracy of the integrators: the paper's approach and free motion by every scheme in both coordinates.
+//! Cost and accuracy of the integrators: the paper's approach and free motion by every integrator in both coordinates.
 //! Writes `docs/integrators.md` with its figures, or checks that they are up to date.
 //!
 //! Work is counted in evaluations of the derivative, which does not depend on the machine, but for the last bit of its

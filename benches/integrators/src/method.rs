@@ -1,9 +1,9 @@
-//! The compared schemes with their names and styles.
+//! The compared integrators with their names and styles.
 
 use planar_capture::output::figures::{Colour, Dash, Symbol};
-use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 
-/// A scheme in full or reduced coordinates.
+/// A integrator in full or reduced coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Method {
     pub integration: Integration,
@@ -20,18 +20,18 @@ pub enum Fineness {
 impl Method {
     /// All methods of scenarios.
     pub fn all() -> Vec<Self> {
-        let method = |scheme, coordinates| Self { integration: Integration { scheme, coordinates } };
-        let adaptive = Scheme::Adaptive { tolerance: 0.0 };
-        let mut all = vec![method(Scheme::GaussLegendre, Formulation::Full)];
-        for scheme in [Scheme::RungeKutta4, adaptive, Scheme::SemiImplicitEuler] {
-            all.extend([Formulation::Full, Formulation::Reduced].map(|coordinates| method(scheme, coordinates)));
+        let method = |integrator, coordinates| Self { integration: Integration { integrator, coordinates } };
+        let adaptive = Integrator::Adaptive { tolerance: 0.0 };
+        let mut all = vec![method(Integrator::GaussLegendre, Formulation::Full)];
+        for integrator in [Integrator::RungeKutta4, adaptive, Integrator::SemiImplicitEuler] {
+            all.extend([Formulation::Full, Formulation::Reduced].map(|coordinates| method(integrator, coordinates)));
         }
         all
     }
 
     /// As in a scenario.
     pub fn name(self) -> &'static str {
-        self.integration.scheme.properties().name
+        self.integration.integrator.properties().name
     }
 
     /// As in a scenario.
@@ -47,13 +47,13 @@ impl Method {
         format!("{}, {}", self.name(), self.coordinates())
     }
 
-    /// The colour shows the scheme, dash and symbol show the coordinates.
+    /// The colour shows the integrator, dash and symbol show the coordinates.
     pub fn style(self) -> (Colour, Dash, Symbol) {
-        let colour = match self.integration.scheme {
-            Scheme::GaussLegendre => Colour::of(0),
-            Scheme::RungeKutta4 => Colour::of(1),
-            Scheme::Adaptive { .. } => Colour::of(2),
-            Scheme::SemiImplicitEuler => Colour::of(3),
+        let colour = match self.integration.integrator {
+            Integrator::GaussLegendre => Colour::of(0),
+            Integrator::RungeKutta4 => Colour::of(1),
+            Integrator::Adaptive { .. } => Colour::of(2),
+            Integrator::SemiImplicitEuler => Colour::of(3),
         };
         match self.integration.coordinates {
             Formulation::Full => (colour, Dash::Solid, Symbol::Circle),
@@ -61,12 +61,12 @@ impl Method {
         }
     }
 
-    /// The scheme with its tolerance, and the step.
+    /// The integrator with its tolerance, and the step.
     pub fn with(self, fineness: Fineness, duration: f64) -> (Integration, f64) {
         match fineness {
             Fineness::Step(step) => (self.integration, step),
             Fineness::Tolerance(tolerance) => {
-                (Integration { scheme: Scheme::Adaptive { tolerance }, ..self.integration }, duration)
+                (Integration { integrator: Integrator::Adaptive { tolerance }, ..self.integration }, duration)
             }
         }
     }

@@ -3,7 +3,7 @@
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::{Problems, end};
-use planar_capture::simulate::stepper::{Formulation, Integration, Scheme};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 use planar_capture::simulate::{Phase, PhaseError};
 
 /// The work–precision data of one motion.
@@ -48,7 +48,7 @@ pub fn tumbling() -> Result<Work, Problem> {
 
 fn measure(title: &'static str, duration: f64, run: &Run<'_>) -> Result<Work, Problem> {
     let best = |coordinates| {
-        let integration = Integration { scheme: Scheme::Adaptive { tolerance: 1e-14 }, coordinates };
+        let integration = Integration { integrator: Integrator::Adaptive { tolerance: 1e-14 }, coordinates };
         run((integration, duration)).map(|(phase, _)| end(&phase))
     };
     let (reference, other) = (best(Formulation::Full)?, best(Formulation::Reduced)?);
@@ -68,11 +68,11 @@ fn measure(title: &'static str, duration: f64, run: &Run<'_>) -> Result<Work, Pr
 
 fn finenesses(method: Method) -> Vec<Fineness> {
     let steps = |steps: &[f64]| steps.iter().copied().map(Fineness::Step).collect();
-    match method.integration.scheme {
-        Scheme::RungeKutta4 => steps(&[0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001]),
-        Scheme::GaussLegendre => steps(&[0.4, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005]),
-        Scheme::SemiImplicitEuler => steps(&[0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002]),
-        Scheme::Adaptive { .. } => {
+    match method.integration.integrator {
+        Integrator::RungeKutta4 => steps(&[0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001]),
+        Integrator::GaussLegendre => steps(&[0.4, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005]),
+        Integrator::SemiImplicitEuler => steps(&[0.02, 0.01, 0.005, 0.002, 0.001, 0.0005, 0.0002]),
+        Integrator::Adaptive { .. } => {
             [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13].map(Fineness::Tolerance).to_vec()
         }
     }

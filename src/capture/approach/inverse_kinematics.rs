@@ -1,6 +1,6 @@
 //! Inverse kinematics: final joint angles of the approach from the desired end effector poses at its end.
 
-use crate::capture::approach::Approach;
+use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, rates_for};
 use crate::capture::reach::Reach;
 use crate::capture::reduced_matrices::reduced_matrices;
@@ -11,7 +11,7 @@ use crate::simulate::{PhaseError, Sample};
 use nalgebra::{DMatrix, DVector};
 
 /// Largest number of iterations; each gains about a digit.
-const MAX_ROUNDS: usize = 80;
+const MAX_ITERATIONS: usize = 80;
 /// Residual of a converged solution: rad, and m per m of reach.
 const TOLERANCE: f64 = 1e-11;
 /// Largest change of a joint angle in one iteration, rad: the Jacobian is that of one pose.
@@ -31,7 +31,7 @@ pub struct InverseKinematics {
     /// The largest error of a pose: rad, and m per m of the arm's reach.
     pub residual: f64,
     /// How many approaches were tracked.
-    pub rounds: usize,
+    pub iterations: usize,
     /// Number of joints less number of equations. Where it is positive, every step is the shortest solution; where it
     /// is negative, only compatible goals can be reached.
     pub spare_joints: isize,
@@ -42,8 +42,8 @@ pub struct InverseKinematics {
 pub enum InverseKinematicsError {
     /// A position beyond the stretched arm.
     #[error(
-        "the pose wanted of the tip of `{arm}` is out of reach: {distance:.4} m from where the robot's COM is at the end of \
-         the approach, and no pose brings that tip further out than {limit:.4} m"
+        "the wanted pose of the end effector of `{arm}` is out of reach: {distance:.4} m from the robot's COM at the end of the \
+         approach, and no pose brings that end effector further out than {limit:.4} m"
     )]
     OutOfReach {
         /// The arm's name.
@@ -55,17 +55,17 @@ pub enum InverseKinematicsError {
     },
     /// The iteration did not converge.
     #[error(
-        "the wanted tip poses were not reached: after {rounds} approaches they are still missed by {residual:.3e} (rad, or m \
-         per m of reach; the way there: {}), with smallest/largest singular value {singularity_margin:.1e} of the \
+        "the wanted end effector poses were not reached: after {iterations} approaches the residual is {residual:.3e} (rad, or \
+         m per m of reach; all residuals: {}), with smallest/largest singular value {singularity_margin:.1e} of the \
          generalized Jacobian. They may be out of reach; or give final_joint_angles near the wanted pose to start from",
         shortened(history)
     )]
     NotConverged {
         /// How many were tracked.
-        rounds: usize,
+        iterations: usize,
         /// The best that was reached.
         residual: f64,
-        /// Residuals, round by round.
+        /// Residuals, iteration by iteration.
         history: Vec<f64>,
         /// At the best pose.
         singularity_margin: f64,
@@ -111,7 +111,7 @@ pub fn inverse_kinematics(
     let mut trial = Trial { scenario: scenario.clone(), rates };
     let mut best: Option<Step> = None;
     let (mut history, mut part, mut halvings) = (Vec::new(), 1.0, 0);
-    for round in 1..=MAX_ROUNDS {
+    for iteration in 1..=MAX_ITERATIONS {
         let step = match trial.track(model, goals, sample, tick) {
             Ok(step) => Some(step),
             // a large step may end where the dynamics have no solution: it is shortened like one that ends far away
@@ -127,9 +127,9 @@ pub fn inverse_kinematics(
                 let equations: usize = goals.iter().map(EndEffectorGoal::len).sum();
                 return Ok(InverseKinematics {
                     joint_angles: step.angles,
-                    rates: TerminalRates { joint_rates: trial.rates, singularity_margin, iterations: round },
+                    rates: TerminalRates { joint_rates: trial.rates, singularity_margin, iterations: iteration },
                     residual: step.residual,
-                    rounds: round,
+                    iterations: iteration,
                     spare_joints: model.joints().cast_signed() - equations.cast_signed(),
                 });
             }
@@ -142,7 +142,7 @@ pub fn inverse_kinematics(
         trial.scenario.approach.final_joint_angles = moved.collect();
     }
     let (residual, singularity_margin) = best.map_or((f64::INFINITY, 0.0), |best| (best.residual, best.margin));
-    Err(InverseKinematicsError::NotConverged { rounds: history.len(), residual, history, singularity_margin })
+    Err(InverseKinematicsError::NotConverged { iterations: history.len(), residual, history, singularity_margin })
 }
 
 /// The scenario with the final joint angles and the terminal rates of an iteration.
@@ -173,7 +173,12 @@ impl Trial {
         sample: f64,
         tick: &mut dyn FnMut(),
     ) -> Result<Step, TerminalRatesError> {
-        let phase = Approach::new(&self.scenario, sample).track_exactly(model, &self.rates, &mut NoEvents, tick)?;
+        let phase = ApproachTracking::new(&self.scenario, sample).track_by_inverse_dynamics(
+            model,
+            &self.rates,
+            &mut NoEvents,
+            tick,
+        )?;
         let mut step = self.step(model, goals, phase.end())?;
         if let FinalRates::EndEffectorTwists(twists) = &self.scenario.approach.end {
             let (rates, margin) = rates_for(model, phase.end(), twists)?;

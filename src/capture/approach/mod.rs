@@ -16,12 +16,12 @@ use crate::trajectory::{AnyTrajectory, PointToPoint};
 
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
-pub struct Approach<'a> {
+pub struct ApproachTracking<'a> {
     scenario: &'a Scenario,
     timing: Timing,
 }
 
-impl<'a> Approach<'a> {
+impl<'a> ApproachTracking<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
@@ -55,7 +55,7 @@ impl<'a> Approach<'a> {
             drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
-            Tracking::Exact => self.track_exactly(model, rates, events, tick),
+            Tracking::InverseDynamics => self.track_by_inverse_dynamics(model, rates, events, tick),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
                 drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
             }
@@ -81,7 +81,7 @@ impl<'a> Approach<'a> {
     ///
     /// # Errors
     /// When and why it stopped.
-    pub fn track_exactly(
+    pub fn track_by_inverse_dynamics(
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],

@@ -1,6 +1,6 @@
 //! Terminal joint rates of the approach from the desired end effector twists at its end, by the generalized Jacobian.
 
-use crate::capture::approach::Approach;
+use crate::capture::approach::ApproachTracking;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::EndEffectorTwistGoal;
@@ -19,12 +19,12 @@ const RESIDUAL_TOLERANCE: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TerminalRatesError {
     /// The approach could not be tracked.
-    #[error("while the end rates were designed, {0}")]
+    #[error("while the terminal rates were computed, {0}")]
     PhaseError(#[from] PhaseError),
     /// The terminal rates grew until their approach could not be tracked.
     #[error(
-        "the end rates that the wanted tip twists ask for grow without bound, to {largest_rate:.3e} rad/s in round \
-         {iteration}: the final pose is close to singular (generalized Jacobian: smallest/largest singular value \
+        "the terminal joint rates for the wanted end effector twists grow without bound, to {largest_rate:.3e} rad/s in \
+         iteration {iteration}: the final pose is close to singular (generalized Jacobian: smallest/largest singular value \
          {singularity_margin:.1e}). Choose other final_joint_angles, or final_end_effector_twists that the arms can \
          give ({source})"
     )]
@@ -40,7 +40,7 @@ pub enum TerminalRatesError {
     },
     /// The generalized Jacobian at the final pose cannot give the desired twists.
     #[error(
-        "the wanted tip twists are out of reach at the final pose: the generalized Jacobian ({rows} × {columns}, singular \
+        "the wanted end effector twists are out of reach at the final pose: the generalized Jacobian ({rows} × {columns}, singular \
          values {largest:.3e} to {smallest:.3e}) misses them by {miss:.3e} (m/s or rad/s). Choose other \
          final_joint_angles, or final_end_effector_twists that the arms can give"
     )]
@@ -57,7 +57,9 @@ pub enum TerminalRatesError {
         miss: f64,
     },
     /// The iteration did not converge.
-    #[error("the end rates did not converge: after {iterations} iterations they still change by {change:.3e} rad/s")]
+    #[error(
+        "the terminal rates did not converge: after {iterations} iterations they still change by {change:.3e} rad/s"
+    )]
     NotConverged {
         /// How many were made.
         iterations: usize,
@@ -86,17 +88,20 @@ pub struct TerminalRates {
 /// [`TerminalRatesError`].
 pub fn terminal_rates(
     model: &dyn Model<f64>,
-    approach: &Approach<'_>,
+    approach: &ApproachTracking<'_>,
     goals: &[EndEffectorTwistGoal],
     tick: &mut dyn FnMut(),
 ) -> Result<TerminalRates, TerminalRatesError> {
     let mut rates = vec![0.0; model.joints()];
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
-        let phase = approach.track_exactly(model, &rates, &mut NoEvents, tick).map_err(|source| match iteration {
-            1 => TerminalRatesError::PhaseError(source),
-            _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
-        })?;
+        let phase =
+            approach.track_by_inverse_dynamics(model, &rates, &mut NoEvents, tick).map_err(
+                |source| match iteration {
+                    1 => TerminalRatesError::PhaseError(source),
+                    _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
+                },
+            )?;
         let (next, margin) = rates_for(model, phase.end(), goals)?;
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
         change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));

@@ -29,13 +29,18 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
         return None;
     }
     contacts.reverse(); // the first at the top
-    let mut kinds =
-        vec![("tip, before", Colour::BLUE, Symbol::Circle), ("target, before", Colour::VERMILLION, Symbol::Square)];
+    let mut kinds = vec![
+        ("end effector, before", Colour::BLUE, Symbol::Circle),
+        ("target, before", Colour::VERMILLION, Symbol::Square),
+    ];
     if contacts.iter().all(|contact| contact.rigid) {
         // both twists are the same
         kinds.push(("both, after", Colour::BLACK, Symbol::Cross));
     } else {
-        kinds.extend([("target, after", Colour::GREEN, Symbol::Plus), ("tip, after", Colour::BLACK, Symbol::Cross)]);
+        kinds.extend([
+            ("target, after", Colour::GREEN, Symbol::Plus),
+            ("end effector, after", Colour::BLACK, Symbol::Cross),
+        ]);
     }
     let panel = |(label, component): (&str, usize)| {
         let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol))| {

@@ -37,7 +37,8 @@ fn contact(scenario: &Scenario, event: &ImpactEvent<'_>, result: &ContactResult)
     value["target"] = json!(target);
     value["arm"] = json!(arm);
     value["restitution"] = json!(law.bounce().map(|(_, restitution)| restitution));
-    value["tip"] = json!([x, y]);
+    value["end_effector"] = json!([x, y]);
+    value["holds"] = json!(law.kind().holds());
     value["literal_impulse"] = json!(event.solution.paper.as_ref().and_then(|paper| paper.impulses[arm]));
     // along the inward normal of a bounce
     value["closing_speed"] = json!(law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)));

@@ -5,7 +5,7 @@ use super::digits;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::output::scene::{Motion, base_size, robot_frames};
+use crate::output::scene::{FrameMotion, base_size, robot_frames};
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
@@ -46,7 +46,7 @@ fn robot(layout: &Layout) -> Value {
     });
     let frames = robot_frames(layout).into_iter().map(|frame| {
         let joint = match frame.motion {
-            Motion::Joint(joint) => Some(joint),
+            FrameMotion::Joint(joint) => Some(joint),
             _ => None,
         };
         json!({"parent": frame.parent, "pose": frame.pose, "joint": joint, "arm": frame.arm})
@@ -113,7 +113,7 @@ fn phase(phase: &Phase) -> Value {
         "joint_angles": columns(joints, &|sample, i| sample.state.joint_angles[i]),
         "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates[i]),
         "joint_torques": columns(joints, &|sample, i| sample.joint_torques[i]),
-        "tips": end_effectors.collect::<Vec<_>>(),
+        "end_effectors": end_effectors.collect::<Vec<_>>(),
         "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum[i]),
         "angular_momentum": column(&|sample| sample.momentum.angular_momentum),
         "kinetic_energy": column(&|sample| sample.momentum.kinetic_energy),

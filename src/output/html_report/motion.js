@@ -27,7 +27,7 @@ function timeline(one) {
   const starts = [0, approach.duration];
   const time = phases.flatMap((phase, i) => phase.time.map((t) => t + starts[i]));
   const columns = { time };
-  for (const key of ["base_pose", "base_twist", "joint_angles", "joint_rates", "joint_torques", "tips",
+  for (const key of ["base_pose", "base_twist", "joint_angles", "joint_rates", "joint_torques", "end_effectors",
     "linear_momentum", "angular_momentum", "kinetic_energy"]) columns[key] = join(key);
   const done = approach.work[approach.work.length - 1] || 0;
   columns.work = phases.flatMap((phase, i) => phase.work.map((work) => work + (i ? done : 0)));
@@ -38,7 +38,7 @@ function timeline(one) {
   columns.impacts = one.impacts.map((impact) => ({ ...impact, time: time[columns.before + impact.sample] }));
   // the contacts that hold, each with its start
   columns.holds = columns.impacts.flatMap(({ time, contacts }) =>
-    contacts.filter(({ kind }) => kind !== "bounce").map(({ arm, target, kind }) => ({ time, arm, target, kind })));
+    contacts.filter(({ holds }) => holds).map(({ arm, target, kind }) => ({ time, arm, target, kind })));
   return columns;
 }
 
@@ -74,7 +74,7 @@ function configuration(line, time) {
   }
   const arms = study.layout.arms.map((_, arm) => {
     const own = poses.filter((_, i) => study.layout.frames[i].arm === arm);
-    return { points: own.map(({ point }) => point), angles: own.map(({ angle }) => angle), tip: own[own.length - 1].point };
+    return { points: own.map(({ point }) => point), angles: own.map(({ angle }) => angle), end_effector: own[own.length - 1].point };
   });
   return { yaw, base: [x, y], arms };
 }

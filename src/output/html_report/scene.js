@@ -22,11 +22,11 @@ function draw() {
     drawTarget(study.targets[i], pose, screen, scale);
     // lines to all holding contacts show closed loops
     pen.strokeStyle = TARGET; pen.lineWidth = 2;
-    held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].tip].map(screen)));
+    held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].end_effector].map(screen)));
   });
   drawBase(now, screen);
   now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale));
-  held.forEach((hold) => drawGrip(hold, screen(now.arms[hold.arm].tip), scale));
+  held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
   line.impacts.forEach((impact) => drawImpact(impact, line, screen));
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height));
   // positions in pixels, for tests
@@ -35,7 +35,7 @@ function draw() {
 
 function traces(line, screen) {
   const until = place(line, state.time);
-  line.tips.forEach(([, xs, ys], i) => {
+  line.end_effectors.forEach(([, xs, ys], i) => {
     pen.strokeStyle = COLOURS[i % COLOURS.length]; pen.globalAlpha = 0.35; pen.lineWidth = 1.5;
     stroke(xs.slice(0, until + 1).map((x, k) => screen([x, ys[k]])));
     pen.globalAlpha = 1;
@@ -69,11 +69,11 @@ function drawArm(arm, now, colour, screen, scale) {
     }
     circle(joint, thick * 0.62, "#ffffff", colour);
   });
-  circle(screen(now.tip), thick * 0.62, colour);
+  circle(screen(now.end_effector), thick * 0.62, colour);
 }
 
 /** A ring for a pin, a square for a rigid contact. */
-function drawGrip(hold, [x, y], scale) {
+function drawAttachment(hold, [x, y], scale) {
   const colour = COLOURS[hold.arm % COLOURS.length], size = 0.55 * thickness(scale) + 3;
   pen.lineWidth = 2.5;
   if (hold.kind === "pin") circle([x, y], size + 1, "#ffffff", colour);
@@ -131,7 +131,7 @@ function drawImpact(impact, line, screen) {
   const scale = impulseScale(line);
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
   for (const contact of impact.contacts) {
-    const from = screen(contact.tip), f = force(contact.impulse), [, fx, fy] = contact.impulse;
+    const from = screen(contact.end_effector), f = force(contact.impulse), [, fx, fy] = contact.impulse;
     // rounding error
     if (f < 1e-9) {
       circle(from, 9, null, IMPULSE);

@@ -23,14 +23,14 @@ pub struct Frame {
     /// [angle, x, y] in the parent with the joint angle 0, rad, m; zeros for a free body.
     pub pose: [f64; 3],
     /// What determines its motion.
-    pub motion: Motion,
+    pub motion: FrameMotion,
     /// Index of its arm.
     pub arm: Option<usize>,
 }
 
 /// What determines the motion of a frame in its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub enum FrameMotion {
     /// It is fixed.
     Fixed,
     /// The angle of the joint of this index.
@@ -49,7 +49,7 @@ pub fn frames(scenario: &Scenario) -> Vec<Frame> {
         name: format!("targets/{}", target.name),
         parent: None,
         pose: [0.0; 3],
-        motion: Motion::Target(i),
+        motion: FrameMotion::Target(i),
         arm: None,
     }));
     frames
@@ -59,7 +59,7 @@ pub fn frames(scenario: &Scenario) -> Vec<Frame> {
 /// children.
 #[must_use]
 pub fn robot_frames(layout: &Layout) -> Vec<Frame> {
-    let free = Frame { name: "base".to_owned(), parent: None, pose: [0.0; 3], motion: Motion::Base, arm: None };
+    let free = Frame { name: "base".to_owned(), parent: None, pose: [0.0; 3], motion: FrameMotion::Base, arm: None };
     let mut frames = vec![free];
     let mut joint = 0;
     for (i, arm) in layout.arms.iter().enumerate() {
@@ -67,12 +67,12 @@ pub fn robot_frames(layout: &Layout) -> Vec<Frame> {
             name: String::new(),
             parent: Some(0),
             pose: [arm.mount_angle, arm.mount[0], arm.mount[1]],
-            motion: Motion::Fixed,
+            motion: FrameMotion::Fixed,
             arm: Some(i),
         };
         for (k, link) in arm.links.iter().enumerate() {
             let name = format!("arms/{}/link{}", arm.name, k + 1);
-            frames.push(Frame { name, motion: Motion::Joint(joint), ..next.clone() });
+            frames.push(Frame { name, motion: FrameMotion::Joint(joint), ..next.clone() });
             joint += 1;
             next = Frame { parent: Some(frames.len() - 1), pose: [0.0, link.length, 0.0], ..next };
         }
@@ -87,10 +87,10 @@ impl Frame {
     pub fn pose_in_parent(&self, state: &RobotState, targets: &[[f64; 3]]) -> [f64; 3] {
         let [angle, x, y] = self.pose;
         match self.motion {
-            Motion::Fixed => self.pose,
-            Motion::Joint(joint) => [angle + state.joint_angles[joint], x, y],
-            Motion::Base => state.base_pose,
-            Motion::Target(target) => targets[target],
+            FrameMotion::Fixed => self.pose,
+            FrameMotion::Joint(joint) => [angle + state.joint_angles[joint], x, y],
+            FrameMotion::Base => state.base_pose,
+            FrameMotion::Target(target) => targets[target],
         }
     }
 }

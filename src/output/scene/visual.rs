@@ -1,6 +1,6 @@
 //! Shapes and colours of base, links and targets, each in its own frame.
 
-use super::{Motion, frames};
+use super::{FrameMotion, frames};
 use crate::layout::{Layout, Link};
 use crate::outline::Outline;
 use crate::scenario::Scenario;
@@ -56,15 +56,15 @@ pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
     let links: Vec<&Link> = layout.arms.iter().flat_map(|arm| &arm.links).collect();
     let each = frames(scenario).into_iter().filter_map(|frame| {
         let (shape, colour, thickness) = match frame.motion {
-            Motion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
-            Motion::Joint(joint) => {
+            FrameMotion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
+            FrameMotion::Joint(joint) => {
                 (link_shape(links[joint], width), colour(PALETTE[frame.arm? % PALETTE.len()], 1.0), width)
             }
-            Motion::Target(target) => {
+            FrameMotion::Target(target) => {
                 (Shape::Outline(scenario.targets[target].outline.clone()), colour(TARGET, 0.5), width)
             }
             // an end effector is a point
-            Motion::Fixed => return None,
+            FrameMotion::Fixed => return None,
         };
         Some(Visual { frame: frame.name, shape, colour, thickness })
     });

@@ -63,7 +63,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
         if by_end_effectors { end_effector_goal(table, joints, initial) } else { joint_goal(table, joints, initial) };
     let trajectory_duration = trajectory_duration(table, times, goal.end.as_ref(), by_end_effectors);
     let tracking = law.and_then(|law| tracking(table, joints, law));
-    let actuation = if law == Some(&Tracking::Exact) {
+    let actuation = if law == Some(&Tracking::InverseDynamics) {
         let why = "exact tracking gives whatever torque it takes, expected `tracking` `computed_torque` or `pd`";
         reject_actuation(table, why);
         Some(Actuation::default())
@@ -276,7 +276,7 @@ fn laws(joints: &Joints<'_>) -> [Tracking; 4] {
             proportional_gain: proportional_gain.clone(),
             derivative_gain: derivative_gain.clone(),
         },
-        Tracking::Exact,
+        Tracking::InverseDynamics,
         Tracking::ComputedTorque { proportional_gain, derivative_gain },
         Tracking::ResolvedMotionRate { pose_gain: 2.0, rate_gain: 10.0, singularity_threshold: 0.04 },
     ]
@@ -290,7 +290,7 @@ fn tracking(table: &Table<'_>, joints: &Joints<'_>, law: &Tracking) -> Option<Tr
         _ => [&PROPORTIONAL_GAIN, &DERIVATIVE_GAIN],
     };
     match &mut law {
-        Tracking::Exact => {
+        Tracking::InverseDynamics => {
             let why = "exact tracking has no gains, expected `tracking = \"pd\"` with them";
             reject_keys(table, &["proportional_gain", "derivative_gain"], why);
         }

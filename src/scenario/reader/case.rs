@@ -1,4 +1,4 @@
-//! `[[case]]`: variants of a capture.
+//! Reads `[[case]]`: the contact kinds of each variant of a capture.
 
 use super::target::{NO_BOUNCE, NO_NORMAL, bounces_at_com, contact_kinds, restitution};
 use super::{FILE_NAME, TWIST, file_name};

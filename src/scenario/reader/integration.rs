@@ -3,7 +3,7 @@
 use super::read_or;
 use crate::diagnostic::{NumberRule, Table};
 use crate::integrate::Adaptive;
-use crate::simulate::stepper::{Formulation, Integration, Scheme};
+use crate::simulate::stepper::{Formulation, Integration, Integrator};
 
 const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 
@@ -11,12 +11,14 @@ const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 const LARGEST_TOLERANCE: f64 = 1e-3;
 
 pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
-    let scheme = read_or(table, "integrator", Scheme::RungeKutta4, |value| {
-        value.choice(&Scheme::ALL.iter().map(|scheme| (scheme.properties().name, *scheme)).collect::<Vec<_>>())
+    let integrator = read_or(table, "integrator", Integrator::RungeKutta4, |value| {
+        value.choice(
+            &Integrator::ALL.iter().map(|integrator| (integrator.properties().name, *integrator)).collect::<Vec<_>>(),
+        )
     });
     let coordinates = read_or(table, "coordinates", Formulation::Full, |value| {
         let coordinates = value.choice(&[("full", Formulation::Full), ("reduced", Formulation::Reduced)])?;
-        let properties = scheme.map(Scheme::properties).filter(|properties| properties.is_canonical);
+        let properties = integrator.map(Integrator::properties).filter(|properties| properties.is_canonical);
         if let (Some(properties), Formulation::Reduced) = (properties, coordinates) {
             let name = properties.name;
             value.reject(&format!(
@@ -26,17 +28,17 @@ pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
         }
         Some(coordinates)
     });
-    let tolerance = tolerance(table, scheme);
-    let scheme = match scheme? {
-        Scheme::Adaptive { .. } => Scheme::Adaptive { tolerance: tolerance? },
-        scheme => scheme,
+    let tolerance = tolerance(table, integrator);
+    let integrator = match integrator? {
+        Integrator::Adaptive { .. } => Integrator::Adaptive { tolerance: tolerance? },
+        integrator => integrator,
     };
-    Some(Integration { scheme, coordinates: coordinates? })
+    Some(Integration { integrator, coordinates: coordinates? })
 }
 
-fn tolerance(table: &Table<'_>, scheme: Option<Scheme>) -> Option<f64> {
-    let Some(value) = table.get("tolerance") else { return Some(Scheme::DEFAULT_TOLERANCE) };
-    if !scheme?.properties().is_adaptive {
+fn tolerance(table: &Table<'_>, integrator: Option<Integrator>) -> Option<f64> {
+    let Some(value) = table.get("tolerance") else { return Some(Integrator::DEFAULT_TOLERANCE) };
+    if !integrator?.properties().is_adaptive {
         value.reject("only `integrator = \"adaptive\"` has a tolerance, expected that with it; others have a `step`");
         return None;
     }
@@ -44,7 +46,7 @@ fn tolerance(table: &Table<'_>, scheme: Option<Scheme>) -> Option<f64> {
     let smallest = Adaptive::SMALLEST_TOLERANCE;
     if !(smallest..=LARGEST_TOLERANCE).contains(&tolerance) {
         value.reject(&format!(
-            "expected {smallest:e} to {LARGEST_TOLERANCE:e}: less is lost in rounding, more is no longer a motion"
+            "expected {smallest:e} to {LARGEST_TOLERANCE:e}: a smaller one is below rounding errors, with a larger one the motion is wrong"
         ));
         return None;
     }

@@ -94,7 +94,7 @@ impl Scenario {
                 read_or(root, "limits", Vec::new(), |value| limits::joint_limits(&value.table(limits::KEYS)?, &joints));
             if let (Some(table), Some(initial)) = (&initial_table, &initial) {
                 let from_rest = approach.as_ref().is_some_and(|approach| {
-                    approach.tracking == Tracking::Exact && approach.trajectory.properties().starts_at_rest
+                    approach.tracking == Tracking::InverseDynamics && approach.trajectory.properties().starts_at_rest
                 });
                 if from_rest && initial.joint_rates.iter().any(|rate| *rate != 0.0) {
                     let why = "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or \

@@ -149,7 +149,9 @@ fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
 fn contact_points(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Option<Vec<[f64; 2]>> {
     if detection == Detection::Event {
         if let Some(value) = table.get("contact") {
-            value.reject("contacts are found where tip and surface meet (`contact.detection`), expected no such key");
+            value.reject(
+                "contacts are found where end effector and surface meet (`contact.detection`), expected no such key",
+            );
             return None;
         }
         return arms.map(|arms| vec![[0.0; 2]; arms]);

@@ -1,13 +1,13 @@
 //! Adaptive steps, with dense output where a step of the phase ends.
 
-use super::{Method, Properties};
+use super::{Properties, Steps};
 use crate::error::Error;
 use crate::integrate::Adaptive;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties = Properties { name: "adaptive", is_adaptive: true, is_canonical: false };
 
-pub(super) struct Steps {
+pub(super) struct AdaptiveSteps {
     tolerance: f64,
     solver: Adaptive,
     /// When the phase ends, s.
@@ -16,13 +16,13 @@ pub(super) struct Steps {
     until: Option<f64>,
 }
 
-impl Steps {
+impl AdaptiveSteps {
     pub(super) fn new(tolerance: f64, duration: f64) -> Self {
         Self { tolerance, solver: Adaptive::new(tolerance), duration, until: None }
     }
 }
 
-impl Method for Steps {
+impl Steps for AdaptiveSteps {
     fn advance(&mut self, equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         let Self { solver, duration, until, .. } = self;
         // times are multiples of the step, rounded: half a step tells them apart

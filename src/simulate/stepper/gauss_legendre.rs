@@ -1,12 +1,12 @@
 //! Gauss–Legendre steps of order 6, in canonical variables.
 
-use super::{Method, Properties};
+use super::{Properties, Steps};
 use crate::integrate::GaussLegendre;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties = Properties { name: "gauss_legendre", is_adaptive: false, is_canonical: true };
 
-pub(super) fn method(length: usize) -> impl Method {
+pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; GaussLegendre::<f64>::WORKSPACE * length];
     move |equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]| {
         let mut integrator = GaussLegendre::new(&mut workspace)?;

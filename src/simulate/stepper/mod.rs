@@ -1,4 +1,4 @@
-//! Steps of a phase by any scheme and in any coordinates.
+//! Steps of a phase by any integrator in any coordinates.
 
 mod adaptive;
 mod gauss_legendre;
@@ -7,7 +7,7 @@ mod semi_implicit_euler;
 
 use crate::control::Control;
 use crate::error::Error;
-use crate::simulate::equation::{Equation, Form};
+use crate::simulate::equation::{Equation, FormulationWorkspace};
 use crate::simulate::system::System;
 use crate::state::State;
 
@@ -15,7 +15,7 @@ use crate::state::State;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Integration {
     /// The integrator.
-    pub scheme: Scheme,
+    pub integrator: Integrator,
     /// What is integrated.
     pub coordinates: Formulation,
 }
@@ -30,7 +30,7 @@ pub enum Formulation {
     Reduced,
 }
 
-/// Name and abilities of a scheme.
+/// Name and abilities of an integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Properties {
     /// As scenarios have it.
@@ -43,7 +43,7 @@ pub struct Properties {
 
 /// An integrator. Each has a file of its own with its properties and steps; this file lists them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Scheme {
+pub enum Integrator {
     /// Classical Runge–Kutta steps of order 4.
     #[default]
     RungeKutta4,
@@ -58,11 +58,11 @@ pub enum Scheme {
     },
 }
 
-impl Scheme {
+impl Integrator {
     /// The default tolerance: the error of the paper's approach is then less than 1e-12 rad and m.
     pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 
-    /// All schemes.
+    /// All integrators.
     pub const ALL: &'static [Self] = &[
         Self::RungeKutta4,
         Self::SemiImplicitEuler,
@@ -82,18 +82,18 @@ impl Scheme {
     }
 
     /// Its steps, for a phase of `duration` (s) and vectors of `length`.
-    fn method(self, duration: f64, length: usize) -> Box<dyn Method> {
+    fn steps(self, duration: f64, length: usize) -> Box<dyn Steps> {
         match self {
-            Self::RungeKutta4 => Box::new(runge_kutta4::method(length)),
-            Self::SemiImplicitEuler => Box::new(semi_implicit_euler::method(length)),
-            Self::GaussLegendre => Box::new(gauss_legendre::method(length)),
-            Self::Adaptive { tolerance } => Box::new(adaptive::Steps::new(tolerance, duration)),
+            Self::RungeKutta4 => Box::new(runge_kutta4::steps(length)),
+            Self::SemiImplicitEuler => Box::new(semi_implicit_euler::steps(length)),
+            Self::GaussLegendre => Box::new(gauss_legendre::steps(length)),
+            Self::Adaptive { tolerance } => Box::new(adaptive::AdaptiveSteps::new(tolerance, duration)),
         }
     }
 }
 
-/// Steps of one scheme, with its data between them.
-trait Method {
+/// The steps of one integrator, with its data between them.
+trait Steps {
     /// Advances `x` over the next step, `span` (from, to; s).
     fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error>;
 
@@ -103,8 +103,8 @@ trait Method {
     }
 }
 
-/// A scheme whose steps are independent is the function that advances `x`.
-impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Method for F {
+/// An integrator whose steps are independent is the function that advances `x`.
+impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Steps for F {
     fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         self(equation, span, x)
     }
@@ -113,7 +113,7 @@ impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Met
 /// Advances the integrated vector of a phase.
 pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
-    method: Box<dyn Method>,
+    steps: Box<dyn Steps>,
 }
 
 impl<'a> Stepper<'a> {
@@ -125,13 +125,13 @@ impl<'a> Stepper<'a> {
         duration: f64,
         x: &[f64],
     ) -> Result<Self, Error> {
-        let form = match (integration.coordinates, integration.scheme.properties().is_canonical) {
-            (Formulation::Reduced, _) => Form::reduced(system, x)?,
-            (Formulation::Full, true) => Form::canonical(system, x)?,
-            (Formulation::Full, false) => Form::Full,
+        let form = match (integration.coordinates, integration.integrator.properties().is_canonical) {
+            (Formulation::Reduced, _) => FormulationWorkspace::reduced(system, x)?,
+            (Formulation::Full, true) => FormulationWorkspace::canonical(system, x)?,
+            (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let equation = Equation::new(system, control, form);
-        Ok(Self { equation, method: integration.scheme.method(duration, x.len()) })
+        Ok(Self { equation, steps: integration.integrator.steps(duration, x.len()) })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
@@ -147,7 +147,7 @@ impl<'a> Stepper<'a> {
 
     /// Advances `x` over the next step.
     pub(crate) fn advance(&mut self, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        self.method.advance(&mut self.equation, span, x)
+        self.steps.advance(&mut self.equation, span, x)
     }
 
     /// The vector at `time` within a step that starts at `start` with `x`, into `into`.
@@ -157,7 +157,7 @@ impl<'a> Stepper<'a> {
         if time <= start {
             return Ok(());
         }
-        self.method.within(&mut self.equation, [start, time], into)
+        self.steps.within(&mut self.equation, [start, time], into)
     }
 
     /// d/dt of `x`.

@@ -1,12 +1,12 @@
 //! Runge–Kutta steps of order 4.
 
-use super::{Method, Properties};
+use super::{Properties, Steps};
 use crate::integrate::RungeKutta4;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties = Properties { name: "rk4", is_adaptive: false, is_canonical: false };
 
-pub(super) fn method(length: usize) -> impl Method {
+pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; RungeKutta4::<f64>::WORKSPACE * length];
     move |equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]| {
         let mut integrator = RungeKutta4::new(&mut workspace)?;

@@ -41,7 +41,7 @@ fn description_of_a_scenario() {
         "generated code      generated::dual_arm_3r\n",
         "start               at rest, base at (0, 0) m, yaw 0 rad\n",
         "approach            20 s in 4000 steps of 0.005 s\n",
-        "trajectory          quartic, to tip twists [0, -0.1, 0], [0, 0.1, 0] rad/s, m/s\n",
+        "trajectory          quartic, to end effector twists [0, -0.1, 0], [0, 0.1, 0] rad/s, m/s\n",
         "largest turn        joint 2 of arm2, 2.964 rad at up to 0.2779 rad/s\n",
         "tracking            PD, 49 N m/rad, 14 N m s/rad; fastest mode 18.68 1/s, 0.09338 in a step\n",
         "final pose          generalized Jacobian of arm1, arm2: smallest/largest singular value 0.05817\n",

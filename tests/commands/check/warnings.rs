@@ -98,7 +98,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         "-0.5, -1.4, -0.1, 0.0",
         "-0.5, 0.001, 0, 0.0",
         8,
-        &["close to a singular pose of left", "singular value", "elbows"],
+        &["close to a singular pose of left", "singular value", "bent arms"],
     ),
     // rates, times and gains
     ("duration = 20.0", "duration = 0.2", 6, &["`approach.duration` is 0.2", "up to 11.25 rad/s", "0.3581 s or more"]),

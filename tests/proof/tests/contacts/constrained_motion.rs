@@ -9,7 +9,7 @@ use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::stepper::{Integration, Scheme};
+use planar_capture::simulate::stepper::{Integration, Integrator};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
 use planar_capture::state::State;
 use planar_proof::maximal::impact::{Contact, Kind, impact};
@@ -82,7 +82,7 @@ fn check(layout: &Layout, s: &RandomState, kinds: &[(usize, Kind)], controlled: 
     if monitor.margin < tolerance::DEPENDENCE_MARGIN {
         return false;
     }
-    let integration = Integration { scheme: Scheme::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
+    let integration = Integration { integrator: Integrator::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
     let phase = capture.simulated(controlled, &Timing { duration, step: 0.05, sample: duration, integration });
     let end = phase.end();
     let (all, bound) = (&capture.all, tolerance::CONSTRAINED_MOTION);
