@@ -1,7 +1,7 @@
 //! The two motions: the paper's approach under PD control, and free tumbling.
 
 use crate::Problem;
-use planar_capture::capture::approach::Approach;
+use planar_capture::capture::approach::ApproachTracking;
 use planar_capture::capture::approach::terminal_rates::terminal_rates;
 use planar_capture::control::{BaseTorque, Control, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::Model;
@@ -58,7 +58,7 @@ impl Problems {
         let FinalRates::EndEffectorTwists(wanted) = &scenario.approach.end else {
             return Err("no wanted twists".into());
         };
-        let terminal_rates = terminal_rates(&*model, &Approach::new(&scenario, 1.0), wanted, &mut || ())?;
+        let terminal_rates = terminal_rates(&*model, &ApproachTracking::new(&scenario, 1.0), wanted, &mut || ())?;
         Ok(Self { rates: terminal_rates.joint_rates, model, scenario })
     }
 
