@@ -87,7 +87,7 @@ pub use planar_build as build;
 #[cfg(feature = "std")]
 pub use planar_build::prove::{self as generate, evaluation, generic, owned, quantities, sampling};
 #[cfg(feature = "std")]
-pub use planar_layout::{diagnostic, layout, structure};
+pub use planar_layout::{diagnostic, layout, outline, structure};
 
 #[cfg(feature = "std")]
 pub mod capture;
@@ -98,7 +98,7 @@ pub mod compare;
 #[cfg(feature = "std")]
 pub mod eval;
 #[cfg(feature = "std")]
-pub mod outline;
+pub mod frames;
 #[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "std")]

@@ -5,4 +5,5 @@
 
 pub mod diagnostic;
 pub mod layout;
+pub mod outline;
 pub mod structure;

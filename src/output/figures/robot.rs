@@ -2,9 +2,10 @@
 
 use super::figure::{Mark, Series};
 use super::style::{Colour, Dash, Symbol};
+use crate::frames::{point, poses, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::output::scene::{Shape, base_shape, point, poses, robot_frames};
+use crate::output::scene::{Shape, base_shape};
 use crate::owned::RobotState;
 use crate::scenario::Target;
 

@@ -3,9 +3,10 @@
 use super::contacts::{closing_failures, constraint_openings, distances, impacts_of_case};
 use super::digits;
 use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::frames::{FrameMotion, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::output::scene::{FrameMotion, base_size, robot_frames};
+use crate::output::scene::base_size;
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};

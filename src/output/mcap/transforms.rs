@@ -1,7 +1,7 @@
-//! The poses of all frames of the [scene](crate::output::scene) as transforms; `world` is the inertial frame.
+//! The poses of all frames of the [scene](crate::frames) as transforms; `world` is the inertial frame.
 
 use super::recording::timestamp;
-use crate::output::scene::Frame;
+use crate::frames::Frame;
 use crate::output::time_series::TimeSeriesRow;
 use foxglove::messages::{FrameTransform, FrameTransforms, Pose, Quaternion, Vector3};
 

@@ -1,13 +1,7 @@
-//! Forward kinematics of robot and targets and their shapes, shared by figures, MCAP and HTML report.
+//! Forward kinematics of robot and targets: one tree of frames for the clearance, figures, MCAP and the HTML report.
 //!
 //! The frames form a tree: `base` and `targets/TARGET` (at the target's COM) in the inertial frame, `arms/ARM/link1` in
 //! `base`, `arms/ARM/link2` in `arms/ARM/link1` and so on to `arms/ARM/tip`.
-
-mod visual;
-
-#[cfg(feature = "figures")]
-pub(crate) use visual::base_shape;
-pub use visual::{PALETTE, Shape, Visual, base_size, visuals};
 
 use crate::layout::Layout;
 use crate::owned::RobotState;

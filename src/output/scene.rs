@@ -1,6 +1,6 @@
-//! Shapes and colours of base, links and targets, each in its own frame.
+//! Shapes and colours of base, links and targets, each in its own frame, shared by figures, MCAP and HTML report.
 
-use super::{FrameMotion, frames};
+use crate::frames::{FrameMotion, frames};
 use crate::layout::{Layout, Link};
 use crate::outline::Outline;
 use crate::scenario::Scenario;
