@@ -155,14 +155,14 @@ def _number(path: str, value: Any) -> float:
 
 def _layout(content: dict[str, Any]) -> Layout:
     root = _Table("", content, ("name", "base", "arm"))
-    base = root.table("base", ("mass", "inertia"))
+    base = root.table("base", ("mass", "inertia", "outline"))
     arms = root.tables("arm", ("name", "mount", "mount_angle", "link"))
     return Layout(root.text("name"), Base(base.number("mass"), base.number("inertia")), tuple(map(_arm, arms)))
 
 
 def _arm(table: _Table) -> Arm:
     mount_angle = table.number("mount_angle") if "mount_angle" in table.entries else 0.0
-    links = table.tables("link", ("length", "mass", "inertia", "com"))
+    links = table.tables("link", ("length", "mass", "inertia", "com", "outline"))
     return Arm(table.text("name"), table.position("mount"), mount_angle, tuple(map(_link, links)))
 
 

@@ -5,7 +5,6 @@
 
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::Scenario;
 
 /// A coordinate frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,12 +34,12 @@ pub enum FrameMotion {
     Target(usize),
 }
 
-/// The frames of a scenario's robot and targets; parents come before their children.
+/// The frames of a robot and of targets with these names; parents come before their children.
 #[must_use]
-pub fn frames(scenario: &Scenario) -> Vec<Frame> {
-    let mut frames = robot_frames(&scenario.layout);
-    frames.extend(scenario.targets.iter().enumerate().map(|(i, target)| Frame {
-        name: format!("targets/{}", target.name),
+pub fn frames<'a>(layout: &Layout, targets: impl IntoIterator<Item = &'a str>) -> Vec<Frame> {
+    let mut frames = robot_frames(layout);
+    frames.extend(targets.into_iter().enumerate().map(|(i, name)| Frame {
+        name: format!("targets/{name}"),
         parent: None,
         pose: [0.0; 3],
         motion: FrameMotion::Target(i),

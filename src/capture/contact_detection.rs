@@ -1,20 +1,12 @@
 //! Contact detection: events where the signed distance of an end effector from the outline of its target falls to zero.
 
-use crate::capture::assembly::{Assembly, rotated};
+use crate::capture::assembly::rotated;
+use crate::capture::target_motion::TargetMotion;
 use crate::error::Error;
 use crate::outline::SignedDistance;
 use crate::scenario::Scenario;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::system::Body;
-
-/// How the targets move during a phase.
-#[derive(Clone, Copy)]
-pub enum TargetMotion<'a> {
-    /// All freely, from these poses at the start of the phase.
-    Free(&'a [Body]),
-    /// With or beside the robot of an assembly; the bodies give mass and inertia.
-    Assembled(&'a Assembly, &'a [Body]),
-}
 
 /// One event for each pair: its value is the distance of the end effector from the outline of the target, m, negative
 /// inside.

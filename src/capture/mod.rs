@@ -3,6 +3,7 @@
 
 pub mod approach;
 pub mod assembly;
+pub mod clearance;
 pub mod contact_at_time;
 pub mod contact_detection;
 pub mod contact_response;
@@ -12,11 +13,13 @@ pub(crate) mod reach;
 pub(crate) mod reduced_matrices;
 pub mod residual_motion;
 mod sequence;
+pub mod target_motion;
 pub mod terminal_error;
 
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
+use crate::capture::clearance::Clearance;
 use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
@@ -71,6 +74,10 @@ pub struct CaseResult {
     pub targets: Vec<Body>,
     /// With contact detection, the planned contacts that were not made.
     pub closest: Vec<ClosestApproach>,
+    /// Of all bodies, over approach and post-impact motion.
+    pub clearance: Clearance,
+    /// The time at which an overlap ended the case, where the scenario wants it, s since the start of the approach.
+    pub stopped: Option<f64>,
     /// Impact and post-impact motion; `None` without targets, and where no end effector met its target.
     pub capture: Option<CaptureResult>,
 }
@@ -229,15 +236,12 @@ pub fn study(
     let cases = scenario
         .cases
         .iter()
-        .map(|case| match &scenario.post_impact {
-            Some(after) => {
-                let sequence = CaptureSequence { scenario, case, after, make, sample };
-                match scenario.contact.detection {
-                    Detection::Time => sequence.contact_at_time(approach.end(), observer),
-                    Detection::Event => sequence.contact_by_detection(&rates, observer),
-                }
+        .map(|case| {
+            let sequence = CaptureSequence { scenario, case, rates: &rates, make, sample };
+            match scenario.contact.detection {
+                Detection::Time => sequence.contact_at_time(&approach, observer),
+                Detection::Event => sequence.contact_by_detection(observer),
             }
-            None => Ok(CaseResult { name: case.name.clone(), ..CaseResult::default() }),
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let terminal_errors = TerminalError::of(scenario, &approach);
@@ -268,7 +272,8 @@ impl CaseResult {
 }
 
 impl Study {
-    /// The failures of the audit; empty when every phase and every exact impact passes.
+    /// The failures of the audit; empty when every phase and every exact impact passes, and no bodies overlap where the
+    /// scenario forbids it.
     #[must_use]
     pub fn audit_failures(&self) -> Vec<String> {
         let mut found = Vec::new();
@@ -280,6 +285,7 @@ impl Study {
             if let Some(own) = &case.approach {
                 found.extend(phase_failures(&format!("{}, approach", case.name), own));
             }
+            found.extend(case.clearance.failures().map(|overlap| format!("{}: {}", case.name, overlap.sentence())));
             let Some(captured) = &case.capture else { continue };
             let impacts =
                 std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));

@@ -2,16 +2,19 @@
 
 use crate::capture::approach::ApproachTracking;
 use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::clearance::ClearanceTracker;
 use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
-use crate::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion, signed_distance};
+use crate::capture::contact_detection::{ContactDetection, ContactPair, signed_distance};
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
+use crate::capture::target_motion::TargetMotion;
 use crate::capture::{CaptureResult, CaseResult, ClosestApproach, LaterImpact, ModelFactory, Observer, StudyError};
 use crate::contact::ContactLaw;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scenario::{Case, PostCaptureControl, PostImpact, Scenario, Target};
+use crate::scenario::{Case, Detection, OnOverlap, PostCaptureControl, PostImpact, Scenario, Target};
+use crate::simulate::event::{EndTime, Events};
 use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, PhaseError, Sample, Timing};
 
@@ -26,48 +29,67 @@ const SIMULTANEOUS_DISTANCE: f64 = 1e-9;
 pub(crate) struct CaptureSequence<'a> {
     pub(crate) scenario: &'a Scenario,
     pub(crate) case: &'a Case,
-    pub(crate) after: &'a PostImpact,
+    /// Final joint rates of the trajectory, rad/s.
+    pub(crate) rates: &'a [f64],
     pub(crate) make: ModelFactory<'a>,
     /// Time between samples, s.
     pub(crate) sample: f64,
 }
 
-impl CaptureSequence<'_> {
-    /// Runs the case with contacts where the end effectors are when the approach ends.
-    pub(crate) fn contact_at_time(self, end: &Sample, observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
+impl<'a> CaptureSequence<'a> {
+    /// Runs the case with contacts where the end effectors are when the approach ends. Until then the targets move with
+    /// their twists, traced back from there.
+    pub(crate) fn contact_at_time(
+        self,
+        approach: &Phase,
+        observer: &mut dyn Observer,
+    ) -> Result<CaseResult, StudyError> {
+        let end = approach.end();
         let (targets, contacts) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
-        let capture = self.after_impact(&end.state, &targets, &contacts, false, observer)?;
+        let start = targets_after(&targets, -approach.duration);
+        let mut clearance = ClearanceTracker::new(self.scenario);
+        clearance.add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[]);
+        if let Some(overlap) = self.stop(&clearance) {
+            return self.stopped_approach(&start, overlap, observer);
+        }
+        let capture = match &self.scenario.post_impact {
+            Some(after) => {
+                let first =
+                    FirstImpact { before: &end.state, time: approach.duration, targets: &targets, contacts: &contacts };
+                Some(self.after_impact(after, first, &mut clearance, observer)?)
+            }
+            None => None,
+        };
+        let stopped = self.stop(&clearance).map(|(_, time)| time);
         let name = self.case.name.clone();
-        Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), capture: Some(capture) })
+        let clearance = clearance.result();
+        Ok(CaseResult { name, approach: None, targets, closest: Vec::new(), clearance, stopped, capture })
     }
 
     /// Runs the case with contact detection: the targets move freely from the start, and the approach ends when an end
-    /// effector reaches its target. `rates` are the final joint rates of the trajectory, rad/s.
-    pub(crate) fn contact_by_detection(
-        self,
-        rates: &[f64],
-        observer: &mut dyn Observer,
-    ) -> Result<CaseResult, StudyError> {
+    /// effector reaches its target.
+    pub(crate) fn contact_by_detection(self, observer: &mut dyn Observer) -> Result<CaseResult, StudyError> {
         let start = self.targets_at_start();
         let pairs = self.pairs(&[]);
         self.check_apart(&start, &pairs)?;
-        let approach = ApproachTracking::new(self.scenario, self.sample);
-        observer.begin(&format!("approach of {}", self.case.name), approach.steps());
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
-        let model = (self.make)();
-        let phase = approach
-            .track(&*model, rates, &mut contact_detection, &mut || observer.step())
-            .map_err(StudyError::Approach)?;
-        let targets_at = |time: f64| start.iter().map(|target| target.after(time)).collect::<Vec<_>>();
-        let targets = targets_at(phase.duration);
-        let paths: Vec<_> = phase.samples.iter().map(|sample| targets_at(sample.time)).collect();
+        let phase = self.track(&mut contact_detection, observer)?;
+        let mut clearance = ClearanceTracker::new(self.scenario);
+        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]);
+        if let Some(overlap) = self.stop(&clearance) {
+            return self.stopped_approach(&start, overlap, observer);
+        }
+        let targets = targets_after(&start, phase.duration);
+        let paths: Vec<_> = phase.samples.iter().map(|sample| targets_after(&start, sample.time)).collect();
         let mut closest = self.closest(&pairs, &phase, 0.0, &paths);
-        let capture = match phase.event {
-            Some((event, _)) => {
+        let capture = match (phase.event, &self.scenario.post_impact) {
+            (Some((event, _)), Some(after)) => {
                 let contacts = self.contacts_made(&pairs, event, &targets, &phase.end().end_effector_poses);
-                Some(self.after_impact(&phase.end().state, &targets, &contacts, true, observer)?)
+                let before = &phase.end().state;
+                let first = FirstImpact { before, time: phase.duration, targets: &targets, contacts: &contacts };
+                Some(self.after_impact(after, first, &mut clearance, observer)?)
             }
-            None => None,
+            _ => None,
         };
         if let Some(captured) = &capture {
             let later = self.closest(&pairs, &captured.post_impact, phase.duration, &captured.targets);
@@ -78,23 +100,62 @@ impl CaptureSequence<'_> {
             let touched: Vec<_> = touched.flat_map(|impact| &impact.contacts).map(|result| result.contact).collect();
             closest.retain(|pair| !touched.iter().any(|t| t.arm == pair.arm && t.target == pair.target));
         }
+        let stopped = self.stop(&clearance).map(|(_, time)| time);
         let name = self.case.name.clone();
-        Ok(CaseResult { name, approach: Some(phase), targets, closest, capture })
+        let clearance = clearance.result();
+        Ok(CaseResult { name, approach: Some(phase), targets, closest, clearance, stopped, capture })
+    }
+
+    /// The approach of this case, up to the first of the events.
+    fn track(self, events: &mut dyn Events, observer: &mut dyn Observer) -> Result<Phase, StudyError> {
+        let approach = ApproachTracking::new(self.scenario, self.sample);
+        observer.begin(&format!("approach of {}", self.case.name), approach.steps());
+        let model = (self.make)();
+        approach.track(&*model, self.rates, events, &mut || observer.step()).map_err(StudyError::Approach)
+    }
+
+    /// The pair whose overlap ends the case, and when, s since the start of the approach.
+    fn stop(self, clearance: &ClearanceTracker) -> Option<(usize, f64)> {
+        let stops = self.scenario.clearance.on_overlap == OnOverlap::Stop;
+        clearance.first_given_overlap().filter(|_| stops)
+    }
+
+    /// The result of a case that an overlap ends in the approach; the targets move freely from `start`.
+    fn stopped_approach(
+        self,
+        start: &[Body],
+        overlap: (usize, f64),
+        observer: &mut dyn Observer,
+    ) -> Result<CaseResult, StudyError> {
+        let phase = self.track(&mut EndTime(overlap.1), observer)?;
+        let mut clearance = ClearanceTracker::new(self.scenario);
+        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[]);
+        clearance.end_at(overlap);
+        Ok(CaseResult {
+            name: self.case.name.clone(),
+            targets: targets_after(start, phase.duration),
+            approach: Some(phase),
+            clearance: clearance.result(),
+            stopped: Some(overlap.1),
+            ..CaseResult::default()
+        })
     }
 
     /// An impact, the motion after it, and with contact detection (`detected`) the impacts that interrupt this motion.
     fn after_impact(
         self,
-        before: &RobotState,
-        targets: &[Body],
-        contacts: &[ImpactContact],
-        detected: bool,
+        after: &'a PostImpact,
+        FirstImpact { before, time: first, targets, contacts }: FirstImpact<'_>,
+        clearance: &mut ClearanceTracker,
         observer: &mut dyn Observer,
     ) -> Result<CaptureResult, StudyError> {
-        observer.begin(&self.case.name, self.timing(self.after.duration).steps());
+        observer.begin(&self.case.name, self.timing(after, after.duration).steps());
+        let detected = self.scenario.contact.detection == Detection::Event;
         let free = Assembly::new((self.make)(), before, targets, &[]).map_err(|source| self.impact_error(source))?;
         let mut moving = SequenceState {
             sequence: self,
+            after,
+            first,
             state: before.clone(),
             targets: targets.to_vec(),
             attachments: Vec::new(),
@@ -103,7 +164,7 @@ impl CaptureSequence<'_> {
         };
         let impact = moving.apply_impact(contacts)?;
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
-        let (mut post_impact, mut target_paths) = moving.integrate_to_contact(&open, 0.0, observer)?;
+        let (mut post_impact, mut target_paths) = moving.integrate_to_contact(&open, 0.0, clearance, observer)?;
         let mut later_impacts = Vec::new();
         let mut penetration = self.penetration(&open, &post_impact, &target_paths);
         while let Some((event, _)) = post_impact.event {
@@ -114,16 +175,16 @@ impl CaptureSequence<'_> {
             }
             let contacts = self.contacts_made(&open, event, &moving.targets, &post_impact.end().end_effector_poses);
             later_impacts.push(LaterImpact { time, impact: moving.apply_impact(&contacts)? });
-            if time >= self.after.duration {
+            if time >= after.duration {
                 break;
             }
             open = self.pairs(&moving.attachments);
-            let (next, path) = moving.integrate_to_contact(&open, time, observer)?;
+            let (next, path) = moving.integrate_to_contact(&open, time, clearance, observer)?;
             penetration = penetration.max(self.penetration(&open, &next, &path));
             post_impact = post_impact.then(next);
             target_paths.extend(path);
         }
-        let residual_motion = match &self.after.control {
+        let residual_motion = match &after.control {
             PostCaptureControl::None => None,
             control => Some(moving.residual_motion(control, &post_impact)?),
         };
@@ -144,8 +205,8 @@ impl CaptureSequence<'_> {
         closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
     }
 
-    fn timing(self, duration: f64) -> Timing {
-        Timing { duration, step: self.after.step, sample: self.sample, integration: self.after.integration }
+    fn timing(self, after: &PostImpact, duration: f64) -> Timing {
+        Timing { duration, step: after.step, sample: self.sample, integration: after.integration }
     }
 
     fn targets_at_start(self) -> Vec<Body> {
@@ -228,9 +289,26 @@ impl CaptureSequence<'_> {
     }
 }
 
+/// The state before the first impact of a case.
+struct FirstImpact<'a> {
+    before: &'a RobotState,
+    /// Since the start of the approach, s.
+    time: f64,
+    targets: &'a [Body],
+    contacts: &'a [ImpactContact],
+}
+
+/// Freely moving targets `time` s later.
+fn targets_after(targets: &[Body], time: f64) -> Vec<Body> {
+    targets.iter().map(|target| target.after(time)).collect()
+}
+
 /// Robot and targets between the impacts of a case.
 struct SequenceState<'a> {
     sequence: CaptureSequence<'a>,
+    after: &'a PostImpact,
+    /// Time of the first impact, s.
+    first: f64,
     state: RobotState,
     targets: Vec<Body>,
     attachments: Vec<Attachment>,
@@ -262,18 +340,31 @@ impl SequenceState<'_> {
         &mut self,
         pairs: &[ContactPair],
         time: f64,
+        clearance: &mut ClearanceTracker,
         observer: &mut dyn Observer,
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
         let sequence = self.sequence;
-        let Self { state, targets, assembly, .. } = self;
+        let Self { after, first, state, targets, attachments, assembly, .. } = self;
         let motion = TargetMotion::Assembled(assembly, targets);
         let mut detection = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
-        let wheels = wheels(&sequence.scenario.layout, &self.attachments);
-        let wanted = PostCaptureLaw { after: sequence.after, wheels: &wheels, angles: &self.angles };
-        let timing = sequence.timing(sequence.after.duration - time);
+        let wheels = wheels(&sequence.scenario.layout, attachments);
+        let timing = sequence.timing(after, after.duration - time);
         let system = System { joint_limits: &sequence.scenario.joint_limits, ..assembly.system() };
-        let phase = run_post_capture(&system, wanted, state, &timing, &mut detection, &mut || observer.step())
-            .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))?;
+        let mut simulate = |events: &mut dyn Events| {
+            let wanted = PostCaptureLaw { after, wheels: &wheels, angles: &self.angles };
+            run_post_capture(&system, wanted, state, &timing, events, &mut || observer.step())
+                .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))
+        };
+        let mut phase = simulate(&mut detection)?;
+        let begin = *first + time;
+        let before = clearance.clone();
+        clearance.add_phase(&phase.path, begin, motion, attachments);
+        if let Some(overlap) = sequence.stop(clearance) {
+            phase = Phase { event: None, ..simulate(&mut EndTime(overlap.1 - begin))? };
+            *clearance = before;
+            clearance.add_phase(&phase.path, begin, motion, attachments);
+            clearance.end_at(overlap);
+        }
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
         let path: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();

@@ -38,7 +38,7 @@ fn com_outside(link: &Link, path: &str) -> Option<Warning> {
 /// The variance of a mass on [0, L] with mean c is at most c (L − c), that of two point masses at the ends (Bhatia &
 /// Davis). Across the link, a COM at y is that of a body between 0 and 2 y: at most y² by the same rule.
 fn large_inertia(link: &Link, path: &str) -> Option<Warning> {
-    let Link { length, mass, inertia, com: [x, y] } = *link;
+    let Link { length, mass, inertia, com: [x, y], .. } = *link;
     let largest = mass * (x * (length - x) + y * y);
     (inertia > largest * (1.0 + 1e-9)).then(|| {
         let formula = if y == 0.0 { "mass · x · (length − x)" } else { "mass · (x · (length − x) + y²)" };

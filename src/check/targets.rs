@@ -47,11 +47,11 @@ fn off_outline(scenario: &Scenario, target: &Target) -> Option<Warning> {
         points.map(|point| (point, target.outline.signed_distance(rotated(point, -target.yaw)).distance));
     let ([x, y], distance) = distances.find(|(_, distance)| distance.abs() > MAX_OFFSET * target.outline.reach())?;
     let why = match target.outline {
-        Outline::Disc { radius } => {
+        Outline::Disc { radius, .. } => {
             format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
         }
-        Outline::Polygon { .. } if distance > 0.0 => format!("{} m outside the polygon", short(distance)),
-        Outline::Polygon { .. } => format!("{} m inside the polygon", short(-distance)),
+        _ if distance > 0.0 => format!("{} m outside the outline", short(distance)),
+        _ => format!("{} m inside the outline", short(-distance)),
     };
     let help = "contact runs from the target's COM to the point on its rim that the end effector holds, m";
     Some(warning("contact", why, help))

@@ -1,10 +1,9 @@
 //! Shapes and colours of base, links and targets, each in its own frame, shared by figures, MCAP and HTML report.
 
-use crate::frames::{FrameMotion, frames};
+use crate::frames::FrameMotion;
 use crate::layout::{Layout, Link};
 use crate::outline::Outline;
 use crate::scenario::Scenario;
-use std::f64::consts::TAU;
 
 /// The visual representation of a rigid body.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,13 +47,13 @@ const TARGET: [u8; 3] = [0x6d, 0x6d, 0x6d];
 /// Width of a link over the mean length of all links.
 const SLENDERNESS: f64 = 0.08;
 
-/// The visuals of base, links and targets, in the order of their [`frames`].
+/// The visuals of base, links and targets, in the order of their frames.
 #[must_use]
 pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
     let layout = &scenario.layout;
     let width = link_width(layout);
     let links: Vec<&Link> = layout.arms.iter().flat_map(|arm| &arm.links).collect();
-    let each = frames(scenario).into_iter().filter_map(|frame| {
+    let each = scenario.frames().into_iter().filter_map(|frame| {
         let (shape, colour, thickness) = match frame.motion {
             FrameMotion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
             FrameMotion::Joint(joint) => {
@@ -82,25 +81,23 @@ fn link_width(layout: &Layout) -> f64 {
     SLENDERNESS * if count > 0.0 { sum / count } else { layout.base.radius_of_gyration() }
 }
 
-/// A rectangle about the base's COM with sides [`base_size`].
+/// The outline of the base; by default a rectangle about its COM.
 pub(crate) fn base_shape(layout: &Layout) -> Shape {
-    Shape::Rectangle { centre: [0.0; 2], size: base_size(layout) }
+    match &layout.base.outline {
+        Some(outline) => Shape::Outline(outline.clone()),
+        None => Shape::Rectangle { centre: [0.0; 2], size: layout.default_base_size() },
+    }
 }
 
-/// Sides of the drawn base along x and y, m: those of a uniform square of its mass and inertia, or larger to contain
-/// the mounts.
-#[must_use]
-pub fn base_size(layout: &Layout) -> [f64; 2] {
-    let half = layout.base.radius_of_gyration() * 1.5_f64.sqrt();
-    [0, 1].map(|i| 2.0 * layout.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max))
-}
-
-/// A bar along the link; for a reaction wheel the uniform disc of its mass and inertia.
+/// The outline of the link; by default a bar along it, and for a reaction wheel the uniform disc of its mass and
+/// inertia.
 fn link_shape(link: &Link, width: f64) -> Shape {
-    if link.length > 0.0 {
+    if let Some(outline) = &link.outline {
+        Shape::Outline(outline.clone())
+    } else if link.length > 0.0 {
         Shape::Rectangle { centre: [link.length / 2.0, 0.0], size: [link.length, width] }
     } else {
-        Shape::Outline(Outline::Disc { radius: (2.0 * link.inertia / link.mass).sqrt() })
+        Shape::Outline(Outline::disc((2.0 * link.inertia / link.mass).sqrt()))
     }
 }
 
@@ -115,14 +112,11 @@ impl Shape {
                 let outline = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (1.0, 1.0)];
                 [outline.map(|(a, b)| corner(a, b)).to_vec(), vec![[0.0; 2], [x + length / 2.0, 0.0]]]
             }
-            Self::Outline(Outline::Disc { radius }) => {
-                let at = |angle: f64| [radius * angle.cos(), radius * angle.sin()];
-                [(0..=48).map(|i| at(TAU * f64::from(i) / 48.0)).collect(), vec![[0.0; 2], [*radius, 0.0]]]
-            }
-            Self::Outline(Outline::Polygon { corners }) => {
+            Self::Outline(outline) => {
+                let mut corners = outline.corners();
+                corners.extend(corners.first().copied());
                 let reach = corners.iter().map(|[x, _]| *x).fold(0.0, f64::max);
-                let outline = corners.iter().chain(corners.first()).copied();
-                [outline.collect(), vec![[0.0; 2], [reach, 0.0]]]
+                [corners, vec![[0.0; 2], [reach, 0.0]]]
             }
         }
     }

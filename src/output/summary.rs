@@ -1,5 +1,6 @@
 //! `summary.json`: the results of a study under the keys that README.md documents.
 
+use crate::capture::clearance::{Clearance, LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
@@ -48,6 +49,10 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
         });
         value["closest"] = closest.collect();
     }
+    value["clearance"] = clearance(&case.clearance);
+    if let Some(time) = case.stopped {
+        value["stopped"] = json!(time);
+    }
     if let Some(captured) = &case.capture {
         value["impact"] = impact(scenario, &captured.impact);
         value["post_impact"] = phase(&captured.post_impact, false);
@@ -66,6 +71,24 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
             value["post_impact"]["remainder"] = residual_motion(residual);
         }
     }
+    value
+}
+
+/// Least distances and overlaps; `null` where all bodies are joined.
+fn clearance(clearance: &Clearance) -> Value {
+    let least = |least: &Option<LeastDistance>| {
+        least.as_ref().map(|LeastDistance { distance, time, bodies }| {
+            json!({"least_distance": distance, "time": time, "bodies": bodies})
+        })
+    };
+    let Some(mut value) = least(&clearance.least) else { return Value::Null };
+    value["first_overlap"] = json!(clearance.overlaps.first().map(|overlap| overlap.span[0]));
+    value["besides_contacts"] = json!(least(&clearance.besides_contacts));
+    let overlaps = clearance.overlaps.iter().map(|Overlap { bodies, span: [from, to], depth, is_default }| {
+        json!({"bodies": bodies, "from": from, "to": to, "depth": depth, "default_outline": is_default})
+    });
+    value["overlaps"] = overlaps.collect();
+    value["evaluations"] = json!(clearance.evaluations);
     value
 }
 

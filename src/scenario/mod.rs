@@ -2,11 +2,13 @@
 
 mod approach;
 mod case;
+mod clearance;
 mod contact;
 mod post_impact;
 mod reader;
 mod target;
 
+use crate::frames::{Frame, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::simulate::limits::JointLimits;
@@ -14,6 +16,7 @@ use crate::simulate::limits::JointLimits;
 pub use crate::simulate::actuators::Actuation;
 pub use approach::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
 pub use case::Case;
+pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use target::{PlannedContact, Target, contact_name};
@@ -38,8 +41,18 @@ pub struct Scenario {
     pub targets: Vec<Target>,
     /// When contacts begin, and how long an impact takes.
     pub contact: ContactRules,
+    /// Which bodies may overlap, and what an overlap of others does.
+    pub clearance: ClearanceRules,
     /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
     pub cases: Vec<Case>,
     /// The motion after the impact; given if and only if there are targets.
     pub post_impact: Option<PostImpact>,
+}
+
+impl Scenario {
+    /// The frames of its robot and targets.
+    #[must_use]
+    pub fn frames(&self) -> Vec<Frame> {
+        frames(&self.layout, self.targets.iter().map(|target| target.name.as_str()))
+    }
 }

@@ -32,6 +32,21 @@ pub trait Events {
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error>;
 }
 
+/// A phase that ends at this time, s since its start.
+#[derive(Clone, Copy, Debug)]
+pub struct EndTime(pub f64);
+
+impl Events for EndTime {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
+        values.fill(self.0 - now.time);
+        Ok(())
+    }
+}
+
 /// A phase that ends when its time is over.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoEvents;

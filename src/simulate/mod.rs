@@ -8,6 +8,7 @@ mod equation;
 pub mod event;
 mod event_location;
 pub mod limits;
+pub mod path;
 mod recorder;
 pub mod stepper;
 pub mod system;
@@ -20,6 +21,7 @@ use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::limits::LimitViolations;
+use crate::simulate::path::Path;
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Integration;
 use crate::simulate::stepper::Stepper;
@@ -103,6 +105,8 @@ pub struct Phase {
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
+    /// Positions and rates of the integrated vector; empty for a motion with impacts.
+    pub path: Path,
 }
 
 /// How long actuators were at their limits, by their torques at the start of each step.
@@ -124,7 +128,8 @@ impl Phase {
         self.samples.last().expect("a phase has samples")
     }
 
-    /// This phase and the `next` one from its end on as one phase, with times and work from the start of this one.
+    /// This phase and the `next` one from its end on as one phase without a path, with times and work from the start of
+    /// this one.
     #[must_use]
     pub fn then(mut self, next: Self) -> Self {
         let work = self.end().work;
@@ -149,6 +154,7 @@ impl Phase {
                 (Some(before), Some(after)) => Some(before.then(after, self.duration)),
                 (before, after) => before.or(after),
             },
+            path: Path::default(),
             ..self
         }
     }

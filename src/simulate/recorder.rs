@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::limits::LimitViolations;
+use crate::simulate::path::PathRecorder;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{ActuatorWork, State};
@@ -21,6 +22,7 @@ pub(crate) struct Recorder<'a> {
     base_saturated: bool,
     constraint_errors: [f64; 2],
     limit_violations: LimitViolations,
+    path: PathRecorder,
 }
 
 impl<'a> Recorder<'a> {
@@ -36,6 +38,7 @@ impl<'a> Recorder<'a> {
             base_saturated: false,
             constraint_errors: [0.0; 2],
             limit_violations: LimitViolations::default(),
+            path: PathRecorder::new(3 + system.model.joints() + 3 * system.bodies.len()),
         })
     }
 
@@ -54,6 +57,8 @@ impl<'a> Recorder<'a> {
         let errors = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| errors[i].max(self.constraint_errors[i]));
         self.limit_violations.record(self.system.joint_limits, time, &state);
+        let (halves, _) = x.split_at(x.len() - 3);
+        self.path.record(time, halves);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &input)?;
         // the law determines saturation together with its torques
@@ -94,7 +99,7 @@ impl<'a> Recorder<'a> {
 
     /// The phase.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
-        let Self { system, samples, audit, saturation, constraint_errors, limit_violations, .. } = self;
+        let Self { system, samples, audit, saturation, constraint_errors, limit_violations, path, .. } = self;
         Phase {
             duration,
             event,
@@ -104,6 +109,7 @@ impl<'a> Recorder<'a> {
             constraint_errors,
             singularity_margin: None,
             limit_violations: (!system.joint_limits.is_empty()).then_some(limit_violations),
+            path: path.end(),
         }
     }
 }

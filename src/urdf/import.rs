@@ -69,7 +69,7 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
     remarks.extend(tilts(&tree, &steps));
     let moving = steps.iter().flatten().map(|step| tree.joint(step.joint));
     remarks.extend(omissions(moving, &reader::joints_without_axis(text)));
-    let base_body = Base { mass: base_body.mass, inertia: base_body.inertia };
+    let base_body = Base { mass: base_body.mass, inertia: base_body.inertia, outline: None };
     let result = ImportedLayout {
         layout: Layout { name, base: base_body, arms },
         base: owned(&base.names(&tree)),
@@ -114,6 +114,7 @@ fn arm(
             mass: planar_body.mass,
             inertia: planar_body.inertia,
             com: with_exact_zeros(com, length.max(com[0].hypot(com[1]))),
+            outline: None,
         });
         joints.push(ImportedJoint {
             arm: name.to_owned(),

@@ -92,9 +92,9 @@ fn assert_angles(import: &ImportedLayout, expected: &[[f64; 2]]) {
 #[test]
 fn an_arm_in_the_plane_is_taken_as_it_is() {
     let import = imported(&robot(&arm()));
-    let link = || Link { length: 1.0, mass: 10.0, inertia: 1.0, com: [0.5, 0.0] };
+    let link = || Link { length: 1.0, mass: 10.0, inertia: 1.0, com: [0.5, 0.0], outline: None };
     let arm = Arm { name: "shoulder".to_owned(), mount: [0.5, 0.0], mount_angle: 0.0, links: vec![link(), link()] };
-    let base = Base { mass: 100.0, inertia: 20.0 };
+    let base = Base { mass: 100.0, inertia: 20.0, outline: None };
     assert_eq!(import.layout, Layout { name: "bot".to_owned(), base, arms: vec![arm] });
     assert_angles(&import, &[[1.0, 0.0]; 2]);
     assert_eq!((import.end_effectors, import.remarks), (vec![Some("tip".to_owned())], vec![]));
@@ -519,13 +519,14 @@ fn layouts() -> impl Strategy<Value = Layout> {
         mass,
         inertia,
         com,
+        outline: None,
     });
     let angle = prop_oneof![1 => Just(0.0), 1 => Just(PI), 4 => -TAU..TAU];
     let name = prop_oneof!["[ -~]{0,8}[!-~]", "[a-z_]{1,4}_joint1", "\\PC{1,6}"];
     let arm = (name, [number(), number()], angle, vec(link, 1..5));
     (positive(), positive(), vec(arm, 1..5)).prop_map(|(mass, inertia, arms)| Layout {
         name: "any".to_owned(),
-        base: Base { mass, inertia },
+        base: Base { mass, inertia, outline: None },
         arms: (1..)
             .zip(arms)
             .map(|(k, (name, mount, mount_angle, links))| Arm { name: format!("{name}{k}"), mount, mount_angle, links })

@@ -57,7 +57,8 @@ fn signed_distance(scenario: &Scenario, all: &System, arm: usize, target: usize)
     let body = all.bodies[1 + all.joints.len() + target];
     let offset = all.end_effector(arm) - body.com();
     match &scenario.targets[target].outline {
-        Outline::Disc { radius } => (offset.norm() - radius, (offset / offset.norm()).into()),
+        Outline::Disc { radius, .. } => (offset.norm() - radius, (offset / offset.norm()).into()),
+        Outline::Capsule { .. } => panic!("targets are discs and polygons"),
         Outline::Polygon { corners } => {
             let next = corners.iter().cycle().skip(1);
             let of_edge = |(a, b): (&[f64; 2], &[f64; 2])| {

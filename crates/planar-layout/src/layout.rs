@@ -7,6 +7,7 @@ use planar_dynamics::manifest::ParameterKind;
 use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
+use crate::outline::{Outline, outline};
 
 const MASS: NumberRule = NumberRule::positive("a mass", "kg");
 const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
@@ -38,6 +39,8 @@ pub struct Base {
     pub mass: f64,
     /// Moment of inertia about the centre of mass in kg m², greater than 0.
     pub inertia: f64,
+    /// In the base frame; not part of the hash. By default a rectangle with sides of [`Layout::default_base_size`].
+    pub outline: Option<Outline>,
 }
 
 /// A chain of links; joint k moves link k.
@@ -64,6 +67,8 @@ pub struct Link {
     pub inertia: f64,
     /// Centre of mass in the link frame, [x, y] in m; default mid-link.
     pub com: [f64; 2],
+    /// In the link frame; not part of the hash. By default the segment from the joint to the link's end.
+    pub outline: Option<Outline>,
 }
 
 impl Layout {
@@ -82,7 +87,7 @@ impl Layout {
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
         read_document(text, file, &["name", "base", "arm"], |root| {
             let name = root.require("name", MODULE_NAME).and_then(|value| module_name(&value));
-            let base = root.table("base", &["mass", "inertia"]).and_then(|base| Base::from_table(&base));
+            let base = root.table("base", &["mass", "inertia", "outline"]).and_then(|base| Base::from_table(&base));
             let arms = root.require("arm", "at least one `[[arm]]`").and_then(|value| {
                 let arms = value.tables(&["name", "mount", "mount_angle", "link"])?;
                 if arms.is_empty() {
@@ -124,13 +129,22 @@ impl Layout {
         self.arms.iter().map(|arm| arm.links.len()).sum()
     }
 
+    /// Sides of the base's default outline along x and y about its COM, m: those of a uniform square of its mass and
+    /// inertia, or larger to contain the mounts.
+    #[must_use]
+    pub fn default_base_size(&self) -> [f64; 2] {
+        let half = self.base.radius_of_gyration() * 1.5_f64.sqrt();
+        [0, 1].map(|i| 2.0 * self.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max))
+    }
+
     /// The mass of all bodies, in kg.
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.base.mass + self.arms.iter().map(Arm::mass).sum::<f64>()
     }
 
-    /// Hash of the content, in hexadecimal; comments, spacing, number formats and explicit defaults do not change it.
+    /// Hash of the content, in hexadecimal; comments, spacing, number formats, explicit defaults and outlines do not
+    /// change it.
     ///
     /// It is the SHA-256 of this UTF-8 text: lines `key=value`, each ended by a newline, in the order `name`,
     /// `base.mass`, `base.inertia`, then for each arm i from 0 `arm[i].name`, `arm[i].mount[0]`, `arm[i].mount[1]`,
@@ -147,6 +161,7 @@ impl Layout {
     pub fn to_toml(&self) -> String {
         let text = |key: &str, text: &str| format!("{key} = {}\n", toml::Value::from(text));
         let number = |key: &str, value: f64| format!("{key} = {}\n", toml::Value::from(value));
+        let outline = |outline: &Outline| format!("outline = {}\n", outline.to_toml());
         let pair = |key: &str, pair: [f64; 2]| format!("{key} = {}\n", toml::Value::from(pair.to_vec()));
         let mut lines = vec![
             text("name", &self.name),
@@ -154,6 +169,7 @@ impl Layout {
             number("mass", self.base.mass),
             number("inertia", self.base.inertia),
         ];
+        lines.extend(self.base.outline.as_ref().map(outline));
         for arm in &self.arms {
             lines.push("\n[[arm]]\n".to_owned());
             lines.extend([text("name", &arm.name), pair("mount", arm.mount)]);
@@ -164,6 +180,7 @@ impl Layout {
                 lines.push("[[arm.link]]\n".to_owned());
                 lines.extend([number("length", link.length), number("mass", link.mass)]);
                 lines.extend([number("inertia", link.inertia), pair("com", link.com)]);
+                lines.extend(link.outline.as_ref().map(outline));
             }
         }
         lines.concat()
@@ -236,7 +253,8 @@ impl Base {
     fn from_table(table: &Table<'_>) -> Option<Self> {
         let mass = table.number("mass", &MASS);
         let inertia = table.number("inertia", &INERTIA);
-        Some(Self { mass: mass?, inertia: inertia? })
+        let outline = table.get("outline").map_or(Some(None), |value| outline(&value, None).map(Some));
+        Some(Self { mass: mass?, inertia: inertia?, outline: outline? })
     }
 }
 
@@ -264,7 +282,7 @@ impl Arm {
         let mount = table.vector("mount", &POSITION);
         let mount_angle = table.number_or("mount_angle", &ANGLE, 0.0);
         let links = table.require("link", "at least one `[[arm.link]]`").and_then(|value| {
-            let links = value.tables(&["length", "mass", "inertia", "com"])?;
+            let links = value.tables(&["length", "mass", "inertia", "com", "outline"])?;
             if links.is_empty() {
                 value.expected("at least one `[[arm.link]]`", None);
             }
@@ -283,7 +301,8 @@ impl Link {
             Some(value) => value.vector(&POSITION),
             None => length.map(|length| [length / 2.0, 0.0]),
         };
-        Some(Self { length: length?, mass: mass?, inertia: inertia?, com: com? })
+        let outline = table.get("outline").map_or(Some(None), |value| outline(&value, length).map(Some));
+        Some(Self { length: length?, mass: mass?, inertia: inertia?, com: com?, outline: outline? })
     }
 }
 

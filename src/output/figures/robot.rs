@@ -37,7 +37,7 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
 pub(super) fn target(target: &Target, colour: Colour, pose: [f64; 3], end_effectors: &[[f64; 2]]) -> Vec<Series> {
     let [_, x, y] = pose;
     let mut ends = end_effectors.to_vec();
-    if let (Outline::Disc { radius }, []) = (&target.outline, end_effectors) {
+    if let (Outline::Disc { radius, .. }, []) = (&target.outline, end_effectors) {
         ends.push(point(pose, [*radius, 0.0]));
     }
     let mut series = vec![outline(&target.name, colour, Dash::Solid, &Shape::Outline(target.outline.clone()), pose)];

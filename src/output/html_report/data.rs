@@ -6,7 +6,6 @@ use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::frames::{FrameMotion, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
-use crate::output::scene::base_size;
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
@@ -23,7 +22,7 @@ pub(super) fn data(scenario: &Scenario, study: &Study) -> Value {
             "name": target.name, "mass": target.mass, "inertia": target.inertia, "radius": target.outline.reach(),
             "polygon": match &target.outline {
                 Outline::Disc { .. } => None,
-                Outline::Polygon { corners } => Some(corners),
+                outline => Some(outline.corners()),
             },
         })).collect::<Vec<_>>(),
         "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
@@ -42,6 +41,7 @@ fn robot(layout: &Layout) -> Value {
             "name": arm.name,
             "links": arm.links.iter().map(|link| json!({
                 "length": link.length, "mass": link.mass, "inertia": link.inertia, "com": link.com,
+                "outline": link.outline.as_ref().map(Outline::corners),
             })).collect::<Vec<_>>(),
         })
     });
@@ -55,7 +55,7 @@ fn robot(layout: &Layout) -> Value {
     json!({
         "name": layout.name,
         "sha256": layout.sha256(),
-        "base": {"mass": layout.base.mass, "inertia": layout.base.inertia, "size": base_size(layout)},
+        "base": {"mass": layout.base.mass, "inertia": layout.base.inertia, "size": layout.default_base_size(), "outline": layout.base.outline.as_ref().map(Outline::corners)},
         "arms": arms.collect::<Vec<_>>(),
         "frames": frames.collect::<Vec<_>>(),
     })

@@ -22,7 +22,6 @@ mod scene_entities;
 mod transforms;
 
 use crate::capture::{CaseResult, Study};
-use crate::frames::frames;
 use crate::output::scene::visuals;
 use crate::output::time_series::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::scenario::Scenario;
@@ -39,7 +38,7 @@ use std::io::{self, Write};
 pub fn write_mcap(scenario: &Scenario, study: &Study, case: &CaseResult, mut to: impl Write) -> io::Result<()> {
     let mut recording = Recording::new()?;
     recording.metadata("planar_capture", provenance(scenario, case))?;
-    let (frames, visuals) = (frames(scenario), visuals(scenario));
+    let (frames, visuals) = (scenario.frames(), visuals(scenario));
     let scene = recording.channel("/scene")?;
     recording.log(&scene, 0.0, &scene_entities::solids(&visuals))?;
     for visual in &visuals {

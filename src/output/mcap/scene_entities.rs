@@ -31,16 +31,16 @@ fn solid(visual: &Visual) -> SceneEntity {
             size: Some(Vector3 { x: size[0], y: size[1], z: visual.thickness }),
             color,
         }),
-        Shape::Outline(Outline::Disc { radius }) => entity.cylinders.push(CylinderPrimitive {
-            pose: Some(pose([0.0; 3])),
+        Shape::Outline(Outline::Disc { center: [x, y], radius }) => entity.cylinders.push(CylinderPrimitive {
+            pose: Some(pose([0.0, *x, *y])),
             size: Some(Vector3 { x: 2.0 * radius, y: 2.0 * radius, z: visual.thickness }),
             bottom_scale: 1.0,
             top_scale: 1.0,
             color,
         }),
-        Shape::Outline(Outline::Polygon { corners }) => entity.triangles.push(TriangleListPrimitive {
+        Shape::Outline(outline) => entity.triangles.push(TriangleListPrimitive {
             pose: Some(pose([0.0; 3])),
-            points: side_faces(corners, visual.thickness / 2.0),
+            points: side_faces(&outline.corners(), visual.thickness / 2.0),
             color,
             ..TriangleListPrimitive::default()
         }),

@@ -4,6 +4,7 @@ mod actuation;
 mod approach;
 mod capture;
 mod case;
+mod clearance;
 mod integration;
 mod joints;
 mod limits;
@@ -11,9 +12,10 @@ mod post_impact;
 mod target;
 
 use crate::diagnostic::{NumberRule, Report, Table, Value, read_document, read_text};
+use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::{Scenario, Tracking};
+use crate::scenario::{ClearanceRules, Scenario, Tracking};
 use joints::Joints;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -77,8 +79,18 @@ impl Scenario {
         folder: &Path,
         shipped: &[(&str, &str)],
     ) -> Result<(Self, LayoutSource), Report> {
-        const KEYS: [&str; 9] =
-            ["name", "layout", "initial", "limits", "approach", "target", "contact", "case", "post_impact"];
+        const KEYS: [&str; 10] = [
+            "name",
+            "layout",
+            "initial",
+            "limits",
+            "approach",
+            "target",
+            "contact",
+            "clearance",
+            "case",
+            "post_impact",
+        ];
         read_document(text, file, &KEYS, |root| {
             let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
             let (layout, source) =
@@ -104,6 +116,12 @@ impl Scenario {
                 limits::check_initial(table, initial, limits.as_deref().unwrap_or_default());
             }
             let capture = capture::capture(root, layout.as_ref(), name.as_deref())?;
+            let clearance = read_or(root, "clearance", ClearanceRules::default(), |value| {
+                let targets = capture.targets.iter().map(|target| target.name.as_str());
+                let bodies = frames(layout.as_ref()?, targets).into_iter();
+                let names: Vec<_> = bodies.filter(|f| f.motion != FrameMotion::Fixed).map(|f| f.name).collect();
+                clearance::clearance(&value.table(clearance::KEYS)?, &names)
+            });
             let scenario = Self {
                 name: name?,
                 layout: layout?,
@@ -112,6 +130,7 @@ impl Scenario {
                 approach: approach?,
                 targets: capture.targets,
                 contact: capture.contact,
+                clearance: clearance?,
                 cases: capture.cases,
                 post_impact: capture.post_impact,
             };

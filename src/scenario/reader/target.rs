@@ -190,7 +190,7 @@ fn outline(table: &Table<'_>) -> Option<Outline> {
             polygon.reject("`radius` is there too, expected one of the two");
             None
         }
-        (Some(value), None) => value.number(&RADIUS).map(|radius| Outline::Disc { radius }),
+        (Some(value), None) => value.number(&RADIUS).map(Outline::disc),
         (None, Some(value)) => {
             let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
             let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;

@@ -128,7 +128,7 @@ proptest! {
 
         let mut longer = layout.clone();
         let contact = all.captures[0].b.offset;
-        longer.arms[1].links.push(Link { length: 0.0, mass, inertia, com: [-contact.x, -contact.y] });
+        longer.arms[1].links.push(Link { length: 0.0, mass, inertia, com: [-contact.x, -contact.y], outline: None });
         let last_link = all.end_effectors[1].body;
         let relative = |of: fn(&Body) -> f64, all: &System| of(&all.bodies[body]) - of(&all.bodies[last_link]);
         let angle = |all: &System| [all.joint_angles(), vec![relative(|b| b.pose[0], all)]].concat();

@@ -83,9 +83,9 @@ fn eccentric_bounce() {
 #[test]
 fn link_on_a_heavy_base() {
     let (length, mass, inertia, com) = (1.5, 4.0, 0.6, [0.7, 0.1]);
-    let links = vec![Link { length, mass, inertia, com }];
+    let links = vec![Link { length, mass, inertia, com, outline: None }];
     let arms = vec![Arm { name: "arm".into(), mount: [0.4, 0.2], mount_angle: 0.3, links }];
-    let layout = Layout { name: "heavy".into(), base: Base { mass: 1e14, inertia: 1e14 }, arms };
+    let layout = Layout { name: "heavy".into(), base: Base { mass: 1e14, inertia: 1e14, outline: None }, arms };
     let angle: f64 = -0.2;
     let mut all = System::new(&layout, [0.1, 2.0, -1.0], &[angle], [0.0; 3], &[0.0]);
     let across = Vector2::new(-(angle + 0.4).sin(), (angle + 0.4).cos());

@@ -13,11 +13,11 @@ const SEED: u64 = 20_261_121;
 /// Four arms, of four, one, two and three links: off-axis COMs, mount angles, two arms on one mount, links of length
 /// zero inside and at the end.
 fn layout() -> Layout {
-    let link = |length: f64, mass: f64, com: [f64; 2]| Link { length, mass, inertia: 0.1 * mass, com };
+    let link = |length: f64, mass: f64, com: [f64; 2]| Link { length, mass, inertia: 0.1 * mass, com, outline: None };
     let arm = |name: &str, mount, mount_angle, links| Arm { name: name.to_owned(), mount, mount_angle, links };
     Layout {
         name: "four_arms".to_owned(),
-        base: Base { mass: 120.0, inertia: 15.0 },
+        base: Base { mass: 120.0, inertia: 15.0, outline: None },
         arms: vec![
             arm(
                 "left",

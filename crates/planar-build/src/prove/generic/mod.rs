@@ -62,7 +62,7 @@ impl Generic {
     /// The robot that a layout describes.
     #[must_use]
     pub fn new(layout: &Layout) -> Self {
-        let Base { mass, inertia } = layout.base;
+        let Base { mass, inertia, .. } = layout.base;
         let mut bodies = vec![Body { mass, inertia, com: [0.0; 2], joint: None }];
         let mut end_effectors = Vec::with_capacity(layout.arms.len());
         for arm in &layout.arms {

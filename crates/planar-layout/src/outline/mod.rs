@@ -1,11 +1,25 @@
-//! Outlines of targets: discs and polygons, and the signed distance of points from them.
+//! Outlines of bodies: discs, capsules and polygons, and the signed distance of points from them.
 
-/// The outline of a rigid body in its own frame, COM at the origin.
+mod reader;
+
+pub use reader::outline;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The outline of a rigid body in its own frame: that of a link, or one with the COM as its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outline {
-    /// A circle about the COM.
+    /// A circle.
     Disc {
+        /// [x, y] in m.
+        center: [f64; 2],
         /// m, greater than 0.
+        radius: f64,
+    },
+    /// All points within a radius of a segment; with radius 0 the segment itself.
+    Capsule {
+        /// The ends of the segment, [x, y] in m.
+        ends: [[f64; 2]; 2],
+        /// m, 0 or more.
         radius: f64,
     },
     /// Straight edges; made by [`Outline::polygon`].
@@ -39,6 +53,23 @@ pub struct SignedDistance {
 }
 
 impl Outline {
+    /// A disc about the origin; radius in m, greater than 0.
+    #[must_use]
+    pub const fn disc(radius: f64) -> Self {
+        Self::Disc { center: [0.0; 2], radius }
+    }
+
+    /// A rectangle with sides of this size along axes turned by the angle (rad) about its centre; m.
+    #[must_use]
+    pub fn rectangle([cx, cy]: [f64; 2], [width, height]: [f64; 2], angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let corner = |[a, b]: [f64; 2]| {
+            let (x, y) = (0.5 * a * width, 0.5 * b * height);
+            [cx + cos * x - sin * y, cy + sin * x + cos * y]
+        };
+        Self::Polygon { corners: [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).to_vec() }
+    }
+
     /// A polygon with these corners, in either direction.
     ///
     /// # Errors
@@ -73,23 +104,60 @@ impl Outline {
     #[must_use]
     pub fn signed_distance(&self, [x, y]: [f64; 2]) -> SignedDistance {
         match self {
-            Self::Disc { radius } => {
-                let distance = x.hypot(y);
-                let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
-                SignedDistance { distance: distance - radius, normal }
-            }
+            Self::Disc { center, radius } => away_from(*center, [x, y], *radius),
+            Self::Capsule { ends: [a, b], radius } => away_from(nearest_on_segment(*a, *b, [x, y]), [x, y], *radius),
             Self::Polygon { corners } => polygon_distance(corners, [x, y]),
         }
     }
 
-    /// The largest distance of the outline from the COM, m.
+    /// The corners of the outline, anticlockwise; arcs as chords of at most 7.5°.
     #[must_use]
-    pub fn reach(&self) -> f64 {
+    pub fn corners(&self) -> Vec<[f64; 2]> {
+        let arc = |[cx, cy]: [f64; 2], radius: f64, from: f64, chords: u32, turn: f64| {
+            (0..=chords).map(move |i| {
+                let angle = from + turn * f64::from(i) / f64::from(chords);
+                [cx + radius * angle.cos(), cy + radius * angle.sin()]
+            })
+        };
         match self {
-            Self::Disc { radius } => *radius,
-            Self::Polygon { corners } => corners.iter().fold(0.0, |most, [x, y]| x.hypot(*y).max(most)),
+            Self::Disc { center, radius } => arc(*center, *radius, 0.0, 48, TAU).take(48).collect(),
+            Self::Capsule { ends: [a, b], radius: 0.0 } => vec![*a, *b],
+            Self::Capsule { ends: [a, b], radius } => {
+                let [dx, dy] = minus(*b, *a);
+                let across = dy.atan2(dx) - FRAC_PI_2;
+                arc(*b, *radius, across, 24, PI).chain(arc(*a, *radius, across + PI, 24, PI)).collect()
+            }
+            Self::Polygon { corners } => corners.clone(),
         }
     }
+
+    /// The largest distance of the outline from the origin of its frame, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let farthest = |points: &[[f64; 2]]| points.iter().fold(0.0, |most: f64, [x, y]| x.hypot(*y).max(most));
+        match self {
+            Self::Disc { center, radius } => farthest(&[*center]) + radius,
+            Self::Capsule { ends, radius } => farthest(ends) + radius,
+            Self::Polygon { corners } => farthest(corners),
+        }
+    }
+}
+
+/// The signed distance from the circle of this radius about a point.
+fn away_from(center: [f64; 2], point: [f64; 2], radius: f64) -> SignedDistance {
+    let [x, y] = minus(point, center);
+    let distance = x.hypot(y);
+    let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
+    SignedDistance { distance: distance - radius, normal }
+}
+
+/// The point of a segment that is nearest to a point.
+#[must_use]
+pub fn nearest_on_segment(a: [f64; 2], b: [f64; 2], point: [f64; 2]) -> [f64; 2] {
+    let along = minus(b, a);
+    let squared = dot(along, along);
+    let part = if squared > 0.0 { (dot(minus(point, a), along) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    [a[0] + part * along[0], a[1] + part * along[1]]
 }
 
 fn polygon_distance(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {

@@ -1,0 +1,159 @@
+//! Poses, twists and bounds of the motion of all frames over an interval of a path.
+
+use crate::capture::assembly::TargetPlacement;
+use crate::capture::target_motion::TargetMotion;
+use crate::frames::{Frame, FrameMotion, point};
+use crate::simulate::path::PathInterval;
+use crate::simulate::system::Body;
+
+/// The motion of all frames during a phase.
+#[derive(Clone, Copy)]
+pub(super) struct FrameMotions<'a> {
+    pub(super) frames: &'a [Frame],
+    pub(super) targets: TargetMotion<'a>,
+    /// Number of joints.
+    pub(super) joints: usize,
+}
+
+/// Pose and twist of the origin of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct FrameState {
+    /// [yaw, x, y] in rad, m.
+    pub(super) pose: [f64; 3],
+    /// [ω, vx, vy] in rad/s, m/s.
+    pub(super) twist: [f64; 3],
+}
+
+/// Bounds of the motion of a frame over an interval.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct MotionBound {
+    /// Of the yaw rate, rad/s.
+    pub(super) yaw_rate: f64,
+    /// Of the speed of the origin, m/s.
+    pub(super) speed: f64,
+    /// Of the yaw acceleration, rad/s².
+    yaw_acceleration: f64,
+    /// Of the acceleration of the origin, m/s².
+    acceleration: f64,
+}
+
+impl MotionBound {
+    /// Of the speed of points up to `reach` from the origin, m/s.
+    pub(super) fn speed_within(&self, reach: f64) -> f64 {
+        self.speed + self.yaw_rate * reach
+    }
+
+    /// Of the acceleration of points up to `reach` from the origin, m/s².
+    pub(super) fn acceleration_within(&self, reach: f64) -> f64 {
+        self.acceleration + (self.yaw_acceleration + self.yaw_rate * self.yaw_rate) * reach
+    }
+
+    /// Of a frame at a distance from the origin that turns relative to it.
+    fn carried(&self, distance: f64, [rate, acceleration]: [f64; 2]) -> Self {
+        Self {
+            yaw_rate: self.yaw_rate + rate,
+            yaw_acceleration: self.yaw_acceleration + acceleration,
+            speed: self.speed_within(distance),
+            acceleration: self.acceleration_within(distance),
+        }
+    }
+
+    fn of_body(rates: &[f64], accelerations: &[f64]) -> Self {
+        Self {
+            yaw_rate: rates[0],
+            speed: rates[1].hypot(rates[2]),
+            yaw_acceleration: accelerations[0],
+            acceleration: accelerations[1].hypot(accelerations[2]),
+        }
+    }
+}
+
+impl FrameState {
+    fn carried(&self, [angle, x, y]: [f64; 3], rate: f64) -> Self {
+        let ([yaw, ox, oy], [omega, vx, vy]) = (self.pose, self.twist);
+        let [px, py] = point(self.pose, [x, y]);
+        Self { pose: [yaw + angle, px, py], twist: [omega + rate, vx - omega * (py - oy), vy + omega * (px - ox)] }
+    }
+}
+
+impl FrameMotions<'_> {
+    /// The states of all frames at a time within the interval.
+    pub(super) fn at(
+        &self,
+        interval: &PathInterval<'_>,
+        time: f64,
+        coordinates: &mut [Vec<f64>; 2],
+        states: &mut Vec<FrameState>,
+    ) {
+        let [positions, rates] = coordinates;
+        interval.at(time, positions, rates);
+        let body = |i: usize| FrameState {
+            pose: [positions[i], positions[i + 1], positions[i + 2]],
+            twist: [rates[i], rates[i + 1], rates[i + 2]],
+        };
+        states.clear();
+        for (k, frame) in self.frames.iter().enumerate() {
+            let [angle, x, y] = frame.pose;
+            let parent = frame.parent.map_or_else(FrameState::default, |parent| states[parent]);
+            let state = match frame.motion {
+                FrameMotion::Base => body(0),
+                FrameMotion::Joint(joint) => parent.carried([angle + positions[3 + joint], x, y], rates[3 + joint]),
+                FrameMotion::Fixed => parent.carried(frame.pose, 0.0),
+                FrameMotion::Target(target) => match self.targets {
+                    TargetMotion::Free(bodies) => {
+                        let Body { pose, twist, .. } = bodies[target].after(time);
+                        FrameState { pose, twist }
+                    }
+                    TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
+                        TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
+                        TargetPlacement::Merged { arm, offset: [x, y], yaw } => {
+                            states[self.end_effector(k, arm)].carried([yaw, x, y], 0.0)
+                        }
+                    },
+                },
+            };
+            states.push(state);
+        }
+    }
+
+    /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start.
+    pub(super) fn bounds(
+        &self,
+        interval: &PathInterval<'_>,
+        coordinates: &mut [Vec<f64>; 2],
+        bounds: &mut Vec<MotionBound>,
+    ) {
+        let [rates, accelerations] = coordinates;
+        interval.bounds(rates, accelerations);
+        let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);
+        bounds.clear();
+        for (k, frame) in self.frames.iter().enumerate() {
+            let distance = frame.pose[1].hypot(frame.pose[2]);
+            let parent = frame.parent.map_or_else(MotionBound::default, |parent| bounds[parent]);
+            let bound = match frame.motion {
+                FrameMotion::Base => body(0),
+                FrameMotion::Joint(joint) => parent.carried(distance, [rates[3 + joint], accelerations[3 + joint]]),
+                FrameMotion::Fixed => parent.carried(distance, [0.0; 2]),
+                FrameMotion::Target(target) => match self.targets {
+                    TargetMotion::Free(bodies) => {
+                        let [omega, vx, vy] = bodies[target].twist;
+                        MotionBound { yaw_rate: omega.abs(), speed: vx.hypot(vy), ..MotionBound::default() }
+                    }
+                    TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
+                        TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
+                        TargetPlacement::Merged { arm, offset: [x, y], .. } => {
+                            bounds[self.end_effector(k, arm)].carried(x.hypot(y), [0.0; 2])
+                        }
+                    },
+                },
+            };
+            bounds.push(bound);
+        }
+    }
+
+    /// Index of the frame of an arm's end effector, which comes before those of the targets.
+    fn end_effector(&self, before: usize, arm: usize) -> usize {
+        let is_end = |frame: &Frame| frame.arm == Some(arm) && frame.motion == FrameMotion::Fixed;
+        self.frames[..before].iter().position(is_end).expect("every arm has an end effector")
+    }
+}

@@ -1,0 +1,64 @@
+//! Two convex parts at one instant, and a lower bound of their distance about it.
+
+use super::convex::{ConvexPart, separation};
+use super::motion::FrameState;
+
+/// Two parts at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Instant {
+    pub(super) time: f64,
+    /// Signed distance, m.
+    pub(super) distance: f64,
+    normal: [f64; 2],
+    states: [FrameState; 2],
+}
+
+/// Two convex parts of two bodies.
+pub(super) struct PartPair<'a> {
+    pub(super) parts: [&'a ConvexPart; 2],
+    /// Bound of the relative acceleration of their points over the interval, m/s².
+    pub(super) acceleration: f64,
+}
+
+impl PartPair<'_> {
+    /// The separation at one instant.
+    pub(super) fn at(&self, time: f64, states: [FrameState; 2]) -> Instant {
+        let origin = states[0].pose;
+        let placed: [Vec<[f64; 2]>; 2] = std::array::from_fn(|i| self.corners(i, &states[i], origin).collect());
+        let radii = self.parts[0].radius + self.parts[1].radius;
+        let found = separation(&placed[0], &placed[1], radii);
+        Instant { time, distance: found.distance, normal: found.normal, states }
+    }
+
+    /// The corners of a part in inertial axes from the position of a frame.
+    fn corners(&self, part: usize, state: &FrameState, [_, x, y]: [f64; 3]) -> impl Iterator<Item = [f64; 2]> {
+        let (sin, cos) = state.pose[0].sin_cos();
+        let [_, ox, oy] = state.pose;
+        let at = move |[along, across]: &[f64; 2]| {
+            [ox - x + (cos * along - sin * across), oy - y + (sin * along + cos * across)]
+        };
+        self.parts[part].corners.iter().map(at)
+    }
+
+    /// A lower bound of the distance `after` s (or before, where negative) the instant.
+    ///
+    /// The distance is at least the gap of the projections on the normal of this instant, which is the distance now.
+    /// Each corner moves along the normal with its velocity, up to ½ a t² with the bound a of accelerations; so the
+    /// bound is concave in the time, and between two times it is at least the smaller of its values there.
+    pub(super) fn bound(&self, instant: &Instant, after: f64) -> f64 {
+        let [nx, ny] = instant.normal;
+        let origin = instant.states[0].pose;
+        let projections = |part: usize| {
+            let state = &instant.states[part];
+            let ([_, ox, oy], [omega, vx, vy]) = (state.pose, state.twist);
+            let (ox, oy) = (ox - origin[1], oy - origin[2]);
+            self.corners(part, state, origin).map(move |[x, y]| {
+                let velocity = nx * (vx - omega * (y - oy)) + ny * (vy + omega * (x - ox));
+                nx * x + ny * y + after * velocity
+            })
+        };
+        let end = projections(0).fold(f64::NEG_INFINITY, f64::max) + self.parts[0].radius;
+        let start = projections(1).fold(f64::INFINITY, f64::min) - self.parts[1].radius;
+        start - end - 0.5 * self.acceleration * after * after
+    }
+}

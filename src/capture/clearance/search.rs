@@ -1,0 +1,174 @@
+//! The search for the least distance and the overlaps of two convex parts over an interval of a path, by branch and
+//! bound.
+
+use super::bodies::BodyPair;
+use super::motion::{FrameMotions, FrameState, MotionBound};
+use super::part_pair::{Instant, PartPair};
+use crate::simulate::path::PathInterval;
+
+/// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
+const RESOLUTION: f64 = 1e-6;
+/// Shortest interval that is divided, s.
+const SHORTEST: f64 = 1e-9;
+
+/// Two convex parts, and what is known of them.
+#[derive(Clone)]
+pub(super) struct PartDistance {
+    pub(super) pair: usize,
+    /// Indices of the parts.
+    pub(super) parts: [usize; 2],
+    /// Lower bound of the distance at the end of the last interval, m.
+    pub(super) lower: f64,
+    /// The overlap that has not ended.
+    pub(super) open: Option<usize>,
+}
+
+/// Results by indices of pairs.
+#[derive(Clone, Default)]
+pub(super) struct Findings {
+    pub(super) least: Option<(f64, f64, usize)>,
+    pub(super) besides_contacts: Option<(f64, f64, usize)>,
+    pub(super) overlaps: Vec<PairOverlap>,
+    pub(super) evaluations: u64,
+}
+
+/// An overlap of two parts of a pair.
+#[derive(Clone)]
+pub(super) struct PairOverlap {
+    pub(super) pair: usize,
+    pub(super) span: [f64; 2],
+    pub(super) depth: f64,
+}
+
+impl Findings {
+    /// The distance above which nothing about the pair is of interest.
+    pub(super) fn goal(&self, part: &PartDistance, pair: &BodyPair) -> f64 {
+        if let Some(open) = part.open {
+            return -self.overlaps[open].depth - RESOLUTION;
+        }
+        let least = if pair.contact.is_some() { self.least } else { self.besides_contacts };
+        least.map_or(f64::INFINITY, |(distance, ..)| distance - RESOLUTION).max(-RESOLUTION)
+    }
+
+    fn record(&mut self, part: &PartDistance, body_pair: &BodyPair, instant: &Instant, start: f64) {
+        self.evaluations += 1;
+        let (pair, distance, time) = (part.pair, instant.distance, start + instant.time);
+        if let Some(open) = part.open {
+            self.overlaps[open].depth = self.overlaps[open].depth.max(-distance);
+        }
+        let lower = |least: &Option<(f64, f64, usize)>| least.is_none_or(|(least, ..)| distance < least);
+        if lower(&self.least) {
+            self.least = Some((distance, time, pair));
+        }
+        if body_pair.contact.is_none() && lower(&self.besides_contacts) {
+            self.besides_contacts = Some((distance, time, pair));
+        }
+    }
+}
+
+/// Buffers of all searches.
+pub(super) struct Workspace {
+    pub(super) coordinates: [Vec<f64>; 2],
+    pub(super) bounds: Vec<MotionBound>,
+    states: Vec<FrameState>,
+}
+
+impl Workspace {
+    /// For a path of this many positions.
+    pub(super) fn new(size: usize) -> Self {
+        Self { coordinates: [vec![0.0; size], vec![0.0; size]], bounds: Vec::new(), states: Vec::new() }
+    }
+}
+
+/// Two parts over one interval of the path.
+pub(super) struct IntervalSearch<'a> {
+    pub(super) shapes: PartPair<'a>,
+    /// Indices of the frames of their bodies.
+    pub(super) frames: [usize; 2],
+    pub(super) motions: FrameMotions<'a>,
+    pub(super) interval: PathInterval<'a>,
+    /// Of the phase, s.
+    pub(super) start: f64,
+    pub(super) workspace: &'a mut Workspace,
+}
+
+impl IntervalSearch<'_> {
+    /// Computes the distance at both ends, and between them wherever it may be below the goal.
+    pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) {
+        let ends = self.interval.span.map(|time| self.at(time));
+        ends.map(|end| found.record(part, pair, &end, self.start));
+        let mut left = ends[0];
+        // the instants to the right, the nearest last
+        let mut rights = vec![ends[1]];
+        self.pass(part, found, [left, left], &rights);
+        while let Some(right) = rights.last() {
+            let half = 0.5 * (right.time - left.time);
+            let lowest = self.shapes.bound(&left, half).min(self.shapes.bound(right, -half));
+            if lowest >= found.goal(part, pair) || 2.0 * half <= SHORTEST {
+                let now = *right;
+                self.pass(part, found, [left, now], &rights);
+                left = now;
+                rights.pop();
+            } else {
+                let middle = self.at(left.time + half);
+                found.record(part, pair, &middle, self.start);
+                rights.push(middle);
+            }
+        }
+        part.lower = ends[1].distance;
+    }
+
+    fn at(&mut self, time: f64) -> Instant {
+        let Workspace { coordinates, states, .. } = &mut *self.workspace;
+        self.motions.at(&self.interval, time, coordinates, states);
+        self.shapes.at(time, self.frames.map(|frame| states[frame]))
+    }
+
+    /// Begins, continues or ends an overlap at the second instant; all before it is known, and the distances at those
+    /// after it.
+    fn pass(&mut self, part: &mut PartDistance, found: &mut Findings, [before, now]: [Instant; 2], later: &[Instant]) {
+        match part.open {
+            None if now.distance < -RESOLUTION => {
+                let from = self.touch([self.interval.span[0], now.time]);
+                part.open = Some(found.overlaps.len());
+                let span = [self.start + from, self.start + now.time];
+                let depth = later.iter().fold(-now.distance, |depth, instant| depth.max(-instant.distance));
+                found.overlaps.push(PairOverlap { pair: part.pair, span, depth });
+            }
+            None => {}
+            Some(open) => {
+                let overlap = &mut found.overlaps[open];
+                overlap.span[1] = self.start + now.time;
+                if now.distance > 0.0 {
+                    part.open = None;
+                    overlap.span[1] = self.start + self.crossing([before.time, now.time]);
+                }
+            }
+        }
+    }
+
+    /// The last time before the second one, not before the first, at which the parts touch: they overlap at the second.
+    fn touch(&mut self, [earliest, overlapping]: [f64; 2]) -> f64 {
+        let mut step = SHORTEST;
+        let mut late = overlapping;
+        loop {
+            let early = (overlapping - step).max(earliest);
+            if self.at(early).distance > 0.0 {
+                return self.crossing([late, early]);
+            }
+            if early <= earliest {
+                return earliest;
+            }
+            (late, step) = (early, 2.0 * step);
+        }
+    }
+
+    /// A time at which the distance changes its sign: 0 or below at the first time, above at the second. By bisection.
+    fn crossing(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
+        while (outside - inside).abs() > SHORTEST {
+            let middle = inside + 0.5 * (outside - inside);
+            if self.at(middle).distance > 0.0 { outside = middle } else { inside = middle }
+        }
+        inside
+    }
+}

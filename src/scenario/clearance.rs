@@ -1,0 +1,27 @@
+//! The `[clearance]` table: what follows from an overlap of bodies.
+
+/// Which bodies may overlap, and what an overlap of others does.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ClearanceRules {
+    /// Default: report it.
+    pub on_overlap: OnOverlap,
+    /// Pairs of bodies by the names of their frames, which may overlap.
+    pub ignore: Vec<[String; 2]>,
+}
+
+/// What an overlap does, of bodies whose outlines are both given; others are reported.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OnOverlap {
+    /// It is in the results.
+    #[default]
+    Report,
+    /// The run fails its audit.
+    Fail,
+    /// The case ends there, and the run fails its audit.
+    Stop,
+}
+
+impl OnOverlap {
+    /// All of them with their names in scenarios.
+    pub const ALL: [(&'static str, Self); 3] = [("report", Self::Report), ("fail", Self::Fail), ("stop", Self::Stop)];
+}

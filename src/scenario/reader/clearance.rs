@@ -1,0 +1,32 @@
+//! Reads the `[clearance]` table.
+
+use super::read_or;
+use crate::diagnostic::{Table, Value, every, listing};
+use crate::scenario::{ClearanceRules, OnOverlap};
+
+pub(super) const KEYS: &[&str] = &["on_overlap", "ignore"];
+
+const PAIRS: &str = "a list of pairs of bodies, [[\"base\", \"arms/ARM/link2\"], …]";
+
+/// `names` are those of the scenario's bodies.
+pub(super) fn clearance(table: &Table<'_>, names: &[String]) -> Option<ClearanceRules> {
+    let on_overlap = read_or(table, "on_overlap", OnOverlap::Report, |value| value.choice(&OnOverlap::ALL));
+    let ignore =
+        read_or(table, "ignore", Vec::new(), |value| every(value.items(PAIRS)?.iter().map(|item| pair(item, names))));
+    Some(ClearanceRules { on_overlap: on_overlap?, ignore: ignore? })
+}
+
+fn pair(value: &Value<'_>, names: &[String]) -> Option<[String; 2]> {
+    let items = value.items(PAIRS)?;
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    let body = |item: &Value<'_>| {
+        let name = item.text(&format!("the name of a body: {}", listing(&known, "or")))?;
+        if !known.contains(&name) {
+            item.expected_one_of(&known, None);
+            return None;
+        }
+        Some(name.to_owned())
+    };
+    let pair = <[String; 2]>::try_from(every(items.iter().map(body))?);
+    pair.map_err(|names| value.reject(&format!("found {} bodies, expected {PAIRS}", names.len()))).ok()
+}

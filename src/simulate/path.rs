@@ -1,0 +1,173 @@
+//! The path of a phase: positions and rates at knots, and the cubic Hermite interpolant between them.
+//!
+//! Knots are states of the simulation. A state is omitted where the interpolant through its neighbours reproduces it,
+//! so that the memory depends on how much the motion bends and not on the number of steps.
+
+/// Largest deviation of an omitted state from the interpolant, rad or m, for positions up to 1.
+const TOLERANCE: f64 = 1e-10;
+/// Most states between two knots.
+const MAX_WINDOW: usize = 64;
+
+/// The positions and rates of a phase as functions of time.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    times: Vec<f64>,
+    /// Positions, then rates, knot by knot.
+    knots: Vec<f64>,
+    /// Number of positions.
+    size: usize,
+}
+
+/// The path between two knots.
+#[derive(Clone, Copy, Debug)]
+pub struct PathInterval<'a> {
+    /// From and to, s.
+    pub span: [f64; 2],
+    start: [&'a [f64]; 2],
+    end: [&'a [f64]; 2],
+}
+
+impl Path {
+    /// Number of positions.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Its intervals, in order of time.
+    pub fn intervals(&self) -> impl Iterator<Item = PathInterval<'_>> {
+        let knots = self.knots.chunks_exact((2 * self.size).max(1)).map(|knot| knot.split_at(self.size).into());
+        let times = self.times.windows(2);
+        times.zip(knots.clone().zip(knots.skip(1))).map(|(span, (start, end))| PathInterval {
+            span: [span[0], span[1]],
+            start,
+            end,
+        })
+    }
+
+    fn push(&mut self, time: f64, state: &[f64]) {
+        self.times.push(time);
+        self.knots.extend_from_slice(state);
+    }
+
+    fn last(&self) -> Option<(f64, &[f64])> {
+        Some((*self.times.last()?, &self.knots[self.knots.len() - 2 * self.size..]))
+    }
+}
+
+impl PathInterval<'_> {
+    /// Positions and rates at a time within the interval, s.
+    pub fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
+        let length = self.span[1] - self.span[0];
+        let u = (time - self.span[0]) / length;
+        let coordinates = positions.iter_mut().zip(rates).enumerate();
+        for (i, (position, rate)) in coordinates {
+            let [p, q] = [self.start[0][i], self.end[0][i]];
+            let [v, w] = [length * self.start[1][i], length * self.end[1][i]];
+            let change = q - p;
+            // p + v u + (3 c − 2 v − w) u² + (v + w − 2 c) u³
+            let [second, third] = [3.0 * change - 2.0 * v - w, v + w - 2.0 * change];
+            *position = p + u * (v + u * (second + u * third));
+            *rate = (v + u * (2.0 * second + u * 3.0 * third)) / length;
+        }
+    }
+
+    /// Bounds of the magnitudes of the rates and of their derivatives, by the control points of the interpolant's
+    /// derivatives in Bernstein form.
+    pub fn bounds(&self, rates: &mut [f64], accelerations: &mut [f64]) {
+        let length = self.span[1] - self.span[0];
+        for (i, (rate, acceleration)) in rates.iter_mut().zip(accelerations).enumerate() {
+            let slope = (self.end[0][i] - self.start[0][i]) / length;
+            let [v, w] = [self.start[1][i], self.end[1][i]];
+            *rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
+            let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
+            *acceleration = ends[0].abs().max(ends[1].abs()) * 2.0 / length;
+        }
+    }
+}
+
+/// Records a path while a phase runs.
+#[derive(Clone, Debug)]
+pub(crate) struct PathRecorder {
+    path: Path,
+    /// Times and states since the last knot.
+    window: Vec<(f64, Vec<f64>)>,
+}
+
+impl PathRecorder {
+    /// For states whose positions and rates are `2 * size` numbers.
+    pub(crate) fn new(size: usize) -> Self {
+        Self { path: Path { size, ..Path::default() }, window: Vec::new() }
+    }
+
+    /// Adds a state: positions, then rates.
+    pub(crate) fn record(&mut self, time: f64, state: &[f64]) {
+        let Some((start, knot)) = self.path.last() else { return self.path.push(time, state) };
+        if self.window.len() >= MAX_WINDOW || !self.is_reproduced([start, time], knot, state) {
+            let (time, state) = self.window.pop().expect("a single state follows its knot");
+            self.path.push(time, &state);
+            self.window.clear();
+        }
+        self.window.push((time, state.to_vec()));
+    }
+
+    /// Whether the interpolant from the last knot to this state passes through the states between them.
+    fn is_reproduced(&self, span: [f64; 2], knot: &[f64], state: &[f64]) -> bool {
+        let Some((time, between)) = self.window.get(self.window.len() / 2) else { return true };
+        let size = self.path.size;
+        let interval = PathInterval { span, start: knot.split_at(size).into(), end: state.split_at(size).into() };
+        let (mut positions, mut rates) = (vec![0.0; size], vec![0.0; size]);
+        interval.at(*time, &mut positions, &mut rates);
+        positions.iter().zip(between).all(|(found, value)| (found - value).abs() <= TOLERANCE * value.abs().max(1.0))
+    }
+
+    /// The path up to the last state.
+    pub(crate) fn end(mut self) -> Path {
+        if let Some((time, state)) = self.window.pop() {
+            self.path.push(time, &state);
+        }
+        self.path
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(motion: impl Fn(f64) -> [f64; 2], steps: u32) -> Path {
+        let mut recorder = PathRecorder::new(1);
+        for i in 0..=steps {
+            let time = f64::from(i) / f64::from(steps);
+            recorder.record(time, &motion(time));
+        }
+        recorder.end()
+    }
+
+    #[test]
+    fn the_interpolant_reproduces_the_omitted_states() {
+        let motion = |t: f64| [(3.0 * t).sin(), 3.0 * (3.0 * t).cos()];
+        let path = record(motion, 4000);
+        assert!(path.times.len() < 400, "{} knots", path.times.len());
+        assert_eq!((path.times[0], path.times[path.times.len() - 1]), (0.0, 1.0));
+        for interval in path.intervals() {
+            let [start, end] = interval.span;
+            for part in [0.0, 0.1, 0.3, 0.5, 0.8, 1.0] {
+                let time = start + part * (end - start);
+                let (mut position, mut rate) = ([0.0], [0.0]);
+                interval.at(time, &mut position, &mut rate);
+                let [exact, exact_rate] = motion(time);
+                assert!((position[0] - exact).abs() < 2.0 * TOLERANCE, "{time}: {}", position[0] - exact);
+                assert!((rate[0] - exact_rate).abs() < 1e-6, "{time}: {}", rate[0] - exact_rate);
+                let (mut largest, mut acceleration) = ([0.0], [0.0]);
+                interval.bounds(&mut largest, &mut acceleration);
+                assert!(rate[0].abs() <= largest[0] && acceleration[0] + 1e-3 >= 9.0 * exact.abs());
+            }
+        }
+    }
+
+    #[test]
+    fn a_kink_is_a_knot() {
+        let path = record(|t| if t < 0.5 { [0.0, 0.0] } else { [2.0 * (t - 0.5), 2.0] }, 100);
+        assert!(path.times.iter().any(|t| (t - 0.5).abs() < 0.011), "{:?}", path.times);
+    }
+}
