@@ -1,38 +1,66 @@
 //! Contact detection: events where the signed distance of an end effector from the outline of its target falls to zero.
 
 use crate::capture::assembly::rotated;
+use crate::capture::contact_pair::ContactPair;
+use crate::capture::proximity::convex::ConvexPart;
+use crate::capture::proximity::motion::{FrameMotions, FrameState, MotionBound};
+use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::target_motion::TargetMotion;
 use crate::error::Error;
+use crate::frames::{Frame, FrameMotion};
 use crate::outline::SignedDistance;
 use crate::scenario::Scenario;
 use crate::simulate::event::{EventState, Events};
+use crate::simulate::path::PathInterval;
 use crate::simulate::system::Body;
 
+/// Depth of an end effector inside a target at which bounds of the motion count it as a contact, m; the time of the
+/// contact is that of the depth 0.
+const DEPTH: f64 = 1e-9;
+
 /// One event for each pair: its value is the distance of the end effector from the outline of the target, m, negative
-/// inside.
+/// inside. Crossings within a step are found by bounds of the motion.
 pub struct ContactDetection<'a> {
     scenario: &'a Scenario,
     motion: TargetMotion<'a>,
-    pairs: Vec<ContactPair>,
+    pairs: Vec<DetectedPair>,
     end_effectors: Vec<[f64; 3]>,
+    frames: Vec<Frame>,
+    end_effector: ConvexPart,
 }
 
-/// An end effector and a target that may come into contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ContactPair {
-    /// Index of the target.
-    pub target: usize,
-    /// Index of the contact among the target's.
-    pub contact: usize,
-    /// Index of the arm.
-    pub arm: usize,
+/// A pair, and what is known of its distance at the end of the last step.
+struct DetectedPair {
+    pair: ContactPair,
+    /// Indices of the frames of end effector and target.
+    frames: [usize; 2],
+    /// Of the target.
+    parts: Vec<ConvexPart>,
+    /// Lower bound of the distance, m.
+    lower: f64,
+    /// Whether the distance has been positive since the start of the phase.
+    armed: bool,
 }
 
 impl<'a> ContactDetection<'a> {
     /// Detects the contacts of these pairs.
     #[must_use]
     pub fn new(scenario: &'a Scenario, motion: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
-        Self { scenario, motion, pairs, end_effectors: vec![[0.0; 3]; scenario.layout.arms.len()] }
+        let frames = scenario.frames();
+        let frame = |motion, arm| {
+            let found = frames.iter().position(|frame| frame.motion == motion && frame.arm == arm);
+            found.expect("every end effector and target has a frame")
+        };
+        let detected = |pair: ContactPair| DetectedPair {
+            pair,
+            frames: [frame(FrameMotion::Fixed, Some(pair.arm)), frame(FrameMotion::Target(pair.target), None)],
+            parts: ConvexPart::of(&scenario.targets[pair.target].outline),
+            lower: f64::NEG_INFINITY,
+            armed: false,
+        };
+        let pairs = pairs.into_iter().map(detected).collect();
+        let end_effectors = vec![[0.0; 3]; scenario.layout.arms.len()];
+        Self { scenario, motion, pairs, end_effectors, frames, end_effector: ConvexPart::point() }
     }
 }
 
@@ -64,10 +92,78 @@ impl Events for ContactDetection<'_> {
                 assembly.targets(targets, &self.end_effectors, &self.end_effectors, now.bodies)
             }
         };
-        for (value, pair) in values.iter_mut().zip(&self.pairs) {
+        for (value, DetectedPair { pair, .. }) in values.iter_mut().zip(&self.pairs) {
             let (body, end_effector) = (&targets[pair.target], &self.end_effectors[pair.arm]);
             (*value, _) = signed_distance(self.scenario, pair.target, body, end_effector);
         }
         Ok(())
+    }
+
+    fn are_bounded(&self) -> bool {
+        true
+    }
+
+    fn crossings(&mut self, step: &PathInterval<'_>) -> Vec<Option<[f64; 2]>> {
+        let Self { scenario, motion, pairs, frames, end_effector, .. } = self;
+        let motions = FrameMotions { frames, targets: *motion, joints: scenario.layout.joints() };
+        let size = step.start[0].len();
+        let mut coordinates = [vec![0.0; size], vec![0.0; size]];
+        let mut bounds = Vec::new();
+        motions.bounds(step, &mut coordinates, &mut bounds);
+        let mut search = StepSearch { motions, step, coordinates, bounds, states: Vec::new() };
+        pairs.iter_mut().map(|pair| search.crossing(pair, end_effector)).collect()
+    }
+}
+
+/// The search for contacts within one step.
+struct StepSearch<'a> {
+    motions: FrameMotions<'a>,
+    step: &'a PathInterval<'a>,
+    coordinates: [Vec<f64>; 2],
+    bounds: Vec<MotionBound>,
+    states: Vec<FrameState>,
+}
+
+impl StepSearch<'_> {
+    /// Two times between which the end effector of a pair reaches its target for the first time.
+    fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Option<[f64; 2]> {
+        let [start, end] = self.step.span;
+        let bounds = detected.frames.map(|frame| self.bounds[frame]);
+        let reach = detected.parts.iter().map(ConvexPart::reach).fold(0.0, f64::max);
+        let approach = (bounds[0].speed_within(0.0) + bounds[1].speed_within(reach)) * (end - start);
+        if detected.armed && detected.lower - approach > 0.0 {
+            detected.lower -= approach;
+            return None;
+        }
+        let acceleration = bounds[0].acceleration_within(0.0) + bounds[1].acceleration_within(reach);
+        let pairs: Vec<_> =
+            detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], acceleration }).collect();
+        let frames = detected.frames;
+        let mut instant_at = |pair: &PartPair<'_>, time: f64| self.at(pair, frames, time);
+        let mut distance_at = |time: f64| {
+            let distances = pairs.iter().map(|pair| instant_at(pair, time).distance);
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        detected.lower = distance_at(end);
+        // a pair in contact at the start can only touch again after it has separated
+        let mut from = start;
+        let mut wait = SHORTEST;
+        while !detected.armed {
+            detected.armed = distance_at(from) > DEPTH;
+            if !detected.armed {
+                if from >= end {
+                    return None;
+                }
+                from = (start + wait).min(end);
+                wait *= 2.0;
+            }
+        }
+        let first = pairs.iter().filter_map(|pair| pair.first_contact([from, end], DEPTH, &mut instant_at));
+        first.min_by(|a, b| a[1].total_cmp(&b[1])).map(|[_, below]| [from, below])
+    }
+
+    fn at(&mut self, pair: &PartPair<'_>, frames: [usize; 2], time: f64) -> Instant {
+        self.motions.at(self.step, time, &mut self.coordinates, &mut self.states);
+        pair.at(time, frames.map(|frame| self.states[frame]))
     }
 }

@@ -6,9 +6,11 @@ pub mod assembly;
 pub mod clearance;
 pub mod contact_at_time;
 pub mod contact_detection;
+pub mod contact_pair;
 pub mod contact_response;
 pub mod impact;
 pub mod post_capture;
+mod proximity;
 pub(crate) mod reach;
 pub(crate) mod reduced_matrices;
 pub mod residual_motion;
@@ -19,7 +21,7 @@ pub mod terminal_error;
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
-use crate::capture::clearance::Clearance;
+use crate::capture::clearance::{Clearance, ClosestApproach};
 use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
@@ -89,19 +91,6 @@ pub struct LaterImpact {
     pub time: f64,
     /// The impact.
     pub impact: ImpactSolution,
-}
-
-/// The smallest distance of an end effector from a target that it never touched.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ClosestApproach {
-    /// Index of the target.
-    pub target: usize,
-    /// Index of the arm.
-    pub arm: usize,
-    /// From the outline, m.
-    pub distance: f64,
-    /// Since the start of the approach, s, to the sampling interval.
-    pub time: f64,
 }
 
 /// A capture and the motion after it.

@@ -4,12 +4,13 @@ use crate::capture::approach::ApproachTracking;
 use crate::capture::assembly::{Assembly, Attachment};
 use crate::capture::clearance::ClearanceTracker;
 use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
-use crate::capture::contact_detection::{ContactDetection, ContactPair, signed_distance};
+use crate::capture::contact_detection::{ContactDetection, signed_distance};
+use crate::capture::contact_pair::ContactPair;
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::target_motion::TargetMotion;
-use crate::capture::{CaptureResult, CaseResult, ClosestApproach, LaterImpact, ModelFactory, Observer, StudyError};
+use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Observer, StudyError};
 use crate::contact::ContactLaw;
 use crate::error::Error;
 use crate::owned::RobotState;
@@ -47,7 +48,7 @@ impl<'a> CaptureSequence<'a> {
         let end = approach.end();
         let (targets, contacts) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
         let start = targets_after(&targets, -approach.duration);
-        let mut clearance = ClearanceTracker::new(self.scenario);
+        let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance.add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[]);
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
@@ -74,14 +75,12 @@ impl<'a> CaptureSequence<'a> {
         self.check_apart(&start, &pairs)?;
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let phase = self.track(&mut contact_detection, observer)?;
-        let mut clearance = ClearanceTracker::new(self.scenario);
+        let mut clearance = ClearanceTracker::new(self.scenario, &pairs);
         clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]);
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
         let targets = targets_after(&start, phase.duration);
-        let paths: Vec<_> = phase.samples.iter().map(|sample| targets_after(&start, sample.time)).collect();
-        let mut closest = self.closest(&pairs, &phase, 0.0, &paths);
         let capture = match (phase.event, &self.scenario.post_impact) {
             (Some((event, _)), Some(after)) => {
                 let contacts = self.contacts_made(&pairs, event, &targets, &phase.end().end_effector_poses);
@@ -91,11 +90,8 @@ impl<'a> CaptureSequence<'a> {
             }
             _ => None,
         };
+        let mut closest = clearance.closest();
         if let Some(captured) = &capture {
-            let later = self.closest(&pairs, &captured.post_impact, phase.duration, &captured.targets);
-            for (nearest, later) in closest.iter_mut().zip(later) {
-                *nearest = if later.distance < nearest.distance { later } else { *nearest };
-            }
             let touched = captured.later_impacts.iter().map(|later| &later.impact).chain([&captured.impact]);
             let touched: Vec<_> = touched.flat_map(|impact| &impact.contacts).map(|result| result.contact).collect();
             closest.retain(|pair| !touched.iter().any(|t| t.arm == pair.arm && t.target == pair.target));
@@ -128,7 +124,7 @@ impl<'a> CaptureSequence<'a> {
         observer: &mut dyn Observer,
     ) -> Result<CaseResult, StudyError> {
         let phase = self.track(&mut EndTime(overlap.1), observer)?;
-        let mut clearance = ClearanceTracker::new(self.scenario);
+        let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[]);
         clearance.end_at(overlap);
         Ok(CaseResult {
@@ -166,7 +162,6 @@ impl<'a> CaptureSequence<'a> {
         let mut open = if detected { self.pairs(&moving.attachments) } else { Vec::new() };
         let (mut post_impact, mut target_paths) = moving.integrate_to_contact(&open, 0.0, clearance, observer)?;
         let mut later_impacts = Vec::new();
-        let mut penetration = self.penetration(&open, &post_impact, &target_paths);
         while let Some((event, _)) = post_impact.event {
             let time = post_impact.duration;
             if later_impacts.len() == MAX_IMPACTS {
@@ -180,7 +175,6 @@ impl<'a> CaptureSequence<'a> {
             }
             open = self.pairs(&moving.attachments);
             let (next, path) = moving.integrate_to_contact(&open, time, clearance, observer)?;
-            penetration = penetration.max(self.penetration(&open, &next, &path));
             post_impact = post_impact.then(next);
             target_paths.extend(path);
         }
@@ -188,6 +182,7 @@ impl<'a> CaptureSequence<'a> {
             PostCaptureControl::None => None,
             control => Some(moving.residual_motion(control, &post_impact)?),
         };
+        let penetration = clearance.penetration();
         Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
     }
 
@@ -197,12 +192,6 @@ impl<'a> CaptureSequence<'a> {
 
     fn post_impact_error(self, time: f64, source: Error) -> StudyError {
         StudyError::PostImpact { case: self.case.name.clone(), source: PhaseError { time, source } }
-    }
-
-    /// Largest penetration of a target by an end effector in the samples of a phase, m.
-    fn penetration(self, pairs: &[ContactPair], phase: &Phase, targets: &[Vec<Body>]) -> f64 {
-        let closest = self.closest(pairs, phase, 0.0, targets);
-        closest.iter().fold(0.0, |most, pair| most.max(-pair.distance))
     }
 
     fn timing(self, after: &PostImpact, duration: f64) -> Timing {
@@ -272,20 +261,6 @@ impl<'a> CaptureSequence<'a> {
             }
         }
         Ok(())
-    }
-
-    /// The closest approach of each pair in the samples of a phase that starts at `from` s; `targets` are those at each
-    /// sample.
-    fn closest(self, pairs: &[ContactPair], phase: &Phase, from: f64, targets: &[Vec<Body>]) -> Vec<ClosestApproach> {
-        let closest = pairs.iter().map(|&ContactPair { target, arm, .. }| {
-            let distances = phase.samples.iter().zip(targets).map(|(sample, targets)| {
-                let end_effector = &sample.end_effector_poses[arm];
-                let (distance, _) = signed_distance(self.scenario, target, &targets[target], end_effector);
-                ClosestApproach { target, arm, distance, time: from + sample.time }
-            });
-            distances.min_by(|a, b| a.distance.total_cmp(&b.distance)).expect("a phase has samples")
-        });
-        closest.collect()
     }
 }
 

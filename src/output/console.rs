@@ -1,6 +1,7 @@
 //! The table that `run` prints: approach, impulses, balances and residual motion of every case.
 
 use super::impacts::impacts;
+use crate::capture::clearance::LeastDistance;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
@@ -29,6 +30,7 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Res
         post_impact(out, scenario, study)?;
         residual_motion(out, study)?;
     }
+    clearance(out, study)?;
     closest_approaches(out, scenario, study)
 }
 
@@ -194,6 +196,25 @@ fn impulses_of_case(
                 force.unwrap_or_default()
             );
             writeln!(out, "{}", row.trim_end())?;
+        }
+    }
+    Ok(())
+}
+
+/// The least distance of each case and its overlaps.
+fn clearance(out: &mut String, study: &Study) -> fmt::Result {
+    writeln!(out, "\nLeast distance of bodies that are not joined, besides planned contacts; negative: depth")?;
+    writeln!(out, "  {:<16} {:>12} {:>10}  between", "case", "distance [m]", "time [s]")?;
+    for CaseResult { name, clearance, stopped, .. } in &study.cases {
+        match clearance.besides_contacts.as_ref().or(clearance.least.as_ref()) {
+            Some(LeastDistance { distance, time, bodies: [a, b] }) => {
+                writeln!(out, "  {name:<16} {distance:>12.6} {time:>10.3}  {a} and {b}")?;
+            }
+            None => writeln!(out, "  {name:<16} all bodies are joined")?,
+        }
+        clearance.overlaps.iter().try_for_each(|overlap| writeln!(out, "    {}", overlap.sentence()))?;
+        if let Some(time) = stopped {
+            writeln!(out, "    the case ends with this overlap, at {time:.3} s (clearance.on_overlap)")?;
         }
     }
     Ok(())

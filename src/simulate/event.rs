@@ -1,6 +1,7 @@
 //! Events that end a phase before its time.
 
 use crate::error::Error;
+use crate::simulate::path::PathInterval;
 use crate::simulate::system::{Body, System};
 use crate::state::State;
 
@@ -30,6 +31,17 @@ pub trait Events {
     /// # Errors
     /// Those of the model.
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error>;
+
+    /// Whether [`Events::crossings`] finds them by bounds of the motion, so that none is missed whatever the step.
+    fn are_bounded(&self) -> bool {
+        false
+    }
+
+    /// For each event two times in a step between which its value falls from above 0 to below 0, for the first time in
+    /// the step. Only called where [`Events::are_bounded`].
+    fn crossings(&mut self, _step: &PathInterval<'_>) -> Vec<Option<[f64; 2]>> {
+        vec![None; self.count()]
+    }
 }
 
 /// A phase that ends at this time, s since its start.

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::simulate::event::{EventState, Events};
+use crate::simulate::path::PathInterval;
 use crate::simulate::system::System;
 use crate::state::State;
 
@@ -44,6 +45,11 @@ impl<'a> EventLocator<'a> {
         self.armed.is_empty()
     }
 
+    /// Whether the events have bounds.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.events.are_bounded()
+    }
+
     /// Evaluates the events at the start of a phase, at x with the derivative `rate`.
     pub(crate) fn start(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<(), Error> {
         self.now = self.evaluate(time, step, x, rate)?;
@@ -82,6 +88,26 @@ impl<'a> EventLocator<'a> {
             }
         }
         self.arm();
+        Ok(first)
+    }
+
+    /// As [`end_step`](Self::end_step), by the bounds of the events.
+    pub(crate) fn end_bounded_step(
+        &mut self,
+        step: &PathInterval<'_>,
+        state_at: &mut StateAt<'_>,
+    ) -> Result<Option<(usize, f64)>, Error> {
+        let crossings = self.events.crossings(step);
+        let mut first: Option<(usize, f64)> = None;
+        for (event, bracket) in crossings.into_iter().enumerate() {
+            let Some([above, below]) = bracket else { continue };
+            let values = [self.value_at(event, above, state_at)?, self.value_at(event, below, state_at)?];
+            // the interpolant and the dense output differ by rounding and the error of a step
+            let time = if values[0] > 0.0 { self.root(event, [above, below], values, state_at)? } else { above };
+            if first.is_none_or(|(_, earlier)| time < earlier) {
+                first = Some((event, time));
+            }
+        }
         Ok(first)
     }
 

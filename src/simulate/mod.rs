@@ -21,7 +21,7 @@ use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::limits::LimitViolations;
-use crate::simulate::path::Path;
+use crate::simulate::path::{Path, PathInterval};
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Integration;
 use crate::simulate::stepper::Stepper;
@@ -215,15 +215,23 @@ pub fn simulate(
         if locator.is_idle() {
             stepper.advance(span, &mut x).map_err(at(time))?;
         } else {
-            if i == 0 {
+            if i == 0 && !locator.is_bounded() {
                 stepper.rate(time, &x, &mut rate).map_err(at(time))?;
                 locator.start(time, end - time, &x, &rate).map_err(at(time))?;
             }
             before.copy_from_slice(&x);
             stepper.advance(span, &mut x).map_err(at(time))?;
-            stepper.rate(end, &x, &mut rate).map_err(at(end))?;
+            if !locator.is_bounded() {
+                stepper.rate(end, &x, &mut rate).map_err(at(end))?;
+            }
             let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([time, t], &before, into);
-            if let Some((event, when)) = locator.end_step(span, &x, &rate, &mut within).map_err(at(time))? {
+            let event = if locator.is_bounded() {
+                let step = PathInterval::between(span, &before, &x).map_err(at(time))?;
+                locator.end_bounded_step(&step, &mut within)
+            } else {
+                locator.end_step(span, &x, &rate, &mut within)
+            };
+            if let Some((event, when)) = event.map_err(at(time))? {
                 within(when, &mut x).map_err(at(when))?;
                 recorder.add_saturation(when - time);
                 recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;

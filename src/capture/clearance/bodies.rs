@@ -1,6 +1,7 @@
 //! The bodies of a scenario with their outlines, and the pairs of them that must not meet.
 
-use super::convex::ConvexPart;
+use crate::capture::contact_pair::ContactPair;
+use crate::capture::proximity::convex::ConvexPart;
 use crate::frames::{Frame, FrameMotion};
 use crate::layout::Layout;
 use crate::outline::Outline;
@@ -26,6 +27,8 @@ pub(super) struct BodyPair {
     pub(super) bodies: [usize; 2],
     /// Arm and target, where it is the last link of an arm and a target that the arm captures.
     pub(super) contact: Option<(usize, usize)>,
+    /// The least distance is that of a group of pairs.
+    pub(super) group: usize,
 }
 
 /// All bodies of a scenario, in the order of their frames.
@@ -68,11 +71,37 @@ pub(super) fn pairs(scenario: &Scenario, frames: &[Frame], bodies: &[ClearanceBo
     for (i, a) in bodies.iter().enumerate() {
         for (j, b) in bodies.iter().enumerate().skip(i + 1) {
             if !are_joined(scenario, frames, [a.frame, b.frame]) && !ignored(&a.name, &b.name) {
-                pairs.push(BodyPair { bodies: [i, j], contact: contact(scenario, frames, [a.frame, b.frame]) });
+                let contact = contact(scenario, frames, [a.frame, b.frame]);
+                pairs.push(BodyPair { bodies: [i, j], contact, group: usize::from(contact.is_some()) });
             }
         }
     }
     pairs
+}
+
+/// The end effectors as points, the targets, and the pairs of the planned contacts, each a group.
+pub(super) fn end_effector_pairs(
+    scenario: &Scenario,
+    frames: &[Frame],
+    contacts: &[ContactPair],
+) -> (Vec<ClearanceBody>, Vec<BodyPair>) {
+    let body = |(i, frame): (usize, &Frame)| {
+        let parts = match frame.motion {
+            FrameMotion::Fixed => vec![ConvexPart::point()],
+            FrameMotion::Target(target) => ConvexPart::of(&scenario.targets[target].outline),
+            FrameMotion::Base | FrameMotion::Joint(_) => return None,
+        };
+        Some(ClearanceBody { frame: i, name: frame.name.clone(), parts, is_default: false })
+    };
+    let bodies: Vec<_> = frames.iter().enumerate().filter_map(body).collect();
+    // the end effectors come first, in the order of the arms
+    let arms = scenario.layout.arms.len();
+    let pair = |(group, &ContactPair { target, arm, .. }): (usize, &ContactPair)| BodyPair {
+        bodies: [arm, arms + target],
+        contact: Some((arm, target)),
+        group,
+    };
+    (bodies, contacts.iter().enumerate().map(pair).collect())
 }
 
 /// Whether two bodies have a common joint: base or link with the next link, with nothing but wheels between them, and

@@ -5,21 +5,17 @@
 //! distance so far, or an overlap.
 
 mod bodies;
-mod convex;
-mod motion;
-mod part_pair;
 mod search;
+mod tracker;
 
 use crate::capture::assembly::Attachment;
+use crate::capture::contact_pair::ContactPair;
 use crate::capture::target_motion::TargetMotion;
-use crate::frames::Frame;
 use crate::scenario::{OnOverlap, Scenario};
 use crate::simulate::path::Path;
-use bodies::{BodyPair, ClearanceBody, bodies, pairs};
-use convex::ConvexPart;
-use motion::FrameMotions;
-use part_pair::PartPair;
-use search::{Findings, IntervalSearch, PairOverlap, PartDistance, Workspace};
+use bodies::{bodies, end_effector_pairs, pairs};
+use search::PairOverlap;
+use tracker::DistanceTracker;
 
 /// The least distance of two bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,106 +73,83 @@ impl Clearance {
     }
 }
 
+/// The smallest distance of an end effector from a target that it is to meet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClosestApproach {
+    /// Index of the target.
+    pub target: usize,
+    /// Index of the arm.
+    pub arm: usize,
+    /// From the outline, m; negative inside.
+    pub distance: f64,
+    /// Since the start of the approach, s.
+    pub time: f64,
+}
+
 /// The clearance of a case so far.
 #[derive(Clone)]
 pub(crate) struct ClearanceTracker {
-    frames: Vec<Frame>,
-    bodies: Vec<ClearanceBody>,
-    pairs: Vec<BodyPair>,
-    parts: Vec<PartDistance>,
-    found: Findings,
-    joints: usize,
+    /// Of all bodies; group 1 are the pairs that are to meet.
+    bodies: DistanceTracker,
+    /// Of end effectors and targets, each pair a group.
+    end_effectors: DistanceTracker,
     on_overlap: OnOverlap,
 }
 
 impl ClearanceTracker {
-    /// For the start of a case.
-    pub(crate) fn new(scenario: &Scenario) -> Self {
+    /// For the start of a case with these planned contacts.
+    pub(crate) fn new(scenario: &Scenario, contacts: &[ContactPair]) -> Self {
         let frames = scenario.frames();
-        let bodies = bodies(scenario, &frames);
-        let pairs = pairs(scenario, &frames, &bodies);
-        let mut parts = Vec::new();
-        for (pair, BodyPair { bodies: [a, b], .. }) in pairs.iter().enumerate() {
-            for i in 0..bodies[*a].parts.len() {
-                let of_pair = |j| PartDistance { pair, parts: [i, j], lower: f64::NEG_INFINITY, open: None };
-                parts.extend((0..bodies[*b].parts.len()).map(of_pair));
-            }
-        }
+        let all = bodies(scenario, &frames);
+        let (points, planned) = end_effector_pairs(scenario, &frames, contacts);
+        let pairs = pairs(scenario, &frames, &all);
         Self {
-            frames,
-            bodies,
-            pairs,
-            parts,
-            found: Findings::default(),
-            joints: scenario.layout.joints(),
+            bodies: DistanceTracker::new(frames.clone(), all, pairs),
+            end_effectors: DistanceTracker::new(frames, points, planned),
             on_overlap: scenario.clearance.on_overlap,
         }
     }
 
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
     pub(crate) fn add_phase(&mut self, path: &Path, start: f64, targets: TargetMotion<'_>, attachments: &[Attachment]) {
-        let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
-        let motions = FrameMotions { frames, targets, joints: *joints };
-        let size = path.size();
-        let mut workspace = Workspace::new(size);
-        let holds = |pair: &BodyPair| {
-            pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
+        self.bodies.add_phase(path, start, targets, attachments);
+        self.end_effectors.add_phase(path, start, targets, attachments);
+    }
+
+    /// The closest approaches of the planned contacts.
+    pub(crate) fn closest(&self) -> Vec<ClosestApproach> {
+        let tracker = &self.end_effectors;
+        let closest = |&(distance, time, pair): &(f64, f64, usize)| {
+            let (arm, target) = tracker.pairs[pair].contact?;
+            Some(ClosestApproach { target, arm, distance, time })
         };
-        let mut end = start;
-        for interval in path.intervals() {
-            let length = interval.span[1] - interval.span[0];
-            end = start + interval.span[1];
-            motions.bounds(&interval, &mut workspace.coordinates, &mut workspace.bounds);
-            for part in parts.iter_mut() {
-                let pair = &pairs[part.pair];
-                if holds(pair) {
-                    part.open = None;
-                    continue;
-                }
-                let frames = pair.bodies.map(|body| bodies[body].frame);
-                let shapes = [0, 1].map(|i| &bodies[pair.bodies[i]].parts[part.parts[i]]);
-                let bounds = frames.map(|frame| workspace.bounds[frame]);
-                let reaches = shapes.map(ConvexPart::reach);
-                let speed = bounds[0].speed_within(reaches[0]) + bounds[1].speed_within(reaches[1]);
-                if part.open.is_none() && part.lower - speed * length >= found.goal(part, pair) {
-                    part.lower -= speed * length;
-                    continue;
-                }
-                let acceleration =
-                    bounds[0].acceleration_within(reaches[0]) + bounds[1].acceleration_within(reaches[1]);
-                let mut search = IntervalSearch {
-                    shapes: PartPair { parts: shapes, acceleration },
-                    frames,
-                    motions,
-                    interval,
-                    start,
-                    workspace: &mut workspace,
-                };
-                search.run(part, pair, found);
-            }
-        }
-        for overlap in parts.iter().filter_map(|part| part.open) {
-            found.overlaps[overlap].span[1] = end;
-        }
+        tracker.found.least.iter().flatten().filter_map(closest).collect()
+    }
+
+    /// The largest depth of an end effector inside a target that it does not hold, m.
+    pub(crate) fn penetration(&self) -> f64 {
+        self.end_effectors.found.overlaps.iter().fold(0.0, |depth, overlap| overlap.depth.max(depth))
     }
 
     /// Pair and time (s) of the first overlap of two bodies whose outlines are both given.
     pub(crate) fn first_given_overlap(&self) -> Option<(usize, f64)> {
-        let given = |pair: usize| self.pairs[pair].bodies.iter().all(|body| !self.bodies[*body].is_default);
-        let overlaps = self.found.overlaps.iter().filter(|overlap| given(overlap.pair));
+        let Self { bodies: DistanceTracker { bodies, pairs, found, .. }, .. } = self;
+        let given = |pair: usize| pairs[pair].bodies.iter().all(|body| !bodies[*body].is_default);
+        let overlaps = found.overlaps.iter().filter(|overlap| given(overlap.pair));
         overlaps.map(|overlap| (overlap.pair, overlap.span[0])).min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// Adds the overlap at whose beginning the case ends.
     pub(crate) fn end_at(&mut self, (pair, time): (usize, f64)) {
-        self.found.overlaps.push(PairOverlap { pair, span: [time, time], depth: 0.0 });
+        self.bodies.found.overlaps.push(PairOverlap { pair, span: [time, time], depth: 0.0 });
     }
 
     /// The result.
     pub(crate) fn result(&self) -> Clearance {
-        let names = |pair: usize| self.pairs[pair].bodies.map(|body| self.bodies[body].name.clone());
-        let least = |(distance, time, pair): (f64, f64, usize)| LeastDistance { distance, time, bodies: names(pair) };
-        let mut overlaps: Vec<_> = self.found.overlaps.iter().collect();
+        let DistanceTracker { bodies, pairs, found, .. } = &self.bodies;
+        let names = |pair: usize| pairs[pair].bodies.map(|body| bodies[body].name.clone());
+        let least = |&(distance, time, pair): &(f64, f64, usize)| LeastDistance { distance, time, bodies: names(pair) };
+        let mut overlaps: Vec<_> = found.overlaps.iter().collect();
         overlaps.sort_by(|a, b| (a.pair, a.span[0]).partial_cmp(&(b.pair, b.span[0])).expect("times are finite"));
         let mut joined: Vec<(usize, Overlap)> = Vec::new();
         for PairOverlap { pair, span, depth } in overlaps {
@@ -187,17 +160,17 @@ impl ClearanceTracker {
                     overlap.depth = overlap.depth.max(*depth);
                 }
                 _ => {
-                    let is_default = self.pairs[*pair].bodies.iter().any(|body| self.bodies[*body].is_default);
+                    let is_default = pairs[*pair].bodies.iter().any(|body| bodies[*body].is_default);
                     joined.push((*pair, Overlap { bodies: names(*pair), span: *span, depth: *depth, is_default }));
                 }
             }
         }
         joined.sort_by(|(_, a), (_, b)| a.span[0].total_cmp(&b.span[0]));
         Clearance {
-            least: self.found.least.map(least),
-            besides_contacts: self.found.besides_contacts.map(least),
+            least: found.least.iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(least),
+            besides_contacts: found.least.first().and_then(Option::as_ref).map(least),
             overlaps: joined.into_iter().map(|(_, overlap)| overlap).collect(),
-            evaluations: self.found.evaluations,
+            evaluations: found.evaluations + self.end_effectors.found.evaluations,
             on_overlap: self.on_overlap,
         }
     }

@@ -2,15 +2,12 @@
 //! bound.
 
 use super::bodies::BodyPair;
-use super::motion::{FrameMotions, FrameState, MotionBound};
-use super::part_pair::{Instant, PartPair};
+use crate::capture::proximity::motion::{FrameMotions, FrameState, MotionBound};
+use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::simulate::path::PathInterval;
 
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
-/// Shortest interval that is divided, s.
-const SHORTEST: f64 = 1e-9;
-
 /// Two convex parts, and what is known of them.
 #[derive(Clone)]
 pub(super) struct PartDistance {
@@ -24,10 +21,10 @@ pub(super) struct PartDistance {
 }
 
 /// Results by indices of pairs.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Findings {
-    pub(super) least: Option<(f64, f64, usize)>,
-    pub(super) besides_contacts: Option<(f64, f64, usize)>,
+    /// Distance (m), time (s) and pair of each group.
+    pub(super) least: Vec<Option<(f64, f64, usize)>>,
     pub(super) overlaps: Vec<PairOverlap>,
     pub(super) evaluations: u64,
 }
@@ -41,13 +38,17 @@ pub(super) struct PairOverlap {
 }
 
 impl Findings {
+    /// For this many groups of pairs.
+    pub(super) fn new(groups: usize) -> Self {
+        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0 }
+    }
+
     /// The distance above which nothing about the pair is of interest.
     pub(super) fn goal(&self, part: &PartDistance, pair: &BodyPair) -> f64 {
         if let Some(open) = part.open {
             return -self.overlaps[open].depth - RESOLUTION;
         }
-        let least = if pair.contact.is_some() { self.least } else { self.besides_contacts };
-        least.map_or(f64::INFINITY, |(distance, ..)| distance - RESOLUTION).max(-RESOLUTION)
+        self.least[pair.group].map_or(f64::INFINITY, |(distance, ..)| distance - RESOLUTION).max(-RESOLUTION)
     }
 
     fn record(&mut self, part: &PartDistance, body_pair: &BodyPair, instant: &Instant, start: f64) {
@@ -56,12 +57,9 @@ impl Findings {
         if let Some(open) = part.open {
             self.overlaps[open].depth = self.overlaps[open].depth.max(-distance);
         }
-        let lower = |least: &Option<(f64, f64, usize)>| least.is_none_or(|(least, ..)| distance < least);
-        if lower(&self.least) {
-            self.least = Some((distance, time, pair));
-        }
-        if body_pair.contact.is_none() && lower(&self.besides_contacts) {
-            self.besides_contacts = Some((distance, time, pair));
+        let least = &mut self.least[body_pair.group];
+        if least.is_none_or(|(least, ..)| distance < least) {
+            *least = Some((distance, time, pair));
         }
     }
 }
@@ -96,7 +94,9 @@ impl IntervalSearch<'_> {
     /// Computes the distance at both ends, and between them wherever it may be below the goal.
     pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) {
         let ends = self.interval.span.map(|time| self.at(time));
-        ends.map(|end| found.record(part, pair, &end, self.start));
+        for end in &ends {
+            found.record(part, pair, end, self.start);
+        }
         let mut left = ends[0];
         // the instants to the right, the nearest last
         let mut rights = vec![ends[1]];

@@ -79,6 +79,27 @@ function missed(one) {
   return [...open, ...away, ...(one.targets.length && !one.impacts.length ? ["There is no impact."] : [])];
 }
 
+/** The least distance of bodies that are not joined, and their overlaps. */
+function clearanceTable() {
+  const [one] = current(), table = element("clearance"), least = one.least;
+  const row = (...texts) => {
+    const made = document.createElement("tr");
+    made.append(...texts.map((text, i) => cell(i ? "td" : "th", text)));
+    return made;
+  };
+  table.parentElement.hidden = !least;
+  if (!least) return;
+  table.replaceChildren(
+    row("bodies", "distance [m]", "time [s]"),
+    row(least.bodies.join(" – "), `${digits(least.distance)} (least)`, least.time.toFixed(2)),
+    ...one.overlaps.map(({ bodies, from, to, depth, is_default }) => {
+      const made = row(bodies.join(" – ") + (is_default ? " *" : ""), digits(-depth), `${from.toFixed(2)} to ${to.toFixed(2)}`);
+      made.className = "bad";
+      return made;
+    }));
+  element("defaults").hidden = !one.overlaps.some(({ is_default }) => is_default);
+}
+
 function audit() {
   const [one] = current(), shown = element("audit");
   const of = (name, phase) => {

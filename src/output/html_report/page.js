@@ -41,12 +41,26 @@ function marksOfImpacts() {
   }));
 }
 
+/** A red bar under the time bar while bodies overlap. */
+function marksOfOverlaps() {
+  const [one, line] = current();
+  element("overlaps").replaceChildren(...one.overlaps.map(({ bodies, from, to }) => {
+    const bar = document.createElement("span");
+    bar.title = `${bodies.join(" and ")} overlap from ${from.toFixed(2)} s to ${to.toFixed(2)} s`;
+    bar.style.left = `calc(8px + ${from / line.end} * (100% - 16px))`;
+    bar.style.width = `calc(${(to - from) / line.end} * (100% - 16px))`;
+    return bar;
+  }));
+}
+
 function choose(index) {
   state.chosen = index;
   element("case").value = index;
   drawPlots();
   contactsTable();
   marksOfImpacts();
+  marksOfOverlaps();
+  clearanceTable();
   audit();
   setTime(Math.min(state.time, current()[1].end));
 }

@@ -1,6 +1,6 @@
 // Lines, areas and text on the canvas, in pixels.
 
-const INK = "#44525f", TARGET = "#6d6d6d", IMPULSE = "#b3261e", TEXT = "12px system-ui, sans-serif";
+const INK = "#44525f", TARGET = "#6d6d6d", IMPULSE = "#b3261e", OVERLAP = "#d00000", TEXT = "12px system-ui, sans-serif";
 const canvas = element("scene"), pen = canvas.getContext("2d");
 
 function path(points) {

@@ -15,22 +15,23 @@ function draw() {
   const screen = ([x, y]) => [width / 2 + scale * (x - centre[0]), height / 2 - scale * (y - centre[1])];
   const held = line.holds.filter((hold) => hold.time <= state.time);
   const poses = targetPoses(one, line, state.time);
+  const overlapping = new Set(overlapsAt(one, state.time).flatMap(({ bodies }) => bodies));
 
   grid(screen, scale, centre, width, height);
   if (element("traces").checked) traces(line, screen);
   poses.forEach((pose, i) => {
-    drawTarget(study.targets[i], pose, screen, scale);
+    drawTarget(study.targets[i], pose, screen, scale, overlapping);
     // lines to all holding contacts show closed loops
     pen.strokeStyle = TARGET; pen.lineWidth = 2;
     held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].end_effector].map(screen)));
   });
-  drawBase(now, screen);
-  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale));
+  drawBase(now, screen, overlapping);
+  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
   line.impacts.forEach((impact) => drawImpact(impact, line, screen));
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height));
   // positions in pixels, for tests
-  state.shown = { targets: poses, arms: now.arms, arrows: line.impacts.filter(isFresh).flatMap((impact) => impact.contacts) };
+  state.shown = { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows: line.impacts.filter(isFresh).flatMap((impact) => impact.contacts) };
 }
 
 function traces(line, screen) {
@@ -42,10 +43,16 @@ function traces(line, screen) {
   });
 }
 
-function drawBase(now, screen) {
-  const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => plus(now.base, rotate([a * base[0], b * base[1]], now.yaw)));
-  pen.lineWidth = 1.5;
-  area(corners.map(screen), "#dfe6ed", INK);
+/** The overlaps of a case that last at a time. */
+const overlapsAt = (one, time) => one.overlaps.filter(({ from, to }) => from <= time && time <= to);
+
+function drawBase(now, screen, overlapping) {
+  const box = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => [a * base[0], b * base[1]]);
+  const corners = (study.layout.base.outline || box).map((corner) => plus(now.base, rotate(corner, now.yaw)));
+  const inside = overlapping.has("base");
+  pen.lineWidth = inside ? 3 : 1.5;
+  area(corners.map(screen), "#dfe6ed", inside ? OVERLAP : INK);
+  pen.lineWidth = 1.5; pen.strokeStyle = INK;
   const nose = screen(plus(now.base, rotate([base[0] * 0.7, 0], now.yaw))), middle = screen(now.base);
   stroke([middle, nose]);
   circle(middle, 3.5, INK);
@@ -53,11 +60,21 @@ function drawBase(now, screen) {
 
 const thickness = (scale) => Math.max(3, Math.min(9, 0.06 * scale));
 
-function drawArm(arm, now, colour, screen, scale) {
+function drawArm(arm, now, colour, screen, scale, overlapping) {
   const thick = thickness(scale);
   pen.lineCap = "round"; pen.lineJoin = "round";
   pen.strokeStyle = colour; pen.lineWidth = thick;
   stroke(now.points.map(screen));
+  arm.links.forEach((link, k) => {
+    const inside = overlapping.has(`arms/${arm.name}/link${k + 1}`), at = now.points[k];
+    if (link.outline) {
+      pen.lineWidth = inside ? 3 : 1;
+      area(link.outline.map((corner) => screen(plus(at, rotate(corner, now.angles[k])))), null, inside ? OVERLAP : colour);
+    } else if (inside) {
+      pen.strokeStyle = OVERLAP; pen.lineWidth = thick;
+      stroke([at, now.points[k + 1]].map(screen));
+    }
+  });
   pen.lineWidth = 1.5;
   arm.links.forEach((link, k) => {
     const joint = screen(now.points[k]);
@@ -80,13 +97,14 @@ function drawAttachment(hold, [x, y], scale) {
   else area([[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]], colour, "#ffffff");
 }
 
-function drawTarget(target, pose, screen, scale) {
-  const middle = screen(pose.point), fill = "rgba(120,120,120,0.18)";
-  pen.lineWidth = 1.5;
+function drawTarget(target, pose, screen, scale, overlapping) {
+  const middle = screen(pose.point), inside = overlapping.has(`targets/${target.name}`);
+  const fill = inside ? "rgba(208,0,0,0.12)" : "rgba(120,120,120,0.18)", edge = inside ? OVERLAP : TARGET;
+  pen.lineWidth = inside ? 3 : 1.5;
   if (target.polygon) {
-    area(target.polygon.map((corner) => screen(plus(pose.point, rotate(corner, pose.angle)))), fill, TARGET);
+    area(target.polygon.map((corner) => screen(plus(pose.point, rotate(corner, pose.angle)))), fill, edge);
   } else {
-    circle(middle, Math.max(3, target.radius * scale), fill, TARGET);
+    circle(middle, Math.max(3, target.radius * scale), fill, edge);
     // spokes that show the rotation
     for (const quarter of [1, 0]) {
       const arm = rotate([target.radius, 0], pose.angle + quarter * Math.PI / 2);

@@ -75,6 +75,8 @@ pub const INTEGRATED: f64 = 1e-8;
 pub const ENERGY_GRADIENT: f64 = 1e-8;
 /// Times of events, s, and event functions there: events are located to 1e-13.
 pub const EVENT_TIME: f64 = 1e-12;
+/// Least distances and depths, m: the resolution of the search.
+pub const CLEARANCE: f64 = 1e-6;
 /// Time of an event that passes zero by a nanometre, s: the value decreases by 2e-5 m/s there, and rounding over 600
 /// steps is 1e-12 m.
 pub const GRAZING: f64 = 1e-7;

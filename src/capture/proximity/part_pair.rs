@@ -1,28 +1,31 @@
-//! Two convex parts at one instant, and a lower bound of their distance about it.
+//! Two convex parts at one instant, a lower bound of their distance about it, and their first contact in an interval.
 
 use super::convex::{ConvexPart, separation};
 use super::motion::FrameState;
 
+/// Shortest interval that is divided, s.
+pub(in crate::capture) const SHORTEST: f64 = 1e-9;
+
 /// Two parts at one instant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Instant {
-    pub(super) time: f64,
+pub(in crate::capture) struct Instant {
+    pub(in crate::capture) time: f64,
     /// Signed distance, m.
-    pub(super) distance: f64,
+    pub(in crate::capture) distance: f64,
     normal: [f64; 2],
     states: [FrameState; 2],
 }
 
 /// Two convex parts of two bodies.
-pub(super) struct PartPair<'a> {
-    pub(super) parts: [&'a ConvexPart; 2],
+pub(in crate::capture) struct PartPair<'a> {
+    pub(in crate::capture) parts: [&'a ConvexPart; 2],
     /// Bound of the relative acceleration of their points over the interval, m/s².
-    pub(super) acceleration: f64,
+    pub(in crate::capture) acceleration: f64,
 }
 
 impl PartPair<'_> {
     /// The separation at one instant.
-    pub(super) fn at(&self, time: f64, states: [FrameState; 2]) -> Instant {
+    pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2]) -> Instant {
         let origin = states[0].pose;
         let placed: [Vec<[f64; 2]>; 2] = std::array::from_fn(|i| self.corners(i, &states[i], origin).collect());
         let radii = self.parts[0].radius + self.parts[1].radius;
@@ -45,7 +48,7 @@ impl PartPair<'_> {
     /// The distance is at least the gap of the projections on the normal of this instant, which is the distance now.
     /// Each corner moves along the normal with its velocity, up to ½ a t² with the bound a of accelerations; so the
     /// bound is concave in the time, and between two times it is at least the smaller of its values there.
-    pub(super) fn bound(&self, instant: &Instant, after: f64) -> f64 {
+    pub(in crate::capture) fn bound(&self, instant: &Instant, after: f64) -> f64 {
         let [nx, ny] = instant.normal;
         let origin = instant.states[0].pose;
         let projections = |part: usize| {
@@ -60,5 +63,32 @@ impl PartPair<'_> {
         let end = projections(0).fold(f64::NEG_INFINITY, f64::max) + self.parts[0].radius;
         let start = projections(1).fold(f64::INFINITY, f64::min) - self.parts[1].radius;
         start - end - 0.5 * self.acceleration * after * after
+    }
+
+    /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;
+    /// `None` where it does not, as the bounds of the motion show. The distance is above `-depth` at the start.
+    pub(in crate::capture) fn first_contact(
+        &self,
+        [start, end]: [f64; 2],
+        depth: f64,
+        mut instant_at: impl FnMut(&Self, f64) -> Instant,
+    ) -> Option<[f64; 2]> {
+        let mut left = instant_at(self, start);
+        // the instants to the right, the nearest last
+        let mut rights = vec![instant_at(self, end)];
+        while let Some(right) = rights.last() {
+            let half = 0.5 * (right.time - left.time);
+            let lowest = self.bound(&left, half).min(self.bound(right, -half));
+            if lowest < -depth && 2.0 * half > SHORTEST {
+                rights.push(instant_at(self, left.time + half));
+                continue;
+            }
+            if right.distance < -depth {
+                return Some([left.time, right.time]);
+            }
+            left = *right;
+            rights.pop();
+        }
+        None
     }
 }

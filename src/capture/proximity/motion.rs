@@ -8,29 +8,29 @@ use crate::simulate::system::Body;
 
 /// The motion of all frames during a phase.
 #[derive(Clone, Copy)]
-pub(super) struct FrameMotions<'a> {
-    pub(super) frames: &'a [Frame],
-    pub(super) targets: TargetMotion<'a>,
+pub(in crate::capture) struct FrameMotions<'a> {
+    pub(in crate::capture) frames: &'a [Frame],
+    pub(in crate::capture) targets: TargetMotion<'a>,
     /// Number of joints.
-    pub(super) joints: usize,
+    pub(in crate::capture) joints: usize,
 }
 
 /// Pose and twist of the origin of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct FrameState {
+pub(in crate::capture) struct FrameState {
     /// [yaw, x, y] in rad, m.
-    pub(super) pose: [f64; 3],
+    pub(in crate::capture) pose: [f64; 3],
     /// [ω, vx, vy] in rad/s, m/s.
-    pub(super) twist: [f64; 3],
+    pub(in crate::capture) twist: [f64; 3],
 }
 
 /// Bounds of the motion of a frame over an interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct MotionBound {
+pub(in crate::capture) struct MotionBound {
     /// Of the yaw rate, rad/s.
-    pub(super) yaw_rate: f64,
+    pub(in crate::capture) yaw_rate: f64,
     /// Of the speed of the origin, m/s.
-    pub(super) speed: f64,
+    pub(in crate::capture) speed: f64,
     /// Of the yaw acceleration, rad/s².
     yaw_acceleration: f64,
     /// Of the acceleration of the origin, m/s².
@@ -39,12 +39,12 @@ pub(super) struct MotionBound {
 
 impl MotionBound {
     /// Of the speed of points up to `reach` from the origin, m/s.
-    pub(super) fn speed_within(&self, reach: f64) -> f64 {
+    pub(in crate::capture) fn speed_within(&self, reach: f64) -> f64 {
         self.speed + self.yaw_rate * reach
     }
 
     /// Of the acceleration of points up to `reach` from the origin, m/s².
-    pub(super) fn acceleration_within(&self, reach: f64) -> f64 {
+    pub(in crate::capture) fn acceleration_within(&self, reach: f64) -> f64 {
         self.acceleration + (self.yaw_acceleration + self.yaw_rate * self.yaw_rate) * reach
     }
 
@@ -78,7 +78,7 @@ impl FrameState {
 
 impl FrameMotions<'_> {
     /// The states of all frames at a time within the interval.
-    pub(super) fn at(
+    pub(in crate::capture) fn at(
         &self,
         interval: &PathInterval<'_>,
         time: f64,
@@ -117,7 +117,7 @@ impl FrameMotions<'_> {
     }
 
     /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start.
-    pub(super) fn bounds(
+    pub(in crate::capture) fn bounds(
         &self,
         interval: &PathInterval<'_>,
         coordinates: &mut [Vec<f64>; 2],

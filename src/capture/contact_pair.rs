@@ -1,0 +1,12 @@
+//! An end effector and a target that may come into contact.
+
+/// By indices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContactPair {
+    /// Of the target.
+    pub target: usize,
+    /// Of the contact among the target's.
+    pub contact: usize,
+    /// Of the arm.
+    pub arm: usize,
+}

@@ -1,0 +1,147 @@
+//! Clearance and contacts do not depend on steps or samples, and agree with positions computed from samples.
+
+use crate::{Silent, run, scenario};
+use planar_capture::capture::{Study, study};
+use planar_capture::outline::Outline;
+use planar_capture::registry;
+use planar_capture::scenario::Scenario;
+use planar_capture::simulate::system::Body;
+use planar_proof::{file, tolerance};
+
+const ONE_ARM: &str = "[0.4, -0.9, 0.5]";
+const TWO_ARMS: &str = "[0.698, -1.571, 1.047, 2.444, 1.571, -1.047]";
+
+/// A robot at rest, with targets that pass it.
+fn at_rest(layout: &str, angles: &str, step: f64, targets: &str) -> Scenario {
+    let text = format!(
+        "name = \"at_rest\"\nlayout = \"{layout}\"\n[initial]\njoint_angles = {angles}\n\
+         [approach]\nduration = 20.0\nstep = {step}\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\n\
+         final_joint_angles = {angles}\n[contact]\ndetection = \"event\"\n{targets}\n\
+         [post_impact]\nduration = 1.0\nstep = {step}\n"
+    );
+    Scenario::parse(&text, "at_rest.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn run_sampled(scenario: &Scenario, sample: f64) -> Study {
+    let model = registry::generated(&scenario.layout).expect("generated code");
+    study(scenario, &|| model.clone_box(), sample, &mut Silent).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The captured spheres of the paper's case 3 are inside each other: centres 0.197 m apart at 64 s.
+#[test]
+fn the_captured_spheres_of_the_paper_overlap() {
+    let scenario = scenario("raina_shah_2017");
+    let result = run(&scenario);
+    let case = &result.cases[2];
+    let captured = case.capture.as_ref().expect("a capture");
+    let start = result.approach.duration;
+    let distance = |targets: &[Body]| {
+        let [a, b] = [targets[0].pose, targets[1].pose];
+        (a[1] - b[1]).hypot(a[2] - b[2]) - 1.0
+    };
+    let samples = captured.post_impact.samples.iter().zip(&captured.targets);
+    let sampled: Vec<(f64, f64)> = samples.map(|(now, targets)| (start + now.time, distance(targets))).collect();
+    let (time, least) = sampled.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).expect("samples");
+    let bodies = ["targets/target1", "targets/target2"];
+    let overlap = case.clearance.overlaps.iter().find(|overlap| overlap.bodies == bodies).expect("an overlap");
+    // between the samples, 0.05 s apart, the distance of spheres with 0.1 m/s bends by less than 1e-5 m
+    assert!(overlap.depth >= -least - tolerance::CLEARANCE && overlap.depth < -least + 1e-5, "{overlap:?}, {least}");
+    let found = case.clearance.least.as_ref().expect("pairs");
+    assert_eq!(found.bodies, bodies);
+    assert!((found.time - time).abs() < 0.05 && (found.distance + overlap.depth).abs() < tolerance::CLEARANCE);
+    let entered = sampled.iter().find(|(_, distance)| *distance < 0.0).expect("an overlap").0;
+    assert!((entered - 0.05..=entered).contains(&overlap.span[0]), "{entered}: {overlap:?}");
+    assert!(!overlap.is_default && result.audit_failures().is_empty(), "overlaps are reported by default");
+}
+
+/// Two bars of 1 mm pass through each other at 0.6 m/s, 3.3 ms long: found with steps of 0.1 s and rows every 5 s.
+#[test]
+fn thin_bars_do_not_pass_silently() {
+    let bar = |name: &str, arm: &str, x: f64, v: f64| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"none\"\nmass = 1.0\ninertia = 0.1\n\
+             polygon = [[-0.0005, -0.5], [0.0005, -0.5], [0.0005, 0.5], [-0.0005, 0.5]]\n\
+             position = [{x}, 30.0]\ntwist = [0.0, {v}, 0.0]\n"
+        )
+    };
+    let text = bar("first", "arm1", 0.0, 0.0) + &bar("second", "arm2", 6.0123, -0.6);
+    let span = |step: f64| {
+        let result = run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, step, &text), 5.0);
+        let overlap = result.cases[0].clearance.overlaps.first().expect("an overlap").clone();
+        assert_eq!(overlap.bodies, ["targets/first", "targets/second"]);
+        overlap.span
+    };
+    let (touch, part) = ((6.0123 - 0.001) / 0.6, (6.0123 + 0.001) / 0.6);
+    for step in [0.1, 0.005] {
+        let [from, to] = span(step);
+        assert!((from - touch).abs() < 1e-8 && (to - part).abs() < 1e-8, "{step}: {from} {to}, not {touch} {part}");
+    }
+}
+
+/// A rod of 1.6 m × 0.01 m that turns ten times a second drifts towards an end effector at rest: it is met at the same
+/// time with a turn per step and with 1,000 steps per turn, the time at which a dense search finds the first contact.
+#[test]
+fn a_fast_rod_is_met_whatever_the_step() {
+    let arm = scenario("redysim_single_arm_3r").layout.arms[0].name.clone();
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = registry::generated(&layout).expect("generated code");
+    let mut poses = [[0.0; 3]];
+    model.end_effector_poses(&[0.0; 3], &[0.4, -0.9, 0.5], &mut poses).expect("poses");
+    let [_, x, y] = poses[0];
+    let (omega, speed, away) = (62.8, 0.1, 1.35);
+    let rod = "[[-0.8, -0.005], [0.8, -0.005], [0.8, 0.005], [-0.8, 0.005]]";
+    let target = format!(
+        "[[target]]\nname = \"rod\"\narm = \"{arm}\"\nmass = 5.0\ninertia = 1.1\npolygon = {rod}\n\
+         position = [{}, {y}]\ntwist = [{omega}, {}, 0.0]\n",
+        x + away,
+        -speed
+    );
+    let outline =
+        Outline::polygon(vec![[-0.8, -0.005], [0.8, -0.005], [0.8, 0.005], [-0.8, 0.005]]).expect("a rectangle");
+    let distance = |time: f64| {
+        let (sin, cos) = (omega * time).sin_cos();
+        let from = [speed * time - away, 0.0];
+        outline.signed_distance([cos * from[0] + sin * from[1], cos * from[1] - sin * from[0]]).distance
+    };
+    // no contact before the end of the rod can reach: then every 2 µs
+    let mut time = (away - 0.8 - 0.02) / speed;
+    while distance(time) > 0.0 {
+        time += 2e-6;
+        assert!(time < 20.0);
+    }
+    for step in [0.1, 0.02, 0.0001] {
+        let found = run_sampled(&at_rest("single_arm_3r", ONE_ARM, step, &target), 5.0);
+        let met = found.cases[0].approach.as_ref().expect("an approach").event.expect("the rod is met").1;
+        assert!(met <= time && met > time - 3e-6, "step {step}: {met}, not {time}");
+    }
+}
+
+/// `on_overlap = "stop"` ends the case at the first touch of given outlines; `ignore` takes a pair out.
+#[test]
+fn rules_of_overlaps() {
+    let text = std::fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+    let read = |rules: &str| {
+        let text = format!("{text}\n[clearance]\n{rules}\n");
+        Scenario::parse(&text, "rules.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let ignored = "ignore = [[\"targets/target2\", \"targets/target1\"]]";
+    let report = run(&read(""));
+    let stopped = run(&read("on_overlap = \"stop\""));
+    for (free, case) in report.cases.iter().zip(&stopped.cases) {
+        let given = free.clearance.overlaps.iter().find(|overlap| !overlap.is_default);
+        assert_eq!(case.stopped.is_some(), given.is_some(), "{}", case.name);
+        let Some(first) = given else { continue };
+        assert_eq!(case.stopped, Some(first.span[0]));
+        let captured = case.capture.as_ref().expect("a capture");
+        let end = report.approach.duration + captured.post_impact.duration;
+        assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
+        let failures = stopped.audit_failures();
+        assert!(failures.iter().any(|failure| failure.starts_with(&format!("{}: `", case.name))), "{failures:?}");
+    }
+    assert!(stopped.cases[2].stopped.is_some());
+    let failing = run(&read("on_overlap = \"fail\""));
+    assert!(!failing.audit_failures().is_empty());
+    let apart = run(&read(&format!("on_overlap = \"fail\"\n{ignored}")));
+    let overlaps = &apart.cases[2].clearance.overlaps;
+    assert!(overlaps.iter().all(|overlap| overlap.bodies.iter().any(|body| !body.starts_with("targets/"))));
+}
