@@ -1,7 +1,7 @@
 //! The table that `run` prints: approach, impulses, balances and residual motion of every case.
 
 use super::impacts::impacts;
-use crate::capture::clearance::LeastDistance;
+use crate::capture::clearance::{LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
@@ -12,6 +12,9 @@ use std::fmt::{self, Write};
 
 /// Distance of an end effector from its wanted contact point above which it is reported, m.
 const REPORTED_MISS: f64 = 1e-4;
+
+/// Number of overlaps of a case that are printed.
+const SHOWN_OVERLAPS: usize = 3;
 
 /// The results of a study in words and columns.
 #[must_use]
@@ -212,7 +215,11 @@ fn clearance(out: &mut String, study: &Study) -> fmt::Result {
             }
             None => writeln!(out, "  {name:<16} all bodies are joined")?,
         }
-        clearance.overlaps.iter().try_for_each(|overlap| writeln!(out, "    {}", overlap.sentence()))?;
+        let shown = clearance.overlaps.iter().take(SHOWN_OVERLAPS);
+        shown.map(Overlap::sentence).try_for_each(|sentence| writeln!(out, "    {sentence}"))?;
+        if clearance.overlaps.len() > SHOWN_OVERLAPS {
+            writeln!(out, "    and {} later overlaps, see summary.json", clearance.overlaps.len() - SHOWN_OVERLAPS)?;
+        }
         if let Some(time) = stopped {
             writeln!(out, "    the case ends with this overlap, at {time:.3} s (clearance.on_overlap)")?;
         }

@@ -124,24 +124,28 @@ fn rules_of_overlaps() {
         let text = format!("{text}\n[clearance]\n{rules}\n");
         Scenario::parse(&text, "rules.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
     };
-    let ignored = "ignore = [[\"targets/target2\", \"targets/target1\"]]";
-    let report = run(&read(""));
-    let stopped = run(&read("on_overlap = \"stop\""));
-    for (free, case) in report.cases.iter().zip(&stopped.cases) {
-        let given = free.clearance.overlaps.iter().find(|overlap| !overlap.is_default);
-        assert_eq!(case.stopped.is_some(), given.is_some(), "{}", case.name);
-        let Some(first) = given else { continue };
-        assert_eq!(case.stopped, Some(first.span[0]));
-        let captured = case.capture.as_ref().expect("a capture");
-        let end = report.approach.duration + captured.post_impact.duration;
-        assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
-        let failures = stopped.audit_failures();
-        assert!(failures.iter().any(|failure| failure.starts_with(&format!("{}: `", case.name))), "{failures:?}");
+    // in the approach; then, without the end effectors that reach their targets from within, after the impact
+    let contacts = "ignore = [[\"arms/arm1/link3\", \"targets/target1\"], [\"targets/target2\", \"arms/arm2/link3\"]]";
+    for ignored in ["", contacts] {
+        let report = run(&read(ignored));
+        let stopped = run(&read(&format!("on_overlap = \"stop\"\n{ignored}")));
+        for (free, case) in report.cases.iter().zip(&stopped.cases) {
+            let first = free.clearance.overlaps.first().expect("an overlap");
+            assert_eq!(case.stopped, Some(first.span[0]));
+            let after = case.capture.as_ref().map_or(0.0, |captured| captured.post_impact.duration);
+            assert_eq!(after > 0.0, !ignored.is_empty());
+            let end = case.approach(&stopped).duration + after;
+            assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
+            let failures = stopped.audit_failures();
+            assert!(failures.iter().any(|failure| failure.starts_with(&format!("{}: `", case.name))), "{failures:?}");
+        }
     }
-    assert!(stopped.cases[2].stopped.is_some());
     let failing = run(&read("on_overlap = \"fail\""));
     assert!(!failing.audit_failures().is_empty());
-    let apart = run(&read(&format!("on_overlap = \"fail\"\n{ignored}")));
-    let overlaps = &apart.cases[2].clearance.overlaps;
-    assert!(overlaps.iter().all(|overlap| overlap.bodies.iter().any(|body| !body.starts_with("targets/"))));
+    let ignored = run(&read("ignore = [[\"targets/target2\", \"targets/target1\"]]"));
+    let is_of_targets = |result: &Study| {
+        let overlaps = &result.cases[2].clearance.overlaps;
+        overlaps.iter().any(|overlap| overlap.bodies.iter().all(|body| body.starts_with("targets/")))
+    };
+    assert!(is_of_targets(&failing) && !is_of_targets(&ignored));
 }
