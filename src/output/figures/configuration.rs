@@ -1,5 +1,6 @@
 //! Snapshots of robot and targets: at the start, at each impact, and during the post-impact motion.
 
+use super::clearance::overlapping;
 use super::figure::{Figure, Series};
 use super::robot::{arrow, expected_target, pin, robot, target};
 use super::snapshot::{FreeTarget, Snapshot, panels};
@@ -104,6 +105,7 @@ pub(super) fn post_impact_motion(
             series: robot(&scenario.layout, &sample.state),
             ..Snapshot::default()
         };
+        let time = case.approach(study).duration + sample.time;
         for (target, series) in targets(scenario, bodies, sample, &held).into_iter().enumerate() {
             if held.iter().any(|contact| contact.target == target) {
                 snapshot.series.extend(series);
@@ -117,6 +119,7 @@ pub(super) fn post_impact_motion(
                 in_contact: i == 0 && contacts_until(0).any(|contact| contact.target == target),
             });
         }
+        snapshot.series.extend(overlapping(scenario, case, time, &sample.state, bodies));
         snapshot
     });
     Figure { name: format!("post_impact_motion_{}", case.name), columns: 3, panels: panels(snapshots.collect()) }

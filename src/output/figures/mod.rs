@@ -1,6 +1,7 @@
 //! The figures of a study: their content as [`Figure`]s, which [`draw`] converts to SVG and PNG.
 
 mod approach;
+mod clearance;
 mod configuration;
 mod contact_velocities;
 mod dash;
@@ -32,6 +33,7 @@ pub fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     for case in &study.cases {
         figures.push(momentum::figure(scenario, study, case));
         figures.push(energy::figure(study, case));
+        figures.extend(clearance::figure(study, case));
         if let Some(capture) = &case.capture {
             figures.extend(post_impact::figures(scenario, study, case, capture));
         }

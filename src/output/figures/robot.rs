@@ -70,7 +70,7 @@ pub(super) fn expected_target(label: &str, target: &Target, [x, y]: [f64; 2]) ->
     outline(label, Colour::GREY, Dash::Dashed, &Shape::Outline(target.outline.clone()), [target.yaw, x, y])
 }
 
-fn outline(label: &str, colour: Colour, dash: Dash, shape: &Shape, pose: [f64; 3]) -> Series {
+pub(super) fn outline(label: &str, colour: Colour, dash: Dash, shape: &Shape, pose: [f64; 3]) -> Series {
     let [corners, _] = shape.lines();
     Series::line(
         label,

@@ -41,6 +41,8 @@ impl Colour {
     pub const GREEN: Self = Self(PALETTE[2]);
     /// Follows the palette.
     pub const BLACK: Self = Self([0; 3]);
+    /// Of overlaps.
+    pub const RED: Self = Self([0xd0, 0x00, 0x00]);
     /// Of the background.
     pub const GREY: Self = Self([0x8c; 3]);
 
