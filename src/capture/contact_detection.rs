@@ -44,6 +44,9 @@ struct DetectedPair {
 
 impl<'a> ContactDetection<'a> {
     /// Detects the contacts of these pairs.
+    ///
+    /// # Panics
+    /// For arms and targets that the scenario does not have.
     #[must_use]
     pub fn new(scenario: &'a Scenario, motion: TargetMotion<'a>, pairs: Vec<ContactPair>) -> Self {
         let frames = scenario.frames();
@@ -103,7 +106,7 @@ impl Events for ContactDetection<'_> {
         true
     }
 
-    fn crossings(&mut self, step: &PathInterval<'_>) -> Vec<Option<[f64; 2]>> {
+    fn crossings(&mut self, step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
         let Self { scenario, motion, pairs, frames, end_effector, .. } = self;
         let motions = FrameMotions { frames, targets: *motion, joints: scenario.layout.joints() };
         let size = step.start[0].len();
@@ -126,14 +129,14 @@ struct StepSearch<'a> {
 
 impl StepSearch<'_> {
     /// Two times between which the end effector of a pair reaches its target for the first time.
-    fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Option<[f64; 2]> {
+    fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Result<Option<[f64; 2]>, Error> {
         let [start, end] = self.step.span;
         let bounds = detected.frames.map(|frame| self.bounds[frame]);
         let reach = detected.parts.iter().map(ConvexPart::reach).fold(0.0, f64::max);
         let approach = (bounds[0].speed_within(0.0) + bounds[1].speed_within(reach)) * (end - start);
         if detected.armed && detected.lower - approach > 0.0 {
             detected.lower -= approach;
-            return None;
+            return Ok(None);
         }
         let acceleration = bounds[0].acceleration_within(0.0) + bounds[1].acceleration_within(reach);
         let pairs: Vec<_> =
@@ -152,14 +155,19 @@ impl StepSearch<'_> {
             detected.armed = distance_at(from) > DEPTH;
             if !detected.armed {
                 if from >= end {
-                    return None;
+                    return Ok(None);
                 }
                 from = (start + wait).min(end);
                 wait *= 2.0;
             }
         }
-        let first = pairs.iter().filter_map(|pair| pair.first_contact([from, end], DEPTH, &mut instant_at));
-        first.min_by(|a, b| a[1].total_cmp(&b[1])).map(|[_, below]| [from, below])
+        let mut first: Option<f64> = None;
+        for pair in &pairs {
+            if let Some([_, below]) = pair.first_contact([from, end], DEPTH, &mut instant_at)? {
+                first = Some(first.map_or(below, |earlier| earlier.min(below)));
+            }
+        }
+        Ok(first.map(|below| [from, below]))
     }
 
     fn at(&mut self, pair: &PartPair<'_>, frames: [usize; 2], time: f64) -> Instant {

@@ -137,6 +137,17 @@ pub enum StudyError {
         /// m.
         depth: f64,
     },
+    /// Bodies move too fast for bounds of their distances.
+    #[error(
+        "case `{case}`: the bodies move too fast for their clearance to be computed: too many distances by {time} s; \
+         expected slower twists and joint rates"
+    )]
+    TooFast {
+        /// The case's name.
+        case: String,
+        /// Since the start of the approach, s.
+        time: f64,
+    },
     /// Too many impacts.
     #[error(
         "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \

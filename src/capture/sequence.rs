@@ -49,7 +49,9 @@ impl<'a> CaptureSequence<'a> {
         let (targets, contacts) = contact_at_time(self.scenario, self.case, &end.end_effector_poses);
         let start = targets_after(&targets, -approach.duration);
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
-        clearance.add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[]);
+        clearance
+            .add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[])
+            .map_err(|time| self.too_fast(time))?;
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
@@ -76,7 +78,7 @@ impl<'a> CaptureSequence<'a> {
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let phase = self.track(&mut contact_detection, observer)?;
         let mut clearance = ClearanceTracker::new(self.scenario, &pairs);
-        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]);
+        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]).map_err(|time| self.too_fast(time))?;
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
@@ -125,7 +127,7 @@ impl<'a> CaptureSequence<'a> {
     ) -> Result<CaseResult, StudyError> {
         let phase = self.track(&mut EndTime(overlap.1), observer)?;
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
-        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[]);
+        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[]).map_err(|time| self.too_fast(time))?;
         clearance.end_at(overlap);
         Ok(CaseResult {
             name: self.case.name.clone(),
@@ -184,6 +186,10 @@ impl<'a> CaptureSequence<'a> {
         };
         let penetration = clearance.penetration();
         Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
+    }
+
+    fn too_fast(self, time: f64) -> StudyError {
+        StudyError::TooFast { case: self.case.name.clone(), time }
     }
 
     fn impact_error(self, source: Error) -> StudyError {
@@ -333,11 +339,11 @@ impl SequenceState<'_> {
         let mut phase = simulate(&mut detection)?;
         let begin = *first + time;
         let before = clearance.clone();
-        clearance.add_phase(&phase.path, begin, motion, attachments);
+        clearance.add_phase(&phase.path, begin, motion, attachments).map_err(|time| sequence.too_fast(time))?;
         if let Some(overlap) = sequence.stop(clearance) {
             phase = Phase { event: None, ..simulate(&mut EndTime(overlap.1 - begin))? };
             *clearance = before;
-            clearance.add_phase(&phase.path, begin, motion, attachments);
+            clearance.add_phase(&phase.path, begin, motion, attachments).map_err(|time| sequence.too_fast(time))?;
             clearance.end_at(overlap);
         }
         let at =

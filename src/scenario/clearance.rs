@@ -1,12 +1,21 @@
 //! The `[clearance]` table: what follows from an overlap of bodies.
 
 /// Which bodies may overlap, and what an overlap of others does.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ClearanceRules {
     /// Default: report it.
     pub on_overlap: OnOverlap,
     /// Pairs of bodies by the names of their frames, which may overlap.
     pub ignore: Vec<[String; 2]>,
+    /// Most distances of one case. The default takes about ten seconds; a spin of more than some thousand turns per
+    /// second needs more.
+    pub max_distances: u64,
+}
+
+impl Default for ClearanceRules {
+    fn default() -> Self {
+        Self { on_overlap: OnOverlap::Report, ignore: Vec::new(), max_distances: 20_000_000 }
+    }
 }
 
 /// What an overlap does, of bodies whose outlines are both given; others are reported.

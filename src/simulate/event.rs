@@ -39,8 +39,11 @@ pub trait Events {
 
     /// For each event two times in a step between which its value falls from above 0 to below 0, for the first time in
     /// the step. Only called where [`Events::are_bounded`].
-    fn crossings(&mut self, _step: &PathInterval<'_>) -> Vec<Option<[f64; 2]>> {
-        vec![None; self.count()]
+    ///
+    /// # Errors
+    /// Those of the bounds.
+    fn crossings(&mut self, _step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
+        Ok(vec![None; self.count()])
     }
 }
 

@@ -97,7 +97,7 @@ impl<'a> EventLocator<'a> {
         step: &PathInterval<'_>,
         state_at: &mut StateAt<'_>,
     ) -> Result<Option<(usize, f64)>, Error> {
-        let crossings = self.events.crossings(step);
+        let crossings = self.events.crossings(step)?;
         let mut first: Option<(usize, f64)> = None;
         for (event, bracket) in crossings.into_iter().enumerate() {
             let Some([above, below]) = bracket else { continue };

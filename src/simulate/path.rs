@@ -76,13 +76,11 @@ impl<'a> PathInterval<'a> {
         let u = (time - self.span[0]) / length;
         let coordinates = positions.iter_mut().zip(rates).enumerate();
         for (i, (position, rate)) in coordinates {
-            let [p, q] = [self.start[0][i], self.end[0][i]];
-            let [v, w] = [length * self.start[1][i], length * self.end[1][i]];
-            let change = q - p;
-            // p + v u + (3 c − 2 v − w) u² + (v + w − 2 c) u³
-            let [second, third] = [3.0 * change - 2.0 * v - w, v + w - 2.0 * change];
-            *position = p + u * (v + u * (second + u * third));
-            *rate = (v + u * (2.0 * second + u * 3.0 * third)) / length;
+            let change = self.end[0][i] - self.start[0][i];
+            let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
+            let [second, third] = [3.0 * change - 2.0 * first - last, first + last - 2.0 * change];
+            *position = self.start[0][i] + u * (first + u * (second + u * third));
+            *rate = (first + u * (2.0 * second + u * 3.0 * third)) / length;
         }
     }
 

@@ -40,8 +40,8 @@ fn the_captured_spheres_of_the_paper_overlap() {
         (a[1] - b[1]).hypot(a[2] - b[2]) - 1.0
     };
     let samples = captured.post_impact.samples.iter().zip(&captured.targets);
-    let sampled: Vec<(f64, f64)> = samples.map(|(now, targets)| (start + now.time, distance(targets))).collect();
-    let (time, least) = sampled.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).expect("samples");
+    let distances: Vec<(f64, f64)> = samples.map(|(now, targets)| (start + now.time, distance(targets))).collect();
+    let (time, least) = distances.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1)).expect("samples");
     let bodies = ["targets/target1", "targets/target2"];
     let overlap = case.clearance.overlaps.iter().find(|overlap| overlap.bodies == bodies).expect("an overlap");
     // between the samples, 0.05 s apart, the distance of spheres with 0.1 m/s bends by less than 1e-5 m
@@ -49,7 +49,7 @@ fn the_captured_spheres_of_the_paper_overlap() {
     let found = case.clearance.least.as_ref().expect("pairs");
     assert_eq!(found.bodies, bodies);
     assert!((found.time - time).abs() < 0.05 && (found.distance + overlap.depth).abs() < tolerance::CLEARANCE);
-    let entered = sampled.iter().find(|(_, distance)| *distance < 0.0).expect("an overlap").0;
+    let entered = distances.iter().find(|(_, distance)| *distance < 0.0).expect("an overlap").0;
     assert!((entered - 0.05..=entered).contains(&overlap.span[0]), "{entered}: {overlap:?}");
     assert!(!overlap.is_default && result.audit_failures().is_empty(), "overlaps are reported by default");
 }

@@ -103,17 +103,27 @@ impl ClearanceTracker {
         let all = bodies(scenario, &frames);
         let (points, planned) = end_effector_pairs(scenario, &frames, contacts);
         let pairs = pairs(scenario, &frames, &all);
+        let rules = &scenario.clearance;
         Self {
-            bodies: DistanceTracker::new(frames.clone(), all, pairs),
-            end_effectors: DistanceTracker::new(frames, points, planned),
-            on_overlap: scenario.clearance.on_overlap,
+            bodies: DistanceTracker::new(frames.clone(), all, pairs, rules.max_distances),
+            end_effectors: DistanceTracker::new(frames, points, planned, rules.max_distances),
+            on_overlap: rules.on_overlap,
         }
     }
 
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
-    pub(crate) fn add_phase(&mut self, path: &Path, start: f64, targets: TargetMotion<'_>, attachments: &[Attachment]) {
-        self.bodies.add_phase(path, start, targets, attachments);
-        self.end_effectors.add_phase(path, start, targets, attachments);
+    ///
+    /// # Errors
+    /// The time (s) at which the bodies move too fast for their distances to be bounded.
+    pub(crate) fn add_phase(
+        &mut self,
+        path: &Path,
+        start: f64,
+        targets: TargetMotion<'_>,
+        attachments: &[Attachment],
+    ) -> Result<(), f64> {
+        self.bodies.add_phase(path, start, targets, attachments)?;
+        self.end_effectors.add_phase(path, start, targets, attachments)
     }
 
     /// The closest approaches of the planned contacts.
@@ -155,7 +165,7 @@ impl ClearanceTracker {
         for PairOverlap { pair, span, depth } in overlaps {
             match joined.last_mut() {
                 // another part of the same bodies
-                Some((last, overlap)) if last == pair && span[0] <= overlap.span[1] => {
+                Some((earlier, overlap)) if earlier == pair && span[0] <= overlap.span[1] => {
                     overlap.span[1] = overlap.span[1].max(span[1]);
                     overlap.depth = overlap.depth.max(*depth);
                 }

@@ -27,6 +27,8 @@ pub(super) struct Findings {
     pub(super) least: Vec<Option<(f64, f64, usize)>>,
     pub(super) overlaps: Vec<PairOverlap>,
     pub(super) evaluations: u64,
+    /// Most of them.
+    pub(super) max_evaluations: u64,
 }
 
 /// An overlap of two parts of a pair.
@@ -39,8 +41,8 @@ pub(super) struct PairOverlap {
 
 impl Findings {
     /// For this many groups of pairs.
-    pub(super) fn new(groups: usize) -> Self {
-        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0 }
+    pub(super) fn new(groups: usize, max_evaluations: u64) -> Self {
+        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0, max_evaluations }
     }
 
     /// The distance above which nothing about the pair is of interest.
@@ -92,7 +94,10 @@ pub(super) struct IntervalSearch<'a> {
 
 impl IntervalSearch<'_> {
     /// Computes the distance at both ends, and between them wherever it may be below the goal.
-    pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) {
+    ///
+    /// # Errors
+    /// The time (s) at which the distances are used up.
+    pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
         let ends = self.interval.span.map(|time| self.at(time));
         for end in &ends {
             found.record(part, pair, end, self.start);
@@ -113,9 +118,13 @@ impl IntervalSearch<'_> {
                 let middle = self.at(left.time + half);
                 found.record(part, pair, &middle, self.start);
                 rights.push(middle);
+                if found.evaluations > found.max_evaluations {
+                    return Err(self.start + left.time);
+                }
             }
         }
         part.lower = ends[1].distance;
+        Ok(())
     }
 
     fn at(&mut self, time: f64) -> Instant {

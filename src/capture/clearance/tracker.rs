@@ -24,7 +24,12 @@ pub(super) struct DistanceTracker {
 
 impl DistanceTracker {
     /// For the start of a case. The least distance is found for each group of pairs, numbered from 0.
-    pub(super) fn new(frames: Vec<Frame>, bodies: Vec<ClearanceBody>, pairs: Vec<BodyPair>) -> Self {
+    pub(super) fn new(
+        frames: Vec<Frame>,
+        bodies: Vec<ClearanceBody>,
+        pairs: Vec<BodyPair>,
+        max_distances: u64,
+    ) -> Self {
         let mut parts = Vec::new();
         for (pair, BodyPair { bodies: [a, b], .. }) in pairs.iter().enumerate() {
             for i in 0..bodies[*a].parts.len() {
@@ -34,11 +39,20 @@ impl DistanceTracker {
         }
         let groups = pairs.iter().map(|pair| pair.group + 1).max().unwrap_or(0);
         let joints = frames.iter().filter(|frame| matches!(frame.motion, FrameMotion::Joint(_))).count();
-        Self { frames, bodies, pairs, parts, found: Findings::new(groups), joints }
+        Self { frames, bodies, pairs, parts, found: Findings::new(groups, max_distances), joints }
     }
 
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
-    pub(super) fn add_phase(&mut self, path: &Path, start: f64, targets: TargetMotion<'_>, attachments: &[Attachment]) {
+    ///
+    /// # Errors
+    /// The time (s) at which the bodies move too fast.
+    pub(super) fn add_phase(
+        &mut self,
+        path: &Path,
+        start: f64,
+        targets: TargetMotion<'_>,
+        attachments: &[Attachment],
+    ) -> Result<(), f64> {
         let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
         let motions = FrameMotions { frames, targets, joints: *joints };
         let size = path.size();
@@ -76,11 +90,12 @@ impl DistanceTracker {
                     start,
                     workspace: &mut workspace,
                 };
-                search.run(part, pair, found);
+                search.run(part, pair, found)?;
             }
         }
         for overlap in parts.iter().filter_map(|part| part.open) {
             found.overlaps[overlap].span[1] = end;
         }
+        Ok(())
     }
 }

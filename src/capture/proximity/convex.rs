@@ -23,7 +23,8 @@ impl ConvexPart {
         match outline {
             Outline::Disc { center, radius } => vec![Self { corners: vec![*center], radius: *radius }],
             Outline::Capsule { ends: [a, b], radius } => {
-                let corners = if a == b { vec![*a] } else { vec![*a, *b] };
+                let mut corners = vec![*a, *b];
+                corners.dedup();
                 vec![Self { corners, radius: *radius }]
             }
             Outline::Polygon { corners } => {
@@ -108,6 +109,9 @@ pub(in crate::capture) struct Separation {
     pub(in crate::capture) normal: [f64; 2],
 }
 
+/// Distance below which the nearest points give no direction, m: the largest gap along a normal takes its place.
+const TOUCHING: f64 = 1e-9;
+
 /// The separation of two parts with corners in the same frame, by the theorem of the separating axis: the largest
 /// distance between their projections on the normals of their edges, or, where that is positive, the smallest distance
 /// of a corner from an edge.
@@ -120,8 +124,11 @@ pub(in crate::capture) fn separation(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64)
         let normal = [-normal[0], -normal[1]];
         deepest = larger(deepest, gap(a, b, normal), normal);
     });
-    let cores =
-        if deepest.distance > 0.0 || (a.len() == 1 && b.len() == 1) { nearest(a, b, deepest.normal) } else { deepest };
+    let cores = if deepest.distance > TOUCHING || (a.len() == 1 && b.len() == 1) {
+        nearest(a, b, deepest.normal)
+    } else {
+        deepest
+    };
     Separation { distance: cores.distance - radii, ..cores }
 }
 
@@ -174,6 +181,13 @@ fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
 }
 
 #[cfg(test)]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    reason = "random numbers and exact ones"
+)]
 mod tests {
     use super::*;
     use std::f64::consts::TAU;

@@ -2,9 +2,13 @@
 
 use super::convex::{ConvexPart, separation};
 use super::motion::FrameState;
+use crate::error::Error;
 
 /// Shortest interval that is divided, s.
 pub(in crate::capture) const SHORTEST: f64 = 1e-9;
+
+/// Most divisions of one step.
+const MAX_DIVISIONS: u32 = 1_000_000;
 
 /// Two parts at one instant.
 #[derive(Clone, Copy, Debug)]
@@ -67,12 +71,16 @@ impl PartPair<'_> {
 
     /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;
     /// `None` where it does not, as the bounds of the motion show. The distance is above `-depth` at the start.
+    ///
+    /// # Errors
+    /// [`Error::NotConverged`] for parts that move too fast.
     pub(in crate::capture) fn first_contact(
         &self,
         [start, end]: [f64; 2],
         depth: f64,
         mut instant_at: impl FnMut(&Self, f64) -> Instant,
-    ) -> Option<[f64; 2]> {
+    ) -> Result<Option<[f64; 2]>, Error> {
+        let mut divisions = 0;
         let mut left = instant_at(self, start);
         // the instants to the right, the nearest last
         let mut rights = vec![instant_at(self, end)];
@@ -80,15 +88,20 @@ impl PartPair<'_> {
             let half = 0.5 * (right.time - left.time);
             let lowest = self.bound(&left, half).min(self.bound(right, -half));
             if lowest < -depth && 2.0 * half > SHORTEST {
+                if divisions == MAX_DIVISIONS {
+                    let (what, change) = ("bounds of the distance between an end effector and its target", half);
+                    return Err(Error::NotConverged { what, iterations: divisions, change });
+                }
+                divisions += 1;
                 rights.push(instant_at(self, left.time + half));
                 continue;
             }
             if right.distance < -depth {
-                return Some([left.time, right.time]);
+                return Ok(Some([left.time, right.time]));
             }
             left = *right;
             rights.pop();
         }
-        None
+        Ok(None)
     }
 }

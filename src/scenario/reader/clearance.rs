@@ -13,7 +13,7 @@ pub(super) fn clearance(table: &Table<'_>, names: &[String]) -> Option<Clearance
     let on_overlap = read_or(table, "on_overlap", OnOverlap::Report, |value| value.choice(&OnOverlap::ALL));
     let ignore =
         read_or(table, "ignore", Vec::new(), |value| every(value.items(PAIRS)?.iter().map(|item| pair(item, names))));
-    Some(ClearanceRules { on_overlap: on_overlap?, ignore: ignore? })
+    Some(ClearanceRules { on_overlap: on_overlap?, ignore: ignore?, ..ClearanceRules::default() })
 }
 
 fn pair(value: &Value<'_>, names: &[String]) -> Option<[String; 2]> {

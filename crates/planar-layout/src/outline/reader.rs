@@ -17,6 +17,7 @@ const EXPECTED: &str = "one of `disc` (a radius in m), `box` (two sides in m), `
 ///
 /// `disc` and `box` take a `center` (default: the base's COM, the middle of the link), `box` an `angle`, `capsule` its
 /// `ends` (default: the joint and the end of the link).
+#[must_use]
 pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
     let table = value.table(&["disc", "box", "capsule", "polygon", "center", "angle", "ends"])?;
     let kinds = ["disc", "box", "capsule", "polygon"];
