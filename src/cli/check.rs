@@ -1,9 +1,9 @@
 //! `planar-capture check FILE.toml`: describes a layout or scenario and warns of unlikely numbers.
 
+use super::terminal::{note, print};
 use super::{CommandError, color, layout};
 use planar_capture::check::inspect;
 use planar_capture::registry::SHIPPED;
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -23,17 +23,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let (text, file) = layout::source(&arguments.file)?;
     let folder = Path::new(&arguments.file).parent().unwrap_or(Path::new(""));
     let inspection = inspect(&text, &file, folder, SHIPPED)?;
-    let mut out = std::io::stdout().lock();
-    writeln!(out, "{}", inspection.description)?;
     let warnings = inspection.warnings;
-    match warnings.count() {
-        0 => writeln!(out, "no warnings")?,
-        count => {
-            // on a terminal the warnings follow the description
-            out.flush()?;
-            let noun = if count == 1 { "warning" } else { "warnings" };
-            eprintln!("{}\n\n{count} {noun}", warnings.render(color()));
-        }
+    let count = warnings.count();
+    print(&format!("{}\n{}", inspection.description, if count == 0 { "no warnings\n" } else { "" }));
+    if count > 0 {
+        let noun = if count == 1 { "warning" } else { "warnings" };
+        note(format_args!("{}\n\n{count} {noun}", warnings.render(color())));
     }
     Ok(ExitCode::SUCCESS)
 }

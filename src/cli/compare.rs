@@ -1,11 +1,12 @@
 //! `planar-capture compare LAYOUT.toml`: generated against generic dynamics at random states.
 
+use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use planar_capture::compare::{Comparison, LargestError, compare};
 use planar_capture::eval::to_json;
 use planar_capture::output::atomic_file::{create_folder, write_text};
 use planar_capture::quantity::Quantity;
-use std::io::Write;
+use std::fmt::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -39,13 +40,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         write_text(&folder.join(format!("{name}.toml")), &sample.layout.to_toml())?;
         write_text(&folder.join(format!("{name}.json")), &format!("[{}]\n", to_json(&sample.instant)))?;
     }
-    let mut out = std::io::stdout().lock();
-    print(&comparison, &layout.name, arguments, &mut out)?;
-    writeln!(
-        out,
-        "Worst states in {0}; replay: planar-capture eval {0}/QUANTITY.toml {0}/QUANTITY.json",
+    let code = if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) };
+    print(&format!(
+        "{}Worst states in {1}; replay: planar-capture eval {1}/QUANTITY.toml {1}/QUANTITY.json\n",
+        table(&comparison, &layout.name, arguments),
         folder.display()
-    )?;
+    ));
     for refusal in &comparison.refusals {
         let (implementation, error) = match (&refusal.generated, &refusal.generic) {
             (Some(error), None) => ("generated", error),
@@ -53,18 +53,24 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
             _ => continue,
         };
         let (regime, index) = (refusal.regime.name(), refusal.index);
-        eprintln!("compare: {regime}, state {index}: only {implementation} says: {error}");
+        note(format_args!("compare: {regime}, state {index}: only {implementation} says: {error}"));
     }
     for quantity in Quantity::ALL {
         if !comparison.largest_errors.iter().any(|largest| largest.difference.quantity == *quantity) {
-            eprintln!("compare: {} was never compared", quantity.row().name);
+            note(format_args!("compare: {} was never compared", quantity.row().name));
         }
     }
-    Ok(if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(code)
+}
+
+fn table(comparison: &Comparison, name: &str, arguments: &Arguments) -> String {
+    let mut text = String::new();
+    write_table(&mut text, comparison, name, arguments).expect("writing to a String does not fail");
+    text
 }
 
 /// One line per quantity.
-fn print(comparison: &Comparison, name: &str, arguments: &Arguments, out: &mut impl Write) -> std::io::Result<()> {
+fn write_table(out: &mut String, comparison: &Comparison, name: &str, arguments: &Arguments) -> fmt::Result {
     let (states, samples, seed) = (comparison.states, arguments.samples, arguments.seed);
     writeln!(out, "{name}: generated against generic at {states} states, {samples} of each regime, seed {seed}\n")?;
     writeln!(out, "{:<28} {:>9} {:>9}  {:<14} {:>6}", "quantity", "error", "bound", "regime", "state")?;

@@ -38,12 +38,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let mut out = io::stdout().lock();
     out.write_all(b"[")?;
     let result = evaluate_all(&*model, input, name, &mut out);
-    // the array is closed after an invalid state too
-    if !matches!(result, Err(CommandError::Print(_))) {
-        out.write_all(b"\n]\n")?;
-        out.flush()?;
+    if matches!(result, Err(CommandError::Print(_))) {
+        return result.map(|()| ExitCode::SUCCESS);
     }
-    result.map(|()| ExitCode::SUCCESS)
+    // the array is closed after an invalid state too, which stays what the command found if that fails
+    let closed = out.write_all(b"\n]\n").and_then(|()| out.flush());
+    result?;
+    closed?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn evaluate_all(

@@ -1,6 +1,7 @@
 //! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module.
 
 use super::progress::spinner;
+use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use indicatif::ProgressBar;
 use planar_capture::build::graph::GraphError;
@@ -10,7 +11,7 @@ use planar_capture::layout::Layout;
 use planar_capture::output::atomic_file::write_text;
 use planar_capture::python_package::PYTHON_PACKAGE;
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -87,18 +88,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         return check(&text, arguments);
     }
     write_text(path, &text)?;
-    let mut out = std::io::stdout().lock();
     let (lines, shown) = (text.lines().count(), path.display());
-    writeln!(
-        out,
+    print(&format!(
         "{shown}: {}, {} degrees of freedom, {lines} lines\n\
-         {} results agree with the generic implementation at {} states (largest difference {:.0e} of the rounding bound)",
+         {} results agree with the generic implementation at {} states (largest difference {:.0e} of the rounding bound)\n",
         layout.name,
         layout.joints() + 3,
         proof.results,
         proof.states,
         proof.worst
-    )?;
+    ));
     Ok(ExitCode::SUCCESS)
 }
 
@@ -119,12 +118,12 @@ fn origin(arguments: &Arguments, layout: &Layout) -> (String, String) {
 fn check(text: &str, arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let (path, shown) = (&arguments.out, arguments.out.display());
     if fs::read(path).is_ok_and(|found| found == text.as_bytes()) {
-        writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
+        print(&format!("{shown}: fresh\n"));
         return Ok(ExitCode::SUCCESS);
     }
     let state = if path.exists() { "is not what the layout gives" } else { "does not exist" };
     let mend = command(&arguments.layout, &shown.to_string(), arguments.standalone);
-    eprintln!("{shown} {state}; to mend: {mend}");
+    note(format_args!("{shown} {state}; to mend: {mend}"));
     Ok(ExitCode::from(1))
 }
 
@@ -155,6 +154,6 @@ fn show(progress: &ProgressBar, line: &str) {
     if !progress.is_hidden() {
         progress.set_message(line.to_owned());
     } else if line.contains("environment") {
-        eprintln!("{line}");
+        note(line);
     }
 }

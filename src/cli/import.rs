@@ -1,5 +1,6 @@
 //! `planar-capture import ROBOT.urdf`: writes the layout of a URDF.
 
+use super::terminal::note;
 use super::{CommandError, file_error, write_new};
 use planar_capture::diagnostic::read_text;
 use planar_capture::urdf::{self, ImportOptions};
@@ -30,12 +31,12 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let file = arguments.urdf.display().to_string();
     let options = ImportOptions { name: arguments.name.clone(), end_effectors: arguments.end_effectors.clone() };
     let imported = urdf::import(&read_text(&arguments.urdf, "URDF")?, &options).map_err(file_error(&file))?;
-    write_new(arguments.out.as_deref(), &imported.to_toml(&file))?;
+    let written = write_new(arguments.out.as_deref(), &imported.to_toml(&file));
     for joint in imported.joints.iter().filter(|joint| !joint.is_same_angle()) {
-        eprintln!("import: note: {joint}");
+        note(format_args!("import: note: {joint}"));
     }
     for remark in &imported.remarks {
-        eprintln!("import: {remark}");
+        note(format_args!("import: {remark}"));
     }
-    Ok(ExitCode::SUCCESS)
+    written.map(|()| ExitCode::SUCCESS)
 }

@@ -12,6 +12,7 @@ mod optional_outputs;
 mod progress;
 mod reproduce;
 mod run;
+mod terminal;
 
 use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
@@ -61,7 +62,7 @@ enum CommandError {
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
-    /// The standard output cannot be written.
+    /// The standard output, which is the product of the command, cannot be written.
     #[error("error: cannot write to standard output: {0}")]
     Print(#[from] std::io::Error),
 }
@@ -95,7 +96,12 @@ fn write_new(path: Option<&Path>, text: &str) -> Result<(), CommandError> {
             return Err(CommandError::Usage(message));
         }
         Some(path) => write_text(path, text)?,
-        None => std::io::stdout().lock().write_all(text.as_bytes())?,
+        None => {
+            let mut out = std::io::stdout().lock();
+            out.write_all(text.as_bytes())?;
+            // what is still in the buffer at the end of the process is lost without an error
+            out.flush()?;
+        }
     }
     Ok(())
 }
@@ -114,10 +120,10 @@ pub fn main() -> ExitCode {
     };
     match result {
         Ok(code) => code,
-        // the reader closed the pipe, for example `| head`
+        // the product goes to a reader that has closed the pipe, for example `| head`
         Err(CommandError::Print(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{error}");
+            terminal::note(&error);
             ExitCode::from(error.exit_code())
         }
     }

@@ -29,6 +29,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 #[cfg(feature = "figures")]
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use super::progress::Progress;
+    use super::terminal::{note, print};
     use planar_capture::output::atomic_file::{StagedFile, create_folder};
     use planar_capture::reproduction::reproduce;
     use std::io::Write;
@@ -42,13 +43,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         let stale =
             |(path, text): &&(String, String)| std::fs::read_to_string(out.join(path)).ok().as_ref() != Some(text);
         let Some((path, _)) = files.iter().find(stale) else {
-            writeln!(std::io::stdout().lock(), "{shown}: fresh")?;
+            print(&format!("{shown}: fresh\n"));
             return Ok(ExitCode::SUCCESS);
         };
-        eprintln!(
+        note(format_args!(
             "{} is not what is computed; to mend: cargo run --release --features figures -- reproduce --out {shown}",
             out.join(path).display()
-        );
+        ));
         return Ok(ExitCode::from(1));
     }
     let mut staged = Vec::new();
@@ -60,6 +61,6 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         staged.push(StagedFile::new(&path, |to| to.write_all(text.as_bytes()))?);
     }
     staged.into_iter().try_for_each(StagedFile::commit)?;
-    writeln!(std::io::stdout().lock(), "{}: {} figures", out.join("reproduction.md").display(), files.len() - 1)?;
+    print(&format!("{}: {} figures\n", out.join("reproduction.md").display(), files.len() - 1));
     Ok(ExitCode::SUCCESS)
 }

@@ -2,6 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::progress::Progress;
+use super::terminal::{note, print};
 use super::{CommandError, file_error, optional_outputs};
 use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::output::atomic_file::{StagedFile, create_folder};
@@ -57,17 +58,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         };
         CommandError::File { file, source: source.into(), exit_code }
     })?;
-    write_results(&folder, &scenario, arguments, &study)?;
-    let mut out = std::io::stdout().lock();
-    writeln!(out, "{}\nResults in {}", table(&scenario, &study), folder.display())?;
     let failures = study.audit_failures();
+    let code = if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) };
+    write_results(&folder, &scenario, arguments, &study)?;
+    print(&format!("{}\nResults in {}\n", table(&scenario, &study), folder.display()));
     for failure in &failures {
-        eprintln!("audit: {failure}");
+        note(format_args!("audit: {failure}"));
     }
     if failures.iter().any(|failure| failure.contains("over its bound")) {
-        eprintln!("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
+        note("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
     }
-    Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(code)
 }
 
 /// Writes all files before the first gets its name, so that a full disk leaves no mixture of two runs.

@@ -4,6 +4,7 @@
 compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
 
 mod check;
+mod closed_output;
 mod compare;
 mod derivation;
 mod diagnostics;

@@ -1,0 +1,123 @@
+//! Standard output and standard error that are closed pipes or full disks: what a command found stays its exit code.
+#![cfg(target_os = "linux")]
+
+use crate::command;
+use planar_proof::file;
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Stdio;
+use tempfile::TempDir;
+
+/// A standard stream that cannot be written.
+#[derive(Clone, Copy, Debug)]
+enum Unwritable {
+    /// A pipe whose reader is gone.
+    Closed,
+    /// A disk without space.
+    Full,
+}
+
+const BOTH: [Unwritable; 2] = [Unwritable::Closed, Unwritable::Full];
+
+impl Unwritable {
+    fn stream(self) -> Stdio {
+        match self {
+            Self::Closed => std::io::pipe().expect("a pipe").1.into(),
+            Self::Full => File::options().write(true).open("/dev/full").expect("Linux has it").into(),
+        }
+    }
+}
+
+/// Exit code and standard error with such a standard output.
+fn printing_to(out: Unwritable, arguments: &[&str]) -> (i32, String) {
+    let output = command().args(arguments).stdout(out.stream()).output().expect("it runs");
+    (output.status.code().expect("an exit code"), String::from_utf8(output.stderr).expect("UTF-8"))
+}
+
+/// Exit code with such a standard error.
+fn noting_to(err: Unwritable, arguments: &[&str]) -> i32 {
+    command().args(arguments).stderr(err.stream()).output().expect("it runs").status.code().expect("an exit code")
+}
+
+/// An approach with a step in which the audit fails, and one in which it does not.
+fn approaches(folder: &Path) -> [String; 2] {
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    [("poor", "0.2"), ("good", "0.005")].map(|(name, step)| {
+        let text = text.replacen("duration = 20.0", &format!("duration = 20.0\nstep = {step}"), 1);
+        let path = folder.join(format!("{name}.toml"));
+        fs::write(&path, text.replacen("redysim_single_arm_3r", name, 1)).expect("written");
+        path.display().to_string()
+    })
+}
+
+#[test]
+fn run_exits_with_what_the_audit_found() {
+    let folder = TempDir::new().expect("a folder");
+    let [poor, good] = approaches(folder.path());
+    for out in BOTH {
+        for (scenario, expected) in [(&poor, 1), (&good, 0)] {
+            let results = format!("{scenario}.{out:?}");
+            let (code, err) = printing_to(out, &["run", scenario, "--out", &results]);
+            assert_eq!(code, expected, "{out:?}: {err}");
+            assert_eq!(err.contains("audit: "), expected == 1, "{out:?}: {err}");
+            assert_eq!(err.contains("cannot write to standard output"), matches!(out, Unwritable::Full), "{err}");
+            assert!(Path::new(&results).join("summary.json").exists(), "{out:?}");
+        }
+        assert_eq!(noting_to(out, &["run", &poor, "--out", &format!("{poor}.{out:?}")]), 1);
+        assert_eq!(noting_to(out, &["run", "missing.toml"]), 2);
+    }
+}
+
+#[test]
+fn compare_exits_with_what_it_found() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    // links of extreme proportions: the generated accelerations are over their bound
+    let short = folder.path().join("short.toml").display().to_string();
+    fs::write(&short, text.replacen("length = 1.0 ", "com = [0.5, 0.0]\nlength = 1.0e-9 ", 1)).expect("written");
+    let results = folder.path().join("worst").display().to_string();
+    for out in BOTH {
+        for (layout, expected) in [(short.as_str(), 1), ("single_arm_2r", 0)] {
+            let results = format!("{results}_{expected}");
+            let (code, err) = printing_to(out, &["compare", layout, "--samples", "20", "--out", &results]);
+            assert_eq!(code, expected, "{out:?}: {err}");
+        }
+    }
+}
+
+#[test]
+fn check_exits_with_what_it_found() {
+    let folder = TempDir::new().expect("a folder");
+    let bad = folder.path().join("bad.toml").display().to_string();
+    fs::write(&bad, "name = \"bad\"\n").expect("written");
+    for out in BOTH {
+        assert_eq!(printing_to(out, &["check", "dual_arm_3r"]).0, 0, "{out:?}");
+        assert_eq!(printing_to(out, &["check", &bad]).0, 2, "{out:?}");
+        assert_eq!(noting_to(out, &["check", &bad]), 2, "{out:?}");
+    }
+}
+
+/// A reader that closes the pipe has what it wants; a full disk loses the product.
+#[test]
+fn a_product_that_is_lost_is_an_error() {
+    let folder = TempDir::new().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let [states, bad, urdf] = ["states.json", "bad.json", "robot.urdf"].map(path);
+    let state = r#"{"base_pose": [0, 0, 0], "joint_angles": [0.1, 0.2, 0.3], "base_twist": [0, 0, 0], "joint_rates": [0, 0, 0]}"#;
+    fs::write(&states, format!("[{state}]")).expect("written");
+    fs::write(&bad, format!("[{}]", state.replacen("0.1", "\"0.1\"", 1))).expect("written");
+    assert!(command().args(["export", "single_arm_3r", "--out", &urdf]).status().expect("it runs").success());
+    let products: [&[&str]; 3] =
+        [&["eval", "single_arm_3r", &states], &["export", "single_arm_3r"], &["import", &urdf]];
+    for arguments in products {
+        let (code, err) = printing_to(Unwritable::Full, arguments);
+        assert_eq!(code, 2, "{arguments:?}");
+        assert!(err.contains("cannot write to standard output"), "{arguments:?}: {err}");
+        assert_eq!(printing_to(Unwritable::Closed, arguments).0, 0, "{arguments:?}");
+    }
+    for out in BOTH {
+        let (code, err) = printing_to(out, &["eval", "single_arm_3r", &bad]);
+        assert_eq!(code, 2, "{out:?}");
+        assert!(err.contains("joint_angles"), "{out:?}: {err}");
+    }
+}
