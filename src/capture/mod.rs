@@ -14,6 +14,7 @@ mod proximity;
 pub(crate) mod reach;
 pub(crate) mod reduced_matrices;
 pub mod residual_motion;
+pub mod scenario_key;
 mod sequence;
 pub mod target_motion;
 pub mod terminal_error;
@@ -150,14 +151,16 @@ pub enum StudyError {
     },
     /// Too many impacts.
     #[error(
-        "case `{case}`: {impacts} impacts by {time} s after the first: bounces that come to rest on each other are not \
-         modelled"
+        "case `{case}`: {impacts} impacts by {time} s after the first, the last with target `{target}`: bounces that come \
+         to rest on each other are not modelled"
     )]
     Chatter {
         /// The case's name.
         case: String,
         /// How many there were.
         impacts: usize,
+        /// The target of the last one.
+        target: String,
         /// Since the first, s.
         time: f64,
     },

@@ -168,7 +168,8 @@ impl<'a> CaptureSequence<'a> {
             let time = post_impact.duration;
             if later_impacts.len() == MAX_IMPACTS {
                 let impacts = later_impacts.len() + 1;
-                return Err(StudyError::Chatter { case: self.case.name.clone(), impacts, time });
+                let target = self.scenario.targets[open[event].target].name.clone();
+                return Err(StudyError::Chatter { case: self.case.name.clone(), impacts, target, time });
             }
             let contacts = self.contacts_made(&open, event, &moving.targets, &post_impact.end().end_effector_poses);
             later_impacts.push(LaterImpact { time, impact: moving.apply_impact(&contacts)? });

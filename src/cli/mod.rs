@@ -55,6 +55,9 @@ enum CommandError {
     /// The content of an input file has no result.
     #[error("error: {file}: {source}")]
     File { file: String, source: Box<dyn Error>, exit_code: u8 },
+    /// A computation has no result, by a value of an input file.
+    #[error("{}", .report.render(color()))]
+    Computation { report: Report, exit_code: u8 },
     /// A figure or the reproduction report failed.
     #[cfg(feature = "figures")]
     #[error("error: {0}")]
@@ -76,7 +79,7 @@ impl CommandError {
     /// 2 for unsuitable input, 1 if a computation broke down or a check failed.
     fn exit_code(&self) -> u8 {
         match self {
-            Self::File { exit_code, .. } => *exit_code,
+            Self::File { exit_code, .. } | Self::Computation { exit_code, .. } => *exit_code,
             _ => 2,
         }
     }

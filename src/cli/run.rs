@@ -4,14 +4,16 @@ use super::dynamics::Dynamics;
 use super::progress::Progress;
 use super::terminal::{note, print};
 use super::{CommandError, file_error, optional_outputs};
+use planar_capture::capture::scenario_key::ScenarioKey;
 use planar_capture::capture::{Study, StudyError, study};
+use planar_capture::diagnostic::report_error;
 use planar_capture::output::atomic_file::{StagedFile, create_folder};
 use planar_capture::output::console::table;
 use planar_capture::output::html_report::write_report;
 use planar_capture::output::summary::summary;
 use planar_capture::output::time_series::write_csv;
 use planar_capture::registry;
-use planar_capture::scenario::Scenario;
+use planar_capture::scenario::{Scenario, Source};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -44,20 +46,13 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Computes the study, writes its files and prints its table; exit code 1 if the audit fails.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
-    let scenario = Scenario::read(&arguments.scenario, registry::SHIPPED)?;
-    let file = arguments.scenario.display().to_string();
-    let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&file))?;
+    let (scenario, source) = Scenario::read_with_source(&arguments.scenario, registry::SHIPPED)?;
+    let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&source.scenario.file))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
     let mut progress = Progress::new();
     let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
     progress.finish();
-    let study = result.map_err(|source| {
-        let exit_code = match &source {
-            StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. } if !stopped.is_misuse() => 1,
-            _ => 2,
-        };
-        CommandError::File { file, source: source.into(), exit_code }
-    })?;
+    let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
     let failures = study.audit_failures();
     let code = if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     write_results(&folder, &scenario, arguments, &study)?;
@@ -69,6 +64,17 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         note("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
     }
     Ok(code)
+}
+
+/// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
+fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
+    let exit_code = match error {
+        StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. } if !stopped.is_misuse() => 1,
+        _ => 2,
+    };
+    let ScenarioKey { path, value } = error.key(scenario);
+    let report = report_error(&source.text, &source.file, (&path, &value), &error.to_string());
+    CommandError::Computation { report, exit_code }
 }
 
 /// Writes all files before the first gets its name, so that a full disk leaves no mixture of two runs.

@@ -19,6 +19,7 @@ pub use case::Case;
 pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
 pub use post_impact::{PostCaptureControl, PostImpact};
+pub use reader::{ScenarioSource, Source};
 pub use target::{PlannedContact, Target, contact_name};
 
 /// An approach and, where there are targets, their capture and the motion after it.

@@ -12,6 +12,7 @@ mod eval;
 mod generate;
 mod rendering;
 mod run;
+mod study_errors;
 mod urdf;
 
 use std::process::Command;

@@ -40,13 +40,22 @@ const TWIST: [NumberRule; 3] =
 const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
 const LAYOUT: &str = "a shipped layout's name or the path of a layout file";
 
-/// What a layout was read from.
-#[derive(Debug)]
-pub(crate) struct LayoutSource {
+/// What a file was read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Source {
     /// TOML.
-    pub(crate) text: String,
+    pub text: String,
     /// As shown to the user.
-    pub(crate) file: String,
+    pub file: String,
+}
+
+/// What a scenario was read from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScenarioSource {
+    /// The scenario's file.
+    pub scenario: Source,
+    /// The file of the layout that it names.
+    pub layout: Source,
 }
 
 impl Scenario {
@@ -58,9 +67,19 @@ impl Scenario {
     /// # Errors
     /// All that is wrong with the scenario and with the layout file.
     pub fn read(path: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+        Self::read_with_source(path, shipped).map(|(scenario, _)| scenario)
+    }
+
+    /// As [`read`](Self::read), with the texts that scenario and layout were read from.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn read_with_source(path: &Path, shipped: &[(&str, &str)]) -> Result<(Self, ScenarioSource), Report> {
         let text = read_text(path, "TOML")?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        Self::parse(&text, &path.display().to_string(), folder, shipped)
+        let file = path.display().to_string();
+        let (scenario, layout) = Self::parse_with_source(&text, &file, folder, shipped)?;
+        Ok((scenario, ScenarioSource { scenario: Source { text, file }, layout }))
     }
 
     /// Reads a scenario from TOML text; `file` is the name that problems are reported under, and
@@ -78,7 +97,7 @@ impl Scenario {
         file: &str,
         folder: &Path,
         shipped: &[(&str, &str)],
-    ) -> Result<(Self, LayoutSource), Report> {
+    ) -> Result<(Self, Source), Report> {
         const KEYS: [&str; 10] = [
             "name",
             "layout",
@@ -198,14 +217,14 @@ fn file_name(value: &Value<'_>) -> Option<String> {
 }
 
 /// The layout that a scenario names, and the text that it was read from.
-fn find_layout(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, LayoutSource)> {
+fn find_layout(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, Source)> {
     let name = value.text(LAYOUT)?;
     let source = if Layout::is_path(name) {
         // collecting the components drops `./`
         let path: PathBuf = folder.join(name).components().collect();
-        read_text(&path, "TOML").map(|text| LayoutSource { text, file: path.display().to_string() })
+        read_text(&path, "TOML").map(|text| Source { text, file: path.display().to_string() })
     } else if let Some((_, text)) = shipped.iter().find(|(shipped, _)| *shipped == name) {
-        Ok(LayoutSource { text: (*text).to_owned(), file: format!("{name}.toml (shipped)") })
+        Ok(Source { text: (*text).to_owned(), file: format!("{name}.toml (shipped)") })
     } else {
         let names: Vec<_> = shipped.iter().map(|(name, _)| *name).collect();
         value.expected_one_of(&names, Some("or a path, which ends in `.toml` or contains a `/`"));

@@ -2,7 +2,7 @@
 //!
 //! [`read_text`] reads a file; [`read_document`] parses it and passes its root [`Table`] to a reader. Readers continue
 //! after a problem, so that one [`Report`] shows all. [`report_warnings`] shows warnings about the content at their places
-//! in the file.
+//! in the file, [`report_error`] an error that its use brings up.
 
 mod document;
 mod file;
@@ -23,7 +23,7 @@ use toml::de::DeTable;
 pub use file::read_text;
 pub use number_rule::NumberRule;
 pub use table::{Table, Value, every};
-pub use warning::{Warning, report_warnings};
+pub use warning::{Warning, report_error, report_warnings};
 
 /// Number of problems that a report shows, about one screen; it counts the others.
 const SHOWN: usize = 8;

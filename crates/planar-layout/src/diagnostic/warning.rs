@@ -1,4 +1,5 @@
-//! Warnings about values that are valid but probably mistakes, shown at their places in the source.
+//! Warnings about values that are valid but probably mistakes, and errors that show only when valid values are used, at
+//! their places in the source.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -25,18 +26,44 @@ pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
     let document = Document::new(text, file, Severity::Warning);
     let (tree, _) = DeTable::parse_recoverable(document.source());
     for Warning { key, why, help } in warnings {
-        let found = follow(tree.get_ref(), key);
-        let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
-        let (message, label) = match found {
-            Some((value, "")) => {
-                let shown = Value::new(&document, value, key.clone()).shown();
-                (format!("`{key}` is {shown}: {why}"), None)
-            }
-            _ => (format!("`{key}` is left at its default: {why}"), Some("it could stand here".to_owned())),
-        };
-        document.report(&span, message, label, Some(help.clone()));
+        report_at(&document, tree.get_ref(), (key, None), why, Some(help.clone()));
     }
     document.into_report()
+}
+
+/// The report of an error that the value of one key causes although it is valid by itself; `file` is the text's name in
+/// the report.
+///
+/// A key that is not given is shown with its `default` at the table that may hold it.
+#[must_use]
+pub fn report_error(text: &str, file: &str, (key, default): (&str, &str), why: &str) -> Report {
+    let document = Document::new(text, file, Severity::Error);
+    let (tree, _) = DeTable::parse_recoverable(document.source());
+    report_at(&document, tree.get_ref(), (key, Some(default)), why, None);
+    document.into_report()
+}
+
+/// Adds a problem at the value of a key, or at the innermost table around a key that is not given.
+fn report_at(
+    document: &Document,
+    root: &DeTable<'_>,
+    (key, default): (&str, Option<&str>),
+    why: &str,
+    help: Option<String>,
+) {
+    let found = follow(root, key);
+    let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
+    let (message, label) = match found {
+        Some((value, "")) => {
+            let shown = Value::new(document, value, key.to_owned()).shown();
+            (format!("`{key}` is {shown}: {why}"), None)
+        }
+        _ => {
+            let default = default.map_or_else(String::new, |default| format!(", {default}"));
+            (format!("`{key}` is left at its default{default}: {why}"), Some("it could stand here".to_owned()))
+        }
+    };
+    document.report(&span, message, label, help);
 }
 
 /// The value at a path, or the innermost value around it and the rest of the path.

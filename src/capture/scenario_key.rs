@@ -1,0 +1,111 @@
+//! The key of the scenario that an error of its study is about, for a message at its place in the file.
+
+use crate::capture::StudyError;
+use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
+use crate::capture::approach::terminal_rates::TerminalRatesError;
+use crate::error::Error;
+use crate::scenario::{Approach, Case, PostImpact, Scenario, contact_name};
+use crate::simulate::PhaseError;
+use crate::simulate::stepper::{Integration, Integrator};
+
+/// A key and what the scenario has for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScenarioKey {
+    /// From the root: `target[0].position`.
+    pub path: String,
+    /// Its value, for a file that leaves it at its default.
+    pub value: String,
+}
+
+impl StudyError {
+    /// The key to change, or the first of several.
+    #[must_use]
+    pub fn key(&self, scenario: &Scenario) -> ScenarioKey {
+        match self {
+            Self::TerminalRates(error) => terminal_rates(scenario, error),
+            Self::InverseKinematics(InverseKinematicsError::Rates(error)) => terminal_rates(scenario, error),
+            Self::InverseKinematics(InverseKinematicsError::OutOfReach { arm, .. }) => {
+                let arm = scenario.layout.arms.iter().position(|other| other.name == *arm).unwrap_or_default();
+                key(format!("approach.final_end_effector_poses[{arm}]"), "none")
+            }
+            Self::InverseKinematics(InverseKinematicsError::NotConverged { .. }) => {
+                key("approach.final_end_effector_poses", "none")
+            }
+            Self::Approach(stopped) => of_approach(scenario, stopped),
+            Self::Inside { target, .. } => key(format!("target[{}].position", index(scenario, target)), "none"),
+            Self::Chatter { case, target, .. } => restitution(scenario, case, target),
+            Self::Impact { case, .. } => contact_kind(scenario, case),
+            Self::PostImpact { source, .. } => {
+                let after = scenario.post_impact.as_ref();
+                let (step, integration) =
+                    after.map(|PostImpact { step, integration, .. }| (*step, *integration)).unwrap_or_default();
+                of_phase("post_impact", step, integration, source)
+            }
+        }
+    }
+}
+
+fn key(path: impl Into<String>, value: impl ToString) -> ScenarioKey {
+    ScenarioKey { path: path.into(), value: value.to_string() }
+}
+
+fn terminal_rates(scenario: &Scenario, error: &TerminalRatesError) -> ScenarioKey {
+    match error {
+        TerminalRatesError::PhaseError(stopped) => of_approach(scenario, stopped),
+        TerminalRatesError::Diverged { .. }
+        | TerminalRatesError::Unreachable { .. }
+        | TerminalRatesError::NotConverged { .. } => key("approach.final_end_effector_twists", "none"),
+    }
+}
+
+fn of_approach(scenario: &Scenario, stopped: &PhaseError) -> ScenarioKey {
+    let Approach { step, integration, .. } = scenario.approach;
+    of_phase("approach", step, integration, stopped)
+}
+
+/// What the hint of a phase that stopped names.
+fn of_phase(table: &str, step: f64, integration: Integration, stopped: &PhaseError) -> ScenarioKey {
+    match (stopped.source, integration.integrator) {
+        (Error::UnsupportedBodies { .. }, _) => key(format!("{table}.coordinates"), "full"),
+        (Error::Tolerance { .. }, Integrator::Adaptive { tolerance }) => {
+            key(format!("{table}.tolerance"), format!("{tolerance:e}"))
+        }
+        _ => key(format!("{table}.step"), format!("{step:?}")),
+    }
+}
+
+/// Index of the target of this name.
+fn index(scenario: &Scenario, target: &str) -> usize {
+    scenario.targets.iter().position(|other| other.name == target).unwrap_or_default()
+}
+
+/// Index and content of the case of this name.
+fn case_of<'a>(scenario: &'a Scenario, case: &str) -> Option<(usize, &'a Case)> {
+    scenario.cases.iter().enumerate().find(|(_, other)| other.name == case)
+}
+
+/// The restitution of a target: the case's own, or the target's.
+fn restitution(scenario: &Scenario, case: &str, name: &str) -> ScenarioKey {
+    let i = index(scenario, name);
+    let own = case_of(scenario, case).map(|(k, case)| (k, case.restitutions[i]));
+    match own.filter(|(_, own)| *own != scenario.targets[i].restitution) {
+        Some((k, own)) => key(format!("case[{k}].restitutions.{name}"), own),
+        None => key(format!("target[{i}].restitution"), scenario.targets[i].restitution),
+    }
+}
+
+/// The kind of contact of the first target that a case touches: the case's own, or the target's.
+fn contact_kind(scenario: &Scenario, case: &str) -> ScenarioKey {
+    let touched = case_of(scenario, case).and_then(|(k, case)| {
+        let i = case.kinds.iter().position(|kinds| kinds.iter().any(Option::is_some))?;
+        Some((k, i, &case.kinds[i]))
+    });
+    let Some((k, i, kinds)) = touched else { return key("target", "none") };
+    let target = &scenario.targets[i];
+    let names = kinds.iter().map(|kind| contact_name(*kind)).collect::<Vec<_>>().join(", ");
+    if target.contacts.iter().map(|contact| contact.kind).eq(kinds.iter().copied()) {
+        key(format!("target[{i}].kind"), names)
+    } else {
+        key(format!("case[{k}].kinds.{}", target.name), names)
+    }
+}
