@@ -1,6 +1,7 @@
 //! `planar-capture reproduce --out FOLDER`: the paper's tables and figures from simulations.
 
 use super::CommandError;
+use super::progress::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -15,13 +16,15 @@ pub struct Arguments {
     /// Write nothing; exit code 1 if the report is not up to date.
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    display: Display,
 }
 
 /// Names the missing feature.
 #[cfg(not(feature = "figures"))]
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use super::optional_outputs::{FIGURES, require};
-    let Arguments { out: _, check: _ } = arguments;
+    let Arguments { out: _, check: _, display: _ } = arguments;
     require(&[FIGURES]).map(|()| ExitCode::SUCCESS)
 }
 
@@ -34,7 +37,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use planar_capture::reproduction::reproduce;
     use std::io::Write;
 
-    let mut progress = Progress::new();
+    let mut progress = Progress::new(arguments.display);
     let result = reproduce(&mut progress);
     progress.finish();
     let files = result.map_err(|error| CommandError::Figures(error.into()))?.files;

@@ -1,7 +1,7 @@
 //! `planar-capture run SCENARIO.toml`: simulates a scenario and writes its results.
 
 use super::dynamics::Dynamics;
-use super::progress::Progress;
+use super::progress::{Display, Progress};
 use super::terminal::{note, print};
 use super::{CommandError, file_error, optional_outputs};
 use planar_capture::capture::scenario_key::ScenarioKey;
@@ -35,6 +35,8 @@ pub struct Arguments {
     #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
     sample: f64,
     #[command(flatten)]
+    display: Display,
+    #[command(flatten)]
     optional_outputs: optional_outputs::Flags,
 }
 
@@ -49,7 +51,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let (scenario, source) = Scenario::read_with_source(&arguments.scenario, registry::SHIPPED)?;
     let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&source.scenario.file))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
-    let mut progress = Progress::new();
+    let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
     progress.finish();
     let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;

@@ -10,6 +10,7 @@ mod derivation;
 mod diagnostics;
 mod eval;
 mod generate;
+mod progress;
 mod rendering;
 mod run;
 mod study_errors;
