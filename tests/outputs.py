@@ -165,6 +165,10 @@ def main():
                     "case": case["name"],
                     "planar_capture_version": version.split()[1],
                 }
+                # the manifest of the run; what is no text is JSON
+                for key, value in summary["run"].items():
+                    text = json.dumps(value, separators=(",", ":"), ensure_ascii=False)
+                    origin[key] = value if isinstance(value, str) else text
                 check_parquet(out / f"{case['name']}.parquet", headings, rows, origin)
                 stray = check_mcap(out / f"{case['name']}.mcap", headings, rows, case, origin)
                 assert stray <= BOUND, f"{scenario}, {case['name']}: a tip is {stray:.1e} off"

@@ -22,8 +22,9 @@ impl StudyError {
     #[must_use]
     pub fn key(&self, scenario: &Scenario) -> ScenarioKey {
         match self {
-            Self::TerminalRates(error) => terminal_rates(scenario, error),
-            Self::InverseKinematics(InverseKinematicsError::Rates(error)) => terminal_rates(scenario, error),
+            Self::TerminalRates(error) | Self::InverseKinematics(InverseKinematicsError::Rates(error)) => {
+                terminal_rates(scenario, error)
+            }
             Self::InverseKinematics(InverseKinematicsError::OutOfReach { arm, .. }) => {
                 let arm = scenario.layout.arms.iter().position(|other| other.name == *arm).unwrap_or_default();
                 key(format!("approach.final_end_effector_poses[{arm}]"), "none")
@@ -45,8 +46,8 @@ impl StudyError {
     }
 }
 
-fn key(path: impl Into<String>, value: impl ToString) -> ScenarioKey {
-    ScenarioKey { path: path.into(), value: value.to_string() }
+fn key(path: impl Into<String>, value: impl Into<String>) -> ScenarioKey {
+    ScenarioKey { path: path.into(), value: value.into() }
 }
 
 fn terminal_rates(scenario: &Scenario, error: &TerminalRatesError) -> ScenarioKey {
@@ -87,10 +88,11 @@ fn case_of<'a>(scenario: &'a Scenario, case: &str) -> Option<(usize, &'a Case)> 
 /// The restitution of a target: the case's own, or the target's.
 fn restitution(scenario: &Scenario, case: &str, name: &str) -> ScenarioKey {
     let i = index(scenario, name);
+    let of_target = scenario.targets[i].restitution;
     let own = case_of(scenario, case).map(|(k, case)| (k, case.restitutions[i]));
-    match own.filter(|(_, own)| *own != scenario.targets[i].restitution) {
-        Some((k, own)) => key(format!("case[{k}].restitutions.{name}"), own),
-        None => key(format!("target[{i}].restitution"), scenario.targets[i].restitution),
+    match own.filter(|(_, own)| own.to_bits() != of_target.to_bits()) {
+        Some((k, own)) => key(format!("case[{k}].restitutions.{name}"), own.to_string()),
+        None => key(format!("target[{i}].restitution"), of_target.to_string()),
     }
 }
 

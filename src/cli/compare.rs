@@ -4,9 +4,11 @@ use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use planar_capture::compare::{Comparison, LargestError, compare};
 use planar_capture::eval::to_json;
-use planar_capture::output::atomic_file::{create_folder, write_text};
+use planar_capture::layout::Layout;
+use planar_capture::output::result_folder::ResultFolder;
 use planar_capture::quantity::Quantity;
 use std::fmt::{self, Write};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -27,24 +29,31 @@ pub struct Arguments {
     /// Folder for the worst states [default: results/compare/NAME, NAME the layout's].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace all that is in DIR, whatever it is.
+    #[arg(long)]
+    force: bool,
 }
 
 /// Compares the implementations, writes the worst states and prints a table.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
+    let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
+    let folder =
+        ResultFolder::claim(&folder, arguments.force, keep, &|folder, names| objection(folder, names, &layout))?;
     let comparison = compare(&layout, arguments.samples, arguments.seed).map_err(file_error(&arguments.layout))?;
-    create_folder(&folder)?;
+    let shown = folder.path().display().to_string();
+    let staged = folder.stage()?;
     for LargestError { difference, sample, .. } in &comparison.largest_errors {
-        let name = difference.quantity.row().name.replace([' ', '.'], "_");
-        write_text(&folder.join(format!("{name}.toml")), &sample.layout.to_toml())?;
-        write_text(&folder.join(format!("{name}.json")), &format!("[{}]\n", to_json(&sample.instant)))?;
+        let name = file_name(difference.quantity);
+        staged.write(&format!("{name}.toml"), |to| to.write_all(sample.layout.to_toml().as_bytes()))?;
+        staged.write(&format!("{name}.json"), |to| writeln!(to, "[{}]", to_json(&sample.instant)))?;
     }
+    staged.commit(&format!("{}.toml", file_name(Quantity::ALL[0])))?;
     let code = if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     print(&format!(
-        "{}Worst states in {1}; replay: planar-capture eval {1}/QUANTITY.toml {1}/QUANTITY.json\n",
+        "{}Worst states in {shown}; replay: planar-capture eval {shown}/QUANTITY.toml {shown}/QUANTITY.json\n",
         table(&comparison, &layout.name, arguments),
-        folder.display()
     ));
     for refusal in &comparison.refusals {
         let (implementation, error) = match (&refusal.generated, &refusal.generic) {
@@ -61,6 +70,25 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         }
     }
     Ok(code)
+}
+
+/// Name of the files of a quantity.
+fn file_name(quantity: Quantity) -> String {
+    quantity.row().name.replace([' ', '.'], "_")
+}
+
+/// What stands against replacing the content of a folder with the worst states of a layout, as a predicate.
+fn objection(folder: &Path, names: &[String], layout: &Layout) -> Option<String> {
+    let own = |name: &&String| {
+        let (name, kind) = name.rsplit_once('.').unwrap_or_default();
+        ["toml", "json"].contains(&kind) && Quantity::ALL.iter().any(|quantity| file_name(*quantity) == name)
+    };
+    if let Some(name) = names.iter().find(|name| !own(name)) {
+        return Some(format!("has `{name}`, which is not from a comparison"));
+    }
+    let other =
+        names.iter().filter_map(|name| Layout::read(&folder.join(name)).ok()).find(|l| l.name != layout.name)?;
+    Some(format!("holds the comparison of `{}`, not of `{}`", other.name, layout.name))
 }
 
 fn table(comparison: &Comparison, name: &str, arguments: &Arguments) -> String {

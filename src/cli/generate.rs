@@ -85,7 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     };
     progress.finish_and_clear();
     if arguments.check {
-        return check(&text, arguments);
+        return Ok(check(&text, arguments));
     }
     write_text(path, &text)?;
     let (lines, shown) = (text.lines().count(), path.display());
@@ -115,16 +115,16 @@ fn origin(arguments: &Arguments, layout: &Layout) -> (String, String) {
 }
 
 /// Compares the file with what the layout gives.
-fn check(text: &str, arguments: &Arguments) -> Result<ExitCode, CommandError> {
+fn check(text: &str, arguments: &Arguments) -> ExitCode {
     let (path, shown) = (&arguments.out, arguments.out.display());
     if fs::read(path).is_ok_and(|found| found == text.as_bytes()) {
         print(&format!("{shown}: fresh\n"));
-        return Ok(ExitCode::SUCCESS);
+        return ExitCode::SUCCESS;
     }
     let state = if path.exists() { "is not what the layout gives" } else { "does not exist" };
     let mend = command(&arguments.layout, &shown.to_string(), arguments.standalone);
     note(format_args!("{shown} {state}; to mend: {mend}"));
-    Ok(ExitCode::from(1))
+    ExitCode::from(1)
 }
 
 /// Refuses to overwrite a file that was not generated.

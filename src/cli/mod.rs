@@ -17,6 +17,8 @@ mod terminal;
 use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
 use planar_capture::output::atomic_file::{OutputError, write_text};
+use planar_capture::output::finite::NotFinite;
+use planar_capture::output::result_folder::ClaimError;
 use std::error::Error;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -65,6 +67,12 @@ enum CommandError {
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
+    /// Results are not to be written to a folder.
+    #[error("error: {0}")]
+    Folder(#[from] ClaimError),
+    /// A result is no number.
+    #[error("error: {file}: {source}")]
+    Numbers { file: String, source: NotFinite },
     /// The standard output, which is the product of the command, cannot be written.
     #[error("error: cannot write to standard output: {0}")]
     Print(#[from] std::io::Error),
@@ -80,6 +88,7 @@ impl CommandError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::File { exit_code, .. } | Self::Computation { exit_code, .. } => *exit_code,
+            Self::Numbers { .. } => 1,
             _ => 2,
         }
     }

@@ -2,11 +2,11 @@
 
 use super::CommandError;
 use planar_capture::capture::{CaseResult, Study};
-use planar_capture::output::atomic_file::StagedFile;
+use planar_capture::output::result_folder::StagedFolder;
+use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::scenario::Scenario;
 use std::fs::File;
 use std::io::{self, BufWriter};
-use std::path::Path;
 
 /// A kind of output.
 #[derive(Clone, Copy)]
@@ -16,34 +16,34 @@ pub struct OptionalOutput {
     /// What a build without the feature does not do.
     absence: &'static str,
     /// Writes its files for a study to a folder; `None` in a build without the feature.
-    stage: Option<Stage>,
+    write: Option<Write>,
 }
 
-type Stage = fn(&Path, &Scenario, &Study) -> Result<Vec<StagedFile>, CommandError>;
+type Write = fn(&StagedFolder, &Scenario, &Study, &RunManifest) -> Result<(), CommandError>;
 
 pub const FIGURES: OptionalOutput = OptionalOutput {
     feature: "figures",
     absence: "draws no figures",
     #[cfg(feature = "figures")]
-    stage: Some(figures),
+    write: Some(figures),
     #[cfg(not(feature = "figures"))]
-    stage: None,
+    write: None,
 };
 const PARQUET: OptionalOutput = OptionalOutput {
     feature: "parquet",
     absence: "writes no Parquet",
     #[cfg(feature = "parquet")]
-    stage: Some(parquet),
+    write: Some(parquet),
     #[cfg(not(feature = "parquet"))]
-    stage: None,
+    write: None,
 };
 const MCAP: OptionalOutput = OptionalOutput {
     feature: "mcap",
     absence: "writes no MCAP",
     #[cfg(feature = "mcap")]
-    stage: Some(mcap),
+    write: Some(mcap),
     #[cfg(not(feature = "mcap"))]
-    stage: None,
+    write: None,
 };
 
 /// The flags of `run` that request them.
@@ -70,7 +70,7 @@ impl Flags {
 
 /// An error that names the missing features if this build cannot write all of these outputs.
 pub fn require(outputs: &[OptionalOutput]) -> Result<(), CommandError> {
-    let missing: Vec<_> = outputs.iter().filter(|output| output.stage.is_none()).map(|output| output.absence).collect();
+    let missing: Vec<_> = outputs.iter().filter(|output| output.write.is_none()).map(|output| output.absence).collect();
     if missing.is_empty() {
         return Ok(());
     }
@@ -83,53 +83,56 @@ pub fn require(outputs: &[OptionalOutput]) -> Result<(), CommandError> {
 }
 
 impl OptionalOutput {
-    /// Its files for a study, to be committed; none in a build that lacks the feature, see [`require`].
-    pub fn stage(self, folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
-        self.stage.map_or_else(|| Ok(Vec::new()), |stage| stage(folder, scenario, study))
+    /// Writes its files for a study; none in a build that lacks the feature, see [`require`].
+    pub fn write(
+        self,
+        folder: &StagedFolder,
+        scenario: &Scenario,
+        study: &Study,
+        manifest: &RunManifest,
+    ) -> Result<(), CommandError> {
+        self.write.map_or(Ok(()), |write| write(folder, scenario, study, manifest))
     }
 }
 
 #[cfg(feature = "parquet")]
-fn parquet(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+fn parquet(
+    folder: &StagedFolder,
+    scenario: &Scenario,
+    study: &Study,
+    manifest: &RunManifest,
+) -> Result<(), CommandError> {
     use planar_capture::output::time_series::write_parquet;
-    file_per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, to))
+    file_per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, manifest, to))
 }
 
 #[cfg(feature = "mcap")]
-fn mcap(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
+fn mcap(folder: &StagedFolder, scenario: &Scenario, study: &Study, manifest: &RunManifest) -> Result<(), CommandError> {
     use planar_capture::output::mcap::write_mcap;
-    file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, to))
+    file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, manifest, to))
 }
 
-/// Stages a file `CASE.extension` for each case.
+/// Writes a file `CASE.extension` for each case.
 pub fn file_per_case(
-    folder: &Path,
+    folder: &StagedFolder,
     study: &Study,
     extension: &str,
     write: impl Fn(&CaseResult, &mut BufWriter<&File>) -> io::Result<()>,
-) -> Result<Vec<StagedFile>, CommandError> {
-    let stage = |case: &CaseResult| {
-        let path = folder.join(format!("{}.{extension}", case.name));
-        Ok(StagedFile::new(&path, |to| write(case, to))?)
-    };
-    study.cases.iter().map(stage).collect()
+) -> Result<(), CommandError> {
+    let mut cases = study.cases.iter();
+    Ok(cases.try_for_each(|case| folder.write(&format!("{}.{extension}", case.name), |to| write(case, to)))?)
 }
 
 #[cfg(feature = "figures")]
-fn figures(folder: &Path, scenario: &Scenario, study: &Study) -> Result<Vec<StagedFile>, CommandError> {
-    use planar_capture::output::atomic_file::create_folder;
+fn figures(folder: &StagedFolder, scenario: &Scenario, study: &Study, _: &RunManifest) -> Result<(), CommandError> {
     use planar_capture::output::figures::{draw, figures};
     use std::io::Write;
 
-    let folder = folder.join("figures");
-    create_folder(&folder)?;
-    let mut files = Vec::new();
     for figure in figures(scenario, study) {
         let png = draw::png(&figure).map_err(|error| CommandError::Figures(error.into()))?;
         for (extension, bytes) in [("svg", draw::svg(&figure).as_bytes()), ("png", &png)] {
-            let path = folder.join(format!("{}.{extension}", figure.name));
-            files.push(StagedFile::new(&path, |to| to.write_all(bytes))?);
+            folder.write(&format!("figures/{}.{extension}", figure.name), |to| to.write_all(bytes))?;
         }
     }
-    Ok(files)
+    Ok(())
 }

@@ -34,9 +34,14 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use super::progress::Progress;
     use super::terminal::{note, print};
     use planar_capture::output::atomic_file::{StagedFile, create_folder};
+    use planar_capture::output::result_folder::ResultFolder;
     use planar_capture::reproduction::reproduce;
     use std::io::Write;
 
+    if !arguments.check {
+        // among other documents
+        ResultFolder::claim(&arguments.out, false, &[], &|_, _| None)?;
+    }
     let mut progress = Progress::new(arguments.display);
     let result = reproduce(&mut progress);
     progress.finish();

@@ -1,19 +1,23 @@
 //! `planar-capture run SCENARIO.toml`: simulates a scenario and writes its results.
 
 use super::dynamics::Dynamics;
+use super::optional_outputs::{self, file_per_case};
 use super::progress::{Display, Progress};
 use super::terminal::{note, print};
-use super::{CommandError, file_error, optional_outputs};
+use super::{CommandError, file_error};
 use planar_capture::capture::scenario_key::ScenarioKey;
 use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::diagnostic::report_error;
-use planar_capture::output::atomic_file::{StagedFile, create_folder};
 use planar_capture::output::console::table;
 use planar_capture::output::html_report::write_report;
+use planar_capture::output::result_folder::{ResultFolder, StagedFolder};
+use planar_capture::output::run_folder::{SUMMARY, objection};
+use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::output::summary::summary;
 use planar_capture::output::time_series::write_csv;
 use planar_capture::registry;
 use planar_capture::scenario::{Scenario, Source};
+use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -25,6 +29,9 @@ pub struct Arguments {
     /// Folder for summary.json and the CSV time series [default: results/NAME, NAME the scenario's].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace all that is in DIR, whatever it is.
+    #[arg(long)]
+    force: bool,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
     dynamics: Dynamics,
@@ -51,14 +58,22 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let (scenario, source) = Scenario::read_with_source(&arguments.scenario, registry::SHIPPED)?;
     let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&source.scenario.file))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
+    let keep = [&source.scenario.file, &source.layout.file].map(Path::new);
+    let folder = ResultFolder::claim(&folder, arguments.force, &keep, &|folder, names| {
+        objection(folder, names, &scenario.name)
+    })?;
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
     progress.finish();
     let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
     let failures = study.audit_failures();
     let code = if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) };
-    write_results(&folder, &scenario, arguments, &study)?;
-    print(&format!("{}\nResults in {}\n", table(&scenario, &study), folder.display()));
+    let shown = folder.path().display().to_string();
+    let manifest = RunManifest::new(&scenario, source, command());
+    let summary = summary(&scenario, arguments.dynamics.name(), &study, &manifest)
+        .map_err(|source| CommandError::Numbers { file: arguments.scenario.display().to_string(), source })?;
+    write_results(folder.stage()?, &scenario, arguments, &study, (&manifest, &summary))?;
+    print(&format!("{}\nResults in {shown}\n", table(&scenario, &study)));
     for failure in &failures {
         note(format_args!("audit: {failure}"));
     }
@@ -79,22 +94,32 @@ fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> Comm
     CommandError::Computation { report, exit_code }
 }
 
-/// Writes all files before the first gets its name, so that a full disk leaves no mixture of two runs.
-fn write_results(folder: &Path, scenario: &Scenario, arguments: &Arguments, study: &Study) -> Result<(), CommandError> {
-    create_folder(folder)?;
-    let mut files =
-        optional_outputs::file_per_case(folder, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
-    let summary = summary(scenario, arguments.dynamics.name(), study);
-    files.push(StagedFile::new(&folder.join("summary.json"), |to| {
-        serde_json::to_writer_pretty(&mut *to, &summary)?;
+/// Writes all files before the first gets its place, so that a full disk leaves no mixture of two runs.
+fn write_results(
+    folder: StagedFolder,
+    scenario: &Scenario,
+    arguments: &Arguments,
+    study: &Study,
+    (manifest, summary): (&RunManifest, &Value),
+) -> Result<(), CommandError> {
+    file_per_case(&folder, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
+    folder.write(SUMMARY, |to| {
+        serde_json::to_writer_pretty(&mut *to, summary)?;
         writeln!(to)
-    })?);
+    })?;
     if arguments.report {
-        files.push(StagedFile::new(&folder.join("report.html"), |to| write_report(scenario, study, to))?);
+        folder.write("report.html", |to| write_report(scenario, study, manifest, to))?;
     }
     for output in arguments.optional_outputs.requested() {
-        files.extend(output.stage(folder, scenario, study)?);
+        output.write(&folder, scenario, study, manifest)?;
     }
-    files.into_iter().try_for_each(StagedFile::commit)?;
-    Ok(())
+    Ok(folder.commit(SUMMARY)?)
+}
+
+/// The command line, as it can be typed again.
+fn command() -> String {
+    let arguments = std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
+    let words: Vec<_> = std::iter::once("planar-capture".to_owned()).chain(arguments).collect();
+    // only a NUL cannot be quoted, which no argument has
+    shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
 }

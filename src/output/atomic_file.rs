@@ -1,5 +1,6 @@
 //! Result files that are complete or absent: written under a temporary name in the same folder, then renamed.
 
+use super::temporary;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -15,12 +16,21 @@ pub struct OutputError {
     pub source: io::Error,
 }
 
-/// Creates a folder for results and its parents.
+impl OutputError {
+    /// For results of a function about `path`.
+    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self { path: path.to_owned(), source }
+    }
+}
+
+/// Creates a folder for results and its parents; removes what a killed process left in it.
 ///
 /// # Errors
 /// [`OutputError`] with the reason.
 pub fn create_folder(path: &Path) -> Result<(), OutputError> {
-    fs::create_dir_all(path).map_err(|source| OutputError { path: path.to_owned(), source })
+    fs::create_dir_all(path).map_err(OutputError::at(path))?;
+    temporary::sweep(path);
+    Ok(())
 }
 
 /// A complete file under a temporary name. [`commit`](Self::commit) gives it its own; dropping deletes it.
@@ -40,20 +50,11 @@ impl StagedFile {
             if path.is_dir() {
                 return Err(io::ErrorKind::IsADirectory.into());
             }
-            let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            let mut builder = tempfile::Builder::new();
-            builder.prefix(".planar-capture-");
-            #[cfg(unix)]
-            builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-            let file = builder.tempfile_in(folder)?;
-            let mut writer = BufWriter::new(file.as_file());
-            write(&mut writer)?;
-            writer.flush()?;
-            drop(writer);
-            file.as_file().sync_all()?;
+            let file = temporary::file_in(folder_of(path))?;
+            write_whole(file.as_file(), write)?;
             Ok(file)
         };
-        let file = attempt().map_err(|source| OutputError { path: path.to_owned(), source })?;
+        let file = attempt().map_err(OutputError::at(path))?;
         Ok(Self { path: path.to_owned(), file })
     }
 
@@ -67,10 +68,25 @@ impl StagedFile {
     }
 }
 
-/// Writes `text` to `path`, completely or not at all.
+/// Writes a file's content to the disk.
+pub(super) fn write_whole(file: &File, write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
+    let mut writer = BufWriter::new(file);
+    write(&mut writer)?;
+    writer.flush()?;
+    drop(writer);
+    file.sync_all()
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// Writes `text` to `path`, completely or not at all; removes what a killed process left in the same folder.
 ///
 /// # Errors
 /// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
 pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    temporary::sweep(folder_of(path));
     StagedFile::new(path, |to| to.write_all(text.as_bytes()))?.commit()
 }

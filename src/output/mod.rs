@@ -4,10 +4,15 @@ pub mod atomic_file;
 pub mod console;
 #[cfg(feature = "figures")]
 pub mod figures;
+pub mod finite;
 pub mod html_report;
 pub mod impacts;
 #[cfg(feature = "mcap")]
 pub mod mcap;
+pub mod result_folder;
+pub mod run_folder;
+pub mod run_manifest;
 pub mod scene;
 pub mod summary;
+mod temporary;
 pub mod time_series;

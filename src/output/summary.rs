@@ -6,21 +6,26 @@ use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::terminal_error::TerminalError;
 use crate::capture::{CaseResult, Study};
+use crate::output::finite::{NotFinite, finite};
+use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
 use crate::simulate::limits::{LimitViolation, LimitViolations};
 use serde_json::{Value, json};
 
 /// The summary of a study; `dynamics` names the implementation. Numbers read back exactly.
-#[must_use]
-pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study) -> Value {
+///
+/// # Errors
+/// A number that is not finite.
+pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study, manifest: &RunManifest) -> Result<Value, NotFinite> {
     let layout = &scenario.layout;
-    json!({
+    finite(json!({
         "scenario": scenario.name,
         "layout": {"name": layout.name, "sha256": layout.sha256()},
         "dynamics": dynamics,
+        "run": manifest.to_json(),
         "cases": study.cases.iter().map(|case| case_value(scenario, study, case)).collect::<Vec<_>>(),
-    })
+    }))
 }
 
 fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {

@@ -12,6 +12,7 @@ mod eval;
 mod generate;
 mod progress;
 mod rendering;
+mod result_folder;
 mod run;
 mod study_errors;
 mod urdf;

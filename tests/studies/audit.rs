@@ -1,9 +1,8 @@
 //! The audit of the centre of mass and of joint limits.
 
 use crate::command;
-use crate::{run, scenario};
+use crate::{run, scenario, summary};
 use planar_capture::layout::Layout;
-use planar_capture::output::summary::summary;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario, Tracking};
 use planar_capture::simulate::Phase;
@@ -166,7 +165,7 @@ fn the_largest_limit_violation_is_found() {
     }
     assert!(seen > 10, "{seen} excesses");
     let (scenario, study) = &studies[0];
-    let value = summary(scenario, "generated", study);
+    let value = summary(scenario, study);
     let violation = &value["cases"][0]["approach"]["limits"]["joint_angle"];
     let expected = study.approach.limit_violations.as_ref().and_then(|e| e.joint_angle.as_ref()).expect("an excess");
     assert_eq!(

@@ -19,8 +19,9 @@ mod resolved_motion_rate;
 mod study;
 
 use planar_capture::capture::{Observer, Study};
+use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry;
-use planar_capture::scenario::Scenario;
+use planar_capture::scenario::{Scenario, ScenarioSource, Source};
 use planar_proof::file;
 use std::process::Command;
 
@@ -35,6 +36,20 @@ fn run(scenario: &Scenario) -> Study {
     let model = registry::generated(&scenario.layout).expect("a shipped layout has generated code");
     let study = planar_capture::capture::study(scenario, &|| model.clone_box(), 0.05, &mut Silent);
     study.unwrap_or_else(|e| panic!("{}: {e}", scenario.name))
+}
+
+/// A manifest whose scenario was read from a text of no meaning.
+fn manifest(scenario: &Scenario) -> RunManifest {
+    let [scenario_text, layout_text] = ["the scenario", &scenario.layout.to_toml()].map(str::to_owned);
+    let source = |text| Source { text, file: "a file".to_owned() };
+    let source = ScenarioSource { scenario: source(scenario_text), layout: source(layout_text) };
+    RunManifest::new(scenario, source, "planar-capture run".to_owned())
+}
+
+/// The summary of a study.
+fn summary(scenario: &Scenario, study: &Study) -> serde_json::Value {
+    let summary = planar_capture::output::summary::summary(scenario, "generated", study, &manifest(scenario));
+    summary.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// An observer without output.

@@ -108,7 +108,7 @@ mod written {
 #[cfg(feature = "parquet")]
 mod parquet_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
-    use crate::{run, scenario};
+    use crate::{manifest, run, scenario};
     use arrow_array::cast::AsArray;
     use arrow_array::types::{Float64Type, Int8Type};
     use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
@@ -118,10 +118,11 @@ mod parquet_files {
     fn have_the_csvs_columns_and_values() {
         let scenario = scenario("stabilised_capture");
         let study = run(&scenario);
+        let origin = manifest(&scenario);
         for case in &study.cases {
             let mut bytes = Vec::new();
-            write_parquet(&scenario, &study, case, &mut bytes).expect("written");
-            assert_survives_a_full_disk(bytes.len(), |to| write_parquet(&scenario, &study, case, to));
+            write_parquet(&scenario, &study, case, &origin, &mut bytes).expect("written");
+            assert_survives_a_full_disk(bytes.len(), |to| write_parquet(&scenario, &study, case, &origin, to));
             let path = tempfile::NamedTempFile::new().expect("a file");
             std::fs::write(path.path(), &bytes).expect("written");
             let reader =
@@ -133,6 +134,9 @@ mod parquet_files {
             assert_eq!(entry("layout_sha256"), Some(scenario.layout.sha256()));
             assert_eq!(entry("case").as_ref(), Some(&case.name));
             assert_eq!(entry("planar_capture_version").as_deref(), Some(env!("CARGO_PKG_VERSION")));
+            for (key, value) in origin.entries() {
+                assert_eq!(entry(&key), Some(value), "{key}");
+            }
 
             let (headings, rows) = csv(&scenario, &study, case);
             assert!(headings.iter().any(|heading| heading == "base_torque [N m]"), "{headings:?}");
@@ -172,7 +176,7 @@ mod parquet_files {
 #[cfg(feature = "mcap")]
 mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
-    use crate::{run, scenario};
+    use crate::{manifest, run, scenario};
     use foxglove::messages::{FrameTransforms, PointCloud, SceneUpdate};
     use planar_capture::capture::{CaseResult, LaterImpact, Study};
     use planar_capture::outline::Outline;
@@ -192,7 +196,7 @@ mod mcap_files {
 
     fn record(scenario: &Scenario, study: &Study, case: &CaseResult) -> (Vec<u8>, File) {
         let mut bytes = Vec::new();
-        write_mcap(scenario, study, case, &mut bytes).expect("written");
+        write_mcap(scenario, study, case, &manifest(scenario), &mut bytes).expect("written");
         let mut file = File { messages: BTreeMap::new(), fields: BTreeMap::new(), units: BTreeMap::new() };
         for message in mcap::MessageStream::new(&bytes).expect("MCAP") {
             let message = message.expect("a message");
@@ -251,7 +255,14 @@ mod mcap_files {
         let study = run(&scenario);
         let (bytes, file) = record(&scenario, &study, &study.cases[0]);
         assert_eq!(bytes, record(&scenario, &study, &study.cases[0]).0, "the same study, the same bytes");
-        assert_survives_a_full_disk(bytes.len(), |to| write_mcap(&scenario, &study, &study.cases[0], to));
+        let summary = mcap::Summary::read(&bytes).expect("MCAP").expect("a summary");
+        let metadata = mcap::read::metadata(&bytes, &summary.metadata_indexes[0]).expect("metadata").metadata;
+        for (key, value) in manifest(&scenario).entries() {
+            assert_eq!(metadata.get(&key), Some(&value), "{key}");
+        }
+        assert_survives_a_full_disk(bytes.len(), |to| {
+            write_mcap(&scenario, &study, &study.cases[0], &manifest(&scenario), to)
+        });
         let (headings, rows) = csv(&scenario, &study, &study.cases[0]);
         let columns = columns(&scenario, &study.cases[0]);
         let topics: BTreeSet<String> = columns.iter().map(|column| format!("/{}", column.group)).collect();

@@ -1,10 +1,9 @@
 //! Post-capture control: hold, damping and stabilisation, by joints, base torque and wheel, and the residual motion.
 
-use crate::{run, scenario};
+use crate::{run, scenario, summary};
 use planar_capture::capture::CaptureResult;
 use planar_capture::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use planar_capture::capture::residual_motion::ResidualMotion;
-use planar_capture::output::summary::summary;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, PostCaptureControl, PostImpact, Scenario};
@@ -112,7 +111,7 @@ fn a_weak_base_torque_takes_longer() {
     }
     assert!(cases.iter().any(|captured| captured.post_impact.saturation.base > 1.0));
     let study = run(&scenario);
-    let value = summary(&scenario, "generated", &study);
+    let value = summary(&scenario, &study);
     let after = &value["cases"][0]["post_impact"];
     assert_eq!(after["remainder"]["control"], "stabilise");
     assert_eq!(after["remainder"]["base_rate"], after["base_twist"][0]);
@@ -122,7 +121,7 @@ fn a_weak_base_torque_takes_longer() {
 #[test]
 fn without_control_the_summary_has_no_control_keys() {
     let scenario = scenario("raina_shah_2017");
-    let value = summary(&scenario, "generated", &run(&scenario));
+    let value = summary(&scenario, &run(&scenario));
     let after = value["cases"][0]["post_impact"].as_object().expect("a phase");
     let keys: Vec<_> = after.keys().map(String::as_str).collect();
     let motion = ["duration", "base_pose", "base_twist", "joint_angles", "joint_rates"];

@@ -1,10 +1,9 @@
 //! Resolved motion rate control by the generalized Jacobian: path errors, their decay, and terminal errors.
 
-use crate::{run, scenario};
+use crate::{run, scenario, summary};
 use planar_capture::capture::Study;
 use planar_capture::capture::approach::end_effector_paths::EndEffectorFeedback;
 use planar_capture::control::Control;
-use planar_capture::output::summary::summary;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, EndEffectorGoal, FinalRates, Scenario, Tracking};
@@ -164,7 +163,7 @@ fn the_shipped_study_meets_its_targets() {
         assert_close("velocity", &twist[1..], &[v, 0.0], tolerance::STEERED_SAMPLED);
     }
     assert!(study.approach.saturation.joints.iter().all(|time| *time == 0.0), "{:?}", study.approach.saturation);
-    let value = summary(&scenario, "generated", &study);
+    let value = summary(&scenario, &study);
     let approach = &value["cases"][0]["approach"];
     assert_eq!(approach["singularity_margin"].as_f64(), study.approach.singularity_margin);
     assert!(study.approach.singularity_margin.is_some_and(|margin| (0.05..0.2).contains(&margin)));

@@ -1,10 +1,9 @@
 //! The paper's study against an independent model (`tests/reference/independent_model.py`) and the notes' numbers.
 
-use crate::{Silent, run, scenario};
+use crate::{Silent, run, scenario, summary};
 use planar_capture::capture::impact::ContactResult;
 use planar_capture::capture::study;
 use planar_capture::contact::ContactKind;
-use planar_capture::output::summary::summary;
 use planar_capture::registry::{self, generic};
 use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit, ConservationErrors};
 use planar_capture::state::State;
@@ -40,7 +39,7 @@ fn every_number_of_the_summary_agrees_with_an_independent_model() {
         let designed = study.terminal_rates.as_ref().expect("designed rates");
         let rates = numbers(&reference["designed_joint_rates"]);
         assert_close("designed rates", &designed.joint_rates, &rates, tolerance::APPROACH);
-        let ours = summary(&scenario, "generated", &study);
+        let ours = summary(&scenario, &study);
         let cases = reference["cases"].as_array().expect("cases");
         assert_eq!(ours["cases"].as_array().map(Vec::len), Some(cases.len()));
         for (case, ours) in cases.iter().zip(ours["cases"].as_array().expect("cases")) {
@@ -200,10 +199,10 @@ fn every_shipped_study_passes_its_audit() {
 #[test]
 fn a_study_is_the_same_with_generic_dynamics() {
     let scenario = scenario("redysim_single_arm_3r");
-    let expected = summary(&scenario, "either", &run(&scenario));
+    let expected = summary(&scenario, &run(&scenario));
     let model = generic(&scenario.layout);
     let found = study(&scenario, &|| model.clone_box(), 0.05, &mut Silent).expect("a study");
-    let found = summary(&scenario, "either", &found);
+    let found = summary(&scenario, &found);
     let end = |summary: &Value, key: &str| numbers(&summary["cases"][0]["approach"][key]);
     for key in ["base_pose", "joint_angles", "base_twist", "joint_rates", "end_effector_poses"] {
         assert_close(key, &end(&found, key), &end(&expected, key), tolerance::SAME_STUDY);

@@ -10,12 +10,22 @@ use std::path::Path;
 /// layouts whose cargo features are on; ends the process with exit code 1 where that fails.
 pub fn build(codegen: &str) {
     println!("cargo::rerun-if-changed={codegen}");
+    println!("cargo::rustc-env=PLANAR_CAPTURE_FEATURES={}", features().join(","));
     let out = std::env::var_os("OUT_DIR").unwrap_or_default();
     let enabled = |layout: &str| std::env::var_os(format!("CARGO_FEATURE_{}", layout.to_uppercase())).is_some();
     if let Err(problem) = render_all(codegen.as_ref(), out.as_ref(), &enabled) {
         eprintln!("{problem}");
         std::process::exit(1);
     }
+}
+
+/// The cargo features that are on, sorted, in lower case as this repository writes them; `default` only lists others.
+fn features() -> Vec<String> {
+    let names =
+        std::env::vars_os().filter_map(|(name, _)| Some(name.to_str()?.strip_prefix("CARGO_FEATURE_")?.to_lowercase()));
+    let mut names: Vec<_> = names.filter(|name| name != "default").collect();
+    names.sort();
+    names
 }
 
 /// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them and

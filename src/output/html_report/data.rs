@@ -7,16 +7,18 @@ use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::frames::{FrameMotion, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
+use crate::output::run_manifest::RunManifest;
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use serde_json::{Value, json};
 
 /// The data that the programs of the page read.
-pub(super) fn data(scenario: &Scenario, study: &Study) -> Value {
+pub(super) fn data(scenario: &Scenario, study: &Study, manifest: &RunManifest) -> Value {
     let cases = scenario.cases.iter().zip(&study.cases);
     let mut value = json!({
         "scenario": scenario.name,
+        "run": manifest.to_json(),
         "layout": robot(&scenario.layout),
         "contact_duration": scenario.contact.duration,
         "targets": scenario.targets.iter().map(|target| json!({

@@ -7,6 +7,7 @@ mod contacts;
 mod data;
 
 use crate::capture::Study;
+use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
 use std::io::{self, Write};
 
@@ -31,13 +32,13 @@ const PARTS: [(&str, &str); 11] = [
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_report(scenario: &Scenario, study: &Study, mut to: impl Write) -> io::Result<()> {
+pub fn write_report(scenario: &Scenario, study: &Study, manifest: &RunManifest, mut to: impl Write) -> io::Result<()> {
     let mut page = PAGE.replace("<!--title-->", &escaped(&scenario.name));
     for (placeholder, text) in PARTS {
         page = page.replace(placeholder, text.trim_end());
     }
     // `</` would end the script element
-    let data = serde_json::to_string(&data::data(scenario, study))?.replace("</", "<\\/");
+    let data = serde_json::to_string(&data::data(scenario, study, manifest))?.replace("</", "<\\/");
     to.write_all(page.replacen("/*data*/", &data, 1).as_bytes())
 }
 

@@ -65,6 +65,7 @@ function choose(index) {
   setTime(Math.min(state.time, current()[1].end));
 }
 
+element("origin").textContent = `planar-capture ${study.run.version}: ${study.run.command}.`;
 element("about").textContent = `${study.layout.name}: base ${study.layout.base.mass} kg, ` +
   study.layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
   (study.targets.length ? `; ${study.targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");

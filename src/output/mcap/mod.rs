@@ -22,6 +22,7 @@ mod scene_entities;
 mod transforms;
 
 use crate::capture::{CaseResult, Study};
+use crate::output::run_manifest::RunManifest;
 use crate::output::scene::visuals;
 use crate::output::time_series::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::scenario::Scenario;
@@ -35,9 +36,15 @@ use std::io::{self, Write};
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_mcap(scenario: &Scenario, study: &Study, case: &CaseResult, mut to: impl Write) -> io::Result<()> {
+pub fn write_mcap(
+    scenario: &Scenario,
+    study: &Study,
+    case: &CaseResult,
+    manifest: &RunManifest,
+    mut to: impl Write,
+) -> io::Result<()> {
     let mut recording = Recording::new()?;
-    recording.metadata("planar_capture", provenance(scenario, case))?;
+    recording.metadata("planar_capture", provenance(scenario, case, manifest))?;
     let (frames, visuals) = (scenario.frames(), visuals(scenario));
     let scene = recording.channel("/scene")?;
     recording.log(&scene, 0.0, &scene_entities::solids(&visuals))?;

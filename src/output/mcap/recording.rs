@@ -34,8 +34,8 @@ impl Recording {
     }
 
     /// Adds a metadata record.
-    pub(super) fn metadata<const N: usize>(&mut self, name: &str, entries: [(&str, String); N]) -> io::Result<()> {
-        let metadata = entries.map(|(key, value)| (key.to_owned(), value)).into();
+    pub(super) fn metadata(&mut self, name: &str, entries: Vec<(String, String)>) -> io::Result<()> {
+        let metadata = entries.into_iter().collect();
         self.writer.write_metadata(&Metadata { name: name.to_owned(), metadata }).map_err(io_error)
     }
 

@@ -12,6 +12,7 @@ pub use parquet::write_parquet;
 
 use crate::capture::{CaseResult, Study};
 use crate::dynamics::Momentum;
+use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
 use crate::simulate::Sample;
 use crate::simulate::bodies::with_bodies;
@@ -63,14 +64,15 @@ pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = 
     before.chain(after)
 }
 
-/// The metadata of a time series' file, as keys and values.
+/// The metadata of a time series' file, as keys and values: names, version, and the manifest of the run.
 #[must_use]
-pub fn provenance(scenario: &Scenario, case: &CaseResult) -> [(&'static str, String); 5] {
-    [
-        ("scenario", scenario.name.clone()),
-        ("layout", scenario.layout.name.clone()),
-        ("layout_sha256", scenario.layout.sha256()),
-        ("case", case.name.clone()),
-        ("planar_capture_version", env!("CARGO_PKG_VERSION").to_owned()),
-    ]
+pub fn provenance(scenario: &Scenario, case: &CaseResult, manifest: &RunManifest) -> Vec<(String, String)> {
+    let names = [
+        ("scenario", scenario.name.as_str()),
+        ("layout", &scenario.layout.name),
+        ("case", &case.name),
+        ("planar_capture_version", env!("CARGO_PKG_VERSION")),
+    ];
+    let names = names.map(|(key, value)| (key.to_owned(), value.to_owned()));
+    names.into_iter().chain(manifest.entries()).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::{Column, TimeSeriesRow, columns, provenance, rows};
 use crate::capture::{CaseResult, Study};
+use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
 use arrow_array::types::Int8Type;
 use arrow_array::{ArrayRef, DictionaryArray, Float64Array, RecordBatch};
@@ -23,10 +24,17 @@ const BATCH: usize = 1 << 16;
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_parquet(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl Write + Send) -> io::Result<()> {
+pub fn write_parquet(
+    scenario: &Scenario,
+    study: &Study,
+    case: &CaseResult,
+    manifest: &RunManifest,
+    to: impl Write + Send,
+) -> io::Result<()> {
     let columns = columns(scenario, case);
     let schema = Arc::new(schema(&columns));
-    let origin = provenance(scenario, case).map(|(key, value)| KeyValue::new(key.into(), value));
+    let origin = provenance(scenario, case, manifest);
+    let origin = origin.into_iter().map(|(key, value)| KeyValue::new(key, value)).collect();
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
         // few values repeat, but exponents compress well when bytes are split into streams
@@ -34,7 +42,7 @@ pub fn write_parquet(scenario: &Scenario, study: &Study, case: &CaseResult, to: 
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)
         .set_column_dictionary_enabled("phase".into(), true)
         .set_column_encoding("phase".into(), Encoding::PLAIN)
-        .set_key_value_metadata(Some(origin.into()))
+        .set_key_value_metadata(Some(origin))
         .build();
     let mut writer = ArrowWriter::try_new(to, Arc::clone(&schema), Some(properties)).map_err(failed)?;
     let rows: Vec<TimeSeriesRow<'_>> = rows(study, case).collect();

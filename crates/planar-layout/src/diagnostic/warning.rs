@@ -53,15 +53,12 @@ fn report_at(
 ) {
     let found = follow(root, key);
     let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
-    let (message, label) = match found {
-        Some((value, "")) => {
-            let shown = Value::new(document, value, key.to_owned()).shown();
-            (format!("`{key}` is {shown}: {why}"), None)
-        }
-        _ => {
-            let default = default.map_or_else(String::new, |default| format!(", {default}"));
-            (format!("`{key}` is left at its default{default}: {why}"), Some("it could stand here".to_owned()))
-        }
+    let (message, label) = if let Some((value, "")) = found {
+        let shown = Value::new(document, value, key.to_owned()).shown();
+        (format!("`{key}` is {shown}: {why}"), None)
+    } else {
+        let default = default.map_or_else(String::new, |default| format!(", {default}"));
+        (format!("`{key}` is left at its default{default}: {why}"), Some("it could stand here".to_owned()))
     };
     document.report(&span, message, label, help);
 }

@@ -1,0 +1,61 @@
+//! Numbers of a result that are not finite. JSON has none of them: serde writes `null`, which elsewhere says that there
+//! is no such thing.
+
+use serde_json::Value;
+
+/// Keys whose value may be `null`.
+const ABSENT: &[&str] = &[
+    "paper",
+    "direction",
+    "effective_masses",
+    "impulse_index",
+    "joint_angle",
+    "joint_rate",
+    "clearance",
+    "besides_contacts",
+    "first_overlap",
+];
+/// Keys of lists whose entries, one per arm, may be `null`.
+const ABSENT_ARM: &[&str] = &["impulses", "impulse_magnitudes", "missed"];
+
+/// A number that is NaN or infinite.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "`{path}` of the results is not a finite number: the motion, or a quantity of it, is beyond the range of numbers; nothing \
+     was written"
+)]
+pub struct NotFinite {
+    /// Where it would stand: `cases[0].impact.exact.momentum_jump[0]`.
+    pub path: String,
+}
+
+/// The value, if all its numbers are finite.
+///
+/// # Errors
+/// The first that is not.
+pub fn finite(value: Value) -> Result<Value, NotFinite> {
+    match first_null(&value, String::new()) {
+        Some(path) => Err(NotFinite { path }),
+        None => Ok(value),
+    }
+}
+
+/// Path of the first `null` that stands for a number.
+fn first_null(value: &Value, path: String) -> Option<String> {
+    match value {
+        Value::Null => Some(path),
+        Value::Array(items) => items.iter().enumerate().find_map(|(i, item)| first_null(item, format!("{path}[{i}]"))),
+        Value::Object(entries) => entries.iter().find_map(|(key, item)| {
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            match item {
+                Value::Null if ABSENT.contains(&key.as_str()) => None,
+                Value::Array(arms) if ABSENT_ARM.contains(&key.as_str()) => {
+                    let arms = arms.iter().enumerate().filter(|(_, arm)| !arm.is_null());
+                    arms.into_iter().find_map(|(i, arm)| first_null(arm, format!("{path}[{i}]")))
+                }
+                item => first_null(item, path),
+            }
+        }),
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => None,
+    }
+}

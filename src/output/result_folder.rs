@@ -1,0 +1,184 @@
+//! A folder of results, which holds those of one run: claimed before the run, and filled or replaced whole after it.
+
+use super::atomic_file::{OutputError, create_folder, write_whole};
+use super::temporary::{self, TemporaryFolder};
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+
+/// Why a folder is not to be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ClaimError {
+    /// A file, a device, or something below one.
+    #[error("{path} is not a folder, expected a folder for results", path = .0.display())]
+    NotAFolder(PathBuf),
+    /// Its content is not what this run may replace.
+    #[error(
+        "{path} {found}, and a folder holds one run: choose another folder, or replace all that is in it with --force",
+        path = path.display()
+    )]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+        /// What is in it, as a predicate.
+        found: String,
+    },
+    /// It has what `--force` is not to delete.
+    #[error("--force would delete {kept} with {path}: choose another folder", path = path.display(), kept = kept.display())]
+    Protected {
+        /// The folder.
+        path: PathBuf,
+        /// The working folder, or an input of the run.
+        kept: PathBuf,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    Unusable(#[from] OutputError),
+}
+
+/// A folder that a run may fill.
+#[derive(Clone, Debug)]
+pub struct ResultFolder {
+    path: PathBuf,
+}
+
+/// Decides whether the content of a folder, its path and sorted names, may be replaced: what is wrong with it as a
+/// predicate ("holds …"), or `None`.
+pub type Objection<'a> = &'a dyn Fn(&Path, &[String]) -> Option<String>;
+
+impl ResultFolder {
+    /// Claims a folder that is absent or empty, or to whose content there is no `objection`; with `force` any folder that
+    /// contains neither the working folder nor one of the files in `keep`. Removes what killed runs left there.
+    ///
+    /// # Errors
+    /// [`ClaimError`].
+    pub fn claim(path: &Path, force: bool, keep: &[&Path], objection: Objection<'_>) -> Result<Self, ClaimError> {
+        let existing = existing(path);
+        if !existing.is_dir() {
+            return Err(ClaimError::NotAFolder(existing.to_owned()));
+        }
+        if existing == path {
+            let names: Vec<_> = names(path)?.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+            match if names.is_empty() { None } else { objection(path, &names) } {
+                Some(_) if force => protect(path, keep)?,
+                Some(found) => return Err(ClaimError::Occupied { path: path.to_owned(), found }),
+                None => {}
+            }
+        }
+        // the folders above it too, where a run was killed that was to make this one
+        let folders = existing.ancestors().take(3);
+        folders
+            .map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
+            .for_each(temporary::sweep);
+        // a file without a name: nothing is left even if the process is killed
+        tempfile::tempfile_in(existing).map_err(|source| OutputError { path: path.to_owned(), source })?;
+        Ok(Self { path: path.to_owned() })
+    }
+
+    /// The folder.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A temporary folder for the results.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the reason.
+    pub fn stage(&self) -> Result<StagedFolder, OutputError> {
+        let staged = temporary::folder_in(existing(&self.path)).map_err(OutputError::at(&self.path))?;
+        Ok(StagedFolder { path: self.path.clone(), staged })
+    }
+}
+
+/// Complete results in a temporary folder. [`commit`](Self::commit) puts them in their place; dropping deletes them.
+#[derive(Debug)]
+pub struct StagedFolder {
+    path: PathBuf,
+    staged: TemporaryFolder,
+}
+
+impl StagedFolder {
+    /// Writes a file; `name` is relative to the folder.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the reason.
+    pub fn write(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        let path = self.staged.folder.path().join(name);
+        let attempt = || {
+            path.parent().map_or(Ok(()), fs::create_dir_all)?;
+            write_whole(&File::create(&path)?, write)
+        };
+        attempt().map_err(OutputError::at(&self.path.join(name)))
+    }
+
+    /// Puts the results in their place. A new folder appears at once. In a folder that exists (which may be a mount
+    /// point, or where a terminal is) the file `last` of the old results is moved away first and that of the new ones
+    /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the reason; the folder is then as it was.
+    pub fn commit(self, last: &str) -> Result<(), OutputError> {
+        let Self { path, staged } = self;
+        let failed = || OutputError::at(&path);
+        if !path.exists() {
+            path.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), create_folder)?;
+            match fs::rename(staged.folder.path(), &path) {
+                Ok(()) => return Ok(()),
+                // another run was faster
+                Err(_) if path.exists() => {}
+                Err(source) => return Err(OutputError { path, source }),
+            }
+        }
+        // held until the end: two runs do not mix
+        let _lock = File::open(&path).ok().filter(|folder| folder.lock().is_ok());
+        let replaced = temporary::folder_in(&path).map_err(failed())?;
+        let (mut old, mut new) = (names(&path)?, names(staged.folder.path())?);
+        old.sort_by_key(|name| name != last);
+        new.sort_by_key(|name| name == last);
+        let away = old.iter().map(|name| (path.join(name), replaced.folder.path().join(name)));
+        let into = new.iter().map(|name| (staged.folder.path().join(name), path.join(name)));
+        let mut moved = Vec::new();
+        for (from, to) in away.chain(into) {
+            if let Err(source) = fs::rename(&from, &to) {
+                for (from, to) in moved.iter().rev() {
+                    let _ = fs::rename(to, from);
+                }
+                return Err(OutputError { path: from, source });
+            }
+            moved.push((from, to));
+        }
+        Ok(())
+    }
+}
+
+/// The path, or its nearest ancestor that exists.
+fn existing(path: &Path) -> &Path {
+    let found = path.ancestors().find(|folder| folder.symlink_metadata().is_ok());
+    found.unwrap_or(Path::new("."))
+}
+
+/// The sorted names in a folder, without temporary ones.
+fn names(folder: &Path) -> Result<Vec<OsString>, OutputError> {
+    let read = || fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>();
+    let mut names = read().map_err(OutputError::at(folder))?;
+    names.retain(|name| !name.to_str().is_some_and(temporary::is_temporary));
+    names.sort();
+    Ok(names)
+}
+
+/// Refuses a folder that contains the working folder or one of the files.
+fn protect(path: &Path, keep: &[&Path]) -> Result<(), ClaimError> {
+    let absolute = |path: &Path| path.canonicalize().ok();
+    let Some(folder) = absolute(path) else { return Ok(()) };
+    let kept = std::iter::once(Path::new(".")).chain(keep.iter().copied()).filter_map(absolute);
+    match kept.into_iter().find(|kept| kept.starts_with(&folder)) {
+        Some(kept) => Err(ClaimError::Protected { path: path.to_owned(), kept }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,95 @@
+//! The manifest of a run: what it was made of, by which program and command. All files of a run share it.
+
+use crate::layout::sha256;
+use crate::scenario::{Scenario, ScenarioSource};
+use crate::simulate::Timing;
+use crate::simulate::stepper::Integration;
+use serde_json::{Map, Value, json};
+
+/// The cargo features of this build, sorted; set by the build script.
+const FEATURES: &str = env!("PLANAR_CAPTURE_FEATURES");
+
+/// Origin of the results of one run. It has no time and no machine in it: equal runs have equal manifests.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunManifest {
+    /// As the user typed it.
+    pub command: String,
+    /// TOML text of the scenario.
+    pub scenario_toml: String,
+    /// TOML text of its layout.
+    pub layout_toml: String,
+    /// Content hash of the layout.
+    pub layout_sha256: String,
+    /// Of each phase that the scenario has.
+    pub phases: Vec<PhaseManifest>,
+}
+
+/// How one phase is integrated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PhaseManifest {
+    /// `approach` or `post_impact`.
+    pub phase: &'static str,
+    /// The integrator's name.
+    pub integrator: &'static str,
+    /// Number of steps, or with adaptive steps of audits, of a phase that no contact ends.
+    pub steps: u64,
+}
+
+impl PhaseManifest {
+    fn new(phase: &'static str, [duration, step]: [f64; 2], integration: Integration) -> Self {
+        let steps = Timing { duration, step, ..Timing::default() }.steps();
+        Self { phase, integrator: integration.integrator.properties().name, steps }
+    }
+}
+
+impl RunManifest {
+    /// Of a scenario, the texts that it was read from, and the command that runs it.
+    #[must_use]
+    pub fn new(scenario: &Scenario, source: ScenarioSource, command: String) -> Self {
+        let approach = &scenario.approach;
+        let mut phases = vec![PhaseManifest::new("approach", [approach.duration, approach.step], approach.integration)];
+        phases.extend(
+            scenario
+                .post_impact
+                .as_ref()
+                .map(|after| PhaseManifest::new("post_impact", [after.duration, after.step], after.integration)),
+        );
+        Self {
+            command,
+            scenario_toml: source.scenario.text,
+            layout_toml: source.layout.text,
+            layout_sha256: scenario.layout.sha256(),
+            phases,
+        }
+    }
+
+    /// Its keys and values.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let of_phases = |value: &dyn Fn(&PhaseManifest) -> Value| -> Map<String, Value> {
+            self.phases.iter().map(|phase| (phase.phase.to_owned(), value(phase))).collect()
+        };
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "command": self.command,
+            "scenario_sha256": sha256(&self.scenario_toml),
+            "layout_sha256": self.layout_sha256,
+            "integrator": of_phases(&|phase| json!(phase.integrator)),
+            "steps": of_phases(&|phase| json!(phase.steps)),
+            "features": FEATURES.split_terminator(',').collect::<Vec<_>>(),
+            "scenario_toml": self.scenario_toml,
+            "layout_toml": self.layout_toml,
+        })
+    }
+
+    /// The same for the metadata of a file, as texts; what is no text is JSON.
+    #[must_use]
+    pub fn entries(&self) -> Vec<(String, String)> {
+        let Value::Object(entries) = self.to_json() else { return Vec::new() };
+        let text = |value: Value| match value {
+            Value::String(text) => text,
+            other => other.to_string(),
+        };
+        entries.into_iter().map(|(key, value)| (key, text(value))).collect()
+    }
+}

@@ -1,0 +1,65 @@
+//! Temporary files and folders, and the removal of those that killed processes left behind.
+//!
+//! A process holds a lock on each of its own while it lives, which the operating system releases when it dies. Where
+//! there are no such locks, nothing is removed.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+use tempfile::{NamedTempFile, TempDir};
+
+/// Of the names of all temporary files.
+pub(super) const PREFIX: &str = ".planar-capture-";
+
+/// A temporary folder, removed with its content when it is dropped.
+#[derive(Debug)]
+pub(super) struct TemporaryFolder {
+    pub(super) folder: TempDir,
+    _lock: Option<File>,
+}
+
+/// A temporary file in a folder, with the permissions of an ordinary one.
+pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let file = builder.tempfile_in(folder)?;
+    // a file system without locks: it is only not removed by others
+    let _ = file.as_file().try_lock();
+    Ok(file)
+}
+
+/// A temporary folder in a folder, with the permissions of an ordinary one (less the process's mask).
+pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+    let folder = builder.tempdir_in(folder)?;
+    let lock = File::open(folder.path()).ok().filter(|file| file.try_lock().is_ok());
+    Ok(TemporaryFolder { folder, _lock: lock })
+}
+
+/// Whether a file of this name is one of them.
+pub(super) fn is_temporary(name: &str) -> bool {
+    name.starts_with(PREFIX)
+}
+
+/// Removes the temporary files and folders in a folder that no living process holds.
+pub(super) fn sweep(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if !entry.file_name().to_str().is_some_and(is_temporary) {
+            continue;
+        }
+        let path = entry.path();
+        let Ok(kind) = entry.file_type() else { continue };
+        // a device or a pipe of this name is not opened
+        if !kind.is_file() && !kind.is_dir() {
+            continue;
+        }
+        // held until it is gone: its owner, if it is just being made, cannot be mistaken for dead
+        let Some(_lock) = File::open(&path).ok().filter(|file| file.try_lock().is_ok()) else { continue };
+        let _ = if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+    }
+}

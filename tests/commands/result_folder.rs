@@ -1,0 +1,242 @@
+//! Folders of results: one run each, refused or replaced whole; what killed runs leave behind; the run's manifest.
+
+use crate::{command, said};
+use planar_capture::layout::sha256;
+use planar_proof::file;
+use serde_json::Value;
+use std::fs::{self, File};
+use std::path::Path;
+use tempfile::TempDir;
+
+/// The shortest study with a capture, under a name and with these cases.
+fn scenario(name: &str, cases: &[&str], folder: &Path) -> String {
+    let text = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+    let (head, _) = text.split_once("[[case]]").expect("cases");
+    let cases = cases.iter().map(|case| format!("[[case]]\nname = \"{case}\"\n")).collect::<Vec<_>>().concat();
+    let text =
+        format!("{head}{cases}[post_impact]\nduration = 1.0\n").replacen("raina_shah_2017\"", &format!("{name}\""), 1);
+    let path = folder.join(format!("{name}.toml"));
+    fs::write(&path, text).expect("written");
+    path.display().to_string()
+}
+
+/// The sorted names in a folder.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8")).collect();
+    names.sort();
+    names
+}
+
+/// Runs a scenario into a folder: exit code and messages.
+fn run(scenario: &str, results: &Path, more: &[&str]) -> (i32, String) {
+    let results = results.display().to_string();
+    let (code, _, err) = said(&[&["run", scenario, "--out", &results], more].concat());
+    (code, err)
+}
+
+#[test]
+fn a_run_replaces_an_earlier_one_of_its_scenario_whole() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("new/results");
+    let one = scenario("one", &["a", "b"], folder.path());
+    assert_eq!(run(&one, &results, &["--report"]), (0, String::new()));
+    assert_eq!(names(&results), ["a.csv", "b.csv", "report.html", "summary.json"]);
+    assert_eq!(names(&folder.path().join("new")), ["results"], "no temporary files");
+    scenario("one", &["b", "c"], folder.path());
+    assert_eq!(run(&one, &results, &[]), (0, String::new()));
+    assert_eq!(names(&results), ["b.csv", "c.csv", "summary.json"], "nothing of the earlier run is left");
+}
+
+#[test]
+fn results_of_something_else_are_refused_unless_forced() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let (one, other) = (scenario("one", &["a"], folder.path()), scenario("other", &["z"], folder.path()));
+    assert_eq!(run(&one, &results, &[]).0, 0);
+    let summary = fs::read(results.join("summary.json")).expect("a summary");
+    let (code, err) = run(&other, &results, &[]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("the results of `one`, not of `other`") && err.contains("--force"), "{err}");
+    assert_eq!(fs::read(results.join("summary.json")).expect("a summary"), summary, "nothing was changed");
+
+    fs::write(results.join("notes.txt"), "mine").expect("written");
+    let (code, err) = run(&one, &results, &[]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("`notes.txt`"), "{err}");
+    assert_eq!(names(&results), ["a.csv", "notes.txt", "summary.json"]);
+
+    assert_eq!(run(&other, &results, &["--force"]), (0, String::new()));
+    assert_eq!(names(&results), ["summary.json", "z.csv"]);
+    // a folder of files that no run wrote
+    let (code, err) = run(&one, folder.path(), &[]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("which is not from a run"), "{err}");
+}
+
+/// `--force` does not delete the scenario, nor the folder that the user works in.
+#[test]
+fn what_force_does_not_delete() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let (code, err) = run(&one, folder.path(), &["--force"]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("would delete") && err.contains("one.toml"), "{err}");
+    let inner = folder.path().join("inner");
+    fs::create_dir(&inner).expect("a folder");
+    fs::write(inner.join("notes.txt"), "mine").expect("written");
+    let output = command().args(["run", &one, "--out", ".", "--force"]).current_dir(&inner).output().expect("it runs");
+    let (code, _, err) = planar_proof::said(output);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("would delete"), "{err}");
+    assert_eq!(names(&inner), ["notes.txt"]);
+}
+
+/// The study of this scenario fails: whatever is said instead was found before it was computed.
+#[test]
+fn what_is_no_folder_is_refused_before_anything_is_computed() {
+    let folder = TempDir::new().expect("a folder");
+    let bad = scenario("bad", &["a"], folder.path());
+    let text = fs::read_to_string(&bad).expect("a scenario").replacen("gain = 49.0", "gain = 4.9e7", 1);
+    fs::write(&bad, text).expect("written");
+    let occupied = folder.path().join("occupied");
+    fs::write(&occupied, "a file").expect("written");
+    let mut paths = vec![occupied.clone(), occupied.join("below")];
+    if cfg!(unix) {
+        paths.extend(["/dev/null", "/dev/full", "/dev/null/below"].map(Into::into));
+    }
+    for path in paths {
+        let (code, err) = run(&bad, &path, &[]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("is not a folder"), "{}: {err}", path.display());
+        let (code, err) = run(&bad, &path, &["--force"]);
+        assert_eq!((code, err.contains("is not a folder")), (2, true), "{err}");
+    }
+    assert_eq!(fs::read_to_string(occupied).expect("a file"), "a file");
+}
+
+#[test]
+fn temporary_files_of_killed_runs_are_swept() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let one = scenario("one", &["a"], folder.path());
+    assert_eq!(run(&one, &results, &[]).0, 0);
+    // in the folder, and beside it, from before it was made
+    for folder in [results.as_path(), folder.path()] {
+        fs::write(folder.join(".planar-capture-abc"), "half").expect("written");
+        fs::create_dir(folder.join(".planar-capture-def")).expect("a folder");
+        fs::write(folder.join(".planar-capture-def/a.csv"), "half").expect("written");
+    }
+    let alive = results.join(".planar-capture-alive");
+    let lock = File::create(&alive).expect("a file");
+    lock.lock().expect("a lock");
+    assert_eq!(run(&one, &results, &[]), (0, String::new()));
+    assert_eq!(names(&results), [".planar-capture-alive", "a.csv", "summary.json"], "that of a living process stays");
+    assert_eq!(names(folder.path()), ["one.toml", "results"]);
+    drop(lock);
+    assert_eq!(run(&one, &results, &[]), (0, String::new()));
+    assert_eq!(names(&results), ["a.csv", "summary.json"]);
+    // killed while it put its results in their place: the old ones are away, not all of the new ones there
+    let away = results.join(".planar-capture-old");
+    fs::create_dir(&away).expect("a folder");
+    fs::rename(results.join("summary.json"), away.join("summary.json")).expect("moved");
+    assert_eq!(run(&one, &results, &[]), (0, String::new()));
+    assert_eq!(names(&results), ["a.csv", "summary.json"]);
+    // so are those of files
+    let module = folder.path().join("robot.urdf");
+    fs::write(folder.path().join(".planar-capture-ghi"), "half").expect("written");
+    assert_eq!(said(&["export", "dual_arm_3r", "--out", &module.display().to_string()]).0, 0);
+    assert_eq!(names(folder.path()), ["one.toml", "results", "robot.urdf"]);
+}
+
+/// A run that is killed at any time leaves the results that were there or its own, never a mixture.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_leaves_whole_results() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let one = scenario("one", &["a", "b", "c"], folder.path());
+    let shown = results.display().to_string();
+    assert_eq!(run(&one, &results, &["--report"]).0, 0);
+    for wait in (0..40).map(|i| 10 * i) {
+        let mut child = command();
+        child.args(["run", &one, "--out", &shown, "--report"]).stdout(std::process::Stdio::null());
+        let mut child = child.spawn().expect("it runs");
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        child.kill().expect("killed");
+        child.wait().expect("it ends");
+        let complete = results.join("summary.json").exists();
+        let mut found = names(&results);
+        found.retain(|name| !name.starts_with(".planar-capture-"));
+        if complete {
+            assert_eq!(found, ["a.csv", "b.csv", "c.csv", "report.html", "summary.json"], "killed after {wait} ms");
+        }
+    }
+    assert_eq!(run(&one, &results, &["--report"]), (0, String::new()));
+    assert_eq!(names(&results), ["a.csv", "b.csv", "c.csv", "report.html", "summary.json"]);
+    assert_eq!(names(folder.path()), ["one.toml", "results"]);
+}
+
+#[test]
+fn a_comparison_has_a_folder_of_its_own() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results").display().to_string();
+    let compare = |layout: &str, more: &[&str]| {
+        let (code, _, err) = said(&[&["compare", layout, "--samples", "1", "--out", &results], more].concat());
+        (code, err)
+    };
+    assert_eq!(compare("single_arm_2r", &[]).0, 0);
+    assert_eq!(compare("single_arm_2r", &[]).0, 0);
+    let (code, err) = compare("dual_arm_2r", &[]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("the comparison of `single_arm_2r`, not of `dual_arm_2r`"), "{err}");
+    let one = scenario("one", &["a"], folder.path());
+    assert_eq!(run(&one, Path::new(&results), &[]).0, 2);
+    assert_eq!(run(&one, Path::new(&results), &["--force"]).0, 0);
+    assert_eq!(compare("dual_arm_2r", &[]).0, 2);
+}
+
+#[test]
+fn the_summary_says_what_the_run_was_made_of() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let output =
+        command().args(["run", "one.toml", "--out", "my results", "--report"]).current_dir(folder.path()).output();
+    assert!(output.expect("it runs").status.success());
+    let results = folder.path().join("my results");
+    let summary: Value =
+        serde_json::from_slice(&fs::read(results.join("summary.json")).expect("a summary")).expect("JSON");
+    let run = &summary["run"];
+    let text = fs::read_to_string(&one).expect("the scenario");
+    assert_eq!(run["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(run["command"], "planar-capture run one.toml --out 'my results' --report");
+    assert_eq!(run["scenario_sha256"], sha256(&text));
+    assert_eq!(run["scenario_toml"], text);
+    assert_eq!(run["layout_sha256"], summary["layout"]["sha256"]);
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("the layout");
+    assert_eq!(run["layout_toml"], layout);
+    assert_eq!(run["integrator"]["approach"], "rk4");
+    assert_eq!((&run["steps"]["approach"], &run["steps"]["post_impact"]), (&4000.into(), &200.into()));
+    let features = run["features"].as_array().expect("a list");
+    assert!(features.contains(&"dual_arm_3r".into()) && features.contains(&"cli".into()), "{features:?}");
+    let page = fs::read_to_string(results.join("report.html")).expect("a page");
+    let (_, data) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("an end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    assert_eq!(&data["run"], run, "the report has the same");
+}
+
+/// JSON has no infinity: a `null` would pass for "there is none".
+#[test]
+fn a_result_that_is_no_number_is_an_error() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let text = fs::read_to_string(&one).expect("the scenario");
+    fs::write(&one, format!("{text}[contact]\nduration = 1e-320\n")).expect("written");
+    let results = folder.path().join("results");
+    let (code, err) = run(&one, &results, &[]);
+    assert_eq!(code, 1, "{err}");
+    assert!(err.contains("one.toml") && err.contains("`cases[0].impact.contacts[0].mean_force[0]`"), "{err}");
+    assert!(!results.exists(), "nothing is written");
+}
