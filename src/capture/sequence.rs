@@ -350,6 +350,7 @@ impl SequenceState<'_> {
         let at =
             |now: &Sample| assembly.targets(targets, &now.end_effector_poses, &now.end_effector_twists, &now.bodies);
         let path: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
+        let phase = phase.with_targets(&at);
         state.clone_from(&phase.end().state);
         targets.clone_from(path.last().expect("a phase has samples"));
         Ok((phase, path))

@@ -34,7 +34,22 @@ fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Res
         residual_motion(out, study)?;
     }
     clearance(out, study)?;
-    closest_approaches(out, scenario, study)
+    closest_approaches(out, scenario, study)?;
+    thinned(out, study)
+}
+
+/// Says that figures and report do not show all samples of a long phase.
+fn thinned(out: &mut String, study: &Study) -> fmt::Result {
+    let after = study.cases.iter().filter_map(|case| Some((&case.name, &case.capture.as_ref()?.post_impact)));
+    let own = study.cases.iter().filter_map(|case| Some((&case.name, case.approach.as_ref()?)));
+    let approach = "approach".to_owned();
+    for (name, phase) in std::iter::once((&approach, &study.approach)).chain(own).chain(after) {
+        let (shown, all) = (phase.samples.len(), phase.sample_count());
+        if shown < all {
+            writeln!(out, "\n{name}: figures and report show {shown} of {all} samples")?;
+        }
+    }
+    Ok(())
 }
 
 fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {

@@ -10,7 +10,10 @@ mod event_location;
 pub mod limits;
 pub mod path;
 mod recorder;
+mod sample_file;
+pub mod sample_list;
 pub mod stepper;
+pub mod stored_samples;
 pub mod system;
 
 use crate::control::Control;
@@ -25,6 +28,7 @@ use crate::simulate::path::{Path, PathInterval};
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Integration;
 use crate::simulate::stepper::Stepper;
+use crate::simulate::stored_samples::StoredSamples;
 use crate::simulate::system::{Body, System};
 use crate::state::ActuatorWork;
 
@@ -92,8 +96,11 @@ pub struct Phase {
     pub duration: f64,
     /// Index and time (s) of the event that ended it; `None` where the time was over.
     pub event: Option<(usize, f64)>,
-    /// The first instant, one per sampling interval, and the last; at least one.
+    /// The first instant, one per sampling interval, and the last; at least one. Of a long phase every second, fourth …
+    /// of these: [`Phase::all_samples`] has all.
     pub samples: Vec<Sample>,
+    /// Those that have more samples than these, in order.
+    pub stored: Vec<StoredSamples>,
     /// The largest of all steps.
     pub drift: ConservationErrors,
     /// Of the actuators.
@@ -133,6 +140,8 @@ impl Phase {
     #[must_use]
     pub fn then(mut self, next: Self) -> Self {
         let work = self.end().work;
+        let (count, time) = (self.samples.len(), self.duration);
+        self.stored.extend(next.stored.into_iter().map(|stored| stored.after(count, time, &work)));
         self.samples.extend(next.samples.into_iter().map(|sample| Sample {
             time: self.duration + sample.time,
             work: work.plus(&sample.work),

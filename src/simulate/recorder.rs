@@ -6,6 +6,8 @@ use crate::owned::RobotState;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::PathRecorder;
+use crate::simulate::sample_list::SampleList;
+use crate::simulate::stored_samples::StoredSamples;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
 use crate::state::{ActuatorWork, State};
@@ -15,7 +17,7 @@ pub(crate) struct Recorder<'a> {
     system: &'a System<'a>,
     audit: ConservationAudit<'a>,
     torques: Vec<f64>,
-    samples: Vec<Sample>,
+    samples: SampleList,
     saturation: Saturation,
     /// Which joints are saturated at the start of the step.
     saturated: Vec<bool>,
@@ -32,7 +34,7 @@ impl<'a> Recorder<'a> {
             system,
             audit: ConservationAudit::new(system.model, start, system.bodies)?,
             torques: vec![0.0; system.model.joints()],
-            samples: Vec::new(),
+            samples: SampleList::default(),
             saturation: Saturation::default(),
             saturated: Vec::new(),
             base_saturated: false,
@@ -100,10 +102,13 @@ impl<'a> Recorder<'a> {
     /// The phase.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
         let Self { system, samples, audit, saturation, constraint_errors, limit_violations, path, .. } = self;
+        let (samples, file) = samples.end();
+        let stored = file.map(|file| StoredSamples::new(file, samples.len()));
         Phase {
             duration,
             event,
             samples,
+            stored: stored.into_iter().collect(),
             drift: audit.drift(),
             saturation,
             constraint_errors,

@@ -10,6 +10,7 @@ mod convergence;
 mod events;
 mod figures;
 mod inverse_kinematics;
+mod long_phases;
 mod maximal_coordinates;
 mod outputs;
 mod post_capture_control;

@@ -113,6 +113,9 @@ function audit() {
   // without the objections to other cases
   const others = study.cases.filter((other) => other !== one).map((other) => other.name);
   const objections = study.objections.filter((text) => !others.some((name) => text.startsWith(`${name}:`) || text.startsWith(`${name},`)));
-  shown.textContent = [...of("approach", one.approach || study.approach), ...of(after, one.post_impact), ...objections].join(" · ");
+  const phases = [one.approach || study.approach, one.post_impact].filter(Boolean);
+  const [shownSamples, samples] = phases.reduce(([part, all], phase) => [part + phase.time.length, all + phase.samples], [0, 0]);
+  const thinned = shownSamples < samples ? [`animation and plots show ${shownSamples} of ${samples} samples`] : [];
+  shown.textContent = [...of("approach", phases[0]), ...of(after, one.post_impact), ...thinned, ...objections].join(" · ");
   shown.className = objections.length ? "bad" : "";
 }

@@ -121,6 +121,7 @@ fn phase(phase: &Phase) -> Value {
     let end_effectors = (0..arms).map(|arm| columns(3, &|sample, i| sample.end_effector_poses[arm][i]));
     json!({
         "duration": phase.duration,
+        "samples": phase.sample_count(),
         "time": samples.iter().map(|sample| sample.time).collect::<Vec<_>>(),
         "base_pose": columns(3, &|sample, i| sample.state.base_pose[i]),
         "base_twist": columns(3, &|sample, i| sample.state.base_twist[i]),

@@ -32,7 +32,7 @@ pub(super) struct ImpactChannels<'a> {
 }
 
 impl<'a> ImpactChannels<'a> {
-    pub(super) fn new(recording: &mut Recording, arms: &'a [Arm]) -> io::Result<Self> {
+    pub(super) fn new(recording: &mut Recording<'_>, arms: &'a [Arm]) -> io::Result<Self> {
         let impulse = |arm: &Arm| IMPULSE.map(|(part, unit)| (format!("{}_impulse_{part}", arm.name), unit));
         let balance = BALANCE.map(|(name, unit)| (name.to_owned(), unit));
         let fields: Vec<_> = arms.iter().flat_map(impulse).chain(balance).collect();
@@ -42,7 +42,7 @@ impl<'a> ImpactChannels<'a> {
     }
 
     /// Adds one impact. The impulse of an arm without contact is 0.
-    pub(super) fn log(&self, recording: &mut Recording, event: &ImpactEvent<'_>) -> io::Result<()> {
+    pub(super) fn log(&self, recording: &mut Recording<'_>, event: &ImpactEvent<'_>) -> io::Result<()> {
         recording.log(&self.arrows, event.time, &self.arrows(event))?;
         let exact = &event.solution.exact;
         let impulses = exact.impulses.iter().flat_map(|impulse| impulse.unwrap_or_default());

@@ -24,7 +24,7 @@ mod transforms;
 use crate::capture::{CaseResult, Study};
 use crate::output::run_manifest::RunManifest;
 use crate::output::scene::visuals;
-use crate::output::time_series::{Column, TimeSeriesRow, columns, provenance, rows};
+use crate::output::time_series::{Column, TimeSeriesRow, all_rows, columns, provenance};
 use crate::scenario::Scenario;
 use foxglove::messages::{Log, log::Level};
 use impacts::ImpactChannels;
@@ -41,9 +41,9 @@ pub fn write_mcap(
     study: &Study,
     case: &CaseResult,
     manifest: &RunManifest,
-    mut to: impl Write,
+    to: impl Write,
 ) -> io::Result<()> {
-    let mut recording = Recording::new()?;
+    let mut recording = Recording::new(to)?;
     recording.metadata("planar_capture", provenance(scenario, case, manifest))?;
     let (frames, visuals) = (scenario.frames(), visuals(scenario));
     let scene = recording.channel("/scene")?;
@@ -58,7 +58,8 @@ pub fn write_mcap(
     let impacts = case.capture.as_ref().map(|_| ImpactChannels::new(&mut recording, arms)).transpose()?;
     let mut events = crate::output::impacts::impacts(study, case).into_iter().peekable();
     let mut phase = "";
-    for row in rows(study, case) {
+    for row in all_rows(study, case) {
+        let row = row?;
         if row.phase != phase {
             phase = row.phase;
             recording.log(&log, row.time, &phase_begins(&row))?;
@@ -73,12 +74,12 @@ pub fn write_mcap(
             channel.log(&mut recording, row.time, columns.iter().map(|column| column.value(&row)))?;
         }
     }
-    to.write_all(&recording.finish()?)
+    recording.finish()
 }
 
 /// A channel for each group of columns.
 fn column_groups(
-    recording: &mut Recording,
+    recording: &mut Recording<'_>,
     scenario: &Scenario,
     case: &CaseResult,
 ) -> io::Result<Vec<(ScalarChannel, Vec<Column>)>> {

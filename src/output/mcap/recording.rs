@@ -3,17 +3,18 @@
 use foxglove::Encode;
 use foxglove::messages::Timestamp;
 use mcap::records::{MessageHeader, Metadata};
+use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use std::collections::BTreeMap;
-use std::io::{self, Cursor};
+use std::io::{self, Write};
 use std::marker::PhantomData;
 
-/// An MCAP file in memory.
+/// An MCAP file, written as it grows; the library holds the last chunk in memory.
 ///
 /// The library's writer finishes the file when it is dropped and panics if that fails, for example on a full disk; its
-/// sinks that do not panic only log errors. Hence the file is written to disk by the caller.
-pub(super) struct Recording {
-    writer: Writer<Cursor<Vec<u8>>>,
+/// sinks that do not panic only log errors. Hence it writes to a [`Latch`], and the error is that of the whole file.
+pub(super) struct Recording<'a> {
+    writer: Writer<NoSeek<Latch<'a>>>,
     sequences: BTreeMap<u16, u32>,
 }
 
@@ -24,12 +25,13 @@ pub(super) struct Channel<M> {
     message: PhantomData<fn(&M)>,
 }
 
-impl Recording {
-    pub(super) fn new() -> io::Result<Self> {
+impl<'a> Recording<'a> {
+    pub(super) fn new(to: impl Write + 'a) -> io::Result<Self> {
         // one thread, so that the bytes do not depend on the number of processors
         let options =
             WriteOptions::new().library(concat!("planar-capture/", env!("CARGO_PKG_VERSION"))).compression_threads(0);
-        let writer = options.create(Cursor::new(Vec::new())).map_err(io_error)?;
+        let to = NoSeek::new(Latch { to: Box::new(to), error: None });
+        let writer = options.disable_seeking(true).create(to).map_err(io_error)?;
         Ok(Self { writer, sequences: BTreeMap::new() })
     }
 
@@ -74,10 +76,30 @@ impl Recording {
         self.writer.write_to_known_channel(&header, message).map_err(io_error)
     }
 
-    /// The bytes of the finished file.
-    pub(super) fn finish(mut self) -> io::Result<Vec<u8>> {
+    /// Ends the file; the first error that occurred while it was written.
+    pub(super) fn finish(mut self) -> io::Result<()> {
         self.writer.finish().map_err(io_error)?;
-        Ok(self.writer.into_inner().into_inner())
+        let Latch { mut to, error } = self.writer.into_inner().into_inner();
+        error.map_or_else(|| to.flush(), Err)
+    }
+}
+
+/// A writer that keeps its first error and takes what follows as written.
+struct Latch<'a> {
+    to: Box<dyn Write + 'a>,
+    error: Option<io::Error>,
+}
+
+impl Write for Latch<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.error.is_none() {
+            self.error = self.to.write_all(bytes).err();
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) struct ScalarChannel {
 impl ScalarChannel {
     /// Adds the channel `/name` of messages `planar_capture.Name`. `fields` are names and units; the channel's metadata
     /// has the unit of each field.
-    pub(super) fn new(recording: &mut Recording, name: &str, fields: &[(&str, &str)]) -> io::Result<Self> {
+    pub(super) fn new(recording: &mut Recording<'_>, name: &str, fields: &[(&str, &str)]) -> io::Result<Self> {
         let names = identifiers(fields.iter().map(|(name, _)| *name));
         let mut letters = name.chars();
         let message: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
@@ -31,7 +31,7 @@ impl ScalarChannel {
     /// Adds a message with values in the order of the fields.
     pub(super) fn log(
         &self,
-        recording: &mut Recording,
+        recording: &mut Recording<'_>,
         time: f64,
         values: impl Iterator<Item = f64>,
     ) -> io::Result<()> {

@@ -14,9 +14,12 @@ use crate::capture::{CaseResult, Study};
 use crate::dynamics::Momentum;
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
-use crate::simulate::Sample;
 use crate::simulate::bodies::with_bodies;
+use crate::simulate::stored_samples::PhaseSample;
 use crate::simulate::system::Body;
+use crate::simulate::{Phase, Sample};
+use std::borrow::Cow;
+use std::io;
 
 const APPROACH: &str = "approach";
 
@@ -28,7 +31,7 @@ pub struct TimeSeriesRow<'a> {
     /// `approach` or `post_impact`.
     pub phase: &'static str,
     /// The robot; its time counts from the start of the phase.
-    pub sample: &'a Sample,
+    pub sample: Cow<'a, Sample>,
     /// The targets, in the scenario's order.
     pub targets: Vec<Body>,
 }
@@ -44,24 +47,51 @@ impl TimeSeriesRow<'_> {
 }
 
 /// The rows of a case: the approach, then the post-impact motion. Each impact has two rows of the same time, before and
-/// after it.
+/// after it. Of a long phase these are the samples in memory.
 pub fn rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = TimeSeriesRow<'a>> {
     let approach = case.approach(study);
-    let before = approach.samples.iter().map(move |sample| TimeSeriesRow {
-        time: sample.time,
-        phase: APPROACH,
-        sample,
-        targets: case.targets_before(approach.duration - sample.time),
+    let before = approach.samples.iter().map(move |sample| before_impact(approach, case, Cow::Borrowed(sample)));
+    let after = case.capture.iter().flat_map(move |captured| {
+        captured
+            .post_impact
+            .samples
+            .iter()
+            .zip(&captured.targets)
+            .map(move |(sample, targets)| after_impact(approach, Cow::Borrowed(sample), targets.clone()))
+    });
+    before.chain(after)
+}
+
+/// All rows of a case, as [`rows`]; those that are not in memory are read from a temporary file, one after the other.
+pub fn all_rows<'a>(study: &'a Study, case: &'a CaseResult) -> impl Iterator<Item = io::Result<TimeSeriesRow<'a>>> {
+    let approach = case.approach(study);
+    let before = approach.all_samples().map(move |sample| {
+        let sample = match sample? {
+            PhaseSample::InMemory(_, sample) => Cow::Borrowed(sample),
+            PhaseSample::Stored(sample, _) => Cow::Owned(*sample),
+        };
+        Ok(before_impact(approach, case, sample))
     });
     let after = case.capture.iter().flat_map(move |captured| {
-        captured.post_impact.samples.iter().zip(&captured.targets).map(move |(sample, targets)| TimeSeriesRow {
-            time: approach.duration + sample.time,
-            phase: "post_impact",
-            sample,
-            targets: targets.clone(),
+        captured.post_impact.all_samples().map(move |sample| {
+            Ok(match sample? {
+                PhaseSample::InMemory(i, sample) => {
+                    after_impact(approach, Cow::Borrowed(sample), captured.targets[i].clone())
+                }
+                PhaseSample::Stored(sample, targets) => after_impact(approach, Cow::Owned(*sample), targets),
+            })
         })
     });
     before.chain(after)
+}
+
+fn before_impact<'a>(approach: &Phase, case: &CaseResult, sample: Cow<'a, Sample>) -> TimeSeriesRow<'a> {
+    let targets = case.targets_before(approach.duration - sample.time);
+    TimeSeriesRow { time: sample.time, phase: APPROACH, sample, targets }
+}
+
+fn after_impact<'a>(approach: &Phase, sample: Cow<'a, Sample>, targets: Vec<Body>) -> TimeSeriesRow<'a> {
+    TimeSeriesRow { time: approach.duration + sample.time, phase: "post_impact", sample, targets }
 }
 
 /// The metadata of a time series' file, as keys and values: names, version, and the manifest of the run.

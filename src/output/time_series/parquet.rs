@@ -1,6 +1,6 @@
 //! The time series of a case as Parquet.
 
-use super::{Column, TimeSeriesRow, columns, provenance, rows};
+use super::{Column, TimeSeriesRow, all_rows, columns, provenance};
 use crate::capture::{CaseResult, Study};
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
@@ -16,8 +16,11 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Rows that are converted to arrays at a time; bounds the memory that writing takes.
-const BATCH: usize = 1 << 16;
+/// Rows that are converted to arrays at a time.
+const BATCH: usize = 1 << 13;
+
+/// Rows of a group, which is encoded in memory.
+const GROUP: usize = 1 << 16;
 
 /// Writes the columns of the CSV under the same names with the same values: f64, the phase a dictionary of text,
 /// compressed by zstd. The metadata of a numeric field has its `unit`, that of the file the [`provenance`].
@@ -42,11 +45,14 @@ pub fn write_parquet(
         .set_encoding(Encoding::BYTE_STREAM_SPLIT)
         .set_column_dictionary_enabled("phase".into(), true)
         .set_column_encoding("phase".into(), Encoding::PLAIN)
+        .set_max_row_group_row_count(Some(GROUP))
         .set_key_value_metadata(Some(origin))
         .build();
     let mut writer = ArrowWriter::try_new(to, Arc::clone(&schema), Some(properties)).map_err(failed)?;
-    let rows: Vec<TimeSeriesRow<'_>> = rows(study, case).collect();
-    for rows in rows.chunks(BATCH) {
+    let mut rows = all_rows(study, case).peekable();
+    while rows.peek().is_some() {
+        let rows = rows.by_ref().take(BATCH).collect::<io::Result<Vec<_>>>()?;
+        let rows = &rows[..];
         let batch = RecordBatch::try_new(Arc::clone(&schema), arrays(&columns, rows)).map_err(io::Error::other)?;
         writer.write(&batch).map_err(failed)?;
     }

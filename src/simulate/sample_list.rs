@@ -1,0 +1,61 @@
+//! The samples of a phase while it runs: all of them in memory, or of a long phase all in a file and a part in memory.
+
+use crate::simulate::Sample;
+use crate::simulate::sample_file::{SampleFile, SampleWriter};
+
+/// The largest number of samples of a phase in memory, up to a contact or its end. Figures and the report show these.
+pub const MOST_IN_MEMORY: usize = 10_000;
+
+/// The samples so far.
+#[derive(Debug, Default)]
+pub(crate) struct SampleList {
+    in_memory: Vec<Sample>,
+    /// The first of so many samples is kept in memory, less one.
+    skipped: usize,
+    /// All samples so far; the last of them where it is not in memory.
+    count: usize,
+    last: Option<Sample>,
+    file: Option<SampleWriter>,
+}
+
+impl SampleList {
+    /// Adds a sample.
+    pub(crate) fn push(&mut self, sample: Sample) {
+        if self.in_memory.len() == MOST_IN_MEMORY {
+            self.thin();
+        }
+        if let Some(file) = &mut self.file {
+            file.push(&sample, &[]);
+        }
+        let keep = self.count.is_multiple_of(self.skipped + 1);
+        self.count += 1;
+        if keep {
+            self.in_memory.push(sample);
+            self.last = None;
+        } else {
+            self.last = Some(sample);
+        }
+    }
+
+    /// Keeps every other sample in memory, and from now on half as many.
+    fn thin(&mut self) {
+        if self.file.is_none() {
+            let mut file = SampleWriter::new(&self.in_memory[0], &[]);
+            self.in_memory.iter().for_each(|sample| file.push(sample, &[]));
+            self.file = Some(file);
+        }
+        let mut i = 0;
+        self.in_memory.retain(|_| {
+            i += 1;
+            i % 2 == 1
+        });
+        self.skipped = 2 * self.skipped + 1;
+    }
+
+    /// The samples in memory, with the first and the last, and the file of all where these are not all.
+    pub(crate) fn end(self) -> (Vec<Sample>, Option<SampleFile>) {
+        let Self { mut in_memory, last, file, .. } = self;
+        in_memory.extend(last);
+        (in_memory, file.map(SampleWriter::finish))
+    }
+}
