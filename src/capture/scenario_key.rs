@@ -26,7 +26,8 @@ impl StudyError {
                 terminal_rates(scenario, error)
             }
             Self::InverseKinematics(InverseKinematicsError::OutOfReach { arm, .. }) => {
-                let arm = scenario.layout.arms.iter().position(|other| other.name == *arm).unwrap_or_default();
+                let arm = scenario.layout.arms.iter().position(|other| other.name == *arm);
+                let arm = arm.expect("the error names an arm of the layout");
                 key(format!("approach.final_end_effector_poses[{arm}]"), "none")
             }
             Self::InverseKinematics(InverseKinematicsError::NotConverged { .. }) => {
@@ -34,6 +35,7 @@ impl StudyError {
             }
             Self::Approach(stopped) => of_approach(scenario, stopped),
             Self::Inside { target, .. } => key(format!("target[{}].position", index(scenario, target)), "none"),
+            Self::TooFast { case, .. } => fastest(scenario, case),
             Self::Chatter { case, target, .. } => restitution(scenario, case, target),
             Self::Impact { case, .. } => contact_kind(scenario, case),
             Self::PostImpact { source, .. } => {
@@ -43,6 +45,15 @@ impl StudyError {
                 of_phase("post_impact", step, integration, source)
             }
         }
+    }
+}
+
+/// The twist of the target with the largest spin; without targets the approach.
+fn fastest(scenario: &Scenario, case: &str) -> ScenarioKey {
+    let twists = scenario.cases.iter().filter(|other| other.name == case).flat_map(|case| &case.target_twists);
+    match twists.enumerate().max_by(|(_, a), (_, b)| a[0].abs().total_cmp(&b[0].abs())) {
+        Some((target, twist)) => key(format!("target[{target}].twist"), format!("{twist:?}")),
+        None => key("approach", ""),
     }
 }
 
