@@ -19,6 +19,9 @@ pub struct ScenarioKey {
 
 impl StudyError {
     /// The key to change, or the first of several.
+    ///
+    /// # Panics
+    /// For the scenario of another study.
     #[must_use]
     pub fn key(&self, scenario: &Scenario) -> ScenarioKey {
         match self {
