@@ -281,6 +281,12 @@ FAULTS = [
         "const C: f64 = 0.0;",
     ),
     Fault(
+        "a minimum that drops what is not a number",
+        "crates/planar-dynamics/src/scalar/float.rs",
+        "if self < other || self.is_nan() { self } else { other }",
+        "if other < self { other } else { self }",
+    ),
+    Fault(
         "a graph proved by nothing",
         "crates/planar-build/src/prove/mod.rs",
         "if error > 1.0 {",

@@ -38,7 +38,7 @@ macro_rules! lanes {
 
             #[inline]
             fn minimum(self, other: Self) -> Self {
-                self.fast_min(other)
+                (self.simd_lt(other) | self.is_nan()).select(self, other)
             }
         }
     };

@@ -56,6 +56,6 @@ impl Scalar for Dual {
         Self(self.0.atan2(x.0), (x.0 * self.1 - self.0 * x.1) / square)
     }
     fn minimum(self, other: Self) -> Self {
-        if other.0 < self.0 { other } else { self }
+        if self.0 < other.0 || self.0.is_nan() { self } else { other }
     }
 }

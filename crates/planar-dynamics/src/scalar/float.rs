@@ -90,7 +90,7 @@ macro_rules! scalar {
 
             #[inline]
             fn minimum(self, other: Self) -> Self {
-                if other < self { other } else { self }
+                if self < other || self.is_nan() { self } else { other }
             }
         }
     };

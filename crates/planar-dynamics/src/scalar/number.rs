@@ -27,7 +27,7 @@ pub trait Scalar:
     #[must_use]
     fn atan2(self, x: Self) -> Self;
 
-    /// The smaller of two values; either one where one is NaN.
+    /// The smaller of two values; NaN where either is, so that it shows in the smallest of many.
     #[must_use]
     fn minimum(self, other: Self) -> Self;
 }

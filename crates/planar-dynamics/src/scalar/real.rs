@@ -21,10 +21,11 @@ pub trait Real:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// The larger of two values; `self` where one is NaN.
+    /// The larger of two values; NaN where either is, so that it shows in the largest of many.
     #[must_use]
     fn maximum(self, other: Self) -> Self {
-        if other > self { other } else { self }
+        let is_nan = self.partial_cmp(&self).is_none();
+        if self > other || is_nan { self } else { other }
     }
 
     /// The value, or where its magnitude exceeds `limit`, `limit` with the value's sign.

@@ -9,6 +9,7 @@ mod float;
 mod generic;
 mod identities;
 mod light_last_link;
+mod not_a_number;
 mod references;
 mod scalars;
 mod trajectory;
