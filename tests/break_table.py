@@ -273,6 +273,12 @@ FAULTS = [
         "|e| e * *impulse",
         "|e| T::ZERO * e * *impulse",
     ),
+    Fault(
+        "angular momentum left about the base's position at the start",
+        "src/capture/origin.rs",
+        "sample.momentum.angular_momentum += self.moment(sample.momentum.linear_momentum);",
+        "",
+    ),
     # modules for other crates
     Fault(
         "last part of π/2 forgotten",

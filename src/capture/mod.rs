@@ -9,6 +9,7 @@ pub mod contact_detection;
 pub mod contact_pair;
 pub mod contact_response;
 pub mod impact;
+mod origin;
 pub mod post_capture;
 mod proximity;
 pub(crate) mod reach;
@@ -24,6 +25,7 @@ use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKin
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
 use crate::capture::clearance::{Clearance, ClosestApproach};
 use crate::capture::impact::{ImpactResult, ImpactSolution};
+use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
@@ -190,11 +192,26 @@ pub trait Observer {
     fn step(&mut self);
 }
 
-/// Simulates a scenario; samples are `sample` seconds apart.
+/// Simulates a scenario; samples are `sample` seconds apart. Positions in the results are as exact as double precision
+/// writes them, all else does not depend on how far the robot is from the inertial origin.
 ///
 /// # Errors
 /// [`StudyError`].
 pub fn study(
+    scenario: &Scenario,
+    make: ModelFactory<'_>,
+    sample: f64,
+    observer: &mut dyn Observer,
+) -> Result<Study, StudyError> {
+    match Origin::of(scenario) {
+        Some(origin) => {
+            study_about_origin(&origin.relative(scenario), make, sample, observer).map(|study| origin.absolute(study))
+        }
+        None => study_about_origin(scenario, make, sample, observer),
+    }
+}
+
+fn study_about_origin(
     scenario: &Scenario,
     make: ModelFactory<'_>,
     sample: f64,

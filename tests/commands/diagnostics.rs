@@ -166,6 +166,17 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("[0.1, 0.2]", "[0.1]", 4, &["`initial.joint_angles` is [0.1]", "2 numbers", "left: 2", "found 1"]),
     ("[0.1, 0.2]", "[40, -90]", 4, &["`initial.joint_angles[0]` is 40", "0.698", "degrees"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_pose = [1, 2]", 5, &["`initial.base_pose` is [1, 2]", "[yaw, x, y] in rad, m, m"]),
+    (
+        "[0.1, 0.2]",
+        "[0.1, 0.2]\nbase_pose = [0, 0, -1e14]",
+        5,
+        &[
+            "`initial.base_pose` is [0, 0, -1e14]: 1.000e14 m from the inertial origin",
+            "at most 2.500e9 m",
+            "reach of 2.500 m",
+        ],
+    ),
+    ("radius = 0.5", "radius = 0.5\nposition = [3e9, 0]", 17, &["`target[0].position` is [3e9, 0]", "nearer origin"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\njoint_rate = [0, 0]", 5, &["unknown key `initial.joint_rate`", "`joint_rates`"]),
     ("duration = 20.0", "duration = 0", 6, &["`approach.duration` is 0", "a duration in s greater than 0"]),

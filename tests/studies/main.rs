@@ -8,6 +8,7 @@ mod clearance;
 mod control;
 mod convergence;
 mod events;
+mod far_origin;
 mod figures;
 mod inverse_kinematics;
 mod long_phases;

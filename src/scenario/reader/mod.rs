@@ -5,6 +5,7 @@ mod approach;
 mod capture;
 mod case;
 mod clearance;
+mod distance;
 mod integration;
 mod joints;
 mod limits;
@@ -16,6 +17,7 @@ use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::scenario::{ClearanceRules, Scenario, Tracking};
+use distance::check_distance;
 use joints::Joints;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -124,6 +126,10 @@ impl Scenario {
             let limits =
                 read_or(root, "limits", Vec::new(), |value| limits::joint_limits(&value.table(limits::KEYS)?, &joints));
             if let (Some(table), Some(initial)) = (&initial_table, &initial) {
+                if let Some(value) = table.get("base_pose") {
+                    let [_, x, y] = initial.base_pose;
+                    check_distance(&value, [x, y], layout.as_ref());
+                }
                 let from_rest = approach.as_ref().is_some_and(|approach| {
                     approach.tracking == Tracking::InverseDynamics && approach.trajectory.properties().starts_at_rest
                 });

@@ -1,5 +1,6 @@
 //! `[[target]]`: the bodies that arms touch.
 
+use super::distance::check_distance;
 use super::joints::check_length;
 use super::{LARGEST_ANGLE, POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
@@ -61,6 +62,9 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
         }
         Detection::Time => read_or(table, "position", None, |value| value.vector(&POSITION).map(Some)),
     };
+    if let (Some(value), Some(Some(position))) = (table.get("position"), position) {
+        check_distance(&value, position, layout);
+    }
     let contacts = arms?.into_iter().zip(points?).zip(kinds?);
     let target = Target {
         name: name?.to_owned(),

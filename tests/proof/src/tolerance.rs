@@ -227,3 +227,6 @@ pub const MERGED_MOTION: f64 = 1e-9;
 pub const ENERGY_OF_AN_IMPACT: f64 = 1e-12;
 /// Velocities, momentum and energy of order 1 shown by a figure, against mechanics: their drift over a phase is 1e-11.
 pub const FIGURE_VALUES: f64 = 1e-9;
+/// Time (s) and impulses (N s, N m s) of a contact with a target at 1e6 m: 1.2e-10 m of its position over an approach speed
+/// of some centimetres per second.
+pub const FAR_CONTACT: f64 = 2e-8;

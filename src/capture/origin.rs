@@ -1,0 +1,97 @@
+//! The origin that a study is computed about: the base's position at the start, so that a robot far from the inertial
+//! origin loses no digits of the distances between its end effectors and targets.
+//!
+//! Mechanics does not depend on the origin but for positions and the angular momentum about it,
+//! `l = l' + r × p`. Conservation is audited about the same point.
+
+use crate::capture::Study;
+use crate::capture::impact::{ImpactResult, ImpactSolution};
+use crate::scenario::{EndEffectorGoal, Scenario};
+use crate::simulate::Phase;
+use crate::simulate::system::Body;
+
+/// A position [x, y], m, inertial frame.
+#[derive(Clone, Copy)]
+pub(crate) struct Origin([f64; 2]);
+
+impl Origin {
+    /// Of a scenario; `None` where it is the inertial origin.
+    pub(crate) fn of(scenario: &Scenario) -> Option<Self> {
+        let [_, x, y] = scenario.initial.base_pose;
+        (x != 0.0 || y != 0.0).then_some(Self([x, y]))
+    }
+
+    /// The scenario with its positions counted from here.
+    pub(crate) fn relative(self, scenario: &Scenario) -> Scenario {
+        let mut scenario = scenario.clone();
+        self.subtract(&mut scenario.initial.base_pose);
+        for position in scenario.targets.iter_mut().filter_map(|target| target.position.as_mut()) {
+            self.subtract(position);
+        }
+        for goal in scenario.approach.final_end_effector_poses.iter_mut().flatten() {
+            match goal {
+                EndEffectorGoal::Any => {}
+                EndEffectorGoal::Position(position) => self.subtract(position),
+                EndEffectorGoal::Pose(pose) => self.subtract(pose),
+            }
+        }
+        scenario
+    }
+
+    /// The results of that scenario with positions and angular momenta from and about the inertial origin.
+    pub(crate) fn absolute(self, mut study: Study) -> Study {
+        self.phase(&mut study.approach);
+        for case in &mut study.cases {
+            case.approach.iter_mut().for_each(|approach| self.phase(approach));
+            self.bodies(&mut case.targets);
+            let Some(capture) = &mut case.capture else { continue };
+            let later = capture.later_impacts.iter_mut().map(|later| &mut later.impact);
+            for ImpactSolution { exact, paper, .. } in std::iter::once(&mut capture.impact).chain(later) {
+                self.impact(exact);
+                if let Some(paper) = paper {
+                    self.impact(paper);
+                }
+            }
+            self.phase(&mut capture.post_impact);
+            capture.targets.iter_mut().for_each(|targets| self.bodies(targets));
+        }
+        study
+    }
+
+    fn phase(self, phase: &mut Phase) {
+        let joints = phase.samples.first().map_or(0, |sample| sample.state.joint_angles.len());
+        phase.path.translate(joints, self.0);
+        for sample in &mut phase.samples {
+            self.add(&mut sample.state.base_pose);
+            sample.end_effector_poses.iter_mut().for_each(|pose| self.add(pose));
+            self.bodies(&mut sample.bodies);
+            sample.momentum.angular_momentum += self.moment(sample.momentum.linear_momentum);
+        }
+    }
+
+    fn impact(self, impact: &mut ImpactResult) {
+        let [l, px, py] = &mut impact.momentum_jump;
+        *l += self.moment([*px, *py]);
+    }
+
+    fn bodies(self, bodies: &mut [Body]) {
+        for body in bodies {
+            self.add(&mut body.pose);
+        }
+    }
+
+    /// r × p.
+    fn moment(self, [px, py]: [f64; 2]) -> f64 {
+        let Self([x, y]) = self;
+        x * py - y * px
+    }
+
+    /// Moves [x, y] or [yaw, x, y] to the inertial frame.
+    fn add(self, pose: &mut [f64]) {
+        pose.iter_mut().rev().zip(self.0.iter().rev()).for_each(|(value, origin)| *value += origin);
+    }
+
+    fn subtract(self, pose: &mut [f64]) {
+        Self(self.0.map(|value| -value)).add(pose);
+    }
+}
