@@ -203,13 +203,13 @@ FAULTS = [
     Fault(
         "scale of the audit twice too large",
         "src/simulate/conservation.rs",
-        "if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }",
-        "if self.scale > 0.0 { self.deviation / (2.0 * self.scale) } else { 0.0 }",
+        "if self.scale == 0.0 { 0.0 } else { self.deviation / self.scale }",
+        "if self.scale == 0.0 { 0.0 } else { self.deviation / (2.0 * self.scale) }",
     ),
     Fault(
         "angular momentum left out of the drift",
         "src/simulate/conservation.rs",
-        "self.linear.value().max(self.angular.value())",
+        "Real::maximum(self.linear.value(), self.angular.value())",
         "self.linear.value()",
     ),
     Fault(

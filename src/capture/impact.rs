@@ -8,6 +8,7 @@ use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use crate::owned::RobotState;
+use crate::scalar::Real;
 use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
 use crate::state::State;
@@ -207,9 +208,9 @@ fn balance(
     let (end, end_sizes) = total(assembly, &moving, &moved.collect::<Vec<_>>())?;
     let [px, py] = [0, 1].map(|i: usize| end.linear_momentum[i] - start.linear_momentum[i]);
     let jump = [end.angular_momentum - start.angular_momentum, px, py];
-    let relative = |jump: f64, scale: f64| if scale > 0.0 { jump / scale } else { 0.0 };
-    let angular = relative(jump[0].abs(), start_sizes[0].max(end_sizes[0]));
-    let linear = relative(px.hypot(py), start_sizes[1].max(end_sizes[1]));
+    let relative = |jump: f64, scale: f64| if scale == 0.0 { 0.0 } else { jump / scale };
+    let angular = relative(jump[0].abs(), Real::maximum(start_sizes[0], end_sizes[0]));
+    let linear = relative(px.hypot(py), Real::maximum(start_sizes[1], end_sizes[1]));
     let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> [f64; 3]| {
         let contact = |arm| contacts.iter().enumerate().find(|(_, contact)| contact.arm == arm);
         (0..assembly.model.arms()).map(|arm| contact(arm).map(|(i, contact)| value(i, contact))).collect()
@@ -219,7 +220,7 @@ fn balance(
         target_twists_after: per_arm(&|_, contact| twists[contact.target]),
         impulses: per_arm(&|i, _| impulses[i]),
         momentum_jump: jump,
-        relative_momentum_jump: angular.max(linear),
+        relative_momentum_jump: Real::maximum(angular, linear),
         kinetic_energy_before: start.kinetic_energy,
         kinetic_energy_after: end.kinetic_energy,
         joint_rates_after: joint_rates.clone(),

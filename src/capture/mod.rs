@@ -311,7 +311,7 @@ impl Study {
                 std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));
             found.extend(impacts.flat_map(|impact| impact_failures(&case.name, &impact.exact)));
             found.extend(phase_failures(&format!("{}, post-impact", case.name), &captured.post_impact));
-            if captured.penetration > PENETRATION_BOUND {
+            if exceeds(captured.penetration, PENETRATION_BOUND) {
                 found.push(format!(
                     "{}: an end effector is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
                     case.name, captured.penetration
@@ -333,7 +333,7 @@ fn impact_failures(case: &str, exact: &ImpactResult) -> Vec<String> {
     if exceeds(jump, MOMENTUM_BOUND) {
         found.push(format!("{case}: the exact impact changes the momentum by {jump:.2e} of it"));
     }
-    if exact.kinetic_energy_after > exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND) {
+    if exceeds(exact.kinetic_energy_after, exact.kinetic_energy_before * (1.0 + MOMENTUM_BOUND)) {
         found.push(format!(
             "{case}: the exact impact raises the kinetic energy from {} J to {} J",
             exact.kinetic_energy_before, exact.kinetic_energy_after

@@ -3,6 +3,7 @@
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::owned::RobotState;
+use crate::scalar::Real;
 use crate::scenario::PostCaptureControl;
 use crate::simulate::bodies::{bodies, center_of_mass, inertia_about, with_bodies};
 use crate::simulate::system::Body;
@@ -57,7 +58,7 @@ impl ResidualMotion {
             base_rate,
             largest_joint_rate: joints()
                 .filter(|(_, wheel)| !**wheel)
-                .fold(0.0, |most, (rate, _)| rate.abs().max(most)),
+                .fold(0.0, |most: f64, (rate, _)| Real::maximum(most, rate.abs())),
             wheel_rates: joints().filter(|(_, wheel)| **wheel).map(|(rate, _)| *rate).collect(),
         })
     }

@@ -2,6 +2,7 @@
 
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
+use crate::scalar::Real;
 use crate::simulate::bodies::{bodies, center_of_mass, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
 use crate::state::State;
@@ -26,9 +27,9 @@ impl ConservationErrors {
     #[must_use]
     pub fn worse(&self, other: &Self) -> Self {
         Self {
-            momentum_drift: self.momentum_drift.max(other.momentum_drift),
-            energy_error: self.energy_error.max(other.energy_error),
-            center_of_mass_drift: self.center_of_mass_drift.max(other.center_of_mass_drift),
+            momentum_drift: Real::maximum(self.momentum_drift, other.momentum_drift),
+            energy_error: Real::maximum(self.energy_error, other.energy_error),
+            center_of_mass_drift: Real::maximum(self.center_of_mass_drift, other.center_of_mass_drift),
         }
     }
 }
@@ -64,12 +65,12 @@ struct Ratio {
 
 impl Ratio {
     fn record(&mut self, deviation: f64, scale: f64) {
-        self.deviation = self.deviation.max(deviation.abs());
-        self.scale = self.scale.max(scale);
+        self.deviation = Real::maximum(self.deviation, deviation.abs());
+        self.scale = Real::maximum(self.scale, scale);
     }
 
     fn value(self) -> f64 {
-        if self.scale > 0.0 { self.deviation / self.scale } else { 0.0 }
+        if self.scale == 0.0 { 0.0 } else { self.deviation / self.scale }
     }
 }
 
@@ -118,7 +119,7 @@ impl<'a> ConservationAudit<'a> {
     #[must_use]
     pub fn drift(&self) -> ConservationErrors {
         ConservationErrors {
-            momentum_drift: self.linear.value().max(self.angular.value()),
+            momentum_drift: Real::maximum(self.linear.value(), self.angular.value()),
             energy_error: self.energy.value(),
             center_of_mass_drift: self.motion.value(),
         }

@@ -14,17 +14,17 @@ pub struct JointLimits {
 }
 
 impl JointLimits {
-    /// The limit that an angle is beyond, rad.
+    /// The limit that an angle is beyond, rad; NaN is beyond every limit.
     #[must_use]
     pub fn angle_beyond(&self, angle: f64) -> Option<f64> {
         let [low, high] = self.angles?;
-        [(angle < low, low), (angle > high, high)].into_iter().find_map(|(beyond, limit)| beyond.then_some(limit))
+        if angle < low { Some(low) } else { (angle > high || angle.is_nan()).then_some(high) }
     }
 
-    /// The limit that a rate is beyond, rad/s, with the sign of the rate.
+    /// The limit that a rate is beyond, rad/s, with the sign of the rate; NaN is beyond every limit.
     #[must_use]
     pub fn rate_beyond(&self, rate: f64) -> Option<f64> {
-        self.rate.filter(|limit| rate.abs() > *limit).map(|limit| limit.copysign(rate))
+        self.rate.filter(|limit| rate.abs() > *limit || rate.is_nan()).map(|limit| limit.copysign(rate))
     }
 }
 

@@ -20,6 +20,7 @@ use crate::control::Control;
 use crate::dynamics::Momentum;
 use crate::error::Error;
 use crate::owned::RobotState;
+use crate::scalar::{Real, Scalar};
 use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
@@ -154,9 +155,11 @@ impl Phase {
             event: next.event.map(|(event, time)| (event, self.duration + time)),
             duration: self.duration + next.duration,
             drift: self.drift.worse(&next.drift),
-            constraint_errors: std::array::from_fn(|i| self.constraint_errors[i].max(next.constraint_errors[i])),
+            constraint_errors: std::array::from_fn(|i| {
+                Real::maximum(self.constraint_errors[i], next.constraint_errors[i])
+            }),
             singularity_margin: match [self.singularity_margin, next.singularity_margin] {
-                [Some(before), Some(after)] => Some(before.min(after)),
+                [Some(before), Some(after)] => Some(Scalar::minimum(before, after)),
                 [before, after] => before.or(after),
             },
             limit_violations: match (self.limit_violations, next.limit_violations) {

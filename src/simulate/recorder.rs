@@ -3,6 +3,7 @@
 use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
+use crate::scalar::Real;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::PathRecorder;
@@ -57,7 +58,7 @@ impl<'a> Recorder<'a> {
         let work = ActuatorWork::from_vector(x)?;
         let input = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
         let errors = self.system.constraint_errors(x)?;
-        self.constraint_errors = std::array::from_fn(|i| errors[i].max(self.constraint_errors[i]));
+        self.constraint_errors = std::array::from_fn(|i| Real::maximum(errors[i], self.constraint_errors[i]));
         self.limit_violations.record(self.system.joint_limits, time, &state);
         let (halves, _) = x.split_at(x.len() - 3);
         self.path.record(time, halves);

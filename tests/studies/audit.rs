@@ -2,11 +2,13 @@
 
 use crate::command;
 use crate::{run, scenario, summary};
+use planar_capture::capture::impact::ImpactResult;
+use planar_capture::capture::{CaptureResult, LaterImpact, Study};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario, Tracking};
 use planar_capture::simulate::Phase;
-use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit};
+use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit, ConservationErrors};
 use planar_capture::simulate::limits::{JointLimits, LimitViolation, LimitViolations};
 use planar_capture::simulate::system::Body;
 use planar_capture::state::State;
@@ -98,6 +100,102 @@ fn a_drift_of_the_centre_of_mass_is_an_objection() {
     );
     study.approach.drift.center_of_mass_drift = f64::NAN;
     assert_eq!(study.audit_failures().len(), 1);
+}
+
+/// Sets a number of a study.
+type Change = fn(&mut Study, f64);
+
+/// Every number that the audit judges: a little over its bound, which README states, or not a number, it is one objection; a little under, none.
+#[test]
+fn every_audited_number_has_its_bound() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.cases.truncate(1);
+    let mut study = run(&scenario);
+    let first = capture(&mut study).impact.clone();
+    capture(&mut study).later_impacts = vec![LaterImpact { time: 1.0, impact: first }];
+    assert_eq!(study.audit_failures(), Vec::<String>::new());
+    let numbers: [(&str, f64, Change); 13] = [
+        ("approach: momentum drift", 1e-9, |s, x| s.approach.drift.momentum_drift = x),
+        ("approach: energy error", 1e-6, |s, x| s.approach.drift.energy_error = x),
+        ("post-impact: momentum drift", 1e-9, |s, x| capture(s).post_impact.drift.momentum_drift = x),
+        ("post-impact: energy error", 1e-6, |s, x| capture(s).post_impact.drift.energy_error = x),
+        ("centre-of-mass drift", 1e-9, |s, x| capture(s).post_impact.drift.center_of_mass_drift = x),
+        ("approach: opening of", 1e-10, |s, x| s.approach.constraint_errors[0] = x),
+        ("post-impact: opening of", 1e-10, |s, x| capture(s).post_impact.constraint_errors[0] = x),
+        ("post-impact: rate of opening of", 1e-10, |s, x| capture(s).post_impact.constraint_errors[1] = x),
+        ("changes the momentum", 1e-9, |s, x| capture(s).impact.exact.relative_momentum_jump = x),
+        ("changes the momentum", 1e-9, |s, x| {
+            capture(s).later_impacts[0].impact.exact.relative_momentum_jump = x;
+        }),
+        ("raises the kinetic energy", 1e-9, |s, x| raise_energy(&mut capture(s).impact.exact, x)),
+        ("raises the kinetic energy", 1e-9, |s, x| {
+            raise_energy(&mut capture(s).later_impacts[0].impact.exact, x);
+        }),
+        ("inside a target", 1e-6, |s, x| capture(s).penetration = x),
+    ];
+    for (what, bound, change) in numbers {
+        let failures = |value: f64| {
+            let mut study = study.clone();
+            change(&mut study, value);
+            study.audit_failures()
+        };
+        assert_eq!(failures(0.99 * bound), Vec::<String>::new(), "{what}");
+        for value in [1.01 * bound, f64::INFINITY, f64::NAN] {
+            let found = failures(value);
+            assert!(matches!(found.as_slice(), [one] if one.contains(what)), "{what} of {value}: {found:?}");
+        }
+    }
+}
+
+fn capture(study: &mut Study) -> &mut CaptureResult {
+    study.cases[0].capture.as_mut().expect("a capture")
+}
+
+fn raise_energy(impact: &mut ImpactResult, part: f64) {
+    impact.kinetic_energy_after = impact.kinetic_energy_before * (1.0 + part);
+}
+
+/// A number that is not one stays in every largest error.
+#[test]
+fn what_is_not_a_number_stays_in_the_largest() {
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = registry::generated(&layout).expect("generated code");
+    let state = State {
+        base_pose: [0.0; 3],
+        joint_angles: &[0.3, -1.2, 0.7],
+        base_twist: [0.1, 0.2, 0.3],
+        joint_rates: &[0.1; 3],
+    };
+    let drift = |input: AccumulatedInput| {
+        let mut audit = ConservationAudit::new(&*model, &state, &[]).expect("a state");
+        audit.record(&state, &[], &input).expect("a state");
+        audit.record(&state, &[], &AccumulatedInput::default()).expect("a state");
+        audit.drift()
+    };
+    let none = AccumulatedInput::default();
+    assert!(drift(AccumulatedInput { work: f64::NAN, ..none }).energy_error.is_nan());
+    assert!(drift(AccumulatedInput { time: f64::NAN, ..none }).center_of_mass_drift.is_nan());
+    for place in 0..3 {
+        let mut impulse = [0.0; 3];
+        impulse[place] = f64::NAN;
+        assert!(drift(AccumulatedInput { impulse, ..none }).momentum_drift.is_nan(), "{place}");
+    }
+    let fine = ConservationErrors::default();
+    let bad = ConservationErrors { momentum_drift: f64::NAN, energy_error: f64::NAN, center_of_mass_drift: f64::NAN };
+    for both in [fine.worse(&bad), bad.worse(&fine)] {
+        let errors = [both.momentum_drift, both.energy_error, both.center_of_mass_drift];
+        assert!(errors.iter().all(|error| error.is_nan()), "{errors:?}");
+    }
+    let mut phase = run(&scenario("redysim_single_arm_3r")).approach;
+    phase.constraint_errors = [f64::NAN, 0.0];
+    phase.singularity_margin = Some(f64::NAN);
+    let fine = Phase { constraint_errors: [0.0; 2], singularity_margin: Some(0.5), ..phase.clone() };
+    for both in [fine.clone().then(phase.clone()), phase.then(fine)] {
+        assert!(both.constraint_errors[0].is_nan() && both.singularity_margin.is_some_and(f64::is_nan));
+    }
+    let limits = JointLimits { angles: Some([-1.0, 1.0]), rate: Some(1.0), ..JointLimits::default() };
+    assert!(limits.angle_beyond(f64::NAN).is_some() && limits.rate_beyond(f64::NAN).is_some());
+    assert!(limits.angle_beyond(0.0).is_none() && limits.rate_beyond(-1.0).is_none());
 }
 
 fn limited(layout: &Layout, angles: [f64; 2], rate: f64) -> Vec<JointLimits> {
@@ -235,9 +333,7 @@ fn limits_are_monitored_and_not_enforced() {
     assert!(matches!(after.control, PostCaptureControl::Stabilise { .. }));
     let monitored = run(&scenario);
     assert_eq!(free.approach.samples, monitored.approach.samples);
-    let of = |study: &planar_capture::capture::Study| {
-        study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone()
-    };
+    let of = |study: &Study| study.cases[0].capture.as_ref().expect("one").post_impact.samples.clone();
     assert_eq!(of(&free), of(&monitored));
     assert!(free.approach.limit_violations.is_none() && monitored.approach.limit_violations.is_some());
 }
