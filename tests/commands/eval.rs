@@ -177,6 +177,11 @@ fn text_that_is_no_array_of_states_is_an_error_with_its_line() {
             0,
             "`base_pose` is given twice",
         ),
+        (
+            "[\n{\"base_pose\": [0, 0, 0],\n\n\"base_pose\": [0, 0, 0]}]".to_owned(),
+            0,
+            "line 4: state 0: `base_pose` is given",
+        ),
         (format!("[{good},{}", "[".repeat(100_000)), 1, "state 1: expected the end of this state"),
     ];
     for (text, count, said) in cases {

@@ -236,6 +236,78 @@ fn a_wrong_graph_is_not_rendered() {
     assert!(matches!(graph::read("{}", &layout), Err(GraphError::Format(_))));
 }
 
+/// A graph without one of its results, or without a function, is not proved by the rest.
+#[test]
+fn a_graph_with_a_result_missing_is_not_proved() {
+    let (layout, text) = shipped("single_arm_2r");
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    let functions =
+        |graph: &Value, family: usize| graph["families"][family]["functions"].as_array().map_or(0, Vec::len);
+    for family in 0..whole["families"].as_array().expect("families").len() {
+        for function in 0..functions(&whole, family) {
+            let mut without_result = whole.clone();
+            let outputs = without_result["families"][family]["functions"][function]["outputs"].as_array_mut();
+            let outputs = outputs.expect("outputs");
+            let gone = outputs.remove(0);
+            let is_empty = outputs.is_empty();
+            if !is_empty && gone["name"] != "smallest_pivot" {
+                let found = prove(&layout, &parsed(&without_result.to_string(), &layout));
+                assert!(matches!(&found, Err(GenerateError::Graph(_))), "without {gone}: {found:?}");
+            }
+            let mut without_function = whole.clone();
+            without_function["families"][family]["functions"].as_array_mut().expect("functions").remove(function);
+            let found = prove(&layout, &parsed(&without_function.to_string(), &layout));
+            assert!(matches!(&found, Err(GenerateError::Graph(_))), "without a function: {found:?}");
+        }
+    }
+}
+
+/// A module whose parameters are not those of its manifest, or that exchanges two of them, fails its own test: one that
+/// starts from the defaults would not see it.
+#[test]
+fn a_modules_own_test_sees_its_parameters() {
+    let (layout, text) = shipped("single_arm_2r");
+    let graph = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}")).graph;
+    let module = Module { standalone: true, item: false, source: "a", command: "b" };
+    let text = module.render(&graph).unwrap_or_else(|e| panic!("{e}"));
+    let mass = format!("default: {:?}", layout.base.mass);
+    let folder = TempDir::new().expect("a folder");
+    let passes = |text: &str| {
+        let (source, binary) = (folder.path().join("robot.rs"), folder.path().join("robot_test"));
+        fs::write(&source, text).expect("written");
+        let mut compile = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+        compile.args(["--edition", "2024", "--test", "-o"]).arg(&binary).arg(&source);
+        assert_eq!(outcome(compile).0, 0);
+        outcome(Command::new(&binary)).0 == 0
+    };
+    assert!(passes(&text));
+    for (right, wrong) in [
+        (mass.as_str(), "default: 1.5"),
+        ("self.base_mass, self.base_inertia", "self.base_inertia, self.base_mass"),
+        ("base_mass, base_inertia,", "base_inertia, base_mass,"),
+    ] {
+        assert!(text.contains(right), "`{right}`");
+        assert!(!passes(&text.replacen(right, wrong, 1)), "`{wrong}`");
+    }
+}
+
+/// The file's name is the module's.
+#[test]
+fn a_layout_has_the_name_of_its_file() {
+    let folder = TempDir::new().expect("a folder");
+    for extension in ["toml", "json"] {
+        let from = match extension {
+            "toml" => file("codegen/layouts/single_arm_2r.toml"),
+            _ => file("codegen/graphs/single_arm_2r.json"),
+        };
+        fs::copy(from, folder.path().join(format!("other.{extension}"))).expect("copied");
+    }
+    let out = TempDir::new().expect("a folder");
+    let name = render_to(folder.path(), out.path()).expect_err("another name").to_string();
+    assert!(name.contains("has to be the file's own name, \"other\""), "{name}");
+    assert_eq!(fs::read_dir(out.path()).expect("a folder").count(), 0);
+}
+
 #[test]
 fn a_module_is_the_same_every_time() {
     let (layout, text) = shipped("single_arm_2r");

@@ -294,6 +294,16 @@ fn a_twist_out_of_reach_is_refused_with_its_numbers() {
     let (code, _, err, _) = run_text(&text.replace(&text[start..end], straight));
     assert_eq!(code, 2, "{err}");
     assert!(err.contains("out of reach") && err.contains("singular values"), "{err}");
+    // nor by a thousandth of the velocity across
+    let heavy = include_str!("../../codegen/layouts/single_arm_3r.toml");
+    let heavy = heavy.replacen("mass = ", "mass = 1e9 # ", 1).replacen("inertia = ", "inertia = 1e9 # ", 1);
+    let folder = TempDir::new().expect("a folder");
+    fs::write(folder.path().join("heavy.toml"), heavy).expect("written");
+    let text = text.replace(&text[start..end], straight).replace("[[0.0, 5.0, 0.0]]", "[[0.0, 5e-5, 0.1]]");
+    let layout = format!("layout = \"{}\"", folder.path().join("heavy.toml").display());
+    let (code, _, err, _) = run_text(&text.replace("layout = \"single_arm_3r\"", &layout));
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("out of reach"), "{err}");
 }
 
 /// Limits of an integrator are reported with a remedy: as invalid input where it never applies, as a stopped study

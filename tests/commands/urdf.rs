@@ -134,6 +134,23 @@ fn a_normal_along_x_takes_y_for_the_planes_x_axis() {
     assert_links(&import, 0, &[[1.0, 3.0, 1.0, 0.5, 0.0]]);
 }
 
+/// Only what rounding leaves of an exact zero becomes one.
+#[test]
+fn a_small_offset_is_kept() {
+    let offset = 1e-5;
+    let import = imported(&changed(
+        "<link name=\"lower\"><inertial><origin xyz=\"0.5 0 0\"/>",
+        &format!("<link name=\"lower\"><inertial><origin xyz=\"0.5 {offset:e} 0\"/>"),
+    ));
+    assert_close("COM", &import.layout.arms[0].links[1].com, &[0.5, offset], tolerance::URDF);
+    let import = imported(&changed(
+        "<origin xyz=\"0.5 0 0\"/><axis",
+        &format!("<origin xyz=\"0.5 {offset:e} 0\" rpy=\"0 0 {offset:e}\"/><axis"),
+    ));
+    assert_close("mount", &import.layout.arms[0].mount, &[0.5, offset], tolerance::URDF);
+    assert_close("mount angle", &[import.layout.arms[0].mount_angle], &[offset], tolerance::URDF);
+}
+
 #[test]
 fn an_axis_the_other_way_changes_the_sign_of_its_joint_alone() {
     let from = "<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>";

@@ -3,12 +3,15 @@
 use crate::scenario;
 use planar_capture::contact::{Contact, ContactLaw, ContactPartner, LoopConstraint};
 use planar_capture::control::{Control, ProportionalDerivative, SampledControl, Stabilisation, ZeroTorque};
+use planar_capture::error::Error;
+use planar_capture::integrate::GaussLegendre;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 use planar_capture::simulate::system::{Body, System};
 use planar_capture::simulate::{Phase, Sample, Timing, simulate};
+use planar_capture::state::State;
 use planar_capture::trajectory::{ConstantSetpoint, Cycloidal, PointToPoint};
 use planar_proof::{assert_close, difference, tolerance};
 use std::f64::consts::PI;
@@ -227,6 +230,83 @@ fn a_closed_loop_by_every_scheme() {
     }
     let moved = difference(&reference.end().state.joint_angles, &start.joint_angles);
     assert!(moved > 0.01, "{moved} rad");
+}
+
+/// Constraints that are open at the start are closed before the first adaptive step, not only after the last one: the
+/// motion is that of the closed state.
+#[test]
+fn adaptive_steps_start_on_the_constraints() {
+    let model = model();
+    let start = tumbling();
+    let mut poses = [[0.0; 3]; 2];
+    model.end_effector_poses(&start.base_pose, &start.joint_angles, &mut poses).expect("poses");
+    let pose = [0.4, poses[0][1] + 0.2, poses[0][2] - 0.1];
+    let body = Body { mass: 20.0, inertia: 3.0, pose, twist: [0.0; 3] };
+    let contact = Contact { arm: 0, partner: ContactPartner::Body(0), offset: [-0.2, 0.1], law: ContactLaw::Rigid };
+    let constraints = [LoopConstraint::new(&contact, &poses[0], &pose).expect("a constraint")];
+    // open by a millimetre, and at a rate, as the body is at rest
+    let open = Body { pose: [0.4, pose[1] + 1e-3, pose[2]], ..body };
+    let system = System { model: &*model, bodies: &[open], constraints: &constraints, joint_limits: &[] };
+    let mut x = system.vector(&start.view()).expect("a vector");
+    system.restore(&mut x).expect("a closed state");
+    let closed = RobotState::from_view(&State::from_vector(&x, 6).expect("a state"));
+    let bodies = system.bodies_at(&x).expect("bodies");
+    let run = |system: &System<'_>, start: &RobotState| {
+        // one step of the phase, many of the integrator
+        let integration = Integration { integrator: ADAPTIVE, coordinates: FULL };
+        let timing = Timing { duration: 1.0, step: 1.0, sample: 1.0, integration };
+        let phase = simulate(system, &mut ZeroTorque, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+        [&values(&phase.end().state)[..], &phase.end().bodies[0].pose].concat()
+    };
+    let expected = run(&System { bodies: &bodies, ..system }, &closed);
+    assert_close("motion", &run(&system, &start), &expected, tolerance::CLOSED_LOOP);
+}
+
+/// A Gauss–Legendre step of three stages multiplies a solution of x' = z x by the Padé approximant (3, 3) of exp z: its
+/// iteration stops at rounding, also where it contracts slowly.
+#[test]
+fn gauss_legendre_stages_are_solved_to_rounding() {
+    for step in [0.1_f64, 0.5, 1.0, 1.5] {
+        // x'' = -x: z = i h
+        let square = step * step;
+        let (even, odd) = (1.0 - square / 10.0, step * (0.5 - square / 120.0));
+        // (even + i odd) / (even - i odd)
+        let norm = even * even + odd * odd;
+        let (cosine, sine) = ((even * even - odd * odd) / norm, 2.0 * even * odd / norm);
+        let mut workspace = [0.0; 2 * GaussLegendre::<f64>::WORKSPACE];
+        let mut x = [1.0, 0.0];
+        let mut integrator = GaussLegendre::new(&mut workspace).expect("a workspace");
+        let rate = |_: f64, x: &[f64], rate: &mut [f64]| {
+            (rate[0], rate[1]) = (x[1], -x[0]);
+            Ok(())
+        };
+        integrator.step(0.0, step, &mut x, rate).expect("a step");
+        assert_close(&format!("step {step}"), &x, &[cosine, -sine], tolerance::SETTLED);
+    }
+}
+
+/// A derivative that is known to 1e-9 alone: the stages cannot settle, and are not taken for settled.
+#[test]
+fn gauss_legendre_stages_that_do_not_settle_are_an_error() {
+    let mut workspace = [0.0; GaussLegendre::<f64>::WORKSPACE];
+    let mut integrator = GaussLegendre::new(&mut workspace).expect("a workspace");
+    let mut noise = 1e-9;
+    let rate = |_: f64, x: &[f64], rate: &mut [f64]| {
+        noise = -noise;
+        rate[0] = -x[0] + noise;
+        Ok(())
+    };
+    let mut x = [1.0];
+    let found = integrator.step(0.0, 0.5, &mut x, rate);
+    assert!(matches!(found, Err(Error::NotConverged { change, .. }) if change > 1e-11), "{found:?}");
+    assert_close("x", &x, &[1.0], 0.0);
+    // as one that is not a number
+    let nowhere = |_: f64, _: &[f64], rate: &mut [f64]| {
+        rate[0] = f64::NAN;
+        Ok(())
+    };
+    let found = integrator.step(0.0, 0.5, &mut x, nowhere);
+    assert!(matches!(found, Err(Error::NotConverged { change, .. }) if change.is_nan()), "{found:?}");
 }
 
 /// Sampled torques: the adaptive integrator restarts at every sample, and agrees with short steps.

@@ -197,6 +197,39 @@ fn arming_and_the_first_of_several() {
     assert_eq!(event_run(&[|t| 1.0 - t]), Some((0, 1.0)));
 }
 
+/// A value that is below zero for a fifth of a microsecond within a step of 0.1 s is met: the search for its minimum goes
+/// on to half the digits of the time.
+#[test]
+fn a_short_dip_within_a_step() {
+    const HALF: f64 = 1e-7;
+    for middle in [0.503_3, 0.547_1, 0.598_8] {
+        let dip = Dip { middle, half: HALF };
+        for (integrator, coordinates, _) in ALL {
+            let phase = run(&drifting(), 1.0, 0.1, (integrator, coordinates), &mut ZeroTorque, &mut { dip });
+            let (_, when) = phase.event.expect("the dip is met");
+            assert!((when - (middle - HALF)).abs() < tolerance::EVENT_TIME, "{integrator:?}: {when}");
+        }
+    }
+}
+
+/// A parabola of time that is below zero for twice the half width.
+#[derive(Clone, Copy)]
+struct Dip {
+    middle: f64,
+    half: f64,
+}
+
+impl Events for Dip {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
+        values[0] = (now.time - self.middle).powi(2) - self.half * self.half;
+        Ok(())
+    }
+}
+
 /// Up to the event the phase equals one without events, with sampled torques too, and it ends there.
 #[test]
 fn a_phase_with_an_event_is_a_part_of_one_without() {

@@ -16,6 +16,7 @@ mod maximal_coordinates;
 mod outputs;
 mod post_capture_control;
 mod redysim;
+mod reported;
 mod reproduction;
 mod resolved_motion_rate;
 mod study;

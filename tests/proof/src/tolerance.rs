@@ -230,3 +230,5 @@ pub const FIGURE_VALUES: f64 = 1e-9;
 /// Time (s) and impulses (N s, N m s) of a contact with a target at 1e6 m: 1.2e-10 m of its position over an approach speed
 /// of some centimetres per second.
 pub const FAR_CONTACT: f64 = 2e-8;
+/// A Gauss–Legendre step whose iteration contracts by half at worst: some roundings of numbers of order one.
+pub const SETTLED: f64 = 4e-13;

@@ -176,6 +176,40 @@ macro_rules! inherent {
     )*};
 }
 
+/// The operations of a module's manifest are the graph's, of every kind.
+macro_rules! manifest {
+    ($($name:ident)*) => {$(
+        #[test]
+        fn $name() {
+            let graph = planar_proof::json(concat!("codegen/graphs/", stringify!($name), ".json"));
+            let functions = graph["families"].as_array().expect("families").iter();
+            let functions: Vec<_> =
+                functions.flat_map(|family| family["functions"].as_array().expect("functions")).collect();
+            let operations = planar_capture::generated::$name::MANIFEST.operations;
+            assert_eq!(operations.len(), functions.len());
+            for (found, function) in operations.iter().zip(functions) {
+                let count = |kinds: &[&str]| -> usize {
+                    let one = |kind: &&str| function["operations"][kind].as_u64().unwrap_or(0);
+                    usize::try_from(kinds.iter().map(one).sum::<u64>()).expect("some hundreds")
+                };
+                assert_eq!(found.function, function["name"]);
+                assert_eq!(found.multiplications, count(&["mul"]), "{}", found.function);
+                assert_eq!(found.additions, count(&["add", "sub"]), "{}", found.function);
+                assert_eq!(found.divisions, count(&["div"]), "{}", found.function);
+                assert_eq!(found.sin_cos, count(&["sin_cos"]), "{}", found.function);
+                assert_eq!(found.other, count(&["neg", "min", "sqrt", "atan2"]), "{}", found.function);
+                assert_eq!(found.flops(), count(&["flops"]), "{}", found.function);
+            }
+        }
+    )*};
+}
+
+mod operations_of_the_manifest {
+    use super::*;
+
+    for_every_layout!(manifest);
+}
+
 mod outputs_without_a_trait {
     use super::*;
 

@@ -1,0 +1,172 @@
+//! Numbers of the summary, the table and the report against what they are made of.
+
+use crate::{Silent, command, run, scenario};
+use planar_capture::capture::residual_motion::ResidualMotion;
+use planar_capture::capture::{CaseResult, Study, study};
+use planar_capture::output::html_report::write_report;
+use planar_capture::output::summary::summary;
+use planar_capture::owned::RobotState;
+use planar_capture::registry;
+use planar_capture::scenario::{PostCaptureControl, Scenario};
+use planar_proof::{assert_close, file, layout, said, tolerance};
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(number).collect()
+}
+
+/// The mean force of a contact is its impulse over the duration of the contact: in the summary, and in the table.
+#[test]
+fn the_mean_force_is_the_impulse_over_the_duration() {
+    let scenario = scenario("spinning_target");
+    let duration = scenario.contact.duration.expect("a duration");
+    assert!((duration - 1.0).abs() > 0.1, "another one than 1 s");
+    let value = summary(&scenario, "generated", &run(&scenario));
+    let mut impulses = Vec::new();
+    for case in value["cases"].as_array().expect("cases") {
+        for contact in case["impact"]["contacts"].as_array().expect("contacts") {
+            let (force, impulse) = (numbers(&contact["mean_force"]), numbers(&contact["impulse"]));
+            assert_close("force × time", &force.iter().map(|f| f * duration).collect::<Vec<_>>(), &impulse, 1e-12);
+            impulses.push(impulse[1].hypot(impulse[2]));
+        }
+    }
+    let folder = TempDir::new().expect("a folder");
+    let path = file("scenarios/spinning_target.toml");
+    let run = command().arg("run").arg(path).arg("--out").arg(folder.path().join("out")).output();
+    let (code, table, _) = said(run.expect("it runs"));
+    assert_eq!(code, 0);
+    let (_, table) = table.split_once("mean force [N]\n").expect("a column");
+    for (impulse, row) in impulses.iter().zip(table.lines()) {
+        let force: f64 = row.split_whitespace().last().expect("a last column").parse().expect("a force");
+        // three decimals of it
+        assert_close(row, &[force], &[impulse / duration], 6e-4);
+    }
+}
+
+/// The base's work is what the change of energy leaves of the joints' work.
+#[test]
+fn the_base_work_completes_the_energy_balance() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.post_impact.as_mut().expect("a capture").control =
+        PostCaptureControl::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit: Some(1e3) };
+    let study = run(&scenario);
+    let value = summary(&scenario, "generated", &study);
+    for (case, value) in study.cases.iter().zip(value["cases"].as_array().expect("cases")) {
+        let phase = &case.capture.as_ref().expect("a capture").post_impact;
+        let energy = phase.end().momentum.kinetic_energy - phase.samples[0].momentum.kinetic_energy;
+        let work = number(&value["post_impact"]["base_work"]);
+        assert!(work.abs() > 1e-6, "{work} J");
+        assert_close("ΔE", &[phase.end().work.joint_work + work], &[energy], tolerance::TIME_SERIES);
+    }
+}
+
+/// Actuators are watched at every step, whatever is sampled.
+#[test]
+fn saturation_does_not_depend_on_the_samples() {
+    let scenario = scenario("stabilised_capture");
+    let model = registry::generated(&scenario.layout).expect("generated code");
+    let step = scenario.post_impact.as_ref().expect("a capture").step;
+    let [every_step, ends] = [step, 1e3].map(|sample| {
+        let study = study(&scenario, &|| model.clone_box(), sample, &mut Silent).expect("a study");
+        let of = |case: &CaseResult| case.capture.as_ref().expect("a capture").post_impact.saturation.clone();
+        study.cases.iter().map(of).collect::<Vec<_>>()
+    });
+    assert!(every_step.iter().any(|saturation| saturation.base > 1.0), "{every_step:?}");
+    assert_eq!(every_step, ends);
+}
+
+/// Wheels are listed by themselves: they keep turning.
+#[test]
+fn the_largest_joint_rate_is_of_the_joints_without_wheels() {
+    let layout = layout("asymmetric_wheel");
+    let model = registry::generic(&layout);
+    let count = layout.joints();
+    let rates: Vec<f64> = [0.1, -0.3, 0.2, -5.0, 0.05, 7.0].into_iter().cycle().take(count).collect();
+    let wheels: Vec<bool> = rates.iter().map(|rate| rate.abs() > 1.0).collect();
+    let state = RobotState {
+        base_pose: [0.0; 3],
+        joint_angles: vec![0.2; count],
+        base_twist: [0.0; 3],
+        joint_rates: rates.clone(),
+    };
+    let found = ResidualMotion::of(&*model, &[], &PostCaptureControl::None, &state, &wheels).expect("a motion");
+    assert_close("largest", &[found.largest_joint_rate], &[0.3], 0.0);
+    assert_eq!(found.wheel_rates, rates.iter().copied().filter(|rate| rate.abs() > 1.0).collect::<Vec<_>>());
+}
+
+/// A bounce has no tangential impulse: its magnitude is index × closing speed × (1 + restitution).
+#[test]
+fn the_impulse_index_of_a_bounce_gives_its_impulse() {
+    let study = run(&scenario("elastic_rebound"));
+    let mut seen = 0;
+    for case in &study.cases {
+        let Some(capture) = &case.capture else { continue };
+        let later = capture.later_impacts.iter().map(|later| &later.impact);
+        for impact in std::iter::once(&capture.impact).chain(later) {
+            let [contact] = impact.contacts.as_slice() else { continue };
+            let ([nx, ny], restitution) = contact.contact.law.bounce().expect("a bounce");
+            let [_, vx, vy] = contact.response.relative_twist;
+            let index = contact.response.impulse_index.expect("an index");
+            let closing = (vx * nx + vy * ny).abs();
+            let tangential = (vx * ny - vy * nx).abs();
+            assert!(tangential > 0.01 * closing, "an oblique one: {vx} {vy} along {nx} {ny}");
+            let [_, fx, fy] = contact.impulse;
+            let expected = index * closing * (1.0 + restitution);
+            assert_close("impulse", &[fx.hypot(fy)], &[expected], tolerance::SAME_IMPACT * expected);
+            seen += 1;
+        }
+    }
+    assert!(seen > 2, "{seen} single contacts");
+}
+
+/// The frames that the report draws carry the end effectors to their poses, mount angles included.
+#[test]
+fn the_reports_frames_end_at_the_end_effectors() {
+    let scenario = scenario("three_arms");
+    assert!(scenario.layout.arms.iter().any(|arm| arm.mount_angle.abs() > 0.1));
+    let data = report_data(&scenario, &run(&scenario));
+    let (layout, phase) = (&data["layout"], &data["approach"]);
+    let (frames, times) = (layout["frames"].as_array().expect("frames"), phase["time"].as_array().expect("times"));
+    for i in (0..times.len()).step_by(50) {
+        let now = |column: &Value| number(&column[i]);
+        let base = [0, 1, 2].map(|part| now(&phase["base_pose"][part]));
+        let mut poses = vec![base];
+        let mut ends = Vec::new();
+        for (k, frame) in frames.iter().enumerate().skip(1) {
+            let parent = frame["parent"].as_u64().expect("a parent");
+            let [yaw, x, y] = poses[usize::try_from(parent).expect("small")];
+            let pose = numbers(&frame["pose"]);
+            let turn = frame["joint"]
+                .as_u64()
+                .map_or(0.0, |joint| now(&phase["joint_angles"][usize::try_from(joint).expect("small")]));
+            let (sin, cos) = yaw.sin_cos();
+            poses.push([yaw + pose[0] + turn, x + cos * pose[1] - sin * pose[2], y + sin * pose[1] + cos * pose[2]]);
+            if frame["joint"].is_null() {
+                ends.push(poses[k]);
+            }
+        }
+        for (end, columns) in ends.iter().zip(phase["end_effectors"].as_array().expect("arms")) {
+            let expected = [0, 1, 2].map(|part| now(&columns[part]));
+            let turns = ((end[0] - expected[0]) / std::f64::consts::TAU).round();
+            let found = [end[0] - turns * std::f64::consts::TAU, end[1], end[2]];
+            // six digits are written
+            assert_close("end effector", &found, &expected, 1e-4);
+        }
+        assert_eq!(ends.len(), scenario.layout.arms.len());
+    }
+}
+
+/// The data that the report's programs read.
+fn report_data(scenario: &Scenario, study: &Study) -> Value {
+    let mut page = Vec::new();
+    write_report(scenario, study, &mut page).expect("written");
+    let page = String::from_utf8(page).expect("UTF-8");
+    let (_, rest) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = rest.split_once("</script>").expect("an end");
+    serde_json::from_str(data).expect("JSON")
+}
