@@ -22,6 +22,8 @@ from .plane_vectors import ZERO, Vector, add, cross, dot, perpendicular, scale, 
 from .rigid_body_inertia import RigidBodyInertia
 from .symbols import Symbols
 
+MASS_AND_ADDED = "mass, with a point mass at the own joint"
+
 
 @dataclass(frozen=True)
 class Child:
@@ -36,71 +38,111 @@ class Child:
         return self.position[0].is_zero() and self.position[1].is_zero()
 
 
+class LengthRatios:
+    """J, mu and J - mu of a body with its COM and the joint of its only child on the x axis, in kg."""
+
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, length: ca.SX) -> None:
+        label, constant = own.label, symbols.constant
+        self.label, self.length = label, length
+        self.inverse_length = symbols.reciprocal_constant(f"{label}_inverse_length", length, "1/m", "1 / l")
+        square = self.inverse_length * self.inverse_length
+        self.distal = constant(
+            f"{label}_distal_mass", own.about_joint(symbols) * square, "kg", "mass at the child's joint, J = I_P / l^2"
+        )
+        first_moment = own.mass * own.com[0] * self.inverse_length
+        self.first_moment = constant(f"{label}_first_moment_ratio", first_moment, "kg", "mu = m c / l")
+        self.coupling = constant(f"{label}_coupling_mass", self.distal - self.first_moment, "kg", "J - mu")
+
+
 class CollinearBody:
     """COM and the joint of the only child on the x axis, the joint at l.
 
     Across its axis the body has the mass matrix [[J', mu - J], [mu - J, J]] for the accelerations of its two joints,
     with J = I_P / l^2, J' = (I + m (l - c)^2) / l^2, mu = m c / l and determinant m I / l^2. One division, and no
-    cancellation however short l is: with l alpha as the unknown and D = J + A'_yy,
+    cancellation however short l is: with l alpha as the unknown, D = J + A'_yy and f = (mu + A'_yy) / D,
 
-        A_xx = m + A'_xx - A'_xy^2 / D,  A_xy = A'_xy e,  A_yy = (m I / l^2 + J' A'_yy) / D,  e = (J - mu) / D,
+        A_xx = m + A'_xx - A'_xy^2 / D,  A_xy = (J - mu) A'_xy / D,  A_yy = (m I / l^2 + J' A'_yy) / D,
+        l alpha = (n / l - b'_y - A'_xy a_x) / D - f a_y,  b_y = b'_y + f (n / l - b'_y).
 
-    (A_yy = J' - (J - mu) e would save an operation, but its rounding error grows with 1 / l^2.)
+    (A_yy = J' - (J - mu) (1 - f) would save an operation, and another with 1 - f = (J - mu) / D in place of f; but
+    their rounding errors grow with 1 / l^2 and 1 / l.) ``added`` is a point mass at the own joint.
     """
 
-    def __init__(self, symbols: Symbols, own: RigidBodyInertia, child: Child) -> None:
-        label, com, constant = own.label, own.com[0], symbols.constant
-        self.length, self.child = child.position[0], child.inertia
-        self.inverse_length = symbols.reciprocal_constant(f"{label}_inverse_length", self.length, "1/m", "1 / l")
-        square = self.inverse_length * self.inverse_length
-        distal = constant(
-            f"{label}_distal_mass", own.about_joint(symbols) * square, "kg", "mass at the child's joint, J = I_P / l^2"
-        )
-        first_moment = constant(
-            f"{label}_first_moment_ratio", own.mass * com * self.inverse_length, "kg", "mu = m c / l"
-        )
-        coupling = constant(f"{label}_coupling_mass", distal - first_moment, "kg", "J - mu")
-        to_child = self.length - com
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, child: Child, added: ca.SX) -> None:
+        label, constant = own.label, symbols.constant
+        ratios = self.ratios = LengthRatios(symbols, own, child.position[0])
+        square = ratios.inverse_length * ratios.inverse_length
+        to_child = ratios.length - own.com[0]
         proximal = constant(
             f"{label}_proximal_mass",
-            (own.inertia + own.mass * (to_child * to_child)) * square,
+            (own.inertia + own.mass * (to_child * to_child)) * square + added,
             "kg",
-            "mass at the own joint, J' = (I + m (l - c)^2) / l^2",
+            "mass at the own joint, J' = (I + m (l - c)^2) / l^2, and the point mass there",
         )
         determinant = constant(
-            f"{label}_mass_determinant", own.mass * (own.inertia * square), "kg^2", "m I / l^2 = J J' - (J - mu)^2"
+            f"{label}_mass_determinant",
+            own.mass * (own.inertia * square) + added * ratios.distal,
+            "kg^2",
+            "J J' - (J - mu)^2; m I / l^2 without a point mass",
         )
+        mass = constant(f"{label}_mass_and_added", own.mass + added, "kg", MASS_AND_ADDED)
+        self.child = child.inertia
         self.inverse = symbols.reciprocal(
-            self.child.yy_times_plus(symbols, f"{label}_distal_mass", ca.SX(1), distal, "J + A'_yy")
+            self.child.yy_times_plus(symbols, f"{label}_distal_mass", ca.SX(1), ratios.distal, "J + A'_yy")
         )
+        across = self.child.yy_times_plus(
+            symbols, f"{label}_first_moment_ratio_across", ca.SX(1), ratios.first_moment, "mu + A'_yy"
+        )
+        self.own_share = across * self.inverse  # f
         self.xy_ratio = self.child.xy * self.inverse
-        self.coupling_ratio = coupling * self.inverse  # e
-        xx = self.child.xx_plus(symbols, f"{label}_mass", own.mass, "m")
+        xx = self.child.xx_plus(symbols, f"{label}_mass", mass, "m")
         yy = self.child.yy_times_plus(
             symbols, f"{label}_mass_determinant", proximal, determinant, "m I / l^2 + J' A'_yy"
         )
         self.inertia = ArticulatedInertia(
-            xx - self.child.xy * self.xy_ratio, self.child.xy * self.coupling_ratio, yy * self.inverse
+            xx - self.child.xy * self.xy_ratio, ratios.coupling * self.xy_ratio, yy * self.inverse
         )
-        self.centripetal_mass = self.child.xx_plus(symbols, f"{label}_first_moment_ratio", first_moment, "mu")
+        self.centripetal_mass = self.child.xx_plus(symbols, f"{label}_first_moment_ratio", ratios.first_moment, "mu")
 
     @property
     def configuration_values(self) -> list[ca.SX]:
-        return [*self.inertia.elements, self.xy_ratio, self.coupling_ratio, self.centripetal_mass]
+        return [*self.inertia.elements, self.xy_ratio, self.own_share, self.centripetal_mass]
 
     def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, child_forces: list[Vector]) -> Vector:
         x, y = child_forces[0]
-        self.centripetal = angular_velocity_squared * self.length
+        self.centripetal = angular_velocity_squared * self.ratios.length
         x = x - self.centripetal * self.centripetal_mass
         y = y - self.centripetal * self.child.xy
-        force = moment * self.inverse_length
-        residual = force - y
+        residual = moment * self.ratios.inverse_length - y
         self.y_0 = residual * self.inverse  # y acceleration of the child's joint for a = 0
-        return x + self.child.xy * self.y_0, force - self.coupling_ratio * residual
+        return x + self.child.xy * self.y_0, y + self.own_share * residual
 
     def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
-        y = self.y_0 - self.xy_ratio * a[0] + self.coupling_ratio * a[1]
-        return (y - a[1]) * self.inverse_length, [(a[0] - self.centripetal, y)]
+        relative = self.y_0 - self.xy_ratio * a[0] - self.own_share * a[1]  # l alpha
+        return relative * self.ratios.inverse_length, [(a[0] - self.centripetal, a[1] + relative)]
+
+
+class TwoMassBody(CollinearBody):
+    """The same body as point masses mu at the child's joint, m - mu at its own, and a moment of inertia (J - mu) l^2.
+
+    The masses are in the inertias of the child and of whatever else is at the own joint, as constants, which leaves
+
+        A_xx = A'_xx - A'_xy^2 / D,  A_xy = (J - mu) A'_xy / D,  A_yy = (J - mu) f,  D = J - mu + A'_yy,  f = A'_yy / D.
+
+    Rounding errors grow with c / l, as mu does.
+    """
+
+    def __init__(self, symbols: Symbols, ratios: LengthRatios, child: ArticulatedInertia) -> None:
+        self.ratios, self.child = ratios, child
+        self.inverse = symbols.reciprocal(
+            child.yy_times_plus(symbols, f"{ratios.label}_coupling_mass", ca.SX(1), ratios.coupling, "J - mu + A'_yy")
+        )
+        self.own_share = child.yy * self.inverse
+        self.xy_ratio = child.xy * self.inverse
+        self.inertia = ArticulatedInertia(
+            child.xx - child.xy * self.xy_ratio, ratios.coupling * self.xy_ratio, ratios.coupling * self.own_share
+        )
+        self.centripetal_mass = child.xx
 
 
 class LeafBody:
@@ -110,7 +152,7 @@ class LeafBody:
     [[I + m c_x^2, m c_x c_y], [., I + m c_y^2]].
     """
 
-    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child]) -> None:
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child], added: ca.SX) -> None:
         label, constant = own.label, symbols.constant
         self.first_moment = own.first_moment(symbols)
         r = perpendicular(self.first_moment)
@@ -127,9 +169,9 @@ class LeafBody:
         what = "articulated inertia at the joint"
         xx = own.mass if y.is_zero() else ratio * (own.inertia + mx * x)
         self.inertia = ArticulatedInertia(
-            constant(f"{label}_articulated_inertia_xx", xx, "kg", what),
+            constant(f"{label}_articulated_inertia_xx", xx + added, "kg", what),
             constant(f"{label}_articulated_inertia_xy", ratio * (mx * y), "kg", what),
-            constant(f"{label}_articulated_inertia_yy", ratio * (own.inertia + my * y), "kg", what),
+            constant(f"{label}_articulated_inertia_yy", ratio * (own.inertia + my * y) + added, "kg", what),
             constant(
                 f"{label}_articulated_inertia_difference",
                 ratio * (mx * x - my * y),
@@ -159,12 +201,13 @@ class LeafBody:
 class GeneralBody:
     """Any number of children anywhere: r = m z x c + sum A' (z x d), D = I_P + sum (z x d) . A' (z x d)."""
 
-    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child]) -> None:
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, children: list[Child], added: ca.SX) -> None:
         self.children = children
         self.first_moment = own.first_moment(symbols)
         self.coupling = perpendicular(self.first_moment)  # r
         pivot = own.about_joint(symbols)  # D
-        total = ArticulatedInertia(own.mass, ZERO, own.mass)
+        mass = symbols.constant(f"{own.label}_mass_and_added", own.mass + added, "kg", MASS_AND_ADDED)
+        total = ArticulatedInertia(mass, ZERO, mass)
         for child in children:
             total = total.plus(child.inertia)
             lever = perpendicular(child.position)
@@ -212,18 +255,21 @@ ArticulatedBody = CollinearBody | LeafBody | GeneralBody
 
 
 def articulated_body(
-    symbols: Symbols, own: RigidBodyInertia, children: list[Child], general: bool = False
+    symbols: Symbols, own: RigidBodyInertia, children: list[Child], added: ca.SX = ZERO
 ) -> ArticulatedBody:
-    """A body with its angular acceleration eliminated.
+    """A body with its angular acceleration eliminated, and a point mass ``added`` at its joint.
 
     ``inertia`` is its articulated inertia A, and ``configuration_values`` are all that the passes use of the
     configuration. ``bias_force(omega^2, n, bias forces of the children)`` gives b; after it, ``accelerations(a)`` gives
-    alpha and the accelerations of the children's joints. ``general`` excludes the form that divides by the distance of
-    the child.
+    alpha and the accelerations of the children's joints.
     """
     if all(child.at_joint for child in children):
-        return LeafBody(symbols, own, children)
-    collinear = len(children) == 1 and own.com[1].is_zero() and children[0].position[1].is_zero()
-    if collinear and not general:
-        return CollinearBody(symbols, own, children[0])
-    return GeneralBody(symbols, own, children)
+        return LeafBody(symbols, own, children, added)
+    if len(children) == 1 and is_collinear(own.com, children[0].position):
+        return CollinearBody(symbols, own, children[0], added)
+    return GeneralBody(symbols, own, children, added)
+
+
+def is_collinear(com: Vector, child: Vector) -> bool:
+    """Whether COM and the child's joint are on the x axis, the latter not at the own joint."""
+    return com[1].is_zero() and child[1].is_zero() and not child[0].is_zero()

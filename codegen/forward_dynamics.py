@@ -4,11 +4,21 @@
 arm: a 2 x 2 balance of forces remains there.
 """
 
+import math
 from itertools import chain
 
 import casadi as ca
 
-from .articulated_body import ArticulatedBody, Child, CollinearBody, articulated_body
+from .articulated_body import (
+    ArticulatedBody,
+    Child,
+    GeneralBody,
+    LeafBody,
+    LengthRatios,
+    TwoMassBody,
+    articulated_body,
+    is_collinear,
+)
 from .inputs import STATE, Inputs
 from .kinematics import angular_velocities
 from .layout import Layout
@@ -34,10 +44,13 @@ from .symbols import ArmSymbols, Symbols
 class ArticulatedArm:
     """The articulated bodies of one arm, from the last link to the mount, at one configuration.
 
-    The frame of the last link has its x axis through the COM, which makes its articulated inertia diagonal.
+    The frame of the last link has its x axis through the COM, which makes its articulated inertia diagonal. A point
+    mass ``added`` of the base is at the mount, which is at ``offset`` from that of the first arm.
     """
 
-    def __init__(self, symbols: Symbols, arm: ArmSymbols, inputs: Inputs, index: int) -> None:
+    def __init__(
+        self, symbols: Symbols, arm: ArmSymbols, inputs: Inputs, index: int, added: ca.SX, offset: Vector
+    ) -> None:
         self.symbols, self.inputs, self.index = arm, inputs, index
         com_angle, last_com, self.end_effector = com_frame(symbols, arm)
         self.bodies: list[ArticulatedBody] = []
@@ -46,14 +59,14 @@ class ArticulatedArm:
         for k in reversed(range(self.links)):
             link, is_last = arm.links[k], k == self.links - 1
             own = RigidBodyInertia(link.label, link.mass, link.inertia, last_com if is_last else link.com)
-            self.bodies.insert(0, articulated_body(symbols, own, children))
+            self.bodies.insert(0, articulated_body(symbols, own, children, added if k == 0 else ZERO))
             angle = inputs.joint_angles[arm.first_joint + k]
             if is_last:
                 angle = angle + com_angle
             if k == 0:
                 angle = angle + arm.mount_angle
             self.rotations.insert(0, rotation(angle))
-            position = (arm.links[k - 1].length, ZERO) if k > 0 else arm.mount
+            position = (arm.links[k - 1].length, ZERO) if k > 0 else offset
             children = [Child(position, self.bodies[0].inertia.rotate(self.rotations[0]))]
         self.child = children[0]  # of the base
         values = [body.configuration_values for body in self.bodies]
@@ -128,18 +141,29 @@ class ForwardDynamics:
 
     def __init__(self, symbols: Symbols, inputs: Inputs) -> None:
         self.inputs = inputs
-        self.arms = [ArticulatedArm(symbols, arm, inputs, i) for i, arm in enumerate(symbols.arms)]
-        first = self.arms[0].child
-        self.com = (-first.position[0], -first.position[1])  # of the base, from the first mount
-        children = []
-        for arm in self.arms[1:]:
-            text = f"mount of arm {arm.index + 1} from that of arm 1, base frame"
-            offset = subtract(arm.child.position, first.position)
-            offset = symbols.constant_vector(f"{arm.symbols.label}_mount_offset", offset, "m", text)
-            children.append(Child(offset, arm.child.inertia))
+        mounts = [arm.mount for arm in symbols.arms]
+        self.com = (-mounts[0][0], -mounts[0][1])  # of the base, from the first mount
+        offsets = [ZERO_VECTOR]
+        for arm, mount in list(zip(symbols.arms, mounts, strict=True))[1:]:
+            text = f"mount of {arm.title} from that of arm 1, base frame"
+            offset = subtract(mount, mounts[0])
+            offsets.append(symbols.constant_vector(f"{arm.label}_mount_offset", offset, "m", text))
         own = RigidBodyInertia("base", symbols.base_mass, symbols.base_inertia, self.com)
-        self.base = articulated_body(symbols, own, children, general=mounts_coincide(symbols.layout))
-        self.needs_distinct_mounts = isinstance(self.base, CollinearBody)
+        distinct = len(mounts) == 2 and not mounts_coincide(symbols.layout)
+        self.needs_distinct_mounts = distinct and is_collinear(self.com, offsets[1])
+        at_mounts = [ZERO] * len(mounts)
+        if self.needs_distinct_mounts:
+            ratios = LengthRatios(symbols, own, offsets[1][0])
+            rest = symbols.constant("base_mass_at_mount", own.mass - ratios.first_moment, "kg", "m - mu of the base")
+            at_mounts = [rest, ratios.first_moment]
+        self.arms = [
+            ArticulatedArm(symbols, arm, inputs, i, at_mounts[i], offsets[i]) for i, arm in enumerate(symbols.arms)
+        ]
+        first, *children = [arm.child for arm in self.arms]
+        if self.needs_distinct_mounts:
+            self.base = TwoMassBody(symbols, ratios, children[0].inertia)
+        else:
+            self.base = (GeneralBody if children else LeafBody)(symbols, own, children, ZERO)
         # L D L^T of the articulated inertia of the whole robot at the first mount
         self.inertia = self.base.inertia.plus(first.inertia)
         self.inverse_xx = symbols.reciprocal(self.inertia.xx)
@@ -192,8 +216,14 @@ class ForwardDynamics:
 
 
 def mounts_coincide(layout: Layout) -> bool:
-    """Whether the second mount coincides with the first, so that their distance cannot be divided by."""
-    return len(layout.arms) > 1 and tuple(layout.arms[0].mount) == tuple(layout.arms[1].mount)
+    """Whether the second mount is at the first, or so close that the result of dividing by their distance is rounding.
+
+    The Rust reader of layouts has the same bound.
+    """
+    if len(layout.arms) < 2:
+        return False
+    first, second = layout.arms[0].mount, layout.arms[1].mount
+    return math.dist(first, second) <= 1e-6 * (math.hypot(*first) + math.hypot(*second))
 
 
 def forward_dynamics_family(dynamics: ForwardDynamics) -> Family:

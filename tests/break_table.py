@@ -90,6 +90,12 @@ FAULTS = [
         "own.mass * (com * com)) * square",
     ),
     Fault(
+        "share of a short link by a difference",
+        "codegen/articulated_body.py",
+        "self.own_share = across * self.inverse  # f",
+        "self.own_share = 1 - ratios.coupling * self.inverse",
+    ),
+    Fault(
         "mount angle forgotten in the kinematics",
         "codegen/kinematics.py",
         "angle = inputs.base_pose[0] + self.symbols.mount_angle",
@@ -332,7 +338,7 @@ FAULTS = [
     Fault(
         "rate of opening never reported",
         "src/capture/mod.rs",
-        "        (\"rate of opening of what is held\", phase.constraint_errors[1], CONSTRAINT_BOUND),\n",
+        '        ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),\n',
         "",
     ),
     Fault(

@@ -30,13 +30,13 @@ fn every_quantity_is_printed_and_its_worst_state_can_be_replayed() {
     }
 }
 
-/// An inner link of a nanometre costs the generated accelerations nine digits: over the bound, exit code 1.
+/// Mounts two micrometres apart cost the generated accelerations six digits: over the bound, exit code 1.
 #[test]
 fn the_exit_code_says_that_a_bound_is_exceeded() {
     let folder = tempfile::tempdir().expect("a folder");
-    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "single_arm_3r").expect("shipped");
-    let path = folder.path().join("short.toml");
-    std::fs::write(&path, text.replacen("length = 1.0 ", "com = [0.5, 0.0]\nlength = 1.0e-9 ", 1)).expect("written");
+    let (_, text) = SHIPPED.iter().find(|(name, _)| *name == "dual_arm_3r").expect("shipped");
+    let path = folder.path().join("close.toml");
+    std::fs::write(&path, text.replace("[-0.5, 0.0]", "[0.499998, 0.0]")).expect("written");
     let (path, results) = (path.display().to_string(), folder.path().join("worst").display().to_string());
     let (code, out, err) = said(&["compare", &path, "--samples", "20", "--out", &results]);
     assert_eq!(code, 1, "{out}{err}");

@@ -60,9 +60,14 @@ pub fn parameters(manifest: &Manifest, layout: &Layout) -> Result<Vec<f64>, Mism
     if differences.is_empty() { Ok(values) } else { Err(Mismatch::Zeros(differences)) }
 }
 
-#[allow(clippy::float_cmp, reason = "a structural zero is an exact one")]
+/// Mounts closer than this times their distances from the base COM count as one: code that divides by their distance
+/// loses as many digits. As in the derivation.
+const SMALLEST_DISTANCE: f64 = 1e-6;
+
 fn first_mounts_coincide(layout: &Layout) -> bool {
-    matches!(layout.arms.as_slice(), [first, second, ..] if first.mount == second.mount)
+    let [first, second, ..] = layout.arms.as_slice() else { return false };
+    let [[x, y], [other_x, other_y]] = [first.mount, second.mount];
+    (x - other_x).hypot(y - other_y) <= SMALLEST_DISTANCE * (x.hypot(y) + other_x.hypot(other_y))
 }
 
 /// The arms, links and structural properties other than zero, in words.

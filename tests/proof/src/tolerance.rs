@@ -168,9 +168,12 @@ pub const LAYOUTS: &[(&str, &str)] = &[
 pub const MASS_MATRIX_RATE: f64 = 1e-8;
 /// A study with generic dynamics against the same with generated code, relative: rounding over 4000 steps.
 pub const SAME_STUDY: f64 = 1e-9;
-/// Generated accelerations, relative, times ε arm/distance for a short inner link, or for first two mounts close to
-/// each other: joint torques are divided by that distance on the way. 0.1 measured.
+/// Generated accelerations, relative, times ε arm/distance for first two mounts close to each other: the base is two
+/// point masses there, which grow as the distance falls. 0.1 measured.
 pub const SHORT_DISTANCE: f64 = 1.0;
+/// Generated accelerations, relative, for an inner link of any length: rounding of some hundred operations, 7e-14
+/// measured.
+pub const SHORT_LINK: f64 = 2e-13;
 
 /// Accelerations and constraint forces in maximal coordinates, relative to the largest, against the product and against
 /// the whole KKT matrix: rounding times the condition of joints in a chain, 1e-14 measured.

@@ -3,14 +3,16 @@
 use planar_capture::dynamics::Model;
 use planar_capture::error::Error;
 use planar_capture::eval::to_json;
+use planar_capture::layout::Layout;
 use planar_capture::owned::CloneModel;
 use planar_capture::quantities::differences;
 use planar_capture::quantity::Quantity;
 use planar_capture::registry::{GENERATED, SHIPPED, generated, generic};
 use planar_capture::sampling::{REGIMES, Regime, RegimeSample};
+use planar_capture::scalar::Real;
 use planar_capture::state::{Forces, State};
 use planar_capture::target::{LinkInertia, Target};
-use planar_proof::tolerance::{INHERENT, LAYOUTS, SHORT_DISTANCE, equivalence};
+use planar_proof::tolerance::{INHERENT, LAYOUTS, SHORT_DISTANCE, SHORT_LINK, equivalence};
 use planar_proof::{for_every_layout, layout};
 use std::collections::BTreeSet;
 
@@ -314,25 +316,81 @@ fn the_merged_link_is_two_bodies_in_one() {
     planar_proof::assert_close("mass", &[merged.mass], &[8.0], 0.0);
 }
 
-/// A short inner link, or two mounts close to each other, costs digits in proportion, not as its square.
+/// Generated accelerations against generic ones for a layout, the largest difference in natural units.
+fn acceleration_error(layout: &Layout) -> f64 {
+    let (model, reference) = (generated(layout).expect("generated code"), generic(layout));
+    let mut worst: f64 = 0.0;
+    for index in 0..SAMPLES {
+        let sample = Regime::Moving.sample(layout, SEED, index);
+        let all = differences(&*model, &*reference, &sample).expect("answers");
+        for difference in all.iter().filter(|d| d.quantity.row().name.contains("acceleration")) {
+            worst = Real::maximum(worst, difference.error);
+        }
+    }
+    worst
+}
+
+/// An inner link may be as short as can be, with its COM in its middle or far beyond it.
 #[test]
-fn short_distances_cost_generated_accelerations_no_more_than_their_share() {
-    for ratio in [1e-1_f64, 1e-2, 1e-4, 1e-6] {
-        let mut short = layout("single_arm_3r");
-        short.arms[0].links[1].length *= ratio;
-        let mut close = layout("dual_arm_3r");
-        close.arms[1].mount = [close.arms[0].mount[0] - ratio, 0.0];
-        for layout in [short, close] {
-            for index in 0..SAMPLES {
-                let sample = Regime::Moving.sample(&layout, SEED, index);
-                let (model, reference) = (generated(&layout).expect("generated code"), generic(&layout));
-                let all = differences(&*model, &*reference, &sample).expect("answers");
-                let bound = (SHORT_DISTANCE * f64::EPSILON / ratio).max(1e-13);
-                for difference in all.iter().filter(|d| d.quantity.row().name.contains("acceleration")) {
-                    let (name, error) = (difference.quantity.row().name, difference.error);
-                    assert!(error <= bound, "{name} is off by {error:e}, bound {bound:e} at ratio {ratio}");
-                }
+fn a_short_inner_link_costs_no_digits() {
+    for (name, place) in
+        [("single_arm_3r", (0, 1)), ("dual_arm_3r", (1, 0)), ("dual_arm_2r", (0, 0)), ("boom_7r", (0, 4))]
+    {
+        let shipped = layout(name);
+        for ratio in [1.0, 1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-20, 1e-50, 1e-100] {
+            for of_com in [1.0, ratio, -0.3] {
+                let mut short = shipped.clone();
+                let link = &mut short.arms[place.0].links[place.1];
+                link.length *= ratio;
+                link.com[0] *= of_com;
+                let error = acceleration_error(&short);
+                assert!(
+                    error <= SHORT_LINK,
+                    "{name}: {error:e} at a length of {ratio:e} times its own, com {of_com:e}"
+                );
             }
         }
+    }
+}
+
+/// Where the square of a length, or one over it, is no number, there is an error and not an answer.
+#[test]
+fn a_link_shorter_than_numbers_can_square_is_an_error() {
+    for length in [1e-160, 1e-300, f64::MIN_POSITIVE] {
+        let mut short = layout("single_arm_3r");
+        short.arms[0].links[1].length = length;
+        let model = generated(&short).expect("generated code");
+        let mut found = [0.0; 3];
+        let state = State {
+            base_pose: [0.0; 3],
+            joint_angles: &[0.3, 0.4, 0.5],
+            base_twist: [0.1; 3],
+            joint_rates: &[0.2, 0.3, 0.1],
+        };
+        let result = model.forward_dynamics(&state, &Forces::torques(&[1.0, 2.0, 3.0]), &mut found);
+        assert!(matches!(result, Err(Error::Singular { .. } | Error::NotFinite { .. })), "{length:e}: {result:?}");
+    }
+}
+
+/// Mounts too close for that have code of their own, which divides by no distance.
+#[test]
+fn mounts_that_nearly_coincide_are_refused() {
+    for distance in [1e-7, 1e-12, 1e-17] {
+        let mut close = layout("dual_arm_3r");
+        close.arms[1].mount = [close.arms[0].mount[0] - distance, 0.0];
+        let Err(refused) = generated(&close) else { panic!("{distance:e} m is divided by") };
+        let message = refused.to_string();
+        assert!(message.contains("two arms on one mount"), "{message}");
+    }
+}
+
+/// Two mounts close to each other cost digits in proportion, not as the square of their distance.
+#[test]
+fn close_mounts_cost_generated_accelerations_no_more_than_their_share() {
+    for ratio in [1e-1_f64, 1e-2, 1e-4, 1e-6] {
+        let mut close = layout("dual_arm_3r");
+        close.arms[1].mount = [close.arms[0].mount[0] - ratio, 0.0];
+        let (error, bound) = (acceleration_error(&close), (SHORT_DISTANCE * f64::EPSILON / ratio).max(1e-13));
+        assert!(error <= bound, "off by {error:e}, bound {bound:e} at a distance of {ratio} m");
     }
 }
