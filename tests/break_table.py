@@ -336,6 +336,18 @@ FAULTS = [
     ),
     # what is reported, audited and refused
     Fault(
+        "error of a path a thousandth of what it is",
+        "src/simulate/stepper/companion.rs",
+        "Some(1.0 / (growth - 1.0))",
+        "Some(1e-3 / (growth - 1.0))",
+    ),
+    Fault(
+        "error of a path without an objection",
+        "src/capture/mod.rs",
+        '        ("path error", phase.path_error, PATH_BOUND),\n',
+        "",
+    ),
+    Fault(
         "rate of opening never reported",
         "src/capture/mod.rs",
         '        ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),\n',

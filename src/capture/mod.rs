@@ -44,6 +44,9 @@ pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
 
+/// Largest estimated error of a path that passes the audit, rad or m.
+pub const PATH_BOUND: f64 = 1e-4;
+
 /// Largest constraint error that passes the audit, rad or m, and its largest rate.
 pub const CONSTRAINT_BOUND: f64 = 1e-10;
 
@@ -347,6 +350,7 @@ fn phase_failures(name: &str, phase: &Phase) -> Vec<String> {
         ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
         ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
+        ("path error", phase.path_error, PATH_BOUND),
         ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
         ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];

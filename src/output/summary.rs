@@ -122,6 +122,7 @@ fn phase(phase: &Phase, end_effectors: bool) -> Value {
     value["momentum_drift"] = json!(phase.drift.momentum_drift);
     value["energy_error"] = json!(phase.drift.energy_error);
     value["center_of_mass_drift"] = json!(phase.drift.center_of_mass_drift);
+    value["path_error"] = json!(phase.path_error);
     if phase.constraint_errors.iter().any(|error| *error > 0.0) {
         value["constraint_errors"] = json!(phase.constraint_errors);
     }

@@ -195,6 +195,14 @@ impl<'a> Equation<'a> {
         Ok(())
     }
 
+    /// Exchanges the vectors at the end of the last step, with rates and with momenta, for those of another solution.
+    pub(crate) fn exchange_last_step(&mut self, [x, momenta]: &mut [Vec<f64>; 2]) {
+        if let FormulationWorkspace::Canonical(space) = &mut self.form {
+            std::mem::swap(&mut space.last_x, x);
+            std::mem::swap(&mut space.last_momenta, momenta);
+        }
+    }
+
     fn replace(&mut self, x: &mut [f64], direction: Direction) -> Result<(), Error> {
         let FormulationWorkspace::Canonical(space) = &mut self.form else { return Ok(()) };
         replace(&mut space.variables.borrow(), self.system, x, &mut space.results, direction)

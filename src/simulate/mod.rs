@@ -104,6 +104,9 @@ pub struct Phase {
     pub stored: Vec<StoredSamples>,
     /// The largest of all steps.
     pub drift: ConservationErrors,
+    /// The largest error of a yaw, joint angle (rad) or coordinate (m) by the integration of this phase, estimated by
+    /// steps of another length.
+    pub path_error: f64,
     /// Of the actuators.
     pub saturation: Saturation,
     /// Largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate.
@@ -155,6 +158,7 @@ impl Phase {
             event: next.event.map(|(event, time)| (event, self.duration + time)),
             duration: self.duration + next.duration,
             drift: self.drift.worse(&next.drift),
+            path_error: self.path_error + next.path_error,
             constraint_errors: std::array::from_fn(|i| {
                 Real::maximum(self.constraint_errors[i], next.constraint_errors[i])
             }),
@@ -247,12 +251,12 @@ pub fn simulate(
                 within(when, &mut x).map_err(at(when))?;
                 recorder.add_saturation(when - time);
                 recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;
-                return Ok(recorder.end(when, Some((event, when))));
+                return Ok(recorder.end(when, Some((event, when)), stepper.path_error()));
             }
         }
         recorder.add_saturation(end - time);
         tick();
     }
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
-    Ok(recorder.end(timing.duration, None))
+    Ok(recorder.end(timing.duration, None, stepper.path_error()))
 }

@@ -101,7 +101,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The phase.
-    pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>) -> Phase {
+    pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>, path_error: f64) -> Phase {
         let Self { system, samples, audit, saturation, constraint_errors, limit_violations, path, .. } = self;
         let (samples, file) = samples.end();
         let stored = file.map(|file| StoredSamples::new(file, samples.len()));
@@ -111,6 +111,7 @@ impl<'a> Recorder<'a> {
             samples,
             stored: stored.into_iter().collect(),
             drift: audit.drift(),
+            path_error,
             saturation,
             constraint_errors,
             singularity_margin: None,

@@ -114,12 +114,14 @@ fn every_audited_number_has_its_bound() {
     let first = capture(&mut study).impact.clone();
     capture(&mut study).later_impacts = vec![LaterImpact { time: 1.0, impact: first }];
     assert_eq!(study.audit_failures(), Vec::<String>::new());
-    let numbers: [(&str, f64, Change); 13] = [
+    let numbers: [(&str, f64, Change); 15] = [
         ("approach: momentum drift", 1e-9, |s, x| s.approach.drift.momentum_drift = x),
         ("approach: energy error", 1e-6, |s, x| s.approach.drift.energy_error = x),
         ("post-impact: momentum drift", 1e-9, |s, x| capture(s).post_impact.drift.momentum_drift = x),
         ("post-impact: energy error", 1e-6, |s, x| capture(s).post_impact.drift.energy_error = x),
         ("centre-of-mass drift", 1e-9, |s, x| capture(s).post_impact.drift.center_of_mass_drift = x),
+        ("approach: path error", 1e-4, |s, x| s.approach.path_error = x),
+        ("post-impact: path error", 1e-4, |s, x| capture(s).post_impact.path_error = x),
         ("approach: opening of", 1e-10, |s, x| s.approach.constraint_errors[0] = x),
         ("post-impact: opening of", 1e-10, |s, x| capture(s).post_impact.constraint_errors[0] = x),
         ("post-impact: rate of opening of", 1e-10, |s, x| capture(s).post_impact.constraint_errors[1] = x),

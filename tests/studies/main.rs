@@ -14,6 +14,7 @@ mod inverse_kinematics;
 mod long_phases;
 mod maximal_coordinates;
 mod outputs;
+mod path_error;
 mod post_capture_control;
 mod redysim;
 mod reported;

@@ -125,7 +125,7 @@ fn without_control_the_summary_has_no_control_keys() {
     let after = value["cases"][0]["post_impact"].as_object().expect("a phase");
     let keys: Vec<_> = after.keys().map(String::as_str).collect();
     let motion = ["duration", "base_pose", "base_twist", "joint_angles", "joint_rates"];
-    let contract = [&motion[..], &["momentum_drift", "energy_error", "center_of_mass_drift"]].concat();
+    let contract = [&motion[..], &["momentum_drift", "energy_error", "center_of_mass_drift", "path_error"]].concat();
     assert_eq!(keys, contract);
 }
 

@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::integrate::Adaptive;
 use crate::simulate::equation::Equation;
 
-pub(super) const PROPERTIES: Properties = Properties { name: "adaptive", is_adaptive: true, is_canonical: false };
+pub(super) const PROPERTIES: Properties =
+    Properties { name: "adaptive", is_adaptive: true, is_canonical: false, order: None };
 
 pub(super) struct AdaptiveSteps {
     tolerance: f64,

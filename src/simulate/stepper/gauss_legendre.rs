@@ -4,7 +4,8 @@ use super::{Properties, Steps};
 use crate::integrate::GaussLegendre;
 use crate::simulate::equation::Equation;
 
-pub(super) const PROPERTIES: Properties = Properties { name: "gauss_legendre", is_adaptive: false, is_canonical: true };
+pub(super) const PROPERTIES: Properties =
+    Properties { name: "gauss_legendre", is_adaptive: false, is_canonical: true, order: Some(6) };
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; GaussLegendre::<f64>::WORKSPACE * length];

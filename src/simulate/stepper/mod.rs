@@ -1,6 +1,7 @@
 //! Steps of a phase by any integrator in any coordinates.
 
 mod adaptive;
+mod companion;
 mod gauss_legendre;
 mod runge_kutta4;
 mod semi_implicit_euler;
@@ -10,6 +11,7 @@ use crate::error::Error;
 use crate::simulate::equation::{Equation, FormulationWorkspace};
 use crate::simulate::system::System;
 use crate::state::State;
+use companion::Companion;
 
 /// By which integrator, in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,6 +41,8 @@ pub struct Properties {
     pub is_adaptive: bool,
     /// Whether it integrates canonical variables, and only those.
     pub is_canonical: bool,
+    /// The order of its steps; `None` where they follow from a tolerance.
+    pub order: Option<i32>,
 }
 
 /// An integrator. Each has a file of its own with its properties and steps; this file lists them.
@@ -114,6 +118,7 @@ impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Ste
 pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
     steps: Box<dyn Steps>,
+    companion: Companion,
 }
 
 impl<'a> Stepper<'a> {
@@ -131,7 +136,9 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let equation = Equation::new(system, control, form);
-        Ok(Self { equation, steps: integration.integrator.steps(duration, x.len()) })
+        let (steps, companion) =
+            (integration.integrator.steps(duration, x.len()), Companion::new(integration.integrator, duration, x));
+        Ok(Self { equation, steps, companion })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
@@ -147,7 +154,14 @@ impl<'a> Stepper<'a> {
 
     /// Advances `x` over the next step.
     pub(crate) fn advance(&mut self, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        self.steps.advance(&mut self.equation, span, x)
+        self.steps.advance(&mut self.equation, span, x)?;
+        self.companion.follow(&mut self.equation, span, x);
+        Ok(())
+    }
+
+    /// The estimated largest error of a position so far, rad or m.
+    pub(crate) fn path_error(&self) -> f64 {
+        self.companion.error()
     }
 
     /// The vector at `time` within a step that starts at `start` with `x`, into `into`.

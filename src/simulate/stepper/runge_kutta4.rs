@@ -4,7 +4,8 @@ use super::{Properties, Steps};
 use crate::integrate::RungeKutta4;
 use crate::simulate::equation::Equation;
 
-pub(super) const PROPERTIES: Properties = Properties { name: "rk4", is_adaptive: false, is_canonical: false };
+pub(super) const PROPERTIES: Properties =
+    Properties { name: "rk4", is_adaptive: false, is_canonical: false, order: Some(4) };
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; RungeKutta4::<f64>::WORKSPACE * length];

@@ -5,7 +5,7 @@ use crate::integrate::SemiImplicitEuler;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
-    Properties { name: "semi_implicit_euler", is_adaptive: false, is_canonical: false };
+    Properties { name: "semi_implicit_euler", is_adaptive: false, is_canonical: false, order: Some(1) };
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; length];

@@ -1,0 +1,93 @@
+//! An estimate of the error of the integrated path, which no conservation law shows: a second solution beside the first,
+//! with other steps.
+//!
+//! Steps of twice the length give a solution whose error is 2ᵖ times as large, p being the order: the error is the
+//! difference of the two over 2ᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
+//! leaves of it. A law whose torques are held decides at the first solution alone; the second then takes steps of half
+//! the length. Adaptive steps are followed with a larger tolerance.
+
+use super::{Integrator, Steps};
+use crate::error::Error;
+use crate::scalar::Real;
+use crate::simulate::equation::Equation;
+use crate::state::split;
+
+/// Tolerance of the second solution over that of the first.
+const LOOSER: f64 = 100.0;
+/// Error over the difference of the two: a tenth, where the error follows the tolerance a hundredth.
+const ADAPTIVE_SHARE: f64 = 0.1;
+/// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
+const UNKNOWN: f64 = 1.0;
+
+/// The second solution.
+pub(super) struct Companion {
+    steps: Box<dyn Steps>,
+    x: Vec<f64>,
+    /// At the end of its last step, with rates and with momenta.
+    last_step: [Vec<f64>; 2],
+    /// The start of a step that the next one is to double, s.
+    pending: Option<f64>,
+    /// The order of the steps; `None` where they follow from a tolerance.
+    order: Option<i32>,
+    error: f64,
+    is_lost: bool,
+}
+
+impl Companion {
+    /// Of a solution that starts at `x`, over a phase of `duration`, s.
+    pub(super) fn new(integrator: Integrator, duration: f64, x: &[f64]) -> Self {
+        let integrator = match integrator {
+            Integrator::Adaptive { tolerance } => Integrator::Adaptive { tolerance: LOOSER * tolerance },
+            fixed => fixed,
+        };
+        let (steps, order) = (integrator.steps(duration, x.len()), integrator.properties().order);
+        let last_step = [Vec::new(), Vec::new()];
+        Self { steps, x: x.to_vec(), last_step, pending: None, order, error: 0.0, is_lost: false }
+    }
+
+    /// Follows the first solution over a step, at whose end that is `x`.
+    pub(super) fn follow(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &[f64]) {
+        if self.is_lost {
+            return;
+        }
+        equation.exchange_last_step(&mut self.last_step);
+        let advanced = self.advance(equation, span);
+        equation.exchange_last_step(&mut self.last_step);
+        match advanced {
+            Ok(None) => {}
+            Ok(Some(share)) => {
+                let positions = split(x).map_or(0, |parts| parts.positions.len());
+                let differences = x.iter().zip(&self.x).take(positions).map(|(x, y)| (x - y).abs());
+                let largest = differences.fold(0.0, |most: f64, difference| Real::maximum(most, difference));
+                self.error = Real::maximum(self.error, share * largest);
+            }
+            Err(_) => (self.is_lost, self.error) = (true, Real::maximum(self.error, UNKNOWN)),
+        }
+    }
+
+    /// Advances it; returns the share of the difference that is the error, `None` where it is still behind.
+    fn advance(&mut self, equation: &mut Equation<'_>, span @ [start, end]: [f64; 2]) -> Result<Option<f64>, Error> {
+        let Some(order) = self.order else {
+            return self.steps.advance(equation, span, &mut self.x).map(|()| Some(ADAPTIVE_SHARE));
+        };
+        let growth = 2.0_f64.powi(order);
+        if equation.control.held_steps().is_some() {
+            let middle = f64::midpoint(start, end);
+            self.steps.advance(equation, [start, middle], &mut self.x)?;
+            self.steps.advance(equation, [middle, end], &mut self.x)?;
+            return Ok(Some(growth / (growth - 1.0)));
+        }
+        match self.pending.take() {
+            None => {
+                self.pending = Some(start);
+                Ok(None)
+            }
+            Some(start) => self.steps.advance(equation, [start, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0))),
+        }
+    }
+
+    /// The largest error of a position so far, rad or m.
+    pub(super) fn error(&self) -> f64 {
+        self.error
+    }
+}

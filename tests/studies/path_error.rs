@@ -1,0 +1,100 @@
+//! The estimated error of a path against its true error, for motions that conserve everything and end elsewhere.
+
+use crate::{run, scenario};
+use planar_capture::capture::Study;
+use planar_capture::output::summary::summary;
+use planar_capture::scenario::{FinalRates, Scenario, Tracking};
+use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
+
+const FULL: Formulation = Formulation::Full;
+
+/// An approach without torques from these rates, rad/s.
+fn free(rates: [f64; 3], duration: f64, step: f64, integrator: Integrator) -> Scenario {
+    let mut scenario = scenario("redysim_single_arm_3r");
+    scenario.initial.joint_angles = vec![0.3, -0.9, 0.6];
+    scenario.initial.joint_rates = rates.to_vec();
+    scenario.approach.duration = duration;
+    scenario.approach.step = step;
+    scenario.approach.end = FinalRates::JointRates(vec![0.0; 3]);
+    scenario.approach.tracking =
+        Tracking::ProportionalDerivative { proportional_gain: vec![0.0; 3], derivative_gain: vec![0.0; 3] };
+    scenario.approach.integration = Integration { integrator, coordinates: FULL };
+    scenario
+}
+
+fn positions(study: &Study) -> Vec<f64> {
+    let state = &study.approach.end().state;
+    [&state.base_pose[..], &state.joint_angles].concat()
+}
+
+fn true_error(found: &Study, exact: &Study) -> f64 {
+    planar_proof::difference(&positions(found), &positions(exact))
+}
+
+/// At least a third of the error, and within a factor of a hundred, from rounding to where the path is lost.
+#[test]
+fn the_estimate_is_of_the_size_of_the_error() {
+    let mut seen = [0; 2];
+    for rates in [[0.6, -0.8, 0.5], [2.0, -3.0, 4.0], [8.0, -5.0, 3.0]] {
+        let exact = run(&free(rates, 20.0, 0.01, Integrator::Adaptive { tolerance: 1e-13 }));
+        for (integrator, step) in [
+            (Integrator::RungeKutta4, 0.01),
+            (Integrator::RungeKutta4, 0.005),
+            (Integrator::RungeKutta4, 0.0025),
+            (Integrator::GaussLegendre, 0.02),
+            (Integrator::GaussLegendre, 0.005),
+            (Integrator::SemiImplicitEuler, 0.001),
+            (Integrator::Adaptive { tolerance: 1e-6 }, 0.01),
+            (Integrator::Adaptive { tolerance: 1e-10 }, 0.01),
+        ] {
+            let study = run(&free(rates, 20.0, step, integrator));
+            let (error, estimate) = (true_error(&study, &exact), study.approach.path_error);
+            let name = format!("{rates:?} rad/s, {integrator:?}, {step} s: error {error:e}, estimate {estimate:e}");
+            let is_adaptive = integrator.properties().is_adaptive;
+            // rounding is not estimated; neither is the size of the error where both solutions have lost the path
+            assert!(estimate >= 0.3 * error.min(1e-2) - 1e-11, "{name}");
+            if error < 1e-2 && error > 1e-9 && !is_adaptive {
+                assert!(estimate <= 100.0 * error, "{name}");
+                seen[0] += 1;
+            }
+            let over = study.audit_failures().iter().any(|failure| failure.contains("path error"));
+            assert_eq!(over, estimate > 1e-4, "{name}");
+            seen[1] += usize::from(over);
+        }
+    }
+    assert!(seen[0] > 6 && seen[1] > 3, "{seen:?}");
+}
+
+/// Joints at 23 rad/s, where energy and momentum hold to 1e-10: neighbouring paths part, and the path is lost.
+#[test]
+fn a_path_that_is_lost_is_an_objection() {
+    let study = run(&free([23.0, -23.0, 0.0], 20.0, 0.005, Integrator::Adaptive { tolerance: 1e-10 }));
+    assert!(study.approach.drift.energy_error < 1e-9, "{:?}", study.approach.drift);
+    let failures = study.audit_failures();
+    assert!(matches!(failures.as_slice(), [one] if one.contains("approach: path error")), "{failures:?}");
+}
+
+/// Feedback damps what every step adds: the estimate does not add it up.
+#[test]
+fn feedback_keeps_the_estimate_small() {
+    for (name, bound) in [("raina_shah_2017", 1e-8), ("redysim_single_arm_3r", 1e-9), ("stabilised_capture", 1e-9)] {
+        let scenario = scenario(name);
+        let study = run(&scenario);
+        let error = study.approach.path_error;
+        assert!(error > 0.0 && error < bound, "{name}: {error:e}");
+        let value = summary(&scenario, "generated", &study);
+        assert_eq!(value["cases"][0]["approach"]["path_error"].as_f64(), Some(error));
+    }
+}
+
+/// Torques that are held are those of the path itself; the estimate is there too.
+#[test]
+fn sampled_torques_have_an_estimate() {
+    let mut scenario = scenario("redysim_single_arm_3r");
+    scenario.approach.actuation.steps_per_sample = Some(1);
+    for (step, least, most) in [(0.005, 1e-14, 1e-6), (0.04, 1e-11, 1e-2)] {
+        scenario.approach.step = step;
+        let error = run(&scenario).approach.path_error;
+        assert!(error > least && error < most, "{error:e} at {step} s");
+    }
+}
