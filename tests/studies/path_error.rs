@@ -1,8 +1,7 @@
 //! The estimated error of a path against its true error, for motions that conserve everything and end elsewhere.
 
-use crate::{run, scenario};
+use crate::{run, scenario, summary};
 use planar_capture::capture::Study;
-use planar_capture::output::summary::summary;
 use planar_capture::scenario::{FinalRates, Scenario, Tracking};
 use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
 
@@ -82,7 +81,7 @@ fn feedback_keeps_the_estimate_small() {
         let study = run(&scenario);
         let error = study.approach.path_error;
         assert!(error > 0.0 && error < bound, "{name}: {error:e}");
-        let value = summary(&scenario, "generated", &study);
+        let value = summary(&scenario, &study);
         assert_eq!(value["cases"][0]["approach"]["path_error"].as_f64(), Some(error));
     }
 }

@@ -1,10 +1,9 @@
 //! Numbers of the summary, the table and the report against what they are made of.
 
-use crate::{Silent, command, run, scenario};
+use crate::{Silent, command, manifest, run, scenario, summary};
 use planar_capture::capture::residual_motion::ResidualMotion;
 use planar_capture::capture::{CaseResult, Study, study};
 use planar_capture::output::html_report::write_report;
-use planar_capture::output::summary::summary;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario};
@@ -26,7 +25,7 @@ fn the_mean_force_is_the_impulse_over_the_duration() {
     let scenario = scenario("spinning_target");
     let duration = scenario.contact.duration.expect("a duration");
     assert!((duration - 1.0).abs() > 0.1, "another one than 1 s");
-    let value = summary(&scenario, "generated", &run(&scenario));
+    let value = summary(&scenario, &run(&scenario));
     let mut impulses = Vec::new();
     for case in value["cases"].as_array().expect("cases") {
         for contact in case["impact"]["contacts"].as_array().expect("contacts") {
@@ -55,7 +54,7 @@ fn the_base_work_completes_the_energy_balance() {
     scenario.post_impact.as_mut().expect("a capture").control =
         PostCaptureControl::Stabilise { derivative_gain: vec![0.5; 6], base_gain: 0.5, base_torque_limit: Some(1e3) };
     let study = run(&scenario);
-    let value = summary(&scenario, "generated", &study);
+    let value = summary(&scenario, &study);
     for (case, value) in study.cases.iter().zip(value["cases"].as_array().expect("cases")) {
         let phase = &case.capture.as_ref().expect("a capture").post_impact;
         let energy = phase.end().momentum.kinetic_energy - phase.samples[0].momentum.kinetic_energy;
@@ -164,7 +163,7 @@ fn the_reports_frames_end_at_the_end_effectors() {
 /// The data that the report's programs read.
 fn report_data(scenario: &Scenario, study: &Study) -> Value {
     let mut page = Vec::new();
-    write_report(scenario, study, &mut page).expect("written");
+    write_report(scenario, study, &manifest(scenario), &mut page).expect("written");
     let page = String::from_utf8(page).expect("UTF-8");
     let (_, rest) = page.split_once("id=\"data\">").expect("data");
     let (data, _) = rest.split_once("</script>").expect("an end");
