@@ -4,7 +4,7 @@
 //! targets?}, …]`; an optional entry may be `null`.
 
 mod elements;
-mod offsets;
+mod places;
 mod reader;
 mod result;
 mod write;

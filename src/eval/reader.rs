@@ -1,12 +1,11 @@
 //! Reads one state from its JSON text.
 
-use super::offsets::offsets;
+use super::places::Places;
 use crate::diagnostic::{NumberRule, excerpt, listing, nearest};
 use crate::evaluation::EvaluationInput;
 use crate::owned::RobotState;
 use crate::target::Target;
 use serde_json::{Map, Value};
-use std::collections::HashSet;
 
 const STATE: [&str; 8] = [
     "base_pose",
@@ -41,10 +40,15 @@ type Read<T> = Result<T, InvalidValue>;
 /// The number of lines before the invalid value, and a message with key, value and what is expected.
 pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, (usize, String)> {
     let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
-    repeated(text)
-        .map_or(Ok(()), Err)
-        .and_then(|()| instant(&tree, joints, arms))
-        .map_err(|error| (line_of(text, &error.path), error.message))
+    let places = Places::of(text);
+    // the parsed tree has only the last value of a key
+    if let Some((path, offset)) = places.repeated() {
+        return Err((lines_before(text, offset), format!("`{}` is given twice, expected once", excerpt(&path))));
+    }
+    instant(&tree, joints, arms).map_err(|error| {
+        let offset = places.offset(&error.path).unwrap_or(0);
+        (lines_before(text, offset), error.message)
+    })
 }
 
 fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
@@ -167,12 +171,6 @@ fn excerpt_of(value: &Value) -> String {
     excerpt(&value.to_string())
 }
 
-/// Lines before the value at `path`.
-fn line_of(text: &[u8], path: &str) -> usize {
-    let place = offsets(text).into_iter().rev().find(|(found, _)| found == path);
-    lines_before(text, place.map_or(0, |(_, offset)| offset))
-}
-
 fn lines_before(text: &[u8], offset: usize) -> usize {
     text.iter().take(offset).filter(|byte| **byte == b'\n').count()
 }
@@ -182,7 +180,7 @@ fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
     let lines = error.line().saturating_sub(1);
     let start = text.split_inclusive(|byte| *byte == b'\n').take(lines).map(<[u8]>::len).sum::<usize>();
     let offset = start + error.column();
-    let before = offsets(text).into_iter().take_while(|(_, place)| *place < offset).last();
+    let before = Places::of(text).last_before(offset);
     let what = error.to_string();
     // without the line, which the parser counts from the start of the state
     let what = what.split(" at line ").next().unwrap_or_default();
@@ -200,11 +198,4 @@ fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
         _ => format!("not JSON: {what}"),
     };
     (lines, message)
-}
-
-/// The first key that an object has twice; the parsed tree has only the last.
-fn repeated(text: &[u8]) -> Option<InvalidValue> {
-    let mut paths = HashSet::new();
-    let repeat = offsets(text).into_iter().map(|(path, _)| path).find(|path| !paths.insert(path.clone()));
-    repeat.map(|path| InvalidValue { message: format!("`{}` is given twice, expected once", excerpt(&path)), path })
 }

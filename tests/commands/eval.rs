@@ -2,6 +2,8 @@
 
 use crate::command;
 use assert_cmd::Command;
+use planar_capture::eval::States;
+use planar_proof::linear_time::assert_linear_time;
 use planar_proof::{said, tolerance};
 use serde_json::{Map, Value, json};
 use std::f64::consts::TAU;
@@ -212,4 +214,42 @@ fn a_layout_without_generated_code_is_an_error_that_says_what_to_do() {
     let (code, _, problem) = eval("dual_arm_3", "[]", "generated");
     assert_eq!(code, 2);
     assert!(problem.contains("did you mean `dual_arm_3r`"), "{problem}");
+}
+
+/// A key is the same however its characters are written; a key with a dot is another than that of an inner value.
+#[test]
+fn repeated_keys_are_found_however_they_are_written() {
+    let (states, _) = reference();
+    let good = states[0].to_string();
+    for (more, said) in [
+        ("\"base\\u005fpose\":[0,0,0],", "line 1: state 0: `base_pose` is given twice"),
+        ("\"targets.mass\":1,", "unknown key `targets.mass` (1)"),
+        ("\"a\":{\"b\":1},\"a.b\":1,", "unknown key `a`"),
+    ] {
+        let (code, _, problem) =
+            eval("dual_arm_3r", &format!("[{}]", good.replacen('{', &format!("{{{more}"), 1)), "generated");
+        assert_eq!(code, 2);
+        assert!(problem.contains(said), "no `{said}` in {problem}");
+    }
+}
+
+#[test]
+fn the_time_is_linear_in_the_size_of_a_state() {
+    let robot = planar_capture::registry::generated(&planar_proof::layout("single_arm_2r")).expect("generated code");
+    let read = |text: &str| {
+        let problem = States::new(text.as_bytes(), &*robot).next_state().expect_err("no state").to_string();
+        assert!(problem.len() < 1000, "{problem}");
+    };
+    let many = |count: usize, one: &dyn Fn(usize) -> String| (0..count).map(one).collect::<Vec<_>>().join(",");
+    let is_linear = |what: &str, text: &dyn Fn(usize) -> String| assert_linear_time(what, text, read);
+    is_linear("the same key", &|count| format!("[{{{}}}]", many(count, &|_| "\"a\":1".to_owned())));
+    is_linear("other keys", &|count| format!("[{{{}}}]", many(count, &|i| format!("\"a{i}\":1"))));
+    is_linear("a repeated key at the end", &|count| {
+        format!("[{{\"a\":{{{},\"a1\":2}}}}]", many(count, &|i| format!("\"a{i}\":1")))
+    });
+    is_linear("a long key around many values", &|count| {
+        format!("[{{\"{}\":[{}]}}]", "k".repeat(count), many(count, &|_| "1".to_owned()))
+    });
+    is_linear("a long key", &|count| format!("[{{\"{}\":1}}]", "base_pose".repeat(count)));
+    is_linear("lines", &|count| format!("[{{{}\"joint_rates\":[\"x\"]}}]", "\n".repeat(count)));
 }

@@ -10,6 +10,7 @@
 )]
 
 pub mod dual;
+pub mod linear_time;
 pub mod maximal;
 pub mod sample;
 pub mod tolerance;
