@@ -10,6 +10,7 @@ mod derivation;
 mod diagnostics;
 mod eval;
 mod generate;
+mod hidden_characters;
 mod progress;
 mod rendering;
 mod result_folder;

@@ -150,6 +150,13 @@ fn build_errors_name_a_remedy() {
     assert!(layout.contains("did you mean `inertia`"), "{layout}");
 }
 
+/// A graph with the layout's hash, names and numbers, and another equation.
+#[test]
+fn a_graph_is_proved_before_it_is_rendered() {
+    let wrong = broken(|dir| edit(&dir.join("graphs/single_arm_2r.json"), "\"sub\", ", "\"add\", "));
+    assert!(wrong.contains("single_arm_2r.json") && wrong.contains("disagree"), "{wrong}");
+}
+
 /// A comment, or a default written out, makes nothing stale.
 #[test]
 fn a_comment_makes_nothing_stale() {

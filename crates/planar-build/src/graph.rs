@@ -3,9 +3,12 @@
 pub use crate::format::Graph;
 
 use crate::renderer::camel_case;
+use crate::soundness;
+use planar_dynamics::manifest::ParameterKind;
 use planar_layout::layout::Layout;
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::fmt::Debug;
 
 /// The format of the graphs that are read.
@@ -37,7 +40,8 @@ pub enum GraphError {
     },
 }
 
-/// Parses a graph and compares it with a layout: hash, names, number of links and the defaults of all parameters.
+/// Parses a graph and compares it with a layout: hash, names, number of links and the defaults of all parameters. Names
+/// in it are identifiers, texts end no comment and no literal, and every value is assigned once, before it is used.
 ///
 /// # Errors
 /// [`GraphError`].
@@ -54,25 +58,35 @@ pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
     equal("name", &graph.layout.name, &layout.name)?;
     let found: Vec<_> = graph.layout.arms.iter().map(|arm| (&arm.name, arm.links)).collect();
     equal("arms", &found, &layout.arms.iter().map(|arm| (&arm.name, arm.links.len())).collect())?;
-    for function in graph.families.iter().flat_map(|family| &family.functions) {
-        let declared = |name: &&String| graph.inputs.iter().any(|input| input.name == **name);
-        if let Some(input) = function.inputs.iter().find(|name| !declared(name)) {
-            return Err(GraphError::Format(format!("input `{input}` of `{}` is not declared", function.name)));
-        }
-        if function.outputs.is_empty() {
-            return Err(GraphError::Format(format!("`{}` has no output", function.name)));
-        }
-    }
-    let parameters = layout.parameters();
-    for parameter in &graph.parameters {
-        let (name, kind) = (&parameter.name, camel_case(&parameter.quantity));
-        let place = (parameter.arm.unwrap_or(0), parameter.link.unwrap_or(0));
-        let value = parameters.iter().find(|(k, a, l, _)| format!("{k:?}") == kind && (*a, *l) == place);
-        let unknown = || GraphError::Format(format!("parameter `{name}` is no parameter of the layout"));
-        let (.., value) = value.ok_or_else(unknown)?;
-        equal(&format!("the default of `{name}`"), &parameter.default, value)?;
-    }
+    soundness::check(&graph).map_err(GraphError::Format)?;
+    compare_parameters(&graph, layout)?;
     Ok(graph)
+}
+
+/// Compares the parameters of a graph with the numbers of its layout: each is one of them with its value as the
+/// default, and those without a parameter are the exact zeros.
+fn compare_parameters(graph: &Graph, layout: &Layout) -> Result<(), GraphError> {
+    let camel: HashMap<String, ParameterKind> =
+        layout.parameters().into_iter().map(|(kind, ..)| (format!("{kind:?}"), kind)).collect();
+    let mut left: HashMap<_, f64> =
+        layout.parameters().into_iter().map(|(kind, arm, link, value)| ((kind, arm, link), value)).collect();
+    for parameter in &graph.parameters {
+        let name = &parameter.name;
+        let unknown =
+            || GraphError::Format(format!("parameter `{name}` is no parameter of the layout, or is one twice"));
+        let kind = *camel.get(&camel_case(&parameter.quantity)).ok_or_else(unknown)?;
+        let place = (kind, parameter.arm.unwrap_or(0), parameter.link.unwrap_or(0));
+        let value = left.remove(&place).ok_or_else(unknown)?;
+        equal(&format!("the default of `{name}`"), &parameter.default, &value)?;
+    }
+    let mut numbers = layout.parameters().into_iter();
+    match numbers.find(|(kind, arm, link, value)| *value != 0.0 && left.contains_key(&(*kind, *arm, *link))) {
+        Some((kind, arm, link, value)) => {
+            let what = format!("{kind:?} of arm {arm}, link {link}, counted from 0,");
+            Err(GraphError::Differs { what, found: "no parameter".to_owned(), wanted: format!("{value:?}") })
+        }
+        None => Ok(()),
+    }
 }
 
 /// The part that graphs of every format have.

@@ -9,6 +9,7 @@ pub mod graph;
 mod layouts;
 pub mod pipeline;
 mod renderer;
+mod soundness;
 
 #[cfg(feature = "prove")]
 pub mod prove;

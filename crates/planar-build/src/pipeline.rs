@@ -67,7 +67,8 @@ pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
     module.render(&value).map_err(|e| format!("{}: {e}; generate it again: {command}", graph.display()))
 }
 
-/// A layout and the graph that was derived from it; `command` makes the graph again.
+/// A layout and the graph that was derived from it; `command` makes the graph again. With the feature `prove` the graph
+/// is proved: interpreted, and compared with the generic implementation.
 ///
 /// # Errors
 /// What is wrong with either, or that the graph is not the layout's, with the command.
@@ -76,6 +77,8 @@ pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(La
     let mend = |e: &dyn std::fmt::Display| format!("{}: {e}; generate it again: {command}", graph_path.display());
     let text = fs::read_to_string(graph_path).map_err(|e| mend(&e))?;
     let graph = graph::read(&text, &layout).map_err(|e| mend(&e))?;
+    #[cfg(feature = "prove")]
+    crate::prove::prove(&layout, &graph).map_err(|e| mend(&e))?;
     Ok((layout, graph))
 }
 

@@ -1,7 +1,7 @@
 //! The description of a generated model: its layout, coordinates, parameters and operation counts.
 
 /// The number of a layout that a parameter of a generated model stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ParameterKind {
     /// Mass of the base, kg.
     BaseMass,

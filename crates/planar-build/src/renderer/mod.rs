@@ -6,6 +6,7 @@ mod wrap;
 
 use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use planar_dynamics::standalone::PARTS;
+use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
 use serde_json::{Value, json};
 use statements::{Scope, bindings, nested};
@@ -89,8 +90,8 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
     let set_up = Scope::parameters(graph).lines(&[], &graph.constants.statements, &constants);
     json!({
-        "source": module.source,
-        "command": module.command,
+        "source": printable(module.source),
+        "command": printable(module.command),
         "standalone": module.standalone,
         "self_test": graph.self_test.as_ref().map(|states| self_test(graph, states)),
         "layout": graph.layout,

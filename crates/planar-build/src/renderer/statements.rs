@@ -96,8 +96,10 @@ impl<'a> Scope<'a> {
         statements: &'a [Statement],
         results: &[&'a str],
     ) -> Vec<Line<'a>> {
-        let section =
-            |index: usize| sections.iter().rev().find(|(_, start)| *start <= index).map_or("", |(name, _)| name);
+        let section = |index: usize| {
+            let begun = sections.partition_point(|(_, start)| *start <= index);
+            begun.checked_sub(1).map_or("", |last| sections[last].0.as_str())
+        };
         let mut uses: HashMap<&str, Vec<&str>> = HashMap::new(); // the sections, "results" aside, that use a name
         for (index, statement) in statements.iter().enumerate() {
             for name in [&statement.a, &statement.b].into_iter().filter_map(Operand::name) {

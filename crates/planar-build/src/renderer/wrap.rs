@@ -21,7 +21,8 @@ pub fn wrap(text: &str) -> String {
 
 fn push(text: &mut String, line: &str) {
     let breaks = line.chars().count() > WIDTH || line.contains("], [");
-    let list = if breaks && !line.trim_start().starts_with("//") { longest_list(line) } else { None };
+    // a comment that is broken is no comment any more
+    let list = if breaks && !line.contains("//") { longest_list(line) } else { None };
     let Some(List { before, items, after }) = list else {
         text.extend([line, "\n"]);
         return;

@@ -6,6 +6,7 @@
 
 mod document;
 mod file;
+mod hidden_character;
 mod number_rule;
 mod syntax;
 mod table;
@@ -21,6 +22,7 @@ use document::Document;
 use toml::de::DeTable;
 
 pub use file::read_text;
+pub use hidden_character::{is_hidden, printable};
 pub use number_rule::NumberRule;
 pub use table::{Table, Value, every};
 pub use warning::{Warning, report_error, report_warnings};
@@ -107,8 +109,8 @@ impl Report {
             1 => parts.push(format!("... and 1 more {noun}")),
             more => parts.push(format!("... and {more} more {noun}s")),
         }
-        // The renderer shows ASCII control characters of the source safely, but not these.
-        parts.join("\n\n").replace(|c| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
+        // the renderer shows ASCII control characters of the source safely, and uses some itself, but not all others
+        parts.join("\n\n").replace(|c: char| !c.is_ascii() && is_hidden(c), "\u{fffd}")
     }
 
     /// The number of problems, shown or not.
@@ -187,14 +189,12 @@ pub fn listing(names: &[&str], conjunction: &str) -> String {
 #[must_use]
 pub fn excerpt(text: &str) -> String {
     const LONGEST: usize = 48;
-    let line = printable(&text.split_whitespace().collect::<Vec<_>>().join(" "));
+    // a line separator is shown as what it is
+    let is_space = |c: char| matches!(c, '\t' | '\n' | '\r') || (c.is_whitespace() && !is_hidden(c));
+    let words = text.split(is_space).filter(|word| !word.is_empty());
+    let line = printable(&words.collect::<Vec<_>>().join(" "));
     match line.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}…", &line[..end]),
         None => line,
     }
-}
-
-/// The text with control characters replaced.
-pub fn printable(text: &str) -> String {
-    text.replace(char::is_control, "\u{fffd}")
 }

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::{Table, every};
 use crate::diagnostic::document::Document;
 use crate::diagnostic::number_rule::{NumberRule, form};
-use crate::diagnostic::{Report, excerpt, listing, nearest};
+use crate::diagnostic::{Report, excerpt, is_hidden, listing, nearest};
 
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
 #[derive(Clone, Debug)]
@@ -124,12 +124,12 @@ impl<'a> Value<'a> {
         numbers?.try_into().ok()
     }
 
-    /// A string of one line that is not blank.
+    /// A string of one line that is not blank and has no hidden characters, see [`is_hidden`].
     #[must_use]
     pub fn text(&self, wanted: &str) -> Option<&'a str> {
-        let text = self.as_str().filter(|text| !text.trim().is_empty() && !text.contains(char::is_control));
+        let text = self.as_str().filter(|text| !text.trim().is_empty() && !text.contains(is_hidden));
         if text.is_none() {
-            let wanted = format!("{wanted}: text in quotes, on one line, not blank");
+            let wanted = format!("{wanted}: text in quotes, on one line, not blank, without hidden characters");
             self.expected(&wanted, None);
         }
         text
