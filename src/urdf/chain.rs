@@ -1,11 +1,11 @@
 //! The serial chain of joints and link groups of one arm.
 
 use super::UrdfError;
+use super::description::{DEFAULT_AXIS, JointKind};
 use super::link_group::LinkGroup;
 use super::plane::{Plane, direction, with_exact_zeros};
 use super::tree::Tree;
 use nalgebra::{IsometryMatrix3, Unit, Vector3};
-use urdf_rs::JointType;
 
 /// A joint of an arm and the links that it moves, at joint angles 0. "Inboard" is the link group before it.
 pub(super) struct ChainJoint {
@@ -41,7 +41,7 @@ pub(super) fn serial_chain(
                     .iter()
                     .map(|(j, _)| {
                         let joint = tree.joint(*j);
-                        format!("`{}` ({}) to `{}`", joint.name, type_name(joint), tree.link_name(tree.child(*j)))
+                        format!("`{}` ({}) to `{}`", joint.name, joint.kind.name(), tree.link_name(tree.child(*j)))
                     })
                     .collect();
                 return Err(UrdfError::link(
@@ -94,27 +94,14 @@ fn step(
 pub(super) fn axis(tree: &Tree, joint: usize) -> Result<Unit<Vector3<f64>>, UrdfError> {
     let joint = tree.joint(joint);
     let problem = |found: String, wanted: &str| UrdfError::joint(&joint.name, found, wanted);
-    if !matches!(joint.joint_type, JointType::Revolute | JointType::Continuous) {
-        let found = format!("it is {}, from `{}` to `{}`", type_name(joint), joint.parent.link, joint.child.link);
+    if !matches!(joint.kind, JointKind::Revolute | JointKind::Continuous) {
+        let found = format!("it is {}, from `{}` to `{}`", joint.kind.name(), joint.parent, joint.child);
         return Err(problem(found, "a layout has only revolute joints: expected revolute, continuous or fixed"));
     }
     if let Some(mimic) = &joint.mimic {
-        let found = format!("it mimics joint `{}`", mimic.joint);
+        let found = format!("it mimics joint `{mimic}`");
         return Err(problem(found, "joints of a layout are independent: make it fixed, or remove <mimic>"));
     }
-    Unit::try_new(Vector3::from(*joint.axis.xyz), 0.0)
+    Unit::try_new(Vector3::from(joint.axis.unwrap_or(DEFAULT_AXIS)), 0.0)
         .ok_or_else(|| problem("its axis is [0, 0, 0]".to_owned(), "expected a direction"))
-}
-
-/// As in the file.
-fn type_name(joint: &urdf_rs::Joint) -> &'static str {
-    match joint.joint_type {
-        JointType::Revolute => "revolute",
-        JointType::Continuous => "continuous",
-        JointType::Prismatic => "prismatic",
-        JointType::Fixed => "fixed",
-        JointType::Floating => "floating",
-        JointType::Planar => "planar",
-        JointType::Spherical => "spherical",
-    }
 }

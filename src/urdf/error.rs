@@ -1,6 +1,6 @@
 //! Errors of the import of a URDF file.
 
-use crate::diagnostic::Report;
+use crate::diagnostic::{Report, printable};
 
 /// Why a URDF file gives no layout.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -35,7 +35,8 @@ pub enum UrdfError {
 
 impl UrdfError {
     pub(super) fn part(kind: &str, name: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
-        Self::Part { part: format!("{kind} `{name}`"), found: found.into(), wanted: wanted.into() }
+        let (found, wanted) = (printable(&found.into()), printable(&wanted.into()));
+        Self::Part { part: printable(&format!("{kind} `{name}`")), found, wanted }
     }
 
     pub(super) fn link(link: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {

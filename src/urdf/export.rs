@@ -1,6 +1,7 @@
 //! Writes a layout as a URDF.
 
 use crate::layout::Layout;
+use quick_xml::escape::escape;
 
 /// The layout as a URDF whose base moves freely in the plane z = 0.
 ///
@@ -19,7 +20,7 @@ pub fn export(layout: &Layout) -> String {
     )];
     parts.push(link("base", layout.base.mass, layout.base.inertia, [0.0; 2]));
     for arm in &layout.arms {
-        let name = escaped(&arm.name);
+        let name = escape(&arm.name);
         let mut parent = "base".to_owned();
         let (mut place, mut angle) = (arm.mount, arm.mount_angle);
         for (k, body) in (1..).zip(&arm.links) {
@@ -50,10 +51,4 @@ fn joint(name: &str, kind: &str, [parent, child]: [&str; 2], [x, y]: [f64; 2], a
         "  <joint name=\"{name}\" type=\"{kind}\">\n    <parent link=\"{parent}\"/>\n    <child link=\"{child}\"/>\n    \
          <origin xyz=\"{x:?} {y:?} 0\" rpy=\"0 0 {angle:?}\"/>\n{axis}  </joint>\n"
     )
-}
-
-/// Text as the value of an XML attribute.
-fn escaped(text: &str) -> String {
-    let safe = |c: char| if "&<>\"'".contains(c) { format!("&#{};", u32::from(c)) } else { c.to_string() };
-    text.chars().map(safe).collect()
 }

@@ -1,6 +1,7 @@
 //! Converts the tree of a URDF to a layout.
 
 use super::chain::{self, ChainJoint};
+use super::description::JointKind;
 use super::end_effector::{EndEffector, end_effectors};
 use super::imported_layout::{ImportedJoint, ImportedLayout};
 use super::link_group::LinkGroup;
@@ -13,7 +14,6 @@ use super::tree::Tree;
 use super::{UrdfError, reader};
 use crate::layout::{Arm, Base, Layout, Link};
 use std::f64::consts::{PI, TAU};
-use urdf_rs::JointType;
 
 /// Names that the file does not determine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -42,8 +42,8 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
     let (base_link, passed) = tree.base()?;
     let base = LinkGroup::new(&tree, base_link)?;
     let mut remarks = Vec::new();
-    if let Some(joint) = passed.map(|joint| tree.joint(joint)).filter(|j| j.joint_type == JointType::Fixed) {
-        let (above, below) = (&joint.parent.link, &joint.child.link);
+    if let Some(joint) = passed.map(|joint| tree.joint(joint)).filter(|j| j.kind == JointKind::Fixed) {
+        let (above, below) = (&joint.parent, &joint.child);
         remarks.push(Remark::note(&format!("`{above}` holds `{below}` in the file; here `{below}` floats freely")));
     }
     let Some((first, at)) = base.joints.first() else {
@@ -68,7 +68,7 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
     remarks.extend(super::planar_body::remarks(&bodies));
     remarks.extend(tilts(&tree, &steps));
     let moving = steps.iter().flatten().map(|step| tree.joint(step.joint));
-    remarks.extend(omissions(moving, &reader::joints_without_axis(text)));
+    remarks.extend(omissions(moving));
     let base_body = Base { mass: base_body.mass, inertia: base_body.inertia, outline: None };
     let result = ImportedLayout {
         layout: Layout { name, base: base_body, arms },

@@ -1,10 +1,10 @@
 //! Groups of links that fixed joints merge into one rigid body.
 
 use super::UrdfError;
+use super::description::JointKind;
 use super::spatial_body::SpatialBody;
 use super::tree::Tree;
 use nalgebra::{IsometryMatrix3, Matrix3, Vector3};
-use urdf_rs::JointType;
 
 /// A link and all links fixed to it, in the frame of that link.
 pub(super) struct LinkGroup {
@@ -29,7 +29,7 @@ impl LinkGroup {
             group.members.push((member, place));
             for joint in tree.child_joints(member).iter().rev() {
                 let at = place * tree.origin(*joint);
-                if tree.joint(*joint).joint_type == JointType::Fixed {
+                if tree.joint(*joint).kind == JointKind::Fixed {
                     open.push((tree.child(*joint), at));
                 } else {
                     group.joints.push((*joint, at));

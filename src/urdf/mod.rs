@@ -5,9 +5,11 @@
 //! cannot represent is an [`UrdfError`] that names the link or joint.
 
 mod chain;
+mod description;
 mod end_effector;
 mod error;
 mod export;
+mod finite;
 mod import;
 mod imported_layout;
 mod link_group;
@@ -18,8 +20,8 @@ mod plane;
 mod reader;
 mod remark;
 mod spatial_body;
-mod tags;
 mod tree;
+mod xml;
 
 pub use error::UrdfError;
 pub use export::export;

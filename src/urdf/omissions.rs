@@ -1,17 +1,16 @@
 //! Remarks on properties of joints that a layout does not have: losses and limits.
 
+use super::description::{Joint, JointKind};
 use super::remark::Remark;
-use urdf_rs::{Joint, JointType};
 
-/// Remarks on the imported joints; `without_axis` are the names of those without `<axis>`.
-pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone, without_axis: &[String]) -> Vec<Remark> {
-    let lossy = joints.clone().filter_map(|joint| {
-        let dynamics = joint.dynamics.as_ref().filter(|d| d.damping != 0.0 || d.friction != 0.0)?;
-        Some(format!("`{}` damping {:?} N m s/rad, friction {:?} N m", joint.name, dynamics.damping, dynamics.friction))
+/// Remarks on the imported joints.
+pub(super) fn omissions<'a>(joints: impl Iterator<Item = &'a Joint> + Clone) -> Vec<Remark> {
+    let lossy = joints.clone().filter(|joint| joint.damping != 0.0 || joint.friction != 0.0);
+    let lossy = lossy.map(|joint| {
+        format!("`{}` damping {:?} N m s/rad, friction {:?} N m", joint.name, joint.damping, joint.friction)
     });
     let limits = joints.clone().filter_map(limits);
-    let default_axis =
-        joints.filter(|joint| without_axis.contains(&joint.name)).map(|joint| format!("`{}`", joint.name));
+    let default_axis = joints.filter(|joint| joint.axis.is_none()).map(|joint| format!("`{}`", joint.name));
     let remarks = [
         Remark::of_items(Remark::warning, "losses of joints are omitted", "; ", lossy),
         Remark::of_items(Remark::note, "limits of joints are omitted", "; ", limits),
@@ -25,7 +24,7 @@ fn limits(joint: &Joint) -> Option<String> {
     let limit = &joint.limit;
     let mut parts = Vec::new();
     // a continuous joint has no limits of its angle
-    if joint.joint_type == JointType::Revolute && (limit.lower.is_finite() || limit.upper.is_finite()) {
+    if joint.kind == JointKind::Revolute && (limit.lower.is_finite() || limit.upper.is_finite()) {
         parts.push(format!("angle [{:?}, {:?}] rad", limit.lower, limit.upper));
     }
     for (what, value, unit) in [("rate", limit.velocity, "rad/s"), ("torque", limit.effort, "N m")] {

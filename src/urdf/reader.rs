@@ -1,114 +1,206 @@
-//! Reads the links and joints of a URDF file.
+//! Reads the links and joints of a URDF file. Visuals, collisions and all else that a layout does not have are ignored.
 
 use super::UrdfError;
-use super::tags::{Tag, tags};
-use crate::diagnostic::printable;
-use nalgebra::{IsometryMatrix3, Rotation3, Translation3};
-use urdf_rs::{Pose, Robot};
+use super::description::{Inertial, Joint, JointKind, Limit, Link, Pose, Robot};
+use super::xml::{Element, root};
+use crate::diagnostic::{excerpt, listing, printable};
+use nalgebra::{Quaternion, UnitQuaternion};
+use std::collections::HashMap;
 
-/// Largest depth of nested elements; a URDF has about six. The XML parser recurses, and would overflow the stack.
-const MAX_DEPTH: usize = 64;
-
-/// The numeric attributes of the elements that are imported.
-const NUMERIC_ATTRIBUTES: &[(&str, &[&str])] = &[
-    ("origin", &["xyz", "rpy"]),
-    ("mass", &["value"]),
-    ("inertia", &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]),
-    ("axis", &["xyz"]),
-    ("limit", &["lower", "upper", "effort", "velocity"]),
-];
+/// The version from which `<origin>` may have `quat_xyzw`.
+const WITH_QUATERNIONS: (u32, u32) = (1, 1);
+/// The version from which a limit that is not given is none; before it is 0.
+const WITHOUT_ZERO_LIMITS: (u32, u32) = (1, 2);
 
 /// Reads the elements of a URDF; does not check that they form a tree.
 pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
-    let tags = tags(text);
-    let depth = tags.iter().map(|tag| tag.depth + 1).max().unwrap_or_default();
-    if depth > MAX_DEPTH {
-        let message = format!("its elements are nested {depth} deep, expected {MAX_DEPTH} at most");
-        return Err(UrdfError::Unreadable(message));
+    let root = root(text).map_err(|message| UrdfError::Unreadable(printable(&message)))?;
+    let unreadable = |found: String| UrdfError::Unreadable(printable(&format!("line {}: {found}", root.line)));
+    if root.name() != "robot" {
+        return Err(unreadable(format!("<{}> has no links and joints, expected `<robot>`", root.name())));
     }
-    reject_text_for_numbers(&tags)?;
-    urdf_rs::read_from_string(text).map_err(|error| {
-        let parts = tags.iter().filter(|tag| tag.depth == 1 && matches!(tag.name(), "link" | "joint"));
-        parts.map(parse_alone).find_map(Result::err).unwrap_or_else(|| UrdfError::Unreadable(reason(&error)))
-    })
+    let mut attributes = root.attributes().map_err(unreadable)?;
+    let version = attributes.get("version").map_or((1, 0), |version| version_numbers(version));
+    let mut robot = Robot { name: attributes.remove("name").unwrap_or_default(), ..Robot::default() };
+    for element in &root.children {
+        match element.name() {
+            "link" => robot.links.push(Part::new(element, version)?.link()?),
+            "joint" => robot.joints.push(Part::new(element, version)?.joint()?),
+            _ => {}
+        }
+    }
+    Ok(robot)
 }
 
-/// urdf-rs skips words in lists of numbers, and its errors have neither place nor text.
-fn reject_text_for_numbers(tags: &[Tag<'_>]) -> Result<(), UrdfError> {
-    let mut part: Option<&Tag<'_>> = None;
-    for tag in tags {
-        if tag.depth == 1 {
-            part = Some(tag).filter(|tag| matches!(tag.name(), "link" | "joint"));
+/// Major and minor number of the version of the format; 1.0 for anything else.
+fn version_numbers(version: &str) -> (u32, u32) {
+    let numbers = version.trim().split_once('.');
+    numbers.and_then(|(major, minor)| Some((major.parse().ok()?, minor.parse().ok()?))).unwrap_or((1, 0))
+}
+
+/// A link or a joint.
+struct Part<'a> {
+    element: &'a Element<'a>,
+    name: String,
+    version: (u32, u32),
+}
+
+/// An element of a part, with its attributes.
+struct Entry<'a> {
+    element: &'a Element<'a>,
+    attributes: HashMap<&'a str, String>,
+}
+
+impl<'a> Part<'a> {
+    fn new(element: &'a Element<'a>, version: (u32, u32)) -> Result<Self, UrdfError> {
+        let unnamed = Self { element, name: String::new(), version };
+        let name = unnamed.entry(element)?.attributes.remove("name");
+        let name = name.ok_or_else(|| unnamed.problem(element, "it has no `name`".to_owned()))?;
+        Ok(Self { name, ..unnamed })
+    }
+
+    fn link(&self) -> Result<Link, UrdfError> {
+        let inertial = match self.child(self.element, "inertial")? {
+            Some(entry) => self.inertial(entry.element)?,
+            None => Inertial::default(),
+        };
+        Ok(Link { name: self.name.clone(), inertial })
+    }
+
+    fn inertial(&self, element: &'a Element<'a>) -> Result<Inertial, UrdfError> {
+        let mass = self.required(element, "mass")?;
+        let inertia = self.required(element, "inertia")?;
+        let mut moments = [0.0; 6];
+        for (moment, name) in moments.iter_mut().zip(["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]) {
+            *moment = self.number(&inertia, name, None)?;
         }
-        let Some(part) = part else { continue };
-        let names =
-            NUMERIC_ATTRIBUTES.iter().find(|(element, _)| *element == tag.name()).map_or(&[][..], |(_, names)| names);
-        for (name, value) in tag.attributes().into_iter().filter(|(name, _)| names.contains(name)) {
-            if let Some(word) = value.split_whitespace().find(|word| word.parse::<f64>().is_err()) {
-                let hint = if word.contains("${") { ": expand the file with xacro first" } else { "" };
-                let found =
-                    format!("`{name}` of <{}> is \"{value}\", where `{word}` is not a number{hint}", tag.name());
-                return Err(element(part, tag.line, found));
+        Ok(Inertial { origin: self.origin(element)?, mass: self.number(&mass, "value", None)?, inertia: moments })
+    }
+
+    fn joint(&self) -> Result<Joint, UrdfError> {
+        let own = self.entry(self.element)?;
+        let kind = self.attribute(&own, "type")?;
+        let kind = JointKind::ALL.iter().find(|(name, _)| *name == kind).map(|(_, kind)| *kind).ok_or_else(|| {
+            let wanted = listing(&JointKind::ALL.map(|(name, _)| name), "or");
+            self.problem(self.element, format!("its type is `{}`, expected {wanted}", excerpt(kind)))
+        })?;
+        let axis = self.child(self.element, "axis")?;
+        let axis = axis.map(|axis| self.numbers(&axis, "xyz", None)).transpose()?;
+        let dynamics = self.child(self.element, "dynamics")?;
+        let loss = |name: &str| dynamics.as_ref().map_or(Ok(0.0), |dynamics| self.number(dynamics, name, Some([0.0])));
+        let mimic = self.child(self.element, "mimic")?;
+        let mimic = mimic.map(|mimic| self.attribute(&mimic, "joint").map(str::to_owned)).transpose()?;
+        Ok(Joint {
+            name: self.name.clone(),
+            kind,
+            origin: self.origin(self.element)?,
+            parent: self.end("parent")?,
+            child: self.end("child")?,
+            axis,
+            limit: self.limit()?,
+            damping: loss("damping")?,
+            friction: loss("friction")?,
+            mimic,
+        })
+    }
+
+    /// The link that a joint names as its parent or child.
+    fn end(&self, name: &str) -> Result<String, UrdfError> {
+        let entry = self.required(self.element, name)?;
+        self.attribute(&entry, "link").map(str::to_owned)
+    }
+
+    fn limit(&self) -> Result<Limit, UrdfError> {
+        const NONE: f64 = f64::INFINITY;
+        let Some(limit) = self.child(self.element, "limit")? else {
+            return Ok(Limit { lower: -NONE, upper: NONE, effort: NONE, velocity: NONE });
+        };
+        let default = if self.version < WITHOUT_ZERO_LIMITS { 0.0 } else { NONE };
+        let number = |name: &str, default: f64| self.number(&limit, name, Some([default]));
+        Ok(Limit {
+            lower: number("lower", -default)?,
+            upper: number("upper", default)?,
+            effort: number("effort", default)?,
+            velocity: number("velocity", default)?,
+        })
+    }
+
+    fn origin(&self, element: &'a Element<'a>) -> Result<Pose, UrdfError> {
+        let Some(origin) = self.child(element, "origin")? else { return Ok(Pose::default()) };
+        let xyz = self.numbers(&origin, "xyz", Some([0.0; 3]))?;
+        if self.version < WITH_QUATERNIONS || !origin.attributes.contains_key("quat_xyzw") {
+            return Ok(Pose { xyz, rpy: self.numbers(&origin, "rpy", Some([0.0; 3]))? });
+        }
+        let [x, y, z, w] = self.numbers(&origin, "quat_xyzw", None)?;
+        let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0);
+        let problem = |found: &str| self.problem(origin.element, format!("<origin> has {found}"));
+        match (turn, origin.attributes.get("rpy")) {
+            (_, Some(_)) => Err(problem("both `rpy` and `quat_xyzw`, expected one of them")),
+            (None, None) => Err(problem("a `quat_xyzw` of length 0, expected a unit quaternion")),
+            (Some(turn), None) => {
+                let (roll, pitch, yaw) = turn.euler_angles();
+                Ok(Pose { xyz, rpy: [roll, pitch, yaw] })
             }
         }
     }
-    Ok(())
-}
 
-/// Names of the joints without an `<axis>`: urdf-rs fills in the default.
-pub(super) fn joints_without_axis(text: &str) -> Vec<String> {
-    let mut found: Vec<&str> = Vec::new();
-    let mut joint = None;
-    for tag in tags(text) {
-        if tag.depth == 1 {
-            found.extend(joint);
-            joint = tag.attribute("name").filter(|_| tag.name() == "joint");
-        } else if tag.depth == 2 && tag.name() == "axis" {
-            joint = None;
+    /// The element of this name in another, of which there may be one.
+    fn child(&self, element: &'a Element<'a>, name: &str) -> Result<Option<Entry<'a>>, UrdfError> {
+        let mut found = element.children.iter().filter(|child| child.name() == name);
+        let Some(first) = found.next() else { return Ok(None) };
+        match found.next() {
+            None => self.entry(first).map(Some),
+            Some(second) => Err(self.problem(second, format!("there is a second <{name}>, expected one"))),
         }
     }
-    found.into_iter().chain(joint).map(str::to_owned).collect()
-}
 
-/// The error of a link or joint when parsed alone.
-fn parse_alone(tag: &Tag<'_>) -> Result<(), UrdfError> {
-    let name = tag.name();
-    let end = format!("</{name}>");
-    let whole = if tag.rest.split('>').next().is_some_and(|first| first.ends_with('/')) {
-        tag.rest.split_inclusive('>').next().unwrap_or_default()
-    } else {
-        tag.rest.find(&end).and_then(|at| tag.rest.get(..at + end.len())).unwrap_or(tag.rest)
-    };
-    let alone = format!("<robot name=\"alone\">{whole}</robot>");
-    urdf_rs::read_from_string(&alone).map(drop).map_err(|error| element(tag, tag.line, reason(&error)))
-}
-
-fn element(part: &Tag<'_>, line: usize, found: String) -> UrdfError {
-    let name = part.attribute("name").unwrap_or_default();
-    UrdfError::Element { line, element: format!("{} `{}`", part.name(), printable(name)), found }
-}
-
-/// The message of the XML library, without its prefix.
-fn reason(error: &urdf_rs::UrdfError) -> String {
-    let text = printable(&error.to_string());
-    text.strip_prefix("custom: ").unwrap_or(&text).to_owned()
-}
-
-/// The numbers, if they are finite.
-pub(super) fn finite<const N: usize>(
-    what: &str,
-    numbers: [f64; N],
-    problem: impl FnOnce(String, &'static str) -> UrdfError,
-) -> Result<[f64; N], UrdfError> {
-    if numbers.iter().all(|number| number.is_finite()) {
-        Ok(numbers)
-    } else {
-        Err(problem(format!("{what} is {numbers:?}"), "expected finite numbers"))
+    fn required(&self, element: &'a Element<'a>, name: &str) -> Result<Entry<'a>, UrdfError> {
+        let missing = || self.problem(element, format!("<{}> has no <{name}>", element.name()));
+        self.child(element, name)?.ok_or_else(missing)
     }
-}
 
-/// A pose as a transformation: `rpy` are rotations about the fixed axes x, y, z in this order.
-pub(super) fn isometry(pose: &Pose) -> IsometryMatrix3<f64> {
-    let ([x, y, z], [roll, pitch, yaw]) = (*pose.xyz, *pose.rpy);
-    IsometryMatrix3::from_parts(Translation3::new(x, y, z), Rotation3::from_euler_angles(roll, pitch, yaw))
+    fn entry(&self, element: &'a Element<'a>) -> Result<Entry<'a>, UrdfError> {
+        let attributes = element.attributes().map_err(|message| self.problem(element, message))?;
+        Ok(Entry { element, attributes })
+    }
+
+    fn attribute<'e>(&self, entry: &'e Entry<'_>, name: &str) -> Result<&'e str, UrdfError> {
+        let missing = || self.problem(entry.element, format!("<{}> has no `{name}`", entry.element.name()));
+        entry.attributes.get(name).map(String::as_str).ok_or_else(missing)
+    }
+
+    fn number(&self, entry: &Entry<'_>, name: &str, default: Option<[f64; 1]>) -> Result<f64, UrdfError> {
+        self.numbers(entry, name, default).map(|[number]| number)
+    }
+
+    /// The numbers of an attribute; the default, if there is one, where it is not given.
+    fn numbers<const N: usize>(
+        &self,
+        entry: &Entry<'_>,
+        name: &str,
+        default: Option<[f64; N]>,
+    ) -> Result<[f64; N], UrdfError> {
+        if let (Some(default), false) = (default, entry.attributes.contains_key(name)) {
+            return Ok(default);
+        }
+        let text = self.attribute(entry, name)?;
+        let problem = |found: String| {
+            let (tag, text) = (entry.element.name(), excerpt(text));
+            self.problem(entry.element, format!("`{name}` of <{tag}> is \"{text}\", {found}"))
+        };
+        let words = text.split_whitespace().map(|word| {
+            word.parse().map_err(|_| {
+                let hint = if word.contains("${") { ": expand the file with xacro first" } else { "" };
+                problem(format!("where `{}` is not a number{hint}", excerpt(word)))
+            })
+        });
+        let numbers: Vec<f64> = words.collect::<Result<_, _>>()?;
+        let (count, noun) = (numbers.len(), if N == 1 { "number" } else { "numbers" });
+        numbers.try_into().map_err(|_| problem(format!("which has {count} numbers, expected {N} {noun}")))
+    }
+
+    fn problem(&self, element: &Element<'_>, found: String) -> UrdfError {
+        let (kind, name) = (self.element.name(), printable(&self.name));
+        UrdfError::Element { line: element.line, element: format!("{kind} `{name}`"), found: printable(&found) }
+    }
 }

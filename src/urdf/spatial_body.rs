@@ -1,9 +1,9 @@
 //! Mass, centre of mass and inertia tensor of rigid bodies in space.
 
 use super::UrdfError;
-use super::reader::{finite, isometry};
+use super::description::Link;
+use super::finite::finite;
 use nalgebra::{IsometryMatrix3, Matrix3, Vector3};
-use urdf_rs::Link;
 
 /// A rigid body in the frame of a link.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,17 +19,16 @@ impl SpatialBody {
     pub(super) fn from_link(link: &Link) -> Result<Self, UrdfError> {
         let inertial = &link.inertial;
         let problem = |found: String, wanted: &'static str| UrdfError::link(&link.name, found, wanted);
-        let i = &inertial.inertia;
-        finite("its mass", [inertial.mass.value], problem)?;
-        finite("its centre of mass", *inertial.origin.xyz, problem)?;
-        finite("the rpy of its inertia", *inertial.origin.rpy, problem)?;
-        finite("its inertia [ixx, ixy, ixz, iyy, iyz, izz]", [i.ixx, i.ixy, i.ixz, i.iyy, i.iyz, i.izz], problem)?;
-        if inertial.mass.value < 0.0 {
-            return Err(problem(format!("its mass is {:?} kg", inertial.mass.value), "expected 0 or more"));
+        finite("its mass", [inertial.mass], problem)?;
+        finite("its centre of mass", inertial.origin.xyz, problem)?;
+        finite("the rpy of its inertia", inertial.origin.rpy, problem)?;
+        let [xx, xy, xz, yy, yz, zz] = finite("its inertia [ixx, ixy, ixz, iyy, iyz, izz]", inertial.inertia, problem)?;
+        if inertial.mass < 0.0 {
+            return Err(problem(format!("its mass is {:?} kg", inertial.mass), "expected 0 or more"));
         }
-        let moments = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
-        let own = Self { mass: inertial.mass.value, com: Vector3::zeros(), inertia: moments };
-        Ok(own.transformed(&isometry(&inertial.origin)))
+        let moments = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let own = Self { mass: inertial.mass, com: Vector3::zeros(), inertia: moments };
+        Ok(own.transformed(&inertial.origin.isometry()))
     }
 
     /// Whether mass and inertia are zero.

@@ -1,11 +1,11 @@
 //! The tree of the links and joints of a URDF.
 
 use super::UrdfError;
-use super::reader::{finite, isometry};
+use super::description::{DEFAULT_AXIS, Joint, JointKind, Link, Robot};
+use super::finite::finite;
 use super::spatial_body::SpatialBody;
 use nalgebra::IsometryMatrix3;
 use std::collections::HashMap;
-use urdf_rs::{Joint, JointType, Link, Robot};
 
 /// Links and joints by their indices in the document; every link but the root is the child of one joint.
 pub(super) struct Tree {
@@ -42,18 +42,18 @@ impl Tree {
                 let missing = || format!("its {what} `{name}` is no link of this file");
                 links.get(name).copied().ok_or_else(|| UrdfError::joint(&joint.name, missing(), "name a `<link>`"))
             };
-            let (above, below) = (find("parent", &joint.parent.link)?, find("child", &joint.child.link)?);
+            let (above, below) = (find("parent", &joint.parent)?, find("child", &joint.child)?);
             if let Some(other) = parent[below].replace(j) {
                 let found = format!("it is the child of joints `{}` and `{}`", robot.joints[other].name, joint.name);
                 return Err(UrdfError::link(
-                    &joint.child.link,
+                    &joint.child,
                     found,
                     "a tree of links has no closed chains: expected one joint",
                 ));
             }
-            finite("its origin", *joint.origin.xyz, |f, w| UrdfError::joint(&joint.name, f, w))?;
-            finite("its origin's rpy", *joint.origin.rpy, |f, w| UrdfError::joint(&joint.name, f, w))?;
-            finite("its axis", *joint.axis.xyz, |f, w| UrdfError::joint(&joint.name, f, w))?;
+            finite("its origin", joint.origin.xyz, |f, w| UrdfError::joint(&joint.name, f, w))?;
+            finite("its origin's rpy", joint.origin.rpy, |f, w| UrdfError::joint(&joint.name, f, w))?;
+            finite("its axis", joint.axis.unwrap_or(DEFAULT_AXIS), |f, w| UrdfError::joint(&joint.name, f, w))?;
             children[above].push(j);
             child.push(below);
         }
@@ -121,7 +121,7 @@ impl Tree {
 
     /// From the frame of the child link, at joint angle 0, to that of the parent link.
     pub(super) fn origin(&self, joint: usize) -> IsometryMatrix3<f64> {
-        isometry(&self.joint(joint).origin)
+        self.joint(joint).origin.isometry()
     }
 
     /// The base: the root, or the child of a massless root (`world`) with one joint that is not revolute. Also the last
@@ -129,8 +129,7 @@ impl Tree {
     pub(super) fn base(&self) -> Result<(usize, Option<usize>), UrdfError> {
         let (mut link, mut passed) = (self.root, None);
         while let [joint] = *self.child_joints(link) {
-            let free =
-                matches!(self.joint(joint).joint_type, JointType::Fixed | JointType::Floating | JointType::Planar);
+            let free = matches!(self.joint(joint).kind, JointKind::Fixed | JointKind::Floating | JointKind::Planar);
             if !free || !SpatialBody::from_link(self.link(link))?.is_massless() {
                 break;
             }

@@ -17,6 +17,7 @@ mod result_folder;
 mod run;
 mod study_errors;
 mod urdf;
+mod urdf_xml;
 
 use std::process::Command;
 
