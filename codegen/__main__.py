@@ -37,6 +37,10 @@ def main() -> int:
     try:
         if os.environ.get(INSIDE) == "1":
             return derive(options)
+        environment.check_python()
+        if problem := wrong_arguments(options):
+            print(f"error: {problem}", file=sys.stderr)
+            return 2
         python = environment.ensure(dev=options.test)
     except environment.EnvironmentProblem as problem:
         environment.report(f"error: {problem}")
@@ -45,6 +49,23 @@ def main() -> int:
     path = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     inside = {**os.environ, INSIDE: "1", "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
     return subprocess.run([str(python), "-m", *command], cwd=ROOT, env=inside, check=False).returncode
+
+
+def wrong_arguments(options: argparse.Namespace) -> str | None:
+    """What is wrong with the arguments, before an environment is made for them."""
+    from .layout import LayoutError, layout_names, read
+
+    shipped = layout_names()
+    if unknown := [name for name in options.names if name not in shipped]:
+        return f"no layout {', '.join(unknown)} in codegen/layouts; there are: {', '.join(shipped)}"
+    if options.graph is not None and not options.graph.resolve().parent.is_dir():
+        return f"cannot write {options.graph}: there is no folder {options.graph.parent}"
+    try:
+        if options.layout is not None:
+            read(options.layout)
+    except LayoutError as problem:
+        return str(problem)
+    return None
 
 
 def derive(options: argparse.Namespace) -> int:
@@ -73,14 +94,10 @@ def derive_file(layout_file: Path, graph_file: Path) -> int:
 
 def derive_shipped(options: argparse.Namespace) -> int:
     """Writes or checks the files derived from the layouts in codegen/layouts."""
-    from .derive import graph_names, graph_path, layout_names
+    from .derive import graph_names, graph_path
+    from .layout import layout_names
 
     shipped = layout_names()
-    unknown = [name for name in options.names if name not in shipped]
-    if unknown:
-        names, known = ", ".join(unknown), ", ".join(shipped)
-        print(f"error: no layout {names} in codegen/layouts; there are: {known}", file=sys.stderr)
-        return 2
     files = derived_files(options.names or shipped, shipped)
     stale = [path for path, text in files if not up_to_date(path, text, options.check)]
     orphans = [graph_path(name) for name in graph_names() if name not in shipped]

@@ -13,10 +13,6 @@ from .json_text import dump
 from .layout import Layout, LayoutError, read
 
 
-def layout_names() -> list[str]:
-    return sorted(path.stem for path in (HERE / "layouts").glob("*.toml"))
-
-
 def graph_names() -> list[str]:
     return sorted(path.stem for path in (HERE / "graphs").glob("*.json"))
 

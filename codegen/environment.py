@@ -11,12 +11,19 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 OLDEST = (3, 11)
 # other simulators, which tests/ compares with
 REFERENCE = HERE.parent / "tests" / "reference" / "requirements-reference.txt"
+REQUIREMENTS = HERE / "requirements.txt"
+DEV = HERE / "requirements-dev.txt"
+UNFINISHED = "making-"
+# what is in the lock and nothing else, whatever the user's configuration of pip says
+INSTALL = ["-m", "pip", "--isolated", "install", "--quiet", "--disable-pip-version-check", "--no-input"]
+INSTALL += ["--require-hashes", "--only-binary=:all:", "-r"]
 
 
 class EnvironmentProblem(Exception):
@@ -24,18 +31,24 @@ class EnvironmentProblem(Exception):
 
 
 def home() -> Path:
-    """The folder of all environments: $PLANAR_CAPTURE_ENVIRONMENTS, else target/python beside the package."""
-    chosen = os.environ.get("PLANAR_CAPTURE_ENVIRONMENTS")
-    return Path(chosen) if chosen else HERE.parent / "target" / "python"
+    """The one folder of all environments, whoever makes them.
+
+    $PLANAR_CAPTURE_ENVIRONMENTS, $PLANAR_CAPTURE_HOME/python, else planar-capture/python in the user's cache folder."""
+    if chosen := os.environ.get("PLANAR_CAPTURE_ENVIRONMENTS"):
+        return Path(chosen)
+    if chosen := os.environ.get("PLANAR_CAPTURE_HOME"):
+        return Path(chosen) / "python"
+    name, inside = ("LOCALAPPDATA", "AppData/Local") if os.name == "nt" else ("XDG_CACHE_HOME", ".cache")
+    chosen = Path(os.environ.get(name, ""))
+    try:
+        caches = chosen if chosen.is_absolute() else Path.home() / inside
+    except RuntimeError as error:
+        raise EnvironmentProblem(f"{error}; name a folder: PLANAR_CAPTURE_ENVIRONMENTS=/path/to/folder") from error
+    return caches / "planar-capture" / "python"
 
 
 def report(text: str) -> None:
     print(f"codegen: {text}", file=sys.stderr, flush=True)
-
-
-def requirements(dev: bool) -> list[Path]:
-    names = ["requirements.txt", "requirements-dev.txt"] if dev else ["requirements.txt"]
-    return [HERE / name for name in names]
 
 
 def fingerprint(files: list[Path]) -> str:
@@ -50,34 +63,50 @@ def interpreter(environment: Path) -> Path:
     return environment / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 
 
-def ensure(dev: bool = False, reference: bool = False) -> Path:
-    """The interpreter of the locked environment, made if it is not there."""
+def site_packages(environment: Path) -> Path:
+    version = f"python{sys.version_info[0]}.{sys.version_info[1]}"
+    return environment / ("Lib" if os.name == "nt" else f"lib/{version}") / "site-packages"
+
+
+def check_python() -> None:
+    """An old Python cannot even read what comes next."""
     if sys.version_info < OLDEST:
         raise EnvironmentProblem(
             f"Python {OLDEST[0]}.{OLDEST[1]} or newer is needed, this is {sys.version.split()[0]} ({sys.executable})"
         )
-    files = [REFERENCE] if reference else requirements(dev)
-    candidates = [files] if reference else [files, requirements(dev=True)]  # the one for tests has all of the other
-    for candidate in candidates:
-        if not all(file.exists() for file in candidate):  # the package in the binary has no requirements of tests
-            continue
-        place = home() / fingerprint(candidate)
-        if interpreter(place).exists():
-            return interpreter(place)
-    place = home() / fingerprint(files)
+
+
+def ensure(dev: bool = False, reference: bool = False) -> Path:
+    """The interpreter of the locked environment, made if it is not there.
+
+    There is one for each lock. That of the tests and lints sees the packages of the derivation, which are large."""
+    check_python()
+    if reference:
+        return made([REFERENCE], 1100)
+    derivation = made([REQUIREMENTS], 400)
+    return made([DEV, REQUIREMENTS], 60) if dev else derivation
+
+
+def made(locks: list[Path], size: int) -> Path:
+    """The interpreter of the environment of a lock, on top of that of another where two are given."""
+    place = home() / fingerprint(locks)
+    if interpreter(place).exists():
+        return interpreter(place)
     for module in ("venv", "ensurepip"):
         if importlib.util.find_spec(module) is None:
             raise EnvironmentProblem(
                 f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
             )
-    size = 1100 if reference else 400
-    report(f"making a Python environment with {files[-1].name} in {place} (once; some {size} MB on disk)")
+    report(f"making a Python environment with {locks[0].name} in {place} (once; some {size} MB on disk)")
     place.parent.mkdir(parents=True, exist_ok=True)
-    building = Path(tempfile.mkdtemp(prefix="making-", dir=place.parent))
+    sweep(place.parent)
+    building = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=place.parent))
     try:
         run([sys.executable, "-m", "venv", str(building)])
-        pip = [str(interpreter(building)), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-        run([*pip, "--only-binary=:all:", "-r", str(files[-1])])
+        run([str(interpreter(building)), *INSTALL, str(locks[0])])
+        if locks[1:]:
+            below = site_packages(home() / fingerprint(locks[1:]))
+            (site_packages(building) / "below.pth").write_text(f"{below}\n", encoding="utf-8")
         try:
             building.rename(place)  # last, so that only a complete environment has the final name
         except OSError:
@@ -89,12 +118,19 @@ def ensure(dev: bool = False, reference: bool = False) -> Path:
     return interpreter(place)
 
 
+def sweep(folder: Path) -> None:
+    """Removes what processes have left that were ended while they made an environment."""
+    for left in folder.glob(f"{UNFINISHED}*"):
+        if time.time() - left.stat().st_mtime > 24 * 3600:
+            shutil.rmtree(left, ignore_errors=True)
+
+
 def run(command: list[str]) -> None:
     result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sys.stderr, check=False)
     if result.returncode != 0:
         raise EnvironmentProblem(
             f"`{' '.join(command)}` failed ({result.returncode}): the packages that it names "
-            "must be within reach of pip (network, proxy or a local index)"
+            "must be within reach of pip, without the user's configuration of it, and have the hashes of the lock"
         )
 
 

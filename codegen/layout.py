@@ -13,9 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .environment import HERE
+
 
 class LayoutError(Exception):
     """A layout that cannot be read; one line that names the file."""
+
+
+def layout_names() -> list[str]:
+    """The layouts in codegen/layouts."""
+    return sorted(path.stem for path in (HERE / "layouts").glob("*.toml"))
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from codegen.environment import home
 from codegen.layout import read
 from tests.reference.pinocchio_states import MEDIUM, Pinocchio, impacts, random_state, reduced
 
@@ -217,7 +218,7 @@ def check(seed, binary, folder):
         (crate / part).mkdir(parents=True)
     (crate / "Cargo.toml").write_text(MANIFEST.format(root=json.dumps(str(ROOT))), encoding="utf-8")
     modules = [name, f"{name}_standalone"]
-    environment = {"PLANAR_CAPTURE_ENVIRONMENTS": str(ROOT / "target" / "python"), **os.environ}
+    environment = {**os.environ, "PLANAR_CAPTURE_ENVIRONMENTS": str(home())}
     environment["PLANAR_CAPTURE_HOME"] = str(folder / "home")
     for module, option in zip(modules, ([], ["--standalone"]), strict=True):
         command = [binary, "generate", layout_file.name, "--out", crate / "src" / f"{module}.rs", *option]

@@ -7,9 +7,9 @@ from functools import cache
 import numpy as np
 
 from codegen import graph
-from codegen.derive import layout_names, layout_path
+from codegen.derive import layout_path
 from codegen.functions import Functions
-from codegen.layout import Arm, Base, Layout, Link, read
+from codegen.layout import Arm, Base, Layout, Link, layout_names, read
 
 BASE = Base(60.0, 9.0)
 

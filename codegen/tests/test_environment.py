@@ -1,6 +1,7 @@
 """The locked environment: errors where it cannot be made, and a new one when its contents change."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -47,7 +48,6 @@ def test_a_missing_module_is_named_with_its_remedy(elsewhere, monkeypatch):
 
 
 def test_a_failed_installation_leaves_nothing(elsewhere, monkeypatch):
-    monkeypatch.setattr(environment, "requirements", lambda dev: [environment.HERE / "requirements.txt"])
     failing = subprocess.CompletedProcess([], 1)
     monkeypatch.setattr(environment.subprocess, "run", lambda *args, **options: failing)
     with pytest.raises(environment.EnvironmentProblem, match="must be within reach of pip"):
@@ -60,16 +60,98 @@ def test_the_fingerprint_follows_pins_and_python(tmp_path, monkeypatch):
     pins.write_text("casadi==3.8.2\n")
     first = environment.fingerprint([pins])
     assert environment.fingerprint([pins]) == first
-    assert environment.fingerprint(environment.requirements(True)) != environment.fingerprint(
-        environment.requirements(False)
-    )
+    assert environment.fingerprint([environment.DEV, pins]) != first
     pins.write_text("casadi==3.8.3\n")
     second = environment.fingerprint([pins])
     monkeypatch.setattr(sys, "version", "3.14.0 (main)")
     assert len({first, second, environment.fingerprint([pins])}) == 3
 
 
-def test_every_pin_is_exact():
-    for path in [*environment.requirements(dev=True), environment.REFERENCE]:
-        lines = [line.split("#")[0].strip() for line in path.read_text().splitlines()]
-        assert all("==" in line for line in lines if line and not line.startswith("-r "))
+LOCKS = [environment.REQUIREMENTS, environment.DEV, environment.REFERENCE]
+
+
+@pytest.mark.parametrize("lock", LOCKS, ids=lambda lock: lock.name)
+def test_every_package_is_exact_and_has_its_hashes(lock):
+    text = lock.read_text().replace("\\\n", " ")
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    assert lines
+    for line in lines:
+        assert re.fullmatch(r"[\w.-]+==[\w.]+( ; [^-]+)?( +--hash=sha256:[0-9a-f]{64})+ *", line), line
+
+
+class Pip:
+    """Stands for the programs that make an environment."""
+
+    def __init__(self, monkeypatch):
+        self.commands = []
+        monkeypatch.setattr(environment.subprocess, "run", self.run)
+
+    def run(self, command, **_options):
+        self.commands.append(command)
+        if "venv" in command:
+            place = environment.Path(command[-1])
+            environment.site_packages(place).mkdir(parents=True)
+            environment.interpreter(place).parent.mkdir()
+            environment.interpreter(place).touch()
+        return subprocess.CompletedProcess([], 0)
+
+    def installed(self):
+        return [environment.Path(command[-1]).name for command in self.commands if "install" in command]
+
+
+def test_there_is_one_environment_for_each_lock(elsewhere, monkeypatch):
+    pip = Pip(monkeypatch)
+    first = environment.ensure()
+    dev = environment.ensure(dev=True)
+    assert environment.ensure() == first != dev == environment.ensure(dev=True)
+    environment.ensure(reference=True)
+    assert pip.installed() == [lock.name for lock in LOCKS]
+    assert len(list(elsewhere.iterdir())) == 3
+    # the tests see the packages of the derivation, and have no second copy of them
+    below = environment.site_packages(dev.parent.parent) / "below.pth"
+    assert environment.Path(below.read_text().strip()) == environment.site_packages(first.parent.parent)
+
+
+def test_pip_asks_for_hashes_and_for_no_configuration(elsewhere, monkeypatch):
+    pip = Pip(monkeypatch)
+    environment.ensure(dev=True)
+    installs = [command for command in pip.commands if "install" in command]
+    assert len(installs) == 2
+    for command in installs:
+        assert {"--isolated", "--require-hashes", "--only-binary=:all:"} <= set(command)
+
+
+def test_what_was_left_unfinished_goes_after_a_day(elsewhere, monkeypatch):
+    old, new = elsewhere / "making-old", elsewhere / "making-new"
+    for left in (old, new):
+        left.mkdir()
+    os.utime(old, (0, 0))
+    Pip(monkeypatch)
+    environment.ensure()
+    assert not old.exists() and new.exists()
+
+
+def test_everybody_makes_them_in_one_place(monkeypatch, tmp_path):
+    for name in ("PLANAR_CAPTURE_ENVIRONMENTS", "PLANAR_CAPTURE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("LOCALAPPDATA" if os.name == "nt" else "XDG_CACHE_HOME", str(tmp_path))
+    assert environment.home() == tmp_path / "planar-capture" / "python"
+    monkeypatch.setenv("PLANAR_CAPTURE_HOME", str(tmp_path / "home"))
+    assert environment.home() == tmp_path / "home" / "python"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["no_such_layout"], "no layout no_such_layout in codegen/layouts"),
+        (["--layout", "no_such.toml", "--graph", "a.json"], "no_such.toml"),
+        (["--layout", "codegen/layouts/boom_7r.toml", "--graph", "no_such/a.json"], "no folder no_such"),
+    ],
+)
+def test_wrong_arguments_make_no_environment(elsewhere, arguments, said):
+    outside = {k: v for k, v in os.environ.items() if k != "PLANAR_CAPTURE_CODEGEN_INSIDE"}
+    command = [sys.executable, "-m", "codegen", *arguments]
+    result = subprocess.run(command, cwd=environment.HERE.parent, env=outside, capture_output=True, text=True)
+    assert result.returncode == 2
+    assert said in result.stderr
+    assert list(elsewhere.iterdir()) == []

@@ -11,10 +11,10 @@ from itertools import pairwise
 import pytest
 
 from codegen import graph
-from codegen.derive import HERE, derive_text, graph_path, layout_names, layout_path
+from codegen.derive import HERE, derive_text, graph_path, layout_path
 from codegen.functions import Functions
 from codegen.json_text import dump
-from codegen.layout import content_hash, read
+from codegen.layout import content_hash, layout_names, read
 
 from .samples import LAYOUTS, derived, parameters
 

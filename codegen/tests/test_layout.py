@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from codegen.derive import HERE, derive_text, layout_names, layout_path
-from codegen.layout import LayoutError, content_hash, read
+from codegen.derive import HERE, derive_text, layout_path
+from codegen.layout import LayoutError, content_hash, layout_names, read
 
 TEXT = """\
 name = "one_arm"

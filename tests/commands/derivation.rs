@@ -10,7 +10,7 @@ const PYTHONS: [&str; 5] = ["python3", "python3.13", "python3.12", "python3.11",
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
 /// A Python of 3.11 or newer, as a message where there is none.
-fn python() -> Result<&'static str, String> {
+pub fn python() -> Result<&'static str, String> {
     let works = |name: &&str| Command::new(name).args(["-c", OLDEST]).output().is_ok_and(|out| out.status.success());
     PYTHONS.into_iter().find(|name| works(name)).ok_or_else(|| {
         format!(

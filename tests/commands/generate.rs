@@ -3,6 +3,7 @@
 //! `PLANAR_CAPTURE_NO_PYTHON=1` skips the tests that need Python, with a message.
 
 use crate::command;
+use crate::derivation::python;
 use planar_capture::build::Module;
 use planar_capture::build::graph::{self, Graph, GraphError};
 use planar_capture::build::{render_to, verify};
@@ -69,12 +70,19 @@ fn without_python() -> bool {
     without
 }
 
+/// The folder of the repository's own environments.
+fn environments() -> String {
+    let print = "from codegen import environment; print(environment.home())";
+    let output = Command::new(python().expect("Python")).args(["-c", print]).current_dir(file("")).output().expect("Python runs");
+    String::from_utf8(output.stdout).expect("a path").trim().to_owned()
+}
+
 /// The command in a folder, with environments shared with the repository's own.
 fn generate(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = command();
     command.arg("generate").args(arguments).current_dir(folder);
     command.env("PLANAR_CAPTURE_HOME", file("target/generate"));
-    command.env("PLANAR_CAPTURE_ENVIRONMENTS", file("target/python"));
+    command.env("PLANAR_CAPTURE_ENVIRONMENTS", environments());
     command
 }
 
