@@ -466,6 +466,36 @@ FAULTS = [
         "crates/planar-build/templates/self_test.rs.tera",
         "if expected.to_bits() != found.to_bits() {",
         "if expected.to_bits() != found.to_bits() && element > 1000 {",
+    # hostile input
+    Fault(
+        "nesting of a URDF without a bound",
+        "src/urdf/xml.rs",
+        "if deepest > MAX_DEPTH {",
+        "if deepest > usize::MAX - 1 {",
+    ),
+    Fault(
+        "keys compared as they are written",
+        "src/eval/places.rs",
+        "if !inside.contains(&b'\\\\') {",
+        "if !inside.is_empty() {",
+    ),
+    Fault(
+        "marks of direction taken for text",
+        "crates/planar-layout/src/diagnostic/hidden_character.rs",
+        "'\\u{2028}'..='\\u{202e}'",
+        "'\\u{2028}'..='\\u{2029}'",
+    ),
+    Fault(
+        "graph rendered without its proof",
+        "crates/planar-build/src/pipeline.rs",
+        "crate::prove::prove(&layout, &graph).map_err(|e| mend(&e))?;",
+        "let _ = crate::prove::prove(&layout, &graph);",
+    ),
+    Fault(
+        "comment with a list broken into lines",
+        "crates/planar-build/src/renderer/wrap.rs",
+        '!line.contains("//")',
+        '!line.trim_start().starts_with("//")',
     ),
 ]
 

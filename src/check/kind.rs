@@ -40,7 +40,7 @@ fn neither(text: &str, file: &str) -> Report {
     let Err(report) = read_document::<Infallible>(text, file, &known, |root| {
         let message = "this is neither a layout, which has `name`, `[base]` and `[[arm]]`, nor a scenario, which has \
                        `name`, `layout`, `[initial]` and `[approach]`";
-        root.reject(message.to_owned(), "none of these keys is here");
+        root.reject(message, "none of these keys is here");
         None
     });
     report

@@ -190,9 +190,9 @@ fn not_json(text: &[u8], error: &serde_json::Error) -> (usize, String) {
             let length = rest.iter().position(|b| b",]} \t\r\n".contains(b)).unwrap_or(rest.len());
             let value = String::from_utf8_lossy(rest.get(..length).unwrap_or_default()).into_owned();
             if what == "number out of range" {
-                format!("`{path}` is {}, expected a finite number that fits in 64 bits", excerpt(&value))
+                format!("`{}` is {}, expected a finite number that fits in 64 bits", excerpt(&path), excerpt(&value))
             } else {
-                format!("not JSON: {what}, near `{path}` ({})", excerpt(&value))
+                format!("not JSON: {what}, near `{}` ({})", excerpt(&path), excerpt(&value))
             }
         }
         _ => format!("not JSON: {what}"),

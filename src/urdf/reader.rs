@@ -14,15 +14,15 @@ const WITHOUT_ZERO_LIMITS: (u32, u32) = (1, 2);
 
 /// Reads the elements of a URDF; does not check that they form a tree.
 pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
-    let root = root(text).map_err(|message| UrdfError::Unreadable(printable(&message)))?;
-    let unreadable = |found: String| UrdfError::Unreadable(printable(&format!("line {}: {found}", root.line)));
-    if root.name() != "robot" {
-        return Err(unreadable(format!("<{}> has no links and joints, expected `<robot>`", root.name())));
+    let top = root(text).map_err(|message| UrdfError::Unreadable(printable(&message)))?;
+    let unreadable = |found: String| UrdfError::Unreadable(printable(&format!("line {}: {found}", top.line)));
+    if top.name() != "robot" {
+        return Err(unreadable(format!("<{}> has no links and joints, expected `<robot>`", top.name())));
     }
-    let mut attributes = root.attributes().map_err(unreadable)?;
+    let mut attributes = top.attributes().map_err(unreadable)?;
     let version = attributes.get("version").map_or((1, 0), |version| version_numbers(version));
     let mut robot = Robot { name: attributes.remove("name").unwrap_or_default(), ..Robot::default() };
-    for element in &root.children {
+    for element in &top.children {
         match element.name() {
             "link" => robot.links.push(Part::new(element, version)?.link()?),
             "joint" => robot.joints.push(Part::new(element, version)?.joint()?),
@@ -55,7 +55,7 @@ impl<'a> Part<'a> {
     fn new(element: &'a Element<'a>, version: (u32, u32)) -> Result<Self, UrdfError> {
         let unnamed = Self { element, name: String::new(), version };
         let name = unnamed.entry(element)?.attributes.remove("name");
-        let name = name.ok_or_else(|| unnamed.problem(element, "it has no `name`".to_owned()))?;
+        let name = name.ok_or_else(|| unnamed.problem(element, "it has no `name`"))?;
         Ok(Self { name, ..unnamed })
     }
 
@@ -82,7 +82,7 @@ impl<'a> Part<'a> {
         let kind = self.attribute(&own, "type")?;
         let kind = JointKind::ALL.iter().find(|(name, _)| *name == kind).map(|(_, kind)| *kind).ok_or_else(|| {
             let wanted = listing(&JointKind::ALL.map(|(name, _)| name), "or");
-            self.problem(self.element, format!("its type is `{}`, expected {wanted}", excerpt(kind)))
+            self.problem(self.element, &format!("its type is `{}`, expected {wanted}", excerpt(kind)))
         })?;
         let axis = self.child(self.element, "axis")?;
         let axis = axis.map(|axis| self.numbers(&axis, "xyz", None)).transpose()?;
@@ -133,7 +133,7 @@ impl<'a> Part<'a> {
         }
         let [x, y, z, w] = self.numbers(&origin, "quat_xyzw", None)?;
         let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 0.0);
-        let problem = |found: &str| self.problem(origin.element, format!("<origin> has {found}"));
+        let problem = |found: &str| self.problem(origin.element, &format!("<origin> has {found}"));
         match (turn, origin.attributes.get("rpy")) {
             (_, Some(_)) => Err(problem("both `rpy` and `quat_xyzw`, expected one of them")),
             (None, None) => Err(problem("a `quat_xyzw` of length 0, expected a unit quaternion")),
@@ -150,22 +150,22 @@ impl<'a> Part<'a> {
         let Some(first) = found.next() else { return Ok(None) };
         match found.next() {
             None => self.entry(first).map(Some),
-            Some(second) => Err(self.problem(second, format!("there is a second <{name}>, expected one"))),
+            Some(second) => Err(self.problem(second, &format!("there is a second <{name}>, expected one"))),
         }
     }
 
     fn required(&self, element: &'a Element<'a>, name: &str) -> Result<Entry<'a>, UrdfError> {
-        let missing = || self.problem(element, format!("<{}> has no <{name}>", element.name()));
+        let missing = || self.problem(element, &format!("<{}> has no <{name}>", element.name()));
         self.child(element, name)?.ok_or_else(missing)
     }
 
     fn entry(&self, element: &'a Element<'a>) -> Result<Entry<'a>, UrdfError> {
-        let attributes = element.attributes().map_err(|message| self.problem(element, message))?;
+        let attributes = element.attributes().map_err(|message| self.problem(element, &message))?;
         Ok(Entry { element, attributes })
     }
 
     fn attribute<'e>(&self, entry: &'e Entry<'_>, name: &str) -> Result<&'e str, UrdfError> {
-        let missing = || self.problem(entry.element, format!("<{}> has no `{name}`", entry.element.name()));
+        let missing = || self.problem(entry.element, &format!("<{}> has no `{name}`", entry.element.name()));
         entry.attributes.get(name).map(String::as_str).ok_or_else(missing)
     }
 
@@ -186,7 +186,7 @@ impl<'a> Part<'a> {
         let text = self.attribute(entry, name)?;
         let problem = |found: String| {
             let (tag, text) = (entry.element.name(), excerpt(text));
-            self.problem(entry.element, format!("`{name}` of <{tag}> is \"{text}\", {found}"))
+            self.problem(entry.element, &format!("`{name}` of <{tag}> is \"{text}\", {found}"))
         };
         let words = text.split_whitespace().map(|word| {
             word.parse().map_err(|_| {
@@ -199,8 +199,8 @@ impl<'a> Part<'a> {
         numbers.try_into().map_err(|_| problem(format!("which has {count} numbers, expected {N} {noun}")))
     }
 
-    fn problem(&self, element: &Element<'_>, found: String) -> UrdfError {
+    fn problem(&self, element: &Element<'_>, found: &str) -> UrdfError {
         let (kind, name) = (self.element.name(), printable(&self.name));
-        UrdfError::Element { line: element.line, element: format!("{kind} `{name}`"), found: printable(&found) }
+        UrdfError::Element { line: element.line, element: format!("{kind} `{name}`"), found: printable(found) }
     }
 }

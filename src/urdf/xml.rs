@@ -104,8 +104,8 @@ struct Lines<'a> {
 impl Lines<'_> {
     fn of(&mut self, offset: u64) -> usize {
         let offset = usize::try_from(offset).unwrap_or(usize::MAX).min(self.text.len());
-        let passed = self.text.as_bytes().get(self.at..offset).unwrap_or_default();
-        self.line += passed.iter().filter(|byte| **byte == b'\n').count();
+        let passed = self.text.get(self.at..offset).unwrap_or_default();
+        self.line += passed.matches('\n').count();
         self.at = self.at.max(offset);
         self.line
     }

@@ -73,7 +73,11 @@ fn without_python() -> bool {
 /// The folder of the repository's own environments.
 fn environments() -> String {
     let print = "from codegen import environment; print(environment.home())";
-    let output = Command::new(python().expect("Python")).args(["-c", print]).current_dir(file("")).output().expect("Python runs");
+    let output = Command::new(python().expect("Python"))
+        .args(["-c", print])
+        .current_dir(file(""))
+        .output()
+        .expect("Python runs");
     String::from_utf8(output.stdout).expect("a path").trim().to_owned()
 }
 

@@ -205,5 +205,5 @@ fn the_header_of_a_module_is_a_comment() {
     let module = Module { standalone: true, item: false, source: hostile, command: hostile };
     let module = module.render(&graph).expect("a module");
     assert!(!module.contains(|c| c != '\n' && is_hidden(c)));
-    assert!(module.lines().all(|line| !line.contains("stolen") || line.starts_with("//")), "{:.200}", module);
+    assert!(module.lines().all(|line| !line.contains("stolen") || line.starts_with("//")), "{module:.200}");
 }

@@ -11,6 +11,7 @@ mod diagnostics;
 mod eval;
 mod generate;
 mod hidden_characters;
+mod linear_time;
 mod progress;
 mod rendering;
 mod result_folder;

@@ -5,6 +5,7 @@ pub use crate::format::Graph;
 use crate::renderer::camel_case;
 use crate::soundness;
 use planar_dynamics::manifest::ParameterKind;
+use planar_layout::diagnostic::{excerpt, printable};
 use planar_layout::layout::Layout;
 use serde::Deserialize;
 use serde_json::Value;
@@ -53,7 +54,7 @@ pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
     let graph: Graph = parse(text)?;
     let (found, wanted) = (&graph.layout.sha256, layout.sha256());
     if *found != wanted {
-        return Err(GraphError::Stale { found: found.clone(), wanted });
+        return Err(GraphError::Stale { found: excerpt(found), wanted });
     }
     equal("name", &graph.layout.name, &layout.name)?;
     let found: Vec<_> = graph.layout.arms.iter().map(|arm| (&arm.name, arm.links)).collect();
@@ -97,7 +98,7 @@ struct Header {
 }
 
 fn parse<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, GraphError> {
-    let problem = |e: serde_json::Error| if e.is_data() { e.to_string() } else { format!("not JSON: {e}") };
+    let problem = |e: serde_json::Error| printable(&if e.is_data() { e.to_string() } else { format!("not JSON: {e}") });
     serde_json::from_str(text).map_err(|e| GraphError::Format(problem(e)))
 }
 

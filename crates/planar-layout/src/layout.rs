@@ -93,7 +93,7 @@ impl Layout {
                 if arms.is_empty() {
                     value.expected("at least one `[[arm]]`", None);
                 }
-                Table::reject_repeats(&arms, "name", str::eq, "arm names must differ");
+                Table::reject_repeats(&arms, "name", str::to_owned, "arm names must differ");
                 every(arms.iter().map(Arm::from_table))
             });
             Some(Self { name: name?, base: base?, arms: arms? })

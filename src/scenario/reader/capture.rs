@@ -29,8 +29,8 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
     let detection = contact.unwrap_or_default().detection;
     let tables = root.tables("target", target::KEYS)?;
     let no_targets = tables.is_empty();
-    Table::reject_repeats(&tables, "name", str::eq, "target names must differ");
-    Table::reject_repeats(&tables, "arm", str::eq, "an arm captures at most one target");
+    Table::reject_repeats(&tables, "name", str::to_owned, "target names must differ");
+    Table::reject_repeats(&tables, "arm", str::to_owned, "an arm captures at most one target");
     let targets = every(tables.iter().map(|table| target(table, layout, detection)));
     if let (Some(targets), Some(layout)) = (&targets, layout) {
         reject_shared_arms(targets, &tables, layout);
@@ -42,10 +42,10 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
     let cases = root.tables("case", case::KEYS).and_then(|tables| {
         if let (true, Some(table)) = (no_targets, tables.first()) {
             let message = "`case[0]` is a table, expected no `[[case]]` without a `[[target]]`";
-            table.reject(message.to_owned(), "there is nothing to capture");
+            table.reject(message, "there is nothing to capture");
         }
         let why = "case names must differ by more than upper and lower case: they are the names of files";
-        Table::reject_repeats(&tables, "name", str::eq_ignore_ascii_case, why);
+        Table::reject_repeats(&tables, "name", str::to_ascii_lowercase, why);
         every(tables.iter().map(|table| case(table, target_names.as_deref(), targets.as_deref(), detection)))
     });
 

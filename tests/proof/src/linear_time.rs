@@ -1,24 +1,25 @@
 //! Whether reading a text takes a time that is linear in its size.
 
+use crate::tolerance;
 use std::time::Instant;
 
-/// Measured times are compared, so the bound is between ten, for linear time, and a hundred, for quadratic time.
-const FACTOR: f64 = 40.0;
+/// Most runs of each text: the processor may be shared, so the least times count.
+const RUNS: usize = 20;
 
-/// The time of a start, s, below which nothing can be said.
-const LEAST: f64 = 0.02;
-
-/// Runs `read` for texts of which the second is ten times as long as the first.
+/// Runs `read` for a text and for one ten times as long, until the least times are those of linear time.
 #[track_caller]
 pub fn assert_linear_time(what: &str, text: impl Fn(usize) -> String, read: impl Fn(&str)) {
-    let seconds = |text: &str| {
-        let run = |_| {
+    let texts = [text(3_000), text(30_000)];
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..RUNS {
+        for (text, least) in texts.iter().zip(&mut least) {
             let start = Instant::now();
             read(text);
-            start.elapsed().as_secs_f64()
-        };
-        (0..3).map(run).fold(f64::INFINITY, f64::min)
-    };
-    let (short, long) = (seconds(&text(3_000)), seconds(&text(30_000)));
-    assert!(long < FACTOR * short + LEAST, "{what}: {short} s, and {long} s for ten times the text");
+            *least = least.min(start.elapsed().as_secs_f64());
+        }
+        if least[1] < tolerance::TEN_TIMES * least[0] + tolerance::SHORT_TIME {
+            return;
+        }
+    }
+    panic!("{what}: {} s, and {} s for ten times the text", least[0], least[1]);
 }

@@ -235,3 +235,7 @@ pub const FIGURE_VALUES: f64 = 1e-9;
 pub const FAR_CONTACT: f64 = 2e-8;
 /// A Gauss–Legendre step whose iteration contracts by half at worst: some roundings of numbers of order one.
 pub const SETTLED: f64 = 4e-13;
+/// Time for ten times the text over that for the text: between ten, for linear time, and a hundred, for quadratic time.
+pub const TEN_TIMES: f64 = 40.0;
+/// A time below which its ratio to another says nothing, s: that of a few interruptions.
+pub const SHORT_TIME: f64 = 0.01;

@@ -28,12 +28,8 @@ impl<'a> Known<'a> {
         for statement in statements {
             let Statement { targets, operation, a, b } = statement;
             self.operand(a)?;
-            let is_binary = match operation {
-                Operation::Copy | Operation::Neg | Operation::SinCos | Operation::Sqrt => false,
-                Operation::Add | Operation::Sub | Operation::Mul | Operation::Div => true,
-                Operation::Min | Operation::Atan2 => true,
-            };
-            if is_binary {
+            let is_unary = matches!(operation, Operation::Copy | Operation::Neg | Operation::SinCos | Operation::Sqrt);
+            if !is_unary {
                 self.operand(b)?;
             }
             let is_pair = matches!(targets, Targets::SinCos(..));

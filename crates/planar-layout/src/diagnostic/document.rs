@@ -1,6 +1,7 @@
 //! The source text of one TOML document and the problems found in it.
 
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ pub(super) struct Document {
     problems: RefCell<Vec<Diagnostic>>,
     /// Path and keys of the tables read so far.
     tables: RefCell<Vec<(String, Vec<String>)>>,
+    /// Their indices by their paths.
+    places: RefCell<HashMap<String, usize>>,
     /// Indices of the problems that are unknown tables, with the tables' names.
     unknown_tables: RefCell<Vec<(usize, String)>>,
 }
@@ -29,6 +32,7 @@ impl Document {
             severity,
             problems: RefCell::default(),
             tables: RefCell::default(),
+            places: RefCell::default(),
             unknown_tables: RefCell::default(),
         }
     }
@@ -49,15 +53,19 @@ impl Document {
     }
 
     /// Adds a problem at a span.
-    pub(super) fn report(&self, span: &Range<usize>, message: String, label: Option<String>, help: Option<String>) {
+    pub(super) fn report(&self, span: &Range<usize>, message: &str, label: Option<String>, help: Option<String>) {
         let place = Some((Arc::clone(&self.source), span.clone()));
+        // names in them are the user's
+        let (message, label, help) = (printable(message), label.map(|l| printable(&l)), help.map(|h| printable(&h)));
         self.problems.borrow_mut().push(Diagnostic { severity: self.severity, place, message, label, help });
     }
 
     /// Stores the path and keys of a table.
     pub(super) fn add_table(&self, path: &str, keys: &[&str]) {
         let keys = keys.iter().map(|&key| key.to_owned()).collect();
-        self.tables.borrow_mut().push((path.to_owned(), keys));
+        let mut tables = self.tables.borrow_mut();
+        self.places.borrow_mut().insert(path.to_owned(), tables.len());
+        tables.push((path.to_owned(), keys));
     }
 
     /// Marks the last problem as an unknown table, which may belong to a table that is read later.
@@ -69,10 +77,15 @@ impl Document {
     /// Labels the unknown tables with the tables that they belong to, once all are known.
     fn label_unknown_tables(&self) {
         let (mut problems, tables) = (self.problems.borrow_mut(), self.tables.borrow());
+        let mut owners: HashMap<&str, &str> = HashMap::new();
+        for (path, keys) in tables.iter() {
+            for key in keys {
+                owners.entry(key).or_insert(path);
+            }
+        }
         for (index, name) in self.unknown_tables.borrow().iter() {
-            let owner = tables.iter().find(|(_, keys)| keys.contains(name));
             let label = &mut problems[*index].label;
-            if let (Some((owner, _)), None) = (owner, &label) {
+            if let (Some(owner), None) = (owners.get(name.as_str()), &label) {
                 let (table, header) = (table_name(owner), without_indices(owner));
                 *label = Some(format!("this belongs into {table}: write `[[{header}.{name}]]`"));
             }
@@ -82,13 +95,15 @@ impl Document {
     /// The innermost table around `path` that has this key.
     pub(super) fn owner_of(&self, key: &str, path: &str) -> Option<String> {
         let tables = self.tables.borrow();
-        let mut outwards = tables.iter().rev();
-        let owner = outwards.find(|(outer, keys)| {
-            let inside = path.strip_prefix(outer.as_str());
-            let inside = inside.is_some_and(|rest| outer.is_empty() || rest.starts_with('.'));
-            inside && keys.iter().any(|known| known == key)
-        });
-        owner.map(|(outer, _)| table_name(outer))
+        let mut outwards = path;
+        while !outwards.is_empty() {
+            outwards = outwards.rsplit_once('.').map_or("", |(outer, _)| outer);
+            let has_key = |(path, keys): &&(String, Vec<String>)| path == outwards && keys.iter().any(|k| k == key);
+            if self.places.borrow().get(outwards).and_then(|at| tables.get(*at)).as_ref().is_some_and(has_key) {
+                return Some(table_name(outwards));
+            }
+        }
+        None
     }
 
     /// Adds the problems of a file that the value at `span` names. Those without a place get this one, and a message that

@@ -6,19 +6,22 @@ use super::excerpt;
 /// Adds the first syntax error of each line; errors after an unclosed array are omitted as its consequences.
 pub(super) fn report(document: &Document, errors: &[toml::de::Error]) {
     let text = document.source();
-    let mut last_line = None;
+    let mut last_end = 0; // of the line of the error before
     let mut errors: Vec<_> = errors.iter().map(|e| (e.span().unwrap_or_default(), e.message())).collect();
     errors.sort_by_key(|(span, _)| span.start);
     for (span, message) in errors {
-        let before = &text[..span.start];
-        let line = before.matches('\n').count();
-        if last_line.replace(line) != Some(line) {
-            let shown = excerpt(text.lines().nth(line).unwrap_or_default());
-            let title = format!("`{shown}` is not valid TOML: {message}");
-            document.report(&span, title, None, hint(message, document.text(&span)).map(str::to_owned));
+        let is_first = last_end == 0 || span.start > last_end;
+        if !is_first && !message.contains(BETWEEN_ELEMENTS) {
+            continue; // before its line is looked for: there may be an error for each of its characters
         }
-        let begins_line = before.rsplit('\n').next().is_some_and(|start| start.trim().is_empty());
-        if begins_line && message.contains(BETWEEN_ELEMENTS) {
+        let start = text[..span.start].rfind('\n').map_or(0, |newline| newline + 1);
+        if is_first {
+            last_end = text[span.start..].find('\n').map_or(text.len(), |length| span.start + length);
+            let shown = excerpt(text[start..last_end].trim_end_matches('\r'));
+            let title = format!("`{shown}` is not valid TOML: {message}");
+            document.report(&span, &title, None, hint(message, document.text(&span)).map(str::to_owned));
+        }
+        if text[start..span.start].trim().is_empty() && message.contains(BETWEEN_ELEMENTS) {
             break;
         }
     }

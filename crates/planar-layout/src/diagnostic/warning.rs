@@ -60,7 +60,7 @@ fn report_at(
         let default = default.map_or_else(String::new, |default| format!(", {default}"));
         (format!("`{key}` is left at its default{default}: {why}"), Some("it could stand here".to_owned()))
     };
-    document.report(&span, message, label, help);
+    document.report(&span, &message, label, help);
 }
 
 /// The value at a path, or the innermost value around it and the rest of the path.

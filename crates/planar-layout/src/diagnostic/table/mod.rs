@@ -2,6 +2,8 @@
 
 mod value;
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 
 use toml::de::DeTable;
@@ -21,6 +23,8 @@ pub struct Table<'a> {
     span: Range<usize>,
     path: String,
     keys: Vec<&'a str>,
+    /// Those that unknown keys are probably misspellings of.
+    misspelt: Vec<&'a str>,
 }
 
 impl<'a> Table<'a> {
@@ -33,8 +37,8 @@ impl<'a> Table<'a> {
         keys: &[&'a str],
     ) -> Self {
         document.add_table(&path, keys);
-        let table = Self { document, entries, span, path, keys: keys.to_vec() };
-        table.report_unknown_keys();
+        let mut table = Self { document, entries, span, path, keys: keys.to_vec(), misspelt: Vec::new() };
+        table.misspelt = table.report_unknown_keys();
         table
     }
 
@@ -51,7 +55,7 @@ impl<'a> Table<'a> {
         if value.is_none() && !self.is_misspelt(key) {
             let message = format!("missing key `{}`, expected {wanted}", self.path_of(key));
             let label = Some(format!("`{key}` is missing here"));
-            self.document.report(&self.span, message, label, None);
+            self.document.report(&self.span, &message, label, None);
         }
         value
     }
@@ -105,17 +109,20 @@ impl<'a> Table<'a> {
     }
 
     /// Adds a problem of the table as a whole.
-    pub fn reject(&self, message: String, label: &str) {
+    pub fn reject(&self, message: &str, label: &str) {
         self.document.report(&self.span, message, Some(label.to_owned()), None);
     }
 
-    /// Adds a problem for every string under `key` that is the `same` as that of an earlier table.
-    pub fn reject_repeats(tables: &[Self], key: &str, same: impl Fn(&str, &str) -> bool, why: &str) {
-        let values: Vec<_> = tables.iter().filter_map(|table| table.get(key)).collect();
-        for (index, value) in values.iter().enumerate() {
-            let repeated = |other: &&Value<'_>| value.as_str().zip(other.as_str()).is_some_and(|(a, b)| same(a, b));
-            if let Some(first) = values.iter().take(index).find(repeated) {
-                value.reject(&format!("the same as `{}`, but {why}", first.path()));
+    /// Adds a problem for every string under `key` of which the same is made, by `form`, as of that of an earlier table.
+    pub fn reject_repeats(tables: &[Self], key: &str, form: impl Fn(&str) -> String, why: &str) {
+        let mut first: HashMap<String, Value<'_>> = HashMap::new();
+        for value in tables.iter().filter_map(|table| table.get(key)) {
+            let Some(text) = value.as_str() else { continue };
+            match first.entry(form(text)) {
+                Entry::Occupied(first) => {
+                    value.reject(&format!("the same as `{}`, but {why}", first.get().path()));
+                }
+                Entry::Vacant(place) => drop(place.insert(value)),
             }
         }
     }
@@ -123,8 +130,7 @@ impl<'a> Table<'a> {
     /// Whether an unknown key is probably a misspelling of this one.
     #[must_use]
     pub fn is_misspelt(&self, key: &str) -> bool {
-        let keys = self.entries.keys().map(|key| key.get_ref().as_ref());
-        keys.filter(|name| !self.keys.contains(name)).any(|unknown| self.similar_key(unknown) == Some(key))
+        self.misspelt.contains(&key)
     }
 
     /// The key most similar to an unknown one, preferably one that is not given.
@@ -133,25 +139,30 @@ impl<'a> Table<'a> {
         nearest(unknown, missing).or_else(|| nearest(unknown, self.keys.iter().copied()))
     }
 
-    fn report_unknown_keys(&self) {
+    /// Adds a problem for each key that the table may not hold; returns those that are probably meant.
+    fn report_unknown_keys(&self) -> Vec<&'a str> {
+        let mut misspelt = Vec::new();
         for (key, value) in self.entries {
             let name = key.get_ref().as_ref();
             if self.keys.contains(&name) {
                 continue;
             }
+            let similar = self.similar_key(name);
+            misspelt.extend(similar.filter(|similar| !misspelt.contains(similar)));
             let value = Value::new(self.document, value, self.path_of(name));
             let message = format!("unknown key `{}` ({})", value.path(), value.shown());
             let owner = self.document.owner_of(name, &self.path);
             let label = match owner {
                 Some(owner) => Some(format!("this is a key of {owner}: write it further up")),
-                None => self.similar_key(name).map(did_you_mean),
+                None => similar.map(did_you_mean),
             };
             let help = format!("keys of {}: {}", table_name(&self.path), listing(&self.keys, "and"));
-            self.document.report(&key.span(), message, label, Some(help));
+            self.document.report(&key.span(), &message, label, Some(help));
             if value.is_list_of_tables() {
                 self.document.mark_unknown_table(name);
             }
         }
+        misspelt
     }
 
     fn path_of(&self, key: &str) -> String {

@@ -45,7 +45,7 @@ impl<'a> Value<'a> {
     /// Adds a problem: the value is not what is wanted.
     pub fn expected(&self, wanted: &str, help: Option<String>) {
         let message = format!("`{}` is {}, expected {wanted}", self.path, self.shown());
-        self.document.report(&self.span, message, None, help);
+        self.document.report(&self.span, &message, None, help);
     }
 
     /// Adds a problem: the value is none of the names; it shows the most similar one.
@@ -54,13 +54,13 @@ impl<'a> Value<'a> {
         let message = format!("`{path}` is {shown}, expected {wanted}");
         let near = self.as_str().and_then(|text| nearest(text, names.iter().copied()));
         let (label, help) = (near.map(did_you_mean), help.map(str::to_owned));
-        self.document.report(&self.span, message, label, help);
+        self.document.report(&self.span, &message, label, help);
     }
 
     /// Adds a problem with the reason for which the value is not valid.
     pub fn reject(&self, why: &str) {
         let message = format!("`{}` is {}: {why}", self.path, self.shown());
-        self.document.report(&self.span, message, None, None);
+        self.document.report(&self.span, &message, None, None);
     }
 
     /// Adds the problems of a file that this value names.
@@ -170,7 +170,7 @@ impl<'a> Value<'a> {
                 // a table without a header: it has inner ones, such as `[[arm.link]]`
                 None => format!("write `[[{path}]]` further up"),
             };
-            self.document.report(&self.span, message, Some(label), None);
+            self.document.report(&self.span, &message, Some(label), None);
             return None;
         }
         let items = self.items(&format!("a list of tables with {}", listing(keys, "and")))?;

@@ -1,0 +1,112 @@
+//! Bounds on the time of an input, and on the memory of one and of all.
+
+use cap::Cap;
+use std::alloc::System;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Bytes above which the process has no more memory.
+const MOST: usize = 4 << 30;
+
+/// Bytes that all threads together may have at a time: some hundred times the largest input for each.
+const MOST_AT_A_TIME: usize = 256 << 20;
+
+/// Bytes by which memory may have grown when all inputs have been run: what libraries keep.
+const GROWTH: usize = 8 << 20;
+
+/// Time after which an input hangs.
+const HANG: Duration = Duration::from_secs(30);
+
+/// Inputs after which libraries keep what they keep.
+const WARM: u64 = 2000;
+
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, MOST);
+
+/// The bounds of a run.
+pub struct Limits {
+    /// Per thread, when its input began in ms since the start, and its index; 0 between inputs.
+    begun: Vec<(AtomicU64, AtomicU64)>,
+    started: Instant,
+    /// Bytes after the first inputs.
+    warm: OnceLock<usize>,
+    /// The longest time of an input, ms, and its index in 48 bits.
+    slowest: AtomicU64,
+}
+
+impl Limits {
+    /// Of a number of threads.
+    pub fn new(threads: usize) -> Self {
+        let begun = (0..threads).map(|_| (AtomicU64::new(0), AtomicU64::new(0))).collect();
+        Self { begun, started: Instant::now(), warm: OnceLock::new(), slowest: AtomicU64::new(0) }
+    }
+
+    /// An input begins.
+    pub fn begin(&self, thread: usize, index: u64) {
+        let (time, input) = &self.begun[thread];
+        input.store(index, Ordering::Relaxed);
+        time.store(self.milliseconds().max(1), Ordering::Relaxed);
+    }
+
+    /// An input ends.
+    pub fn end(&self, thread: usize) {
+        let (time, index) = &self.begun[thread];
+        let time = self.milliseconds().saturating_sub(time.swap(0, Ordering::Relaxed)).min(u64::from(u16::MAX));
+        self.slowest.fetch_max((time << 48) | (index.load(Ordering::Relaxed) & ((1 << 48) - 1)), Ordering::Relaxed);
+    }
+
+    /// The longest time of an input, ms, and its index.
+    pub fn slowest(&self) -> (u64, u64) {
+        let slowest = self.slowest.load(Ordering::Relaxed);
+        (slowest >> 48, slowest & ((1 << 48) - 1))
+    }
+
+    /// Whether the memory of inputs so far was within bounds.
+    pub fn memory(&self, index: u64) -> Result<(), String> {
+        if index >= WARM {
+            self.warm.get_or_init(|| ALLOCATOR.allocated());
+        }
+        let most = ALLOCATOR.max_allocated();
+        if most > MOST_AT_A_TIME {
+            return Err(format!("{most} bytes were in use at a time, at most {MOST_AT_A_TIME} are expected"));
+        }
+        Ok(())
+    }
+
+    /// Whether memory has grown since the first inputs.
+    pub fn growth(&self, inputs: u64) -> Result<(), String> {
+        let (now, warm) = (ALLOCATOR.allocated(), self.warm.get().copied().unwrap_or(usize::MAX));
+        if now > warm.saturating_add(GROWTH) {
+            return Err(format!("{inputs} inputs have left {} bytes allocated", now - warm));
+        }
+        Ok(())
+    }
+
+    /// Ends the process when an input hangs, until all have been run.
+    pub fn watch(&self, target: &str, finished: &AtomicBool) {
+        while !finished.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(50));
+            for (time, index) in &self.begun {
+                let (time, index) = (time.load(Ordering::Relaxed), index.load(Ordering::Relaxed));
+                if time > 0 && self.milliseconds().saturating_sub(time) > milliseconds(HANG) {
+                    eprintln!("fuzz: {target}: input {index} hangs");
+                    std::process::exit(1);
+                }
+            }
+        }
+    }
+
+    fn milliseconds(&self) -> u64 {
+        milliseconds(self.started.elapsed())
+    }
+}
+
+fn milliseconds(time: Duration) -> u64 {
+    u64::try_from(time.as_millis()).unwrap_or(u64::MAX)
+}
+
+/// Inputs per second.
+pub fn rate(inputs: u64, time: Duration) -> u64 {
+    inputs.saturating_mul(1000) / milliseconds(time).max(1)
+}

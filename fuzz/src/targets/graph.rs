@@ -1,0 +1,61 @@
+//! Graphs: one that is read renders to Rust.
+
+use super::{Target, file, promised, refused};
+use planar_capture::build::{Module, graph};
+use planar_capture::generate::prove;
+use planar_capture::layout::Layout;
+use serde_json::{Value, json};
+
+/// The layout of all seeds.
+const LAYOUT: &str = "codegen/layouts/single_arm_2r.toml";
+
+pub fn target() -> Target {
+    let whole: Value = serde_json::from_str(&file("codegen/graphs/single_arm_2r.json")).expect("JSON");
+    let families = whole["families"].as_array().expect("families");
+    let mut seeds: Vec<String> = families.iter().map(|family| part(&whole, family).to_string()).collect();
+    // the whole graph takes long, and its parts are enough to read
+    seeds.sort_by_key(String::len);
+    seeds.truncate(3);
+    Target { name: "graph", share: 4, seeds, read }
+}
+
+/// A graph of one function, the first of a family, with the reference vectors of one state.
+fn part(whole: &Value, family: &Value) -> Value {
+    let mut family = family.clone();
+    let functions = family["functions"].as_array_mut().expect("functions");
+    functions.truncate(1);
+    let (function, output) = (functions[0]["name"].clone(), functions[0]["outputs"][0]["name"].clone());
+    let mut graph = whole.clone();
+    graph["families"] = json!([family]);
+    let inputs = graph["inputs"].as_array().expect("inputs").iter().map(|input| {
+        let sizes = input["shape"].as_array().expect("a shape").iter().filter_map(Value::as_u64);
+        let values: Vec<f64> = (0..sizes.product::<u64>()).map(|_| 0.5).collect();
+        json!({"name": input["name"], "values": values})
+    });
+    let inputs: Vec<Value> = inputs.collect();
+    let expected = json!([{"function": function, "output": output, "values": [0.5], "sizes": [1.0]}]);
+    graph["self_test"] = json!([{"inputs": inputs, "expected": expected}]);
+    graph
+}
+
+fn read(bytes: &[u8]) -> Result<bool, String> {
+    thread_local! {
+        static OF: Layout = Layout::parse(&file(LAYOUT), "layout").expect("a layout");
+    }
+    let text = String::from_utf8_lossy(bytes);
+    OF.with(|layout| {
+        let graph = match graph::read(&text, layout) {
+            Ok(graph) => graph,
+            Err(error) => return refused(&error),
+        };
+        let module = Module { standalone: false, item: true, source: "graph.json", command: "make" };
+        let module = module.render(&graph).map_err(|error| format!("it does not render: {error}"))?;
+        let parsed = syn::parse_file(&module).map_err(|error| format!("its module is no Rust: {error}"))?;
+        promised(parsed.items.len() == 1, "a graph renders to one module")?;
+        // a part has other results than its layout's whole graph
+        if text.len().is_multiple_of(64) {
+            promised(prove(layout, &graph).is_err(), "a part of a graph is not proved")?;
+        }
+        Ok(true)
+    })
+}
