@@ -113,6 +113,7 @@ const LAYOUT_EDITS: &[Edit] = &[
     ("inertia = 1.05\n[", "inertia = 1\ncom = [1,\n 2, 3]\n[", 12, &["com` is [1, 2, 3]", "[x, y]"]),
     ("length = 1\nmass = 10\n", "length = 1\n", 12, &["missing key `arm[0].link[1].mass`"]),
     ("[[arm.link]]\nlength = 1\n", "[[arm.lnik]]\nlength = 1\n", 12, &["`arm[0].lnik`", "`link`"]),
+    ("mass = 500.0", "mass = 5\noutline = { box = [1e-300, 1] }", 4, &["`base.outline` is", "expected corners"]),
     ("mass = 500.0", "mass = 5 kg", 3, &["`mass = 5 kg` is not valid TOML", "without units"]),
     ("mass = 500.0", "mass = 1,5", 3, &["`mass = 1,5` is not valid TOML", "decimal point"]),
     ("mass = 500.0", "mass 5", 3, &["`mass 5` is not valid TOML", "write `key = value`"]),

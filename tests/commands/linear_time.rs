@@ -29,6 +29,10 @@ fn a_layout_is_reported_in_linear_time() {
     is_linear("misplaced tables", &|count| LAYOUT.to_owned() + &many(count, &|_| ARM.replace("arm.link", "link")));
     is_linear("the same names", &|count| LAYOUT.to_owned() + &many(count, &|_| ARM.to_owned()));
     is_linear("wrong numbers", &|count| LAYOUT.to_owned() + &many(count, &|_| ARM.replace("1\n", "-1\n")));
+    is_linear("corners of an outline", &|count| {
+        let corners = many(10 * count, &|i| format!("[{i}e-4, {}e-8], ", i * i));
+        LAYOUT.to_owned() + &format!("outline = {{ polygon = [{corners}] }}\n") + &ARM.replace("mass = 1", "mass = 0")
+    });
     is_linear("hidden characters", &|count| {
         LAYOUT.to_owned() + &many(count, &|_| ARM.replace("\"arm\"", "\"\u{202e}\""))
     });

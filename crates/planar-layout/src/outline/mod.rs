@@ -29,12 +29,18 @@ pub enum Outline {
     },
 }
 
+/// Most corners of a polygon: every pair of its edges is compared, and more say nothing more about a shape.
+pub const MOST_CORNERS: usize = 1000;
+
 /// Why corners are not an outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum OutlineError {
     /// Fewer than three.
     #[error("a polygon has three corners or more, found {0}")]
     TooFew(usize),
+    /// More than [`MOST_CORNERS`].
+    #[error("a polygon has {MOST_CORNERS} corners at most, found {0}")]
+    TooMany(usize),
     /// Two edges cross or touch.
     #[error("edges {0} and {1} of the polygon meet, expected corners in their order around it")]
     Crossing(usize, usize),
@@ -77,6 +83,9 @@ impl Outline {
     pub fn polygon(mut corners: Vec<[f64; 2]>) -> Result<Self, OutlineError> {
         if corners.len() < 3 {
             return Err(OutlineError::TooFew(corners.len()));
+        }
+        if corners.len() > MOST_CORNERS {
+            return Err(OutlineError::TooMany(corners.len()));
         }
         let area: f64 = edges(&corners).map(|(a, b)| cross(a, b)).sum();
         let size = corners.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));

@@ -46,7 +46,9 @@ pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
         "box" => {
             let size = table.vector("box", &[SIDE; 2]);
             let angle = table.number_or("angle", &ANGLE, 0.0);
-            Some(Outline::rectangle(center?, size?, angle?))
+            // sides far smaller than the rest have no corners of their own in double precision
+            let corners = Outline::rectangle(center?, size?, angle?).corners();
+            Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()
         }
         "capsule" => {
             let radius = table.number("capsule", &CAPSULE_RADIUS);
