@@ -391,9 +391,9 @@ FAULTS = [
     ),
     Fault(
         "line of a repeated key",
-        "src/eval/reader.rs",
-        ".rev().find(|(found, _)| found == path)",
-        ".find(|(found, _)| found == path)",
+        "src/eval/places.rs",
+        "passed.iter().rposition(|passed| *passed == Some(path.len()))?;",
+        "passed.iter().position(|passed| *passed == Some(path.len()))?;",
     ),
     Fault(
         "small offsets of a URDF taken for zero",
@@ -466,6 +466,7 @@ FAULTS = [
         "crates/planar-build/templates/self_test.rs.tera",
         "if expected.to_bits() != found.to_bits() {",
         "if expected.to_bits() != found.to_bits() && element > 1000 {",
+    ),
     # hostile input
     Fault(
         "nesting of a URDF without a bound",
