@@ -90,7 +90,7 @@ const LAYOUT_EDITS: &[Edit] = &[
     ("mass = 500.0", "mass = true", 3, &["`base.mass` is true", "a mass in kg"]),
     ("mass = 500.0", "mas = 500.0", 3, &["`base.mas` (500.0)", "did you mean `mass`?"]),
     ("mass = 500.0\n", "", 2, &["missing key `base.mass`", "a mass in kg greater than 0"]),
-    ("mass = 500.0", "mass = 5\nmoi = 2", 4, &["`base.moi` (2)", "`mass` and `inertia`"]),
+    ("mass = 500.0", "mass = 5\nmoi = 2", 4, &["`base.moi` (2)", "`mass`, `inertia` and `outline`"]),
     ("inertia = 83.61", "inertia = 0", 4, &["`base.inertia` is 0", "kg m²", "greater than 0"]),
     ("\"one_arm\"", "\"One-Arm\"", 1, &["`name` is \"One-Arm\"", "lower-case letters"]),
     ("\"one_arm\"", "\"loop\"", 1, &["`name` is \"loop\"", "Rust keyword", "`loop_robot`"]),

@@ -44,7 +44,7 @@ fn the_papers_study_prints_its_table_and_writes_its_files() {
     let keys =
         |value: &serde_json::Value| -> Vec<String> { value.as_object().expect("an object").keys().cloned().collect() };
     assert_eq!(keys(&summary), ["scenario", "layout", "dynamics", "run", "cases"]);
-    assert_eq!(keys(&summary["cases"][0]), ["name", "approach", "impact", "post_impact"]);
+    assert_eq!(keys(&summary["cases"][0]), ["name", "approach", "clearance", "impact", "post_impact"]);
     assert_eq!(
         keys(&summary["cases"][0]["impact"]["exact"]),
         [

@@ -516,7 +516,7 @@ fn assert_round_trip(layout: &Layout) {
 #[test]
 fn shipped_layouts_come_back() {
     for (name, text) in registry::SHIPPED {
-        let layout = Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"));
+        let layout = without_outlines(Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}")));
         let back = imported(&export(&layout)).layout;
         assert_round_trip(&layout);
         assert!(registry::generated(&back).is_ok(), "{name}: exact zeros stay, so that its generated code fits");
@@ -524,6 +524,13 @@ fn shipped_layouts_come_back() {
     for name in ["awkward", "cubesat"] {
         assert_round_trip(&Layout::read(&file(&format!("tests/urdf/{name}.toml"))).unwrap_or_else(|r| panic!("{r}")));
     }
+}
+
+/// A URDF of this crate has no collision geometry.
+fn without_outlines(mut layout: Layout) -> Layout {
+    layout.base.outline = None;
+    layout.arms.iter_mut().flat_map(|arm| &mut arm.links).for_each(|link| link.outline = None);
+    layout
 }
 
 /// Layouts of any shape: some lengths, mounts and centres of mass are exact zeros, some numbers tiny or huge.

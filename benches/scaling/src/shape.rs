@@ -31,7 +31,7 @@ impl Shape {
     /// Arms at equal angles around the base, pointing outwards; no mount is on an axis, so that all arms have the same
     /// structural zeros. Masses and lengths are those of a satellite.
     pub fn layout(self) -> Layout {
-        let link = Link { length: 0.8, mass: 7.0, inertia: 0.6, com: [0.35, 0.0] };
+        let link = Link { length: 0.8, mass: 7.0, inertia: 0.6, com: [0.35, 0.0], outline: None };
         let arm = |i: u8| {
             let angle = 0.5 + TAU * f64::from(i) / f64::from(self.arms);
             Arm {
@@ -41,7 +41,7 @@ impl Shape {
                 links: vec![link.clone(); self.links.into()],
             }
         };
-        let base = Base { mass: 400.0, inertia: 60.0 };
+        let base = Base { mass: 400.0, inertia: 60.0, outline: None };
         Layout { name: self.name(), base, arms: (0..self.arms).map(arm).collect() }
     }
 }
