@@ -33,6 +33,7 @@ use crate::owned::CloneModel;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
 use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
+use crate::simulate::path::Path;
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, PhaseError};
 use std::cmp::Ordering;
@@ -268,7 +269,12 @@ fn study_about_origin(
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let terminal_errors = TerminalError::of(scenario, &approach);
-    Ok(Study { terminal_rates, inverse_kinematics, approach, terminal_errors, cases })
+    let mut study = Study { terminal_rates, inverse_kinematics, approach, terminal_errors, cases };
+    // the clearance is computed, and paths are the only part of a study that grows with the duration
+    for phase in study.phases_mut() {
+        phase.path = Path::default();
+    }
+    Ok(study)
 }
 
 impl CaseResult {
@@ -295,6 +301,14 @@ impl CaseResult {
 }
 
 impl Study {
+    /// The approach and the phases of all cases.
+    fn phases_mut(&mut self) -> impl Iterator<Item = &mut Phase> {
+        let of_cases = self.cases.iter_mut().flat_map(|CaseResult { approach, capture, .. }| {
+            approach.iter_mut().chain(capture.as_mut().map(|capture| &mut capture.post_impact))
+        });
+        std::iter::once(&mut self.approach).chain(of_cases)
+    }
+
     /// The failures of the audit; empty when every phase and every exact impact passes, and no bodies overlap where the
     /// scenario forbids it.
     #[must_use]

@@ -116,7 +116,7 @@ pub struct Phase {
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
-    /// Positions and rates of the integrated vector; empty for a motion with impacts.
+    /// Positions and rates of the integrated vector; empty for a motion with impacts and in the results of a study.
     pub path: Path,
 }
 
