@@ -2,6 +2,7 @@
 
 mod impacts;
 mod markdown;
+mod overlaps;
 mod parameters;
 mod printed;
 
@@ -78,6 +79,7 @@ pub fn reproduce(observer: &mut dyn Observer) -> Result<Reproduction, Reproducti
     for (name, table) in parameters::tables(&runs).into_iter().chain(impacts::tables(&runs)) {
         values.insert(name, &table);
     }
+    values.insert("overlaps", &overlaps::overlaps(tracked));
     let mut templates = tera::Tera::default();
     templates.add_raw_template("report.md", TEMPLATE)?;
     let mut files = vec![("reproduction.md".to_owned(), templates.render("report.md", &values)?)];
