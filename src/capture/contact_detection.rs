@@ -27,6 +27,8 @@ pub struct ContactDetection<'a> {
     end_effectors: Vec<[f64; 3]>,
     frames: Vec<Frame>,
     end_effector: ConvexPart,
+    /// How many distances were computed.
+    evaluations: u64,
 }
 
 /// A pair, and what is known of its distance at the end of the last step.
@@ -63,7 +65,13 @@ impl<'a> ContactDetection<'a> {
         };
         let pairs = pairs.into_iter().map(detected).collect();
         let end_effectors = vec![[0.0; 3]; scenario.layout.arms.len()];
-        Self { scenario, motion, pairs, end_effectors, frames, end_effector: ConvexPart::point() }
+        Self { scenario, motion, pairs, end_effectors, frames, end_effector: ConvexPart::point(), evaluations: 0 }
+    }
+
+    /// How many distances were computed.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
     }
 }
 
@@ -107,13 +115,13 @@ impl Events for ContactDetection<'_> {
     }
 
     fn crossings(&mut self, step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
-        let Self { scenario, motion, pairs, frames, end_effector, .. } = self;
+        let Self { scenario, motion, pairs, frames, end_effector, evaluations, .. } = self;
         let motions = FrameMotions { frames, targets: *motion, joints: scenario.layout.joints() };
         let size = step.start[0].len();
         let mut coordinates = [vec![0.0; size], vec![0.0; size]];
         let mut bounds = Vec::new();
         motions.bounds(step, &mut coordinates, &mut bounds);
-        let mut search = StepSearch { motions, step, coordinates, bounds, states: Vec::new() };
+        let mut search = StepSearch { motions, step, coordinates, bounds, states: Vec::new(), evaluations };
         pairs.iter_mut().map(|pair| search.crossing(pair, end_effector)).collect()
     }
 }
@@ -125,6 +133,7 @@ struct StepSearch<'a> {
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
     states: Vec<FrameState>,
+    evaluations: &'a mut u64,
 }
 
 impl StepSearch<'_> {
@@ -171,6 +180,7 @@ impl StepSearch<'_> {
     }
 
     fn at(&mut self, pair: &PartPair<'_>, frames: [usize; 2], time: f64) -> Instant {
+        *self.evaluations += 1;
         self.motions.at(self.step, time, &mut self.coordinates, &mut self.states);
         pair.at(time, frames.map(|frame| self.states[frame]))
     }

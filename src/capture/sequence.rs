@@ -79,6 +79,7 @@ impl<'a> CaptureSequence<'a> {
         let phase = self.track(&mut contact_detection, observer)?;
         let mut clearance = ClearanceTracker::new(self.scenario, &pairs);
         clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]).map_err(|time| self.too_fast(time))?;
+        clearance.add_evaluations(contact_detection.evaluations());
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
@@ -338,6 +339,7 @@ impl SequenceState<'_> {
                 .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))
         };
         let mut phase = simulate(&mut detection)?;
+        clearance.add_evaluations(detection.evaluations());
         let begin = *first + time;
         let before = clearance.clone();
         clearance.add_phase(&phase.path, begin, motion, attachments).map_err(|time| sequence.too_fast(time))?;

@@ -12,6 +12,7 @@ mod eval;
 mod generate;
 mod hidden_characters;
 mod linear_time;
+mod outlines;
 mod progress;
 mod rendering;
 mod result_folder;

@@ -60,7 +60,7 @@ pub struct Clearance {
     pub besides_contacts: Option<LeastDistance>,
     /// In the order of their beginnings.
     pub overlaps: Vec<Overlap>,
-    /// How many distances were computed.
+    /// How many distances were computed, for contact detection too.
     pub evaluations: u64,
     /// What an overlap does.
     pub on_overlap: OnOverlap,
@@ -124,6 +124,11 @@ impl ClearanceTracker {
     ) -> Result<(), f64> {
         self.bodies.add_phase(path, start, targets, attachments)?;
         self.end_effectors.add_phase(path, start, targets, attachments)
+    }
+
+    /// Adds distances that contact detection has computed.
+    pub(crate) fn add_evaluations(&mut self, evaluations: u64) {
+        self.bodies.found.evaluations += evaluations;
     }
 
     /// The closest approaches of the planned contacts.
