@@ -190,7 +190,7 @@ def relative(found: list[np.ndarray], results: list[dict]) -> float:
     return float((np.abs(np.array(found) - wanted).max(axis=0) / np.abs(wanted).max(axis=0)).max())
 
 
-def tip_error(result: dict, tips: list[np.ndarray]) -> float:
+def end_effector_error(result: dict, tips: list[np.ndarray]) -> float:
     wanted = [pose[1:] for pose in result["end_effector_poses"]]
     # an arm without a frame at its end has no tip to be compared: the last of clutter.urdf
     return max(float(np.abs(found - tip).max()) for found, tip in zip(tips, wanted, strict=False))
@@ -205,7 +205,7 @@ def exported(product: Product, path: Path, random: np.random.Generator) -> list[
     pinocchio, simulated = Pinocchio(urdf, layout), MuJoCo(urdf, layout)
     found, tips = zip(*map(pinocchio.accelerations, states), strict=True)
     errors = [relative(found, results), relative(list(map(simulated.accelerations, states)), results)]
-    return [*errors, max(map(tip_error, results, tips))]
+    return [*errors, max(map(end_effector_error, results, tips))]
 
 
 def imported(product: Product, path: Path, random: np.random.Generator) -> list[float]:
@@ -218,7 +218,7 @@ def imported(product: Product, path: Path, random: np.random.Generator) -> list[
         states = [draw(layout, random) for _ in range(STATES)]
         results = product.evaluate(target, states)
     found, tips = zip(*map(original.accelerations, states), strict=True)
-    return [relative(found, results), max(map(tip_error, results, tips))]
+    return [relative(found, results), max(map(end_effector_error, results, tips))]
 
 
 def main() -> int:

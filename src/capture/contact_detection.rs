@@ -3,7 +3,7 @@
 use crate::capture::assembly::rotated;
 use crate::capture::contact_pair::ContactPair;
 use crate::capture::proximity::convex::ConvexPart;
-use crate::capture::proximity::motion::{FrameMotions, FrameState, MotionBound};
+use crate::capture::proximity::motion::{FrameKinematics, FrameState, MotionBound};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::target_motion::TargetMotion;
 use crate::error::Error;
@@ -116,7 +116,7 @@ impl Events for ContactDetection<'_> {
 
     fn crossings(&mut self, step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
         let Self { scenario, motion, pairs, frames, end_effector, evaluations, .. } = self;
-        let motions = FrameMotions { frames, targets: *motion, joints: scenario.layout.joints() };
+        let motions = FrameKinematics { frames, targets: *motion, joints: scenario.layout.joints() };
         let size = step.start[0].len();
         let mut coordinates = [vec![0.0; size], vec![0.0; size]];
         let mut bounds = Vec::new();
@@ -128,7 +128,7 @@ impl Events for ContactDetection<'_> {
 
 /// The search for contacts within one step.
 struct StepSearch<'a> {
-    motions: FrameMotions<'a>,
+    motions: FrameKinematics<'a>,
     step: &'a PathInterval<'a>,
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,

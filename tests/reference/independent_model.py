@@ -124,7 +124,7 @@ class Robot:
         weighted = jacobian.T * self.body_inertia()
         return weighted @ jacobian, weighted @ drift
 
-    def tip_motion(self, q, v):
+    def end_effector_motion(self, q, v):
         """Tip poses and the stacked tip Jacobian [J_be J_me]."""
         poses, jacobian, _ = self.points(q, v, self.tips)
         return poses, jacobian
@@ -132,7 +132,7 @@ class Robot:
     def reduced(self, q):
         """Generalized inertia (GIM), generalized Jacobian (GJM), and base rates per joint rate."""
         mass, _ = self.dynamics(q, np.zeros(len(q)))
-        _, tips = self.tip_motion(q, np.zeros(len(q)))
+        _, tips = self.end_effector_motion(q, np.zeros(len(q)))
         coupling = -solve(mass[:3, :3], mass[:3, 3:])
         gim = mass[3:, 3:] + mass[3:, :3] @ coupling
         return gim, tips[:, 3:] + tips[:, :3] @ coupling, coupling
@@ -232,7 +232,7 @@ def track_pd(robot, trajectory, times):
     return integrate(forward(robot, torques), start, times)
 
 
-def design_rates(robot, ratio):
+def terminal_rates(robot, ratio):
     """Fixed point: track exactly -> final pose -> GJM inverse -> joint rates at the end."""
     rates = np.zeros(6)
     for _ in range(15):  # contracts to round-off in about ten
@@ -254,7 +254,7 @@ def contact_jacobian(contacts):
 def exact_capture(robot, q, v, contact, inertia, before):
     """(M + Je' N Je) v_f = M v_i + Je' Jt^-T It t_ti: v_f and the target twists."""
     mass, _ = robot.dynamics(q, v)
-    _, tips = robot.tip_motion(q, v)
+    _, tips = robot.end_effector_motion(q, v)
     to_target = solve(contact, tips)
     after = solve(
         mass + to_target.T * inertia @ to_target,
@@ -286,7 +286,7 @@ def impact(capture, robot, q, v, spins):
     before[::3] = spins
     after, targets = capture(robot, q, v, contact, inertia, before)
     impulses = -solve(contact.T, inertia * (targets - before)).reshape(-1, 3)
-    poses = robot.tip_motion(q, v)[0]
+    poses = robot.end_effector_motion(q, v)[0]
     poses[:, 1:] -= CONTACTS
     old, new = (
         [
@@ -324,12 +324,12 @@ def record(q, v):
 def scenario(robot, name):
     """One scenario of the paper, all cases."""
     tracking, ratio = SCENARIOS[name]
-    rates, trajectory = design_rates(robot, ratio)
+    rates, trajectory = terminal_rates(robot, ratio)
     if tracking == "exact":
         q, v = track_exactly(robot, trajectory, APPROACH)
     else:
         q, v = np.split(track_pd(robot, trajectory, [APPROACH])[-1], 2)
-    poses, tips = robot.tip_motion(q, v)
+    poses, tips = robot.end_effector_motion(q, v)
     approach = {
         "duration": APPROACH,
         **record(q, v),

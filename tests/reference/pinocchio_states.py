@@ -58,7 +58,7 @@ def unwrapped(rotation, near):
     return yaw + 2 * np.pi * np.round((near - yaw) / (2 * np.pi))
 
 
-def tip_angles(layout, pose, angles):
+def end_effector_angles(layout, pose, angles):
     """Absolute angles of the tips, with their turns."""
     ends = np.cumsum([len(arm.links) for arm in layout.arms])[:-1]
     mounts = [arm.mount_angle for arm in layout.arms]
@@ -100,7 +100,9 @@ class Pinocchio:
         pin.framesForwardKinematics(model, data, q)
         external = pin.StdVec_Force(model.njoints, pin.Force.Zero())
         poses, jacobian = [], []
-        for tip, angle, (n, fx, fy) in zip(self.tips, tip_angles(self.layout, pose, angles), wrenches, strict=True):
+        for tip, angle, (n, fx, fy) in zip(
+            self.tips, end_effector_angles(self.layout, pose, angles), wrenches, strict=True
+        ):
             frame, place = model.frames[tip], data.oMf[tip]
             poses.append([unwrapped(place.rotation, angle), *place.translation[:2]])
             local = pin.computeFrameJacobian(model, data, q, tip, pin.LOCAL)[:, order]
@@ -166,7 +168,7 @@ class MuJoCo:
             mujoco.mj_applyFT(model, data, force, moment, point, body, data.qfrc_applied)
 
         poses, jacobian = [], []
-        for site, angle in enumerate(tip_angles(self.layout, pose, angles)):
+        for site, angle in enumerate(end_effector_angles(self.layout, pose, angles)):
             point, rotation = data.site_xpos[site], data.site_xmat[site].reshape(3, 3)
             poses.append([unwrapped(rotation, angle), *point[:2]])
             moving, turning = np.zeros((3, model.nv)), np.zeros((3, model.nv))

@@ -113,7 +113,8 @@ pub trait MomentumAndEnergy<T: Real> {
 
 /// Rigid capture of targets, one per arm at most.
 pub trait Impact<T: Real> {
-    /// The paper's reduced equations as printed, (15) and (16): G (joints²), H (joints) and the joint rates afterwards.
+    /// The paper's reduced equations as printed, (15) and (16): G (joints²), H (joints) and the joint rates afterwards,
+    /// `G θ̇_f = H` with `G = I + Σ Jᵀ J_t⁻ᵀ I_t J_t⁻¹ J` and `H = I θ̇ + Σ Jᵀ J_t⁻ᵀ I_t t_t`.
     ///
     /// # Errors
     /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].

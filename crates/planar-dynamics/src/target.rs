@@ -1,4 +1,4 @@
-//! Eqs. (3) to (5) and (14) of a captured object, and the link that it forms with the last link of an arm.
+//! Eqs. (3) to (5), (12) and (14) of a captured object, and the link that it forms with the last link of an arm.
 
 use crate::body::Body;
 use crate::scalar::Scalar;

@@ -2,7 +2,7 @@
 //! bound.
 
 use super::bodies::BodyPair;
-use crate::capture::proximity::motion::{FrameMotions, FrameState, MotionBound};
+use crate::capture::proximity::motion::{FrameKinematics, FrameState, MotionBound};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::simulate::path::PathInterval;
 
@@ -85,7 +85,7 @@ pub(super) struct IntervalSearch<'a> {
     pub(super) shapes: PartPair<'a>,
     /// Indices of the frames of their bodies.
     pub(super) frames: [usize; 2],
-    pub(super) motions: FrameMotions<'a>,
+    pub(super) motions: FrameKinematics<'a>,
     pub(super) interval: PathInterval<'a>,
     /// Of the phase, s.
     pub(super) start: f64,

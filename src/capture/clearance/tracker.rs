@@ -4,7 +4,7 @@ use super::bodies::{BodyPair, ClearanceBody};
 use super::search::{Findings, IntervalSearch, PartDistance, Workspace};
 use crate::capture::assembly::Attachment;
 use crate::capture::proximity::convex::ConvexPart;
-use crate::capture::proximity::motion::FrameMotions;
+use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::PartPair;
 use crate::capture::target_motion::TargetMotion;
 use crate::frames::{Frame, FrameMotion};
@@ -54,7 +54,7 @@ impl DistanceTracker {
         attachments: &[Attachment],
     ) -> Result<(), f64> {
         let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
-        let motions = FrameMotions { frames, targets, joints: *joints };
+        let motions = FrameKinematics { frames, targets, joints: *joints };
         let size = path.size();
         let mut workspace = Workspace::new(size);
         let holds = |pair: &BodyPair| {

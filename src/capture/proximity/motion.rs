@@ -8,7 +8,7 @@ use crate::simulate::system::Body;
 
 /// The motion of all frames during a phase.
 #[derive(Clone, Copy)]
-pub(in crate::capture) struct FrameMotions<'a> {
+pub(in crate::capture) struct FrameKinematics<'a> {
     pub(in crate::capture) frames: &'a [Frame],
     pub(in crate::capture) targets: TargetMotion<'a>,
     /// Number of joints.
@@ -76,7 +76,7 @@ impl FrameState {
     }
 }
 
-impl FrameMotions<'_> {
+impl FrameKinematics<'_> {
     /// The states of all frames at a time within the interval.
     pub(in crate::capture) fn at(
         &self,

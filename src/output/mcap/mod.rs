@@ -2,7 +2,7 @@
 //!
 //! | topic | schema | messages |
 //! |---|---|---|
-//! | `/tf` | `foxglove.FrameTransforms`: all frames of the [scene](crate::frames) | every row of the time series |
+//! | `/tf` | `foxglove.FrameTransforms`: all [frames](crate::frames) | every row of the time series |
 //! | `/scene` | `foxglove.SceneUpdate`: base, links and targets, each fixed in its frame | at 0 |
 //! | `/outlines/FRAME` | `foxglove.PointCloud`: the same as points, for viewers that draw no scenes (Rerun) | at 0 |
 //! | `/impulses` | `foxglove.SceneUpdate`: an arrow per contact, shown for a few seconds | every impact |

@@ -1,4 +1,4 @@
-//! The poses of all frames of the [scene](crate::frames) as transforms; `world` is the inertial frame.
+//! The poses of all [frames](crate::frames) as transforms; `world` is the inertial frame.
 
 use super::recording::timestamp;
 use crate::frames::Frame;

@@ -175,7 +175,7 @@ fn final_rates(table: &Table<'_>, trajectory: Option<TrajectoryKind>, joints: &J
         (None, None) if !KEYS.iter().any(|key| table.is_misspelt(key)) => table.reject(
             "missing key `approach.final_end_effector_twists`, expected one [ω, vx, vy] per arm \
              (or `approach.final_joint_rates`, one rate per joint)",
-            "quartic and quintic trajectories need rates at their end",
+            "the trajectory needs rates at its end",
         ),
         _ => {}
     }

@@ -57,7 +57,7 @@ impl Generic {
 }
 
 impl Impact<f64> for Generic {
-    /// G = I + Σ Jᵀ N J and H = I θ̇ + Σ `Jᵀ J_t⁻ᵀ I_t t_ti` with the generalized I and J, and G `θ̇_f` = H.
+    /// Eqs. (15) and (16): G = I + Σ Jᵀ N J and H = I θ̇ + Σ `Jᵀ J_t⁻ᵀ I_t t_ti` with the generalized I and J, and G `θ̇_f` = H.
     fn reduced_impact(
         &self,
         state: &State<'_, f64>,
