@@ -367,7 +367,8 @@ mod mcap_files {
         drawn.sort();
         assert_eq!(drawn, frames);
         for entity in &scene.entities {
-            assert_eq!(entity.cubes.len() + entity.cylinders.len(), 1, "{}", entity.id);
+            let shapes = [entity.cubes.len(), entity.cylinders.len(), entity.triangles.len()];
+            assert_eq!(shapes.iter().sum::<usize>(), 1, "{}", entity.id);
             assert!(entity.frame_locked);
             let cloud = &file.messages[&format!("/outlines/{}", entity.frame_id)][0].1[..];
             let cloud = PointCloud::decode(cloud).expect("points");
@@ -378,9 +379,15 @@ mod mcap_files {
                 .map(|point| [0, 4, 8].map(|at| f32::from_le_bytes(point[at..at + 4].try_into().expect("four bytes"))))
                 .collect();
             let reach = points.iter().fold(0.0_f32, |most, [x, y, _]| most.max(x.hypot(*y)));
-            let size = entity.cubes.iter().map(|cube| cube.size).chain(entity.cylinders.iter().map(|c| c.size));
-            let size = size.flatten().next().expect("a size");
-            assert!(f64::from(reach) >= size.x / 2.0 && f64::from(reach) < size.x + size.y, "{}: {reach}", entity.id);
+            // the circle about the frame's origin through the farthest corner, or within the sum of the sides
+            let corners = entity.triangles.iter().flat_map(|prism| &prism.points).map(|p| p.x.hypot(p.y));
+            let farthest = corners.fold(0.0, f64::max);
+            let sizes = entity.cubes.iter().map(|cube| cube.size).chain(entity.cylinders.iter().map(|c| c.size));
+            let [low, high] = match sizes.flatten().next() {
+                Some(size) => [size.x / 2.0, size.x + size.y],
+                None => [0.9 * farthest, 1.001 * farthest],
+            };
+            assert!((low..high).contains(&f64::from(reach)), "{}: {reach}", entity.id);
             assert!(points.iter().all(|[_, _, z]| *z == 0.0));
         }
         let impulses = SceneUpdate::decode(&file.messages["/impulses"][0].1[..]).expect("a scene");

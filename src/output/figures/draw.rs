@@ -46,7 +46,7 @@ fn scene(figure: &Figure, backend: Backend) -> Scene {
         .with_spacing(8.0)
         .with_padding(6.0);
     if size.shared_legend {
-        let entries = figure.panels.first().map(|panel| panel::legend_entries(panel, backend)).unwrap_or_default();
+        let entries = panel::legend_entries(figure.panels.iter().flat_map(|panel| &panel.series), backend);
         grid = grid.with_shared_legend_position(FigureLegendPosition::RightMiddle).with_shared_legend_entries(entries);
     }
     grid.render()

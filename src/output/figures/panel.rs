@@ -80,7 +80,7 @@ impl Size {
 /// Height of the legend or of the categories, whichever has more lines.
 fn height_of_lines(panel: &Panel) -> f64 {
     let names = if let AxisRange::Categories(names) = &panel.y.range { names.len() } else { 0 };
-    let count = legend_entries(panel, Backend::Vector).len().max(names);
+    let count = legend_entries(&panel.series, Backend::Vector).len().max(names);
     18.0 * u32::try_from(count).map_or(0.0, f64::from)
 }
 
@@ -118,7 +118,7 @@ pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
     }
     if !size.shared_legend {
         layout = layout
-            .with_legend_entries(legend_entries(panel, backend))
+            .with_legend_entries(legend_entries(&panel.series, backend))
             .with_legend_position(LegendPosition::OutsideRightTop)
             .with_legend_box(false);
     }
@@ -151,9 +151,9 @@ fn power_of_ten(exponent: f64) -> String {
 }
 
 /// Each label once, in the order of drawing.
-pub(super) fn legend_entries(panel: &Panel, backend: Backend) -> Vec<LegendEntry> {
+pub(super) fn legend_entries<'a>(all: impl IntoIterator<Item = &'a Series>, backend: Backend) -> Vec<LegendEntry> {
     let mut entries: Vec<LegendEntry> = Vec::new();
-    for series in &panel.series {
+    for series in all {
         let Some(label) = &series.label else { continue };
         // the library draws dashed lines up to the text
         let label = format!("\u{2002}{label}");
