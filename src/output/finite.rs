@@ -16,7 +16,7 @@ const ABSENT: &[&str] = &[
     "first_overlap",
 ];
 /// Keys of lists whose entries, one per arm, may be `null`.
-const ABSENT_ARM: &[&str] = &["impulses", "impulse_magnitudes", "missed"];
+const ABSENT_ARM: &[&str] = &["impulses", "impulse_magnitudes", "missed", "target_twists_after"];
 
 /// A number that is NaN or infinite.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

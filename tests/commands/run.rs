@@ -370,3 +370,15 @@ fn a_report_is_one_file_without_a_network() {
     let momentum = &data["cases"][0]["targets_alone"]["momentum"];
     assert!(momentum[0].as_f64().is_some_and(|l| (l - 0.4).abs() < 1e-12), "{momentum}");
 }
+
+/// Arms that touch nothing have `null` in lists per arm, which is no number out of range.
+#[test]
+fn impacts_of_one_arm_of_two_are_written() {
+    let folder = TempDir::new().expect("a folder");
+    let (code, _, err) = run_file(&file("scenarios/elastic_rebound.toml"), &folder.path().join("results"));
+    assert_eq!((code, err.as_str()), (0, ""), "{err}");
+    let summary = fs::read(folder.path().join("results/summary.json")).expect("a summary");
+    let summary: serde_json::Value = serde_json::from_slice(&summary).expect("JSON");
+    let twists = summary["cases"][0]["impact"]["exact"]["target_twists_after"].as_array().expect("one per arm");
+    assert_eq!(twists.iter().filter(|twist| twist.is_null()).count(), 1, "{twists:?}");
+}
