@@ -7,8 +7,7 @@
 use crate::capture::Study;
 use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::scenario::{EndEffectorGoal, Scenario};
-use crate::simulate::Phase;
-use crate::simulate::system::Body;
+use crate::simulate::translation::{moment, translate, translate_bodies};
 
 /// A position [x, y], m, inertial frame.
 #[derive(Clone, Copy)]
@@ -40,10 +39,10 @@ impl Origin {
 
     /// The results of that scenario with positions and angular momenta from and about the inertial origin.
     pub(crate) fn absolute(self, mut study: Study) -> Study {
-        self.phase(&mut study.approach);
+        study.approach.translate(self.0);
         for case in &mut study.cases {
-            case.approach.iter_mut().for_each(|approach| self.phase(approach));
-            self.bodies(&mut case.targets);
+            case.approach.iter_mut().for_each(|approach| approach.translate(self.0));
+            translate_bodies(&mut case.targets, self.0);
             let Some(capture) = &mut case.capture else { continue };
             let later = capture.later_impacts.iter_mut().map(|later| &mut later.impact);
             for ImpactSolution { exact, paper, .. } in std::iter::once(&mut capture.impact).chain(later) {
@@ -52,46 +51,19 @@ impl Origin {
                     self.impact(paper);
                 }
             }
-            self.phase(&mut capture.post_impact);
-            capture.targets.iter_mut().for_each(|targets| self.bodies(targets));
+            capture.post_impact.translate(self.0);
+            capture.targets.iter_mut().for_each(|targets| translate_bodies(targets, self.0));
         }
         study
     }
 
-    fn phase(self, phase: &mut Phase) {
-        let joints = phase.samples.first().map_or(0, |sample| sample.state.joint_angles.len());
-        phase.path.translate(joints, self.0);
-        for sample in &mut phase.samples {
-            self.add(&mut sample.state.base_pose);
-            sample.end_effector_poses.iter_mut().for_each(|pose| self.add(pose));
-            self.bodies(&mut sample.bodies);
-            sample.momentum.angular_momentum += self.moment(sample.momentum.linear_momentum);
-        }
-    }
-
     fn impact(self, impact: &mut ImpactResult) {
         let [l, px, py] = &mut impact.momentum_jump;
-        *l += self.moment([*px, *py]);
+        *l += moment(self.0, [*px, *py]);
     }
 
-    fn bodies(self, bodies: &mut [Body]) {
-        for body in bodies {
-            self.add(&mut body.pose);
-        }
-    }
-
-    /// r × p.
-    fn moment(self, [px, py]: [f64; 2]) -> f64 {
-        let Self([x, y]) = self;
-        x * py - y * px
-    }
-
-    /// Moves [x, y] or [yaw, x, y] to the inertial frame.
-    fn add(self, pose: &mut [f64]) {
-        pose.iter_mut().rev().zip(self.0.iter().rev()).for_each(|(value, origin)| *value += origin);
-    }
-
+    /// Moves [x, y] or [yaw, x, y] from the inertial frame to this origin.
     fn subtract(self, pose: &mut [f64]) {
-        Self(self.0.map(|value| -value)).add(pose);
+        translate(pose, self.0.map(|value| -value));
     }
 }

@@ -15,6 +15,7 @@ pub mod sample_list;
 pub mod stepper;
 pub mod stored_samples;
 pub mod system;
+pub(crate) mod translation;
 
 use crate::control::Control;
 use crate::dynamics::Momentum;

@@ -50,17 +50,6 @@ impl Path {
         })
     }
 
-    /// Moves the positions of the base and of the bodies beside a robot of so many joints by [x, y], m.
-    pub(crate) fn translate(&mut self, joints: usize, [x, y]: [f64; 2]) {
-        for positions in self.knots.chunks_exact_mut(self.size.max(1)).step_by(2) {
-            let bodies = (3 + joints..self.size).step_by(3);
-            for pose in std::iter::once(0).chain(bodies) {
-                positions[pose + 1] += x;
-                positions[pose + 2] += y;
-            }
-        }
-    }
-
     fn push(&mut self, time: f64, state: &[f64]) {
         self.times.push(time);
         self.knots.extend_from_slice(state);

@@ -2,6 +2,7 @@
 
 use crate::simulate::sample_file::{SampleFile, SampleWriter};
 use crate::simulate::system::Body;
+use crate::simulate::translation::translate_bodies;
 use crate::simulate::{Phase, Sample};
 use crate::state::ActuatorWork;
 use std::io;
@@ -16,12 +17,15 @@ pub struct StoredSamples {
     file: Arc<SampleFile>,
     /// What is to be added to time and work of each.
     since: (f64, ActuatorWork<f64>),
+    /// Position of the origin that they are about, [x, y] in m; `None` for the inertial origin.
+    origin: Option<[f64; 2]>,
 }
 
 /// Equal where they share the file.
 impl PartialEq for StoredSamples {
     fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.file, &other.file) && (&self.range, &self.since) == (&other.range, &other.since)
+        let of = |all: &Self| (all.range.clone(), all.since, all.origin);
+        Arc::ptr_eq(&self.file, &other.file) && of(self) == of(other)
     }
 }
 
@@ -37,7 +41,7 @@ pub enum PhaseSample<'a> {
 impl StoredSamples {
     /// All samples of a phase, of which it has so many in memory.
     pub(super) fn new(file: SampleFile, in_memory: usize) -> Self {
-        Self { range: 0..in_memory, file: Arc::new(file), since: (0.0, ActuatorWork::default()) }
+        Self { range: 0..in_memory, file: Arc::new(file), since: (0.0, ActuatorWork::default()), origin: None }
     }
 
     /// The same in a phase that starts with another phase.
@@ -46,11 +50,20 @@ impl StoredSamples {
         Self { range, since: (time + self.since.0, work.plus(&self.since.1)), ..self }
     }
 
+    /// States the position of the origin that they are about.
+    pub(super) fn translate(&mut self, origin: [f64; 2]) {
+        self.origin = Some(origin);
+    }
+
     fn samples(&self) -> impl Iterator<Item = io::Result<PhaseSample<'_>>> {
         let (since, before) = self.since;
         self.file.samples().map(move |sample| {
-            let (sample, targets) = sample?;
-            let sample = Sample { time: since + sample.time, work: before.plus(&sample.work), ..sample };
+            let (sample, mut targets) = sample?;
+            let mut sample = Sample { time: since + sample.time, work: before.plus(&sample.work), ..sample };
+            if let Some(origin) = self.origin {
+                sample.translate(origin);
+                translate_bodies(&mut targets, origin);
+            }
             Ok(PhaseSample::Stored(Box::new(sample), targets))
         })
     }

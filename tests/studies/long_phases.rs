@@ -67,6 +67,20 @@ fn every_sample_of_a_long_phase_is_in_its_time_series() {
     assert_eq!(data["approach"]["time"].as_array().map(Vec::len), Some(6001));
 }
 
+/// Away from the inertial origin, which a study is not computed about, stored samples have the same positions.
+#[test]
+fn stored_samples_are_in_the_inertial_frame() {
+    let mut scenario = long("raina_shah_2017", [60.0, 60.0]);
+    scenario.initial.base_pose = [0.3, 100.0, -50.0];
+    let [fine, coarse] = [0.005, 0.05].map(|sample| run(&scenario, sample));
+    assert!(fine.approach.sample_count() > fine.approach.samples.len());
+    let [fine_rows, coarse_rows] = [&fine, &coarse].map(|study| csv(&scenario, study));
+    let (approach, after) = fine_rows[1..].split_at(12_001);
+    for (fine, coarse) in approach.iter().step_by(10).chain(after.iter().step_by(10)).zip(&coarse_rows[1..]) {
+        assert_eq!(fine, coarse);
+    }
+}
+
 /// A base torque, and parts of the motion between impacts, of which some are short and some long.
 #[test]
 fn parts_between_impacts_are_joined() {
