@@ -3,8 +3,9 @@
 use crate::capture::assembly::rotated;
 use crate::capture::contact_pair::ContactPair;
 use crate::capture::proximity::convex::ConvexPart;
-use crate::capture::proximity::motion::{FrameKinematics, FrameState, MotionBound};
+use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
+use crate::capture::proximity::workspace::PathWorkspace;
 use crate::capture::target_motion::TargetMotion;
 use crate::error::Error;
 use crate::frames::{Frame, FrameMotion};
@@ -27,6 +28,7 @@ pub struct ContactDetection<'a> {
     end_effectors: Vec<[f64; 3]>,
     frames: Vec<Frame>,
     end_effector: ConvexPart,
+    workspace: PathWorkspace,
     /// How many distances were computed.
     evaluations: u64,
 }
@@ -65,7 +67,16 @@ impl<'a> ContactDetection<'a> {
         };
         let pairs = pairs.into_iter().map(detected).collect();
         let end_effectors = vec![[0.0; 3]; scenario.layout.arms.len()];
-        Self { scenario, motion, pairs, end_effectors, frames, end_effector: ConvexPart::point(), evaluations: 0 }
+        Self {
+            scenario,
+            motion,
+            pairs,
+            end_effectors,
+            frames,
+            end_effector: ConvexPart::point(),
+            workspace: PathWorkspace::default(),
+            evaluations: 0,
+        }
     }
 
     /// How many distances were computed.
@@ -115,13 +126,10 @@ impl Events for ContactDetection<'_> {
     }
 
     fn crossings(&mut self, step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
-        let Self { scenario, motion, pairs, frames, end_effector, evaluations, .. } = self;
+        let Self { scenario, motion, pairs, frames, end_effector, workspace, evaluations, .. } = self;
         let motions = FrameKinematics { frames, targets: *motion, joints: scenario.layout.joints() };
-        let size = step.start[0].len();
-        let mut coordinates = [vec![0.0; size], vec![0.0; size]];
-        let mut bounds = Vec::new();
-        motions.bounds(step, &mut coordinates, &mut bounds);
-        let mut search = StepSearch { motions, step, coordinates, bounds, states: Vec::new(), evaluations };
+        workspace.set_bounds(motions, step);
+        let mut search = StepSearch { motions, step, workspace, evaluations };
         pairs.iter_mut().map(|pair| search.crossing(pair, end_effector)).collect()
     }
 }
@@ -130,9 +138,7 @@ impl Events for ContactDetection<'_> {
 struct StepSearch<'a> {
     motions: FrameKinematics<'a>,
     step: &'a PathInterval<'a>,
-    coordinates: [Vec<f64>; 2],
-    bounds: Vec<MotionBound>,
-    states: Vec<FrameState>,
+    workspace: &'a mut PathWorkspace,
     evaluations: &'a mut u64,
 }
 
@@ -140,14 +146,13 @@ impl StepSearch<'_> {
     /// Two times between which the end effector of a pair reaches its target for the first time.
     fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Result<Option<[f64; 2]>, Error> {
         let [start, end] = self.step.span;
-        let bounds = detected.frames.map(|frame| self.bounds[frame]);
-        let reach = detected.parts.iter().map(ConvexPart::reach).fold(0.0, f64::max);
-        let approach = (bounds[0].speed_within(0.0) + bounds[1].speed_within(reach)) * (end - start);
+        let reaches = [0.0, detected.parts.iter().map(|part| part.reach).fold(0.0, f64::max)];
+        let approach = self.workspace.speed(detected.frames, reaches) * (end - start);
         if detected.armed && detected.lower - approach > 0.0 {
             detected.lower -= approach;
             return Ok(None);
         }
-        let acceleration = bounds[0].acceleration_within(0.0) + bounds[1].acceleration_within(reach);
+        let acceleration = self.workspace.acceleration(detected.frames, reaches);
         let pairs: Vec<_> =
             detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], acceleration }).collect();
         let frames = detected.frames;
@@ -181,7 +186,6 @@ impl StepSearch<'_> {
 
     fn at(&mut self, pair: &PartPair<'_>, frames: [usize; 2], time: f64) -> Instant {
         *self.evaluations += 1;
-        self.motions.at(self.step, time, &mut self.coordinates, &mut self.states);
-        pair.at(time, frames.map(|frame| self.states[frame]))
+        self.workspace.instant(self.motions, self.step, (frames, pair), time)
     }
 }

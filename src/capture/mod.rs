@@ -196,6 +196,15 @@ pub trait Observer {
     fn step(&mut self);
 }
 
+/// An observer without output.
+#[derive(Clone, Copy, Debug)]
+pub struct Silent;
+
+impl Observer for Silent {
+    fn begin(&mut self, _: &str, _: u64) {}
+    fn step(&mut self) {}
+}
+
 /// Simulates a scenario; samples are `sample` seconds apart. Positions in the results are as exact as double precision
 /// writes them, all else does not depend on how far the robot is from the inertial origin.
 ///

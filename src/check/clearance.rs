@@ -2,7 +2,7 @@
 
 use super::number::short;
 use super::warning;
-use crate::capture::{Observer, study};
+use crate::capture::{Silent, study};
 use crate::diagnostic::Warning;
 use crate::registry;
 use crate::scenario::{Actuation, Scenario, Tracking};
@@ -14,13 +14,6 @@ const STEPS: f64 = 200.0;
 const MAX_DISTANCES: u64 = 20_000;
 /// Depth of an overlap without a warning, m: end effectors may reach their targets a little from within.
 const TOLERATED_DEPTH: f64 = 1e-3;
-
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&mut self, _: &str, _: u64) {}
-    fn step(&mut self) {}
-}
 
 /// One warning for each case in which bodies of given outlines overlap before the contact.
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {

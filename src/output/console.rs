@@ -224,7 +224,7 @@ fn clearance(out: &mut String, study: &Study) -> fmt::Result {
     writeln!(out, "\nLeast distance of bodies that are not joined, besides planned contacts; negative: depth")?;
     writeln!(out, "  {:<16} {:>12} {:>10}  between", "case", "distance [m]", "time [s]")?;
     for CaseResult { name, clearance, stopped, .. } in &study.cases {
-        match clearance.besides_contacts.as_ref().or(clearance.least.as_ref()) {
+        match clearance.least_shown() {
             Some(LeastDistance { distance, time, bodies: [a, b] }) => {
                 writeln!(out, "  {name:<16} {distance:>12.6} {time:>10.3}  {a} and {b}")?;
             }

@@ -81,20 +81,25 @@ fn case_value(scenario: &Scenario, study: &Study, case: &CaseResult) -> Value {
 
 /// Least distances and overlaps; `null` where all bodies are joined.
 fn clearance(clearance: &Clearance) -> Value {
-    let least = |least: &Option<LeastDistance>| {
-        least.as_ref().map(|LeastDistance { distance, time, bodies }| {
-            json!({"least_distance": distance, "time": time, "bodies": bodies})
-        })
-    };
-    let Some(mut value) = least(&clearance.least) else { return Value::Null };
+    let Some(mut value) = clearance.least.as_ref().map(least_distance) else { return Value::Null };
     value["first_overlap"] = json!(clearance.overlaps.first().map(|overlap| overlap.span[0]));
-    value["besides_contacts"] = json!(least(&clearance.besides_contacts));
+    value["besides_contacts"] = json!(clearance.besides_contacts.as_ref().map(least_distance));
+    value["overlaps"] = overlaps(clearance);
+    value["evaluations"] = json!(clearance.evaluations);
+    value
+}
+
+/// Which bodies, how near and when.
+pub(super) fn least_distance(LeastDistance { distance, time, bodies }: &LeastDistance) -> Value {
+    json!({"least_distance": distance, "time": time, "bodies": bodies})
+}
+
+/// All overlaps of a case.
+pub(super) fn overlaps(clearance: &Clearance) -> Value {
     let overlaps = clearance.overlaps.iter().map(|Overlap { bodies, span: [from, to], depth, is_default }| {
         json!({"bodies": bodies, "from": from, "to": to, "depth": depth, "default_outline": is_default})
     });
-    value["overlaps"] = overlaps.collect();
-    value["evaluations"] = json!(clearance.evaluations);
-    value
+    overlaps.collect()
 }
 
 fn impact(scenario: &Scenario, impact: &ImpactSolution) -> Value {

@@ -33,12 +33,6 @@ pub struct PathInterval<'a> {
 }
 
 impl Path {
-    /// Number of positions.
-    #[must_use]
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
     /// Its intervals, in order of time.
     pub fn intervals(&self) -> impl Iterator<Item = PathInterval<'_>> {
         let knots = self.knots.chunks_exact((2 * self.size).max(1)).map(|knot| knot.split_at(self.size).into());

@@ -15,7 +15,9 @@ pub(crate) fn moment([x, y]: [f64; 2], [px, py]: [f64; 2]) -> f64 {
 
 /// Moves bodies by [x, y], m.
 pub(crate) fn translate_bodies(bodies: &mut [Body], by: [f64; 2]) {
-    bodies.iter_mut().for_each(|body| translate(&mut body.pose, by));
+    for body in bodies {
+        translate(&mut body.pose, by);
+    }
 }
 
 impl Sample {

@@ -3,7 +3,6 @@
 use crate::{run, scenario};
 use planar_capture::capture::{CaseResult, Study};
 use planar_capture::scenario::{EndEffectorGoal, Scenario};
-use planar_capture::simulate::Phase;
 use planar_proof::{assert_close, tolerance};
 
 /// The scenario with everything moved.
@@ -68,19 +67,7 @@ fn positions_and_angular_momentum_count_from_the_inertial_origin() {
         std::iter::once(study.approach.clone()).chain(captures.map(|c| c.post_impact.clone())).collect::<Vec<_>>()
     };
     for (found, right) in phases(&study).iter().zip(&phases(&near)) {
-        let start = |phase: &Phase| {
-            let (mut positions, mut rates) = (vec![0.0; phase.path.size()], vec![0.0; phase.path.size()]);
-            let interval = phase.path.intervals().next()?;
-            interval.at(interval.span[0], &mut positions, &mut rates);
-            Some(positions)
-        };
-        if let (Some(found), Some(right)) = (start(found), start(right)) {
-            let joints = study.approach.end().state.joint_angles.len();
-            for place in std::iter::once(0).chain((3 + joints..right.len()).step_by(3)) {
-                let pose = |path: &[f64]| [path[place], path[place + 1], path[place + 2]];
-                assert_close("path", &pose(&found), &at(pose(&right)), unit);
-            }
-        }
+        assert!(found.path.intervals().next().is_none(), "a path, which is about another origin, is in no result");
         for (found, right) in found.samples.iter().zip(&right.samples) {
             assert_close("base", &found.state.base_pose, &at(right.state.base_pose), unit);
             for (found, right) in found.end_effector_poses.iter().zip(&right.end_effector_poses) {

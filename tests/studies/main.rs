@@ -22,7 +22,7 @@ mod reproduction;
 mod resolved_motion_rate;
 mod study;
 
-use planar_capture::capture::{Observer, Study};
+use planar_capture::capture::{Silent, Study};
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry;
 use planar_capture::scenario::{Scenario, ScenarioSource, Source};
@@ -54,14 +54,6 @@ fn manifest(scenario: &Scenario) -> RunManifest {
 fn summary(scenario: &Scenario, study: &Study) -> serde_json::Value {
     let summary = planar_capture::output::summary::summary(scenario, "generated", study, &manifest(scenario));
     summary.unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// An observer without output.
-struct Silent;
-
-impl Observer for Silent {
-    fn begin(&mut self, _: &str, _: u64) {}
-    fn step(&mut self) {}
 }
 
 /// The product.

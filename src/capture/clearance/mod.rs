@@ -67,6 +67,12 @@ pub struct Clearance {
 }
 
 impl Clearance {
+    /// The least distance besides planned contacts; of all pairs where there are no others.
+    #[must_use]
+    pub fn least_shown(&self) -> Option<&LeastDistance> {
+        self.besides_contacts.as_ref().or(self.least.as_ref())
+    }
+
     /// The overlaps that fail the run.
     pub fn failures(&self) -> impl Iterator<Item = &Overlap> {
         self.overlaps.iter().filter(|overlap| self.on_overlap != OnOverlap::Report && !overlap.is_default)
@@ -94,6 +100,8 @@ pub(crate) struct ClearanceTracker {
     /// Of end effectors and targets, each pair a group.
     end_effectors: DistanceTracker,
     on_overlap: OnOverlap,
+    /// How many distances contact detection has computed.
+    contact_evaluations: u64,
 }
 
 impl ClearanceTracker {
@@ -108,6 +116,7 @@ impl ClearanceTracker {
             bodies: DistanceTracker::new(frames.clone(), all, pairs, rules.max_distances),
             end_effectors: DistanceTracker::new(frames, points, planned, rules.max_distances),
             on_overlap: rules.on_overlap,
+            contact_evaluations: 0,
         }
     }
 
@@ -128,7 +137,7 @@ impl ClearanceTracker {
 
     /// Adds distances that contact detection has computed.
     pub(crate) fn add_evaluations(&mut self, evaluations: u64) {
-        self.bodies.found.evaluations += evaluations;
+        self.contact_evaluations += evaluations;
     }
 
     /// The closest approaches of the planned contacts.
@@ -148,9 +157,7 @@ impl ClearanceTracker {
 
     /// Pair and time (s) of the first overlap of two bodies whose outlines are both given.
     pub(crate) fn first_given_overlap(&self) -> Option<(usize, f64)> {
-        let Self { bodies: DistanceTracker { bodies, pairs, found, .. }, .. } = self;
-        let given = |pair: usize| pairs[pair].bodies.iter().all(|body| !bodies[*body].is_default);
-        let overlaps = found.overlaps.iter().filter(|overlap| given(overlap.pair));
+        let overlaps = self.bodies.found.overlaps.iter().filter(|overlap| !self.bodies.has_default(overlap.pair));
         overlaps.map(|overlap| (overlap.pair, overlap.span[0])).min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
@@ -175,7 +182,7 @@ impl ClearanceTracker {
                     overlap.depth = overlap.depth.max(*depth);
                 }
                 _ => {
-                    let is_default = pairs[*pair].bodies.iter().any(|body| bodies[*body].is_default);
+                    let is_default = self.bodies.has_default(*pair);
                     joined.push((*pair, Overlap { bodies: names(*pair), span: *span, depth: *depth, is_default }));
                 }
             }
@@ -185,7 +192,7 @@ impl ClearanceTracker {
             least: found.least.iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(least),
             besides_contacts: found.least.first().and_then(Option::as_ref).map(least),
             overlaps: joined.into_iter().map(|(_, overlap)| overlap).collect(),
-            evaluations: found.evaluations + self.end_effectors.found.evaluations,
+            evaluations: found.evaluations + self.end_effectors.found.evaluations + self.contact_evaluations,
             on_overlap: self.on_overlap,
         }
     }

@@ -2,12 +2,14 @@
 //! bound.
 
 use super::bodies::BodyPair;
-use crate::capture::proximity::motion::{FrameKinematics, FrameState, MotionBound};
+use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
+use crate::capture::proximity::workspace::PathWorkspace;
 use crate::simulate::path::PathInterval;
 
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
+
 /// Two convex parts, and what is known of them.
 #[derive(Clone)]
 pub(super) struct PartDistance {
@@ -66,20 +68,6 @@ impl Findings {
     }
 }
 
-/// Buffers of all searches.
-pub(super) struct Workspace {
-    pub(super) coordinates: [Vec<f64>; 2],
-    pub(super) bounds: Vec<MotionBound>,
-    states: Vec<FrameState>,
-}
-
-impl Workspace {
-    /// For a path of this many positions.
-    pub(super) fn new(size: usize) -> Self {
-        Self { coordinates: [vec![0.0; size], vec![0.0; size]], bounds: Vec::new(), states: Vec::new() }
-    }
-}
-
 /// Two parts over one interval of the path.
 pub(super) struct IntervalSearch<'a> {
     pub(super) shapes: PartPair<'a>,
@@ -89,7 +77,7 @@ pub(super) struct IntervalSearch<'a> {
     pub(super) interval: PathInterval<'a>,
     /// Of the phase, s.
     pub(super) start: f64,
-    pub(super) workspace: &'a mut Workspace,
+    pub(super) workspace: &'a mut PathWorkspace,
 }
 
 impl IntervalSearch<'_> {
@@ -128,9 +116,7 @@ impl IntervalSearch<'_> {
     }
 
     fn at(&mut self, time: f64) -> Instant {
-        let Workspace { coordinates, states, .. } = &mut *self.workspace;
-        self.motions.at(&self.interval, time, coordinates, states);
-        self.shapes.at(time, self.frames.map(|frame| states[frame]))
+        self.workspace.instant(self.motions, &self.interval, (self.frames, &self.shapes), time)
     }
 
     /// Begins, continues or ends an overlap at the second instant; all before it is known, and the distances at those

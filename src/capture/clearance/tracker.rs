@@ -1,11 +1,11 @@
 //! Least distances and overlaps of pairs of bodies over the phases of a case.
 
 use super::bodies::{BodyPair, ClearanceBody};
-use super::search::{Findings, IntervalSearch, PartDistance, Workspace};
+use super::search::{Findings, IntervalSearch, PartDistance};
 use crate::capture::assembly::Attachment;
-use crate::capture::proximity::convex::ConvexPart;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::PartPair;
+use crate::capture::proximity::workspace::PathWorkspace;
 use crate::capture::target_motion::TargetMotion;
 use crate::frames::{Frame, FrameMotion};
 use crate::simulate::path::Path;
@@ -42,6 +42,11 @@ impl DistanceTracker {
         Self { frames, bodies, pairs, parts, found: Findings::new(groups, max_distances), joints }
     }
 
+    /// Whether the layout leaves the outline of a body of a pair at its default.
+    pub(super) fn has_default(&self, pair: usize) -> bool {
+        self.pairs[pair].bodies.iter().any(|body| self.bodies[*body].is_default)
+    }
+
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
     ///
     /// # Errors
@@ -55,8 +60,7 @@ impl DistanceTracker {
     ) -> Result<(), f64> {
         let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
         let motions = FrameKinematics { frames, targets, joints: *joints };
-        let size = path.size();
-        let mut workspace = Workspace::new(size);
+        let mut workspace = PathWorkspace::default();
         let holds = |pair: &BodyPair| {
             pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
         };
@@ -64,7 +68,7 @@ impl DistanceTracker {
         for interval in path.intervals() {
             let length = interval.span[1] - interval.span[0];
             end = start + interval.span[1];
-            motions.bounds(&interval, &mut workspace.coordinates, &mut workspace.bounds);
+            workspace.set_bounds(motions, &interval);
             for part in parts.iter_mut() {
                 let pair = &pairs[part.pair];
                 if holds(pair) {
@@ -73,15 +77,13 @@ impl DistanceTracker {
                 }
                 let frames = pair.bodies.map(|body| bodies[body].frame);
                 let shapes = [0, 1].map(|i| &bodies[pair.bodies[i]].parts[part.parts[i]]);
-                let bounds = frames.map(|frame| workspace.bounds[frame]);
-                let reaches = shapes.map(ConvexPart::reach);
-                let speed = bounds[0].speed_within(reaches[0]) + bounds[1].speed_within(reaches[1]);
+                let reaches = shapes.map(|part| part.reach);
+                let speed = workspace.speed(frames, reaches);
                 if part.open.is_none() && part.lower - speed * length >= found.goal(part, pair) {
                     part.lower -= speed * length;
                     continue;
                 }
-                let acceleration =
-                    bounds[0].acceleration_within(reaches[0]) + bounds[1].acceleration_within(reaches[1]);
+                let acceleration = workspace.acceleration(frames, reaches);
                 let mut search = IntervalSearch {
                     shapes: PartPair { parts: shapes, acceleration },
                     frames,

@@ -1,6 +1,6 @@
 //! Convex parts of outlines, and the signed distance of two of them.
 
-use crate::outline::{Outline, nearest_on_segment};
+use crate::outline::{Outline, edges, farthest, nearest_on_segment};
 use earcut::Earcut;
 
 /// All points within a radius of a convex polygon, a segment or a point, in the frame of its body.
@@ -10,32 +10,34 @@ pub(in crate::capture) struct ConvexPart {
     pub(in crate::capture) corners: Vec<[f64; 2]>,
     /// m, 0 or more.
     pub(in crate::capture) radius: f64,
+    /// The largest distance of a corner from the origin of the frame, m.
+    pub(in crate::capture) reach: f64,
 }
 
 impl ConvexPart {
     /// The origin of the frame.
     pub(in crate::capture) fn point() -> Self {
-        Self { corners: vec![[0.0; 2]], radius: 0.0 }
+        Self::new(vec![[0.0; 2]], 0.0)
     }
 
     /// Parts whose union is the outline: a concave polygon as convex ones.
     pub(in crate::capture) fn of(outline: &Outline) -> Vec<Self> {
         match outline {
-            Outline::Disc { center, radius } => vec![Self { corners: vec![*center], radius: *radius }],
+            Outline::Disc { center, radius } => vec![Self::new(vec![*center], *radius)],
             Outline::Capsule { ends: [a, b], radius } => {
                 let mut corners = vec![*a, *b];
                 corners.dedup();
-                vec![Self { corners, radius: *radius }]
+                vec![Self::new(corners, *radius)]
             }
             Outline::Polygon { corners } => {
-                convex_polygons(corners).into_iter().map(|corners| Self { corners, radius: 0.0 }).collect()
+                convex_polygons(corners).into_iter().map(|corners| Self::new(corners, 0.0)).collect()
             }
         }
     }
 
-    /// The largest distance of a corner from the origin of the frame, m.
-    pub(in crate::capture) fn reach(&self) -> f64 {
-        self.corners.iter().fold(0.0, |most, [x, y]| x.hypot(*y).max(most))
+    fn new(corners: Vec<[f64; 2]>, radius: f64) -> Self {
+        let reach = farthest(&corners);
+        Self { corners, radius, reach }
     }
 }
 
@@ -86,8 +88,7 @@ fn join(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
 }
 
 fn area(corners: &[[f64; 2]]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|([ax, ay], [bx, by])| 0.5 * (ax * by - ay * bx)).sum()
+    edges(corners).map(|([ax, ay], [bx, by])| 0.5 * (ax * by - ay * bx)).sum()
 }
 
 /// Whether an anticlockwise polygon turns left, or not at all, at every corner.
@@ -138,8 +139,7 @@ fn larger(best: Separation, distance: f64, normal: [f64; 2]) -> Separation {
 
 /// Calls with the outward normals of the edges; for a segment also with its two directions.
 fn for_each_axis(corners: &[[f64; 2]], mut call: impl FnMut([f64; 2])) {
-    let next = corners.iter().cycle().skip(1);
-    for ([ax, ay], [bx, by]) in corners.iter().zip(next).filter(|_| corners.len() > 1) {
+    for ([ax, ay], [bx, by]) in edges(corners) {
         let (dx, dy) = (bx - ax, by - ay);
         let length = dx.hypot(dy);
         if length > 0.0 {
@@ -167,10 +167,10 @@ fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
             best = Separation { distance, normal };
         }
     };
-    let from_corners = |corners: &[[f64; 2]], edges: &[[f64; 2]], compare: &mut dyn FnMut([f64; 2])| {
-        for point in corners {
-            for (from, to) in edges.iter().zip(edges.iter().cycle().skip(1)) {
-                let [x, y] = nearest_on_segment(*from, *to, *point);
+    let from_corners = |points: &[[f64; 2]], corners: &[[f64; 2]], compare: &mut dyn FnMut([f64; 2])| {
+        for point in points {
+            for (from, to) in edges(corners) {
+                let [x, y] = nearest_on_segment(from, to, *point);
                 compare([x - point[0], y - point[1]]);
             }
         }

@@ -3,3 +3,4 @@
 pub(super) mod convex;
 pub(super) mod motion;
 pub(super) mod part_pair;
+pub(super) mod workspace;

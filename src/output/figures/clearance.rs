@@ -18,7 +18,7 @@ const BAR: f64 = 5.0;
 /// are joined.
 pub(super) fn figure(study: &Study, case: &CaseResult) -> Option<Figure> {
     let clearance = &case.clearance;
-    let least = clearance.besides_contacts.as_ref().or(clearance.least.as_ref())?;
+    let least = clearance.least_shown()?;
     let mut pairs: Vec<&[String; 2]> = Vec::new();
     for bodies in clearance.overlaps.iter().map(|overlap| &overlap.bodies).chain([&least.bodies]) {
         if !pairs.contains(&bodies) {

@@ -91,13 +91,13 @@ function clearanceTable() {
   if (!least) return;
   table.replaceChildren(
     row("bodies", "distance [m]", "time [s]"),
-    row(least.bodies.join(" – "), `${digits(least.distance)} (least)`, least.time.toFixed(2)),
-    ...one.overlaps.map(({ bodies, from, to, depth, is_default }) => {
-      const made = row(bodies.join(" – ") + (is_default ? " *" : ""), digits(-depth), `${from.toFixed(2)} to ${to.toFixed(2)}`);
+    row(least.bodies.join(" – "), `${digits(least.least_distance)} (least)`, least.time.toFixed(2)),
+    ...one.overlaps.map(({ bodies, from, to, depth, default_outline }) => {
+      const made = row(bodies.join(" – ") + (default_outline ? " *" : ""), digits(-depth), `${from.toFixed(2)} to ${to.toFixed(2)}`);
       made.className = "bad";
       return made;
     }));
-  element("defaults").hidden = !one.overlaps.some(({ is_default }) => is_default);
+  element("defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
 }
 
 function audit() {

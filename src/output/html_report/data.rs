@@ -2,12 +2,12 @@
 
 use super::contacts::{closing_failures, constraint_openings, distances, impacts_of_case};
 use super::digits;
-use crate::capture::clearance::{Clearance, LeastDistance, Overlap};
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::frames::{FrameMotion, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
 use crate::output::run_manifest::RunManifest;
+use crate::output::summary::{least_distance, overlaps};
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
@@ -64,12 +64,6 @@ fn robot(layout: &Layout) -> Value {
     })
 }
 
-/// The least distance besides planned contacts; of all pairs where there are no others.
-fn least(clearance: &Clearance) -> Option<Value> {
-    let LeastDistance { distance, time, bodies } = clearance.besides_contacts.as_ref().or(clearance.least.as_ref())?;
-    Some(json!({"bodies": bodies, "distance": distance, "time": time}))
-}
-
 fn one_case(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult) -> Value {
     let bodies = result.targets.iter().map(|target| json!({"pose": target.pose, "twist": target.twist}));
     let (momentum, energy) = result.targets_momentum();
@@ -81,10 +75,8 @@ fn one_case(scenario: &Scenario, study: &Study, case: &Case, result: &CaseResult
         "closest": result.closest.iter().map(|pair| json!({
             "target": pair.target, "arm": pair.arm, "distance": pair.distance, "time": pair.time,
         })).collect::<Vec<_>>(),
-        "least": least(&result.clearance),
-        "overlaps": result.clearance.overlaps.iter().map(|Overlap { bodies, span: [from, to], depth, is_default }| {
-            json!({"bodies": bodies, "from": from, "to": to, "depth": depth, "is_default": is_default})
-        }).collect::<Vec<_>>(),
+        "least": result.clearance.least_shown().map(least_distance),
+        "overlaps": overlaps(&result.clearance),
         "open": closing_failures(scenario, case),
         "distances": distances(scenario, study, case, result),
     });

@@ -2,7 +2,7 @@
 
 use super::recording::timestamp;
 use super::transforms::pose;
-use crate::outline::Outline;
+use crate::outline::{Outline, edges};
 use crate::output::scene::{Shape, Visual};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{
@@ -50,13 +50,12 @@ fn solid(visual: &Visual) -> SceneEntity {
 
 /// The side faces of a prism, two triangles each; its base, which need not be convex, is left open.
 fn side_faces(corners: &[[f64; 2]], height: f64) -> Vec<Point3> {
-    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-    let face = |(from, to): (&[f64; 2], &[f64; 2])| {
-        let corner = |[x, y]: &[f64; 2], z: f64| Point3 { x: *x, y: *y, z };
+    let face = |(from, to): ([f64; 2], [f64; 2])| {
+        let corner = |[x, y]: [f64; 2], z: f64| Point3 { x, y, z };
         let [a, b, c, d] = [corner(from, -height), corner(to, -height), corner(to, height), corner(from, height)];
         [a, b, c, a, c, d]
     };
-    edges.flat_map(face).collect()
+    edges(corners).flat_map(face).collect()
 }
 
 /// A line on the upper face of a body, two pixels wide.

@@ -143,13 +143,18 @@ impl Outline {
     /// The largest distance of the outline from the origin of its frame, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
-        let farthest = |points: &[[f64; 2]]| points.iter().fold(0.0, |most: f64, [x, y]| x.hypot(*y).max(most));
         match self {
             Self::Disc { center, radius } => farthest(&[*center]) + radius,
             Self::Capsule { ends, radius } => farthest(ends) + radius,
             Self::Polygon { corners } => farthest(corners),
         }
     }
+}
+
+/// The largest distance of the points from the origin.
+#[must_use]
+pub fn farthest(points: &[[f64; 2]]) -> f64 {
+    points.iter().fold(0.0, |most, [x, y]| x.hypot(*y).max(most))
 }
 
 /// The signed distance from the circle of this radius about a point.
@@ -198,7 +203,8 @@ fn polygon_distance(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     SignedDistance { distance: -nearest.distance, normal }
 }
 
-fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
+/// The edges of a polygon, from each corner to the next.
+pub fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().copied().zip(next.copied())
 }
