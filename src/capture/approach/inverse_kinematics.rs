@@ -6,7 +6,6 @@ use crate::capture::reach::Reach;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
-use crate::simulate::event::NoEvents;
 use crate::simulate::{PhaseError, Sample};
 use nalgebra::{DMatrix, DVector};
 
@@ -173,12 +172,7 @@ impl Trial {
         sample: f64,
         tick: &mut dyn FnMut(),
     ) -> Result<Step, TerminalRatesError> {
-        let phase = ApproachTracking::new(&self.scenario, sample).track_by_inverse_dynamics(
-            model,
-            &self.rates,
-            &mut NoEvents,
-            tick,
-        )?;
+        let phase = ApproachTracking::new(&self.scenario, sample).trial(model, &self.rates, tick)?;
         let mut step = self.step(model, goals, phase.end())?;
         if let FinalRates::EndEffectorTwists(twists) = &self.scenario.approach.end {
             let (rates, margin) = rates_for(model, phase.end(), twists)?;

@@ -7,12 +7,17 @@ pub mod terminal_rates;
 use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::Model;
+use crate::owned::RobotState;
 use crate::scenario::{self, Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, PhaseError, Timing, simulate};
+use crate::simulate::{Phase, PhaseError, Timing, simulate, simulate_trial};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
+
+/// A simulation of a system under a law, from a state, with steps and samples.
+type Simulate<'a> =
+    dyn FnMut(&System<'_>, &mut dyn Control<f64>, &RobotState, &Timing) -> Result<Phase, PhaseError> + 'a;
 
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +60,9 @@ impl<'a> ApproachTracking<'a> {
             drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
-            Tracking::InverseDynamics => self.track_by_inverse_dynamics(model, rates, events, tick),
+            Tracking::InverseDynamics => self.by_inverse_dynamics(model, rates, &mut |system, law, initial, timing| {
+                simulate(system, law, initial, timing, events, tick)
+            }),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
                 drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
             }
@@ -76,17 +83,28 @@ impl<'a> ApproachTracking<'a> {
         }
     }
 
-    /// Simulates it with torques from inverse dynamics and without tracking error: the joints start at the trajectory's
-    /// initial rates.
+    /// Simulates it for a design: with torques from inverse dynamics and without tracking error, whatever the scenario's
+    /// law is, and without an estimate of the path's error.
     ///
     /// # Errors
     /// When and why it stopped.
-    pub fn track_by_inverse_dynamics(
+    pub(crate) fn trial(
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],
-        events: &mut dyn Events,
         tick: &mut dyn FnMut(),
+    ) -> Result<Phase, PhaseError> {
+        self.by_inverse_dynamics(model, rates, &mut |system, law, initial, timing| {
+            simulate_trial(system, law, initial, timing, tick)
+        })
+    }
+
+    /// Simulates it with torques from inverse dynamics: the joints start at the trajectory's initial rates.
+    fn by_inverse_dynamics(
+        &self,
+        model: &dyn Model<f64>,
+        rates: &[f64],
+        simulate: &mut Simulate<'_>,
     ) -> Result<Phase, PhaseError> {
         let joints = model.joints();
         let mut law = InverseDynamics {
@@ -99,7 +117,7 @@ impl<'a> ApproachTracking<'a> {
         if self.scenario.approach.trajectory.properties().starts_at_rest {
             initial.joint_rates.fill(0.0);
         }
-        simulate(&self.system(model), &mut law, &initial, &self.timing, events, tick)
+        simulate(&self.system(model), &mut law, &initial, &self.timing)
     }
 
     fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {

@@ -4,7 +4,6 @@ use crate::capture::approach::ApproachTracking;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::EndEffectorTwistGoal;
-use crate::simulate::event::NoEvents;
 use crate::simulate::{PhaseError, Sample};
 use nalgebra::DVector;
 
@@ -95,13 +94,10 @@ pub fn terminal_rates(
     let mut rates = vec![0.0; model.joints()];
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
-        let phase =
-            approach.track_by_inverse_dynamics(model, &rates, &mut NoEvents, tick).map_err(
-                |source| match iteration {
-                    1 => TerminalRatesError::PhaseError(source),
-                    _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
-                },
-            )?;
+        let phase = approach.trial(model, &rates, tick).map_err(|source| match iteration {
+            1 => TerminalRatesError::PhaseError(source),
+            _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
+        })?;
         let (next, margin) = rates_for(model, phase.end(), goals)?;
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
         change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));

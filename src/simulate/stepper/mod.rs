@@ -118,7 +118,8 @@ impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Ste
 pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
     steps: Box<dyn Steps>,
-    companion: Companion,
+    /// `None` where the error of the path is not estimated.
+    companion: Option<Companion>,
 }
 
 impl<'a> Stepper<'a> {
@@ -136,9 +137,13 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let equation = Equation::new(system, control, form);
-        let (steps, companion) =
-            (integration.integrator.steps(duration, x.len()), Companion::new(integration.integrator, duration, x));
-        Ok(Self { equation, steps, companion })
+        let steps = integration.integrator.steps(duration, x.len());
+        Ok(Self { equation, steps, companion: None })
+    }
+
+    /// Estimates the error of the path, for the same arguments as [`new`](Self::new).
+    pub(crate) fn estimate_error(&mut self, integrator: Integrator, duration: f64, x: &[f64]) {
+        self.companion = Some(Companion::new(integrator, duration, x));
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
@@ -155,13 +160,15 @@ impl<'a> Stepper<'a> {
     /// Advances `x` over the next step.
     pub(crate) fn advance(&mut self, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         self.steps.advance(&mut self.equation, span, x)?;
-        self.companion.follow(&mut self.equation, span, x);
+        if let Some(companion) = &mut self.companion {
+            companion.follow(&mut self.equation, span, x);
+        }
         Ok(())
     }
 
-    /// The estimated largest error of a position so far, rad or m.
+    /// The estimated largest error of a position so far, rad or m; 0 where it is not estimated.
     pub(crate) fn path_error(&self) -> f64 {
-        self.companion.error()
+        self.companion.as_ref().map_or(0.0, Companion::error)
     }
 
     /// The vector at `time` within a step that starts at `start` with `x`, into `into`.
