@@ -281,9 +281,15 @@ FAULTS = [
     ),
     Fault(
         "angular momentum left about the base's position at the start",
-        "src/capture/origin.rs",
-        "sample.momentum.angular_momentum += self.moment(sample.momentum.linear_momentum);",
+        "src/simulate/translation.rs",
+        "self.momentum.angular_momentum += moment(by, self.momentum.linear_momentum);",
         "",
+    ),
+    Fault(
+        "stored samples left about the base's position at the start",
+        "src/simulate/stored_samples.rs",
+        "self.origin = Some(origin);",
+        "let _ = origin;",
     ),
     # modules for other crates
     Fault(
