@@ -155,6 +155,14 @@ pub enum StudyError {
         /// Since the start of the approach, s.
         time: f64,
     },
+    /// The path of a long phase is not in its temporary file.
+    #[error("case `{case}`: the path of a long phase could not be kept in a temporary file: {reason}")]
+    PathFile {
+        /// The case's name.
+        case: String,
+        /// The operating system's.
+        reason: String,
+    },
     /// Too many impacts.
     #[error(
         "case `{case}`: {impacts} impacts by {time} s after the first, the last with target `{target}`: bounces that come \
@@ -279,7 +287,7 @@ fn study_about_origin(
         .collect::<Result<Vec<_>, StudyError>>()?;
     let terminal_errors = TerminalError::of(scenario, &approach);
     let mut study = Study { terminal_rates, inverse_kinematics, approach, terminal_errors, cases };
-    // the clearance is computed, and paths are the only part of a study that grows with the duration
+    // the clearance is computed
     for phase in study.phases_mut() {
         phase.path = Path::default();
     }

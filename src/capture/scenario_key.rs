@@ -39,6 +39,7 @@ impl StudyError {
             Self::Approach(stopped) => of_approach(scenario, stopped),
             Self::Inside { target, .. } => key(format!("target[{}].position", index(scenario, target)), "none"),
             Self::TooFast { case, .. } => fastest(scenario, case),
+            Self::PathFile { .. } => key("approach.duration", format!("{:?}", scenario.approach.duration)),
             Self::Chatter { case, target, .. } => restitution(scenario, case, target),
             Self::Impact { case, .. } => contact_kind(scenario, case),
             Self::PostImpact { source, .. } => {

@@ -2,7 +2,7 @@
 
 use crate::capture::approach::ApproachTracking;
 use crate::capture::assembly::{Assembly, Attachment};
-use crate::capture::clearance::ClearanceTracker;
+use crate::capture::clearance::{ClearanceError, ClearanceTracker};
 use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
 use crate::capture::contact_detection::{ContactDetection, signed_distance};
 use crate::capture::contact_pair::ContactPair;
@@ -51,7 +51,7 @@ impl<'a> CaptureSequence<'a> {
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance
             .add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[])
-            .map_err(|time| self.too_fast(time))?;
+            .map_err(|error| self.clearance_error(error))?;
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
@@ -78,7 +78,9 @@ impl<'a> CaptureSequence<'a> {
         let mut contact_detection = ContactDetection::new(self.scenario, TargetMotion::Free(&start), pairs.clone());
         let phase = self.track(&mut contact_detection, observer)?;
         let mut clearance = ClearanceTracker::new(self.scenario, &pairs);
-        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[]).map_err(|time| self.too_fast(time))?;
+        clearance
+            .add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[])
+            .map_err(|error| self.clearance_error(error))?;
         clearance.add_evaluations(contact_detection.evaluations());
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
@@ -128,7 +130,9 @@ impl<'a> CaptureSequence<'a> {
     ) -> Result<CaseResult, StudyError> {
         let phase = self.track(&mut EndTime(overlap.1), observer)?;
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
-        clearance.add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[]).map_err(|time| self.too_fast(time))?;
+        clearance
+            .add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[])
+            .map_err(|error| self.clearance_error(error))?;
         clearance.end_at(overlap);
         Ok(CaseResult {
             name: self.case.name.clone(),
@@ -190,8 +194,12 @@ impl<'a> CaptureSequence<'a> {
         Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
     }
 
-    fn too_fast(self, time: f64) -> StudyError {
-        StudyError::TooFast { case: self.case.name.clone(), time }
+    fn clearance_error(self, error: ClearanceError) -> StudyError {
+        let case = self.case.name.clone();
+        match error {
+            ClearanceError::TooFast { time } => StudyError::TooFast { case, time },
+            ClearanceError::Path(error) => StudyError::PathFile { case, reason: error.to_string() },
+        }
     }
 
     fn impact_error(self, source: Error) -> StudyError {
@@ -342,11 +350,15 @@ impl SequenceState<'_> {
         clearance.add_evaluations(detection.evaluations());
         let begin = *first + time;
         let before = clearance.clone();
-        clearance.add_phase(&phase.path, begin, motion, attachments).map_err(|time| sequence.too_fast(time))?;
+        clearance
+            .add_phase(&phase.path, begin, motion, attachments)
+            .map_err(|error| sequence.clearance_error(error))?;
         if let Some(overlap) = sequence.stop(clearance) {
             phase = Phase { event: None, ..simulate(&mut EndTime(overlap.1 - begin))? };
             *clearance = before;
-            clearance.add_phase(&phase.path, begin, motion, attachments).map_err(|time| sequence.too_fast(time))?;
+            clearance
+                .add_phase(&phase.path, begin, motion, attachments)
+                .map_err(|error| sequence.clearance_error(error))?;
             clearance.end_at(overlap);
         }
         let at =

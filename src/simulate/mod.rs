@@ -7,6 +7,7 @@ pub mod conservation;
 mod equation;
 pub mod event;
 mod event_location;
+mod knots;
 pub mod limits;
 pub mod path;
 mod recorder;

@@ -1,10 +1,13 @@
 //! The path of a phase: positions and rates at knots, and the cubic Hermite interpolant between them.
 //!
 //! Knots are states of the simulation. A state is omitted where the interpolant through its neighbours reproduces it,
-//! so that the memory depends on how much the motion bends and not on the number of steps.
+//! so that their number depends on how much the motion bends and not on the number of steps. Those of a long path are in
+//! a file.
 
 use crate::error::Error;
+use crate::simulate::knots::Knots;
 use crate::state::split;
+use std::io;
 
 /// Largest deviation of an omitted state from the interpolant, rad or m, for positions up to 1.
 const TOLERANCE: f64 = 1e-10;
@@ -14,9 +17,7 @@ const MAX_WINDOW: usize = 64;
 /// The positions and rates of a phase as functions of time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    times: Vec<f64>,
-    /// Positions, then rates, knot by knot.
-    knots: Vec<f64>,
+    knots: Knots,
     /// Number of positions.
     size: usize,
 }
@@ -33,24 +34,32 @@ pub struct PathInterval<'a> {
 }
 
 impl Path {
-    /// Its intervals, in order of time.
-    pub fn intervals(&self) -> impl Iterator<Item = PathInterval<'_>> {
-        let knots = self.knots.chunks_exact((2 * self.size).max(1)).map(|knot| knot.split_at(self.size).into());
-        let times = self.times.windows(2);
-        times.zip(knots.clone().zip(knots.skip(1))).map(|(span, (start, end))| PathInterval {
-            span: [span[0], span[1]],
-            start,
-            end,
+    /// Calls `visit` with its intervals, in order of time.
+    ///
+    /// # Errors
+    /// Those of `visit`, and of the file in which a long path is.
+    pub fn try_for_each<E: From<io::Error>>(
+        &self,
+        mut visit: impl FnMut(PathInterval<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.knots.try_for_each_pair(self.record(), |start, end| {
+            let ([from, start @ ..], [to, end @ ..]) = (start, end) else { return Ok(()) };
+            let [start, end] = [start, end].map(|knot| knot.split_at(self.size).into());
+            visit(PathInterval { span: [*from, *to], start, end })
         })
     }
 
+    /// Numbers of a knot: time, positions, rates.
+    fn record(&self) -> usize {
+        1 + 2 * self.size
+    }
+
     fn push(&mut self, time: f64, state: &[f64]) {
-        self.times.push(time);
-        self.knots.extend_from_slice(state);
+        self.knots.push(time, state);
     }
 
     fn last(&self) -> Option<(f64, &[f64])> {
-        Some((*self.times.last()?, &self.knots[self.knots.len() - 2 * self.size..]))
+        self.knots.last(self.record())
     }
 }
 
@@ -149,13 +158,25 @@ mod tests {
         recorder.end()
     }
 
+    fn times(path: &Path) -> Vec<f64> {
+        let mut times = Vec::new();
+        let visited = path.try_for_each(|interval| {
+            times.extend((times.is_empty()).then_some(interval.span[0]));
+            times.push(interval.span[1]);
+            io::Result::Ok(())
+        });
+        visited.expect("a path");
+        times
+    }
+
     #[test]
     fn the_interpolant_reproduces_the_omitted_states() {
         let motion = |t: f64| [(3.0 * t).sin(), 3.0 * (3.0 * t).cos()];
         let path = record(motion, 4000);
-        assert!(path.times.len() < 400, "{} knots", path.times.len());
-        assert_eq!((path.times[0], path.times[path.times.len() - 1]), (0.0, 1.0));
-        for interval in path.intervals() {
+        let times = times(&path);
+        assert!(times.len() < 400, "{} knots", times.len());
+        assert_eq!((times[0], times[times.len() - 1]), (0.0, 1.0));
+        let compared = path.try_for_each(|interval| {
             let [start, end] = interval.span;
             for part in [0.0, 0.1, 0.3, 0.5, 0.8, 1.0] {
                 let time = start + part * (end - start);
@@ -169,12 +190,14 @@ mod tests {
                 assert!(rate[0].abs() <= largest[0] + 1e-9, "{time}: {} > {}", rate[0], largest[0]);
                 assert!(acceleration[0] >= 9.0 * exact.abs() - 0.02, "{time}: {}", acceleration[0]);
             }
-        }
+            io::Result::Ok(())
+        });
+        compared.expect("a path");
     }
 
     #[test]
     fn a_kink_is_a_knot() {
         let path = record(|t| if t < 0.5 { [0.0, 0.0] } else { [2.0 * (t - 0.5), 2.0] }, 100);
-        assert!(path.times.iter().any(|t| (t - 0.5).abs() < 0.011), "{:?}", path.times);
+        assert!(times(&path).iter().any(|t| (t - 0.5).abs() < 0.011), "{:?}", times(&path));
     }
 }

@@ -6,6 +6,7 @@
 use crate::dynamics::Momentum;
 use crate::owned::RobotState;
 use crate::simulate::Sample;
+use crate::simulate::knots::again;
 use crate::simulate::system::Body;
 use crate::state::ActuatorWork;
 use std::fs::File;
@@ -115,11 +116,6 @@ impl SampleFile {
         file.read_exact(&mut bytes)?;
         Ok(bytes)
     }
-}
-
-/// The same error once more.
-fn again(error: &io::Error) -> io::Error {
-    error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
 }
 
 /// The numbers of a sample and its targets.

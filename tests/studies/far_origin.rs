@@ -67,7 +67,8 @@ fn positions_and_angular_momentum_count_from_the_inertial_origin() {
         std::iter::once(study.approach.clone()).chain(captures.map(|c| c.post_impact.clone())).collect::<Vec<_>>()
     };
     for (found, right) in phases(&study).iter().zip(&phases(&near)) {
-        assert!(found.path.intervals().next().is_none(), "a path, which is about another origin, is in no result");
+        let about_another_origin = found.path.try_for_each(|_| Err(std::io::ErrorKind::Other.into()));
+        about_another_origin.unwrap_or_else(|_: std::io::Error| panic!("a path is in no result"));
         for (found, right) in found.samples.iter().zip(&right.samples) {
             assert_close("base", &found.state.base_pose, &at(right.state.base_pose), unit);
             for (found, right) in found.end_effector_poses.iter().zip(&right.end_effector_poses) {

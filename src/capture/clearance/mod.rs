@@ -15,6 +15,7 @@ use crate::scenario::{OnOverlap, Scenario};
 use crate::simulate::path::Path;
 use bodies::{bodies, end_effector_pairs, pairs};
 use search::PairOverlap;
+use std::io;
 use tracker::DistanceTracker;
 
 /// The least distance of two bodies.
@@ -92,6 +93,24 @@ pub struct ClosestApproach {
     pub time: f64,
 }
 
+/// Why the clearance of a phase is not known.
+#[derive(Debug)]
+pub(crate) enum ClearanceError {
+    /// Bodies move too fast for bounds of their distances.
+    TooFast {
+        /// At which the distances are used up, since the start of the approach, s.
+        time: f64,
+    },
+    /// The path is not in its file.
+    Path(io::Error),
+}
+
+impl From<io::Error> for ClearanceError {
+    fn from(error: io::Error) -> Self {
+        Self::Path(error)
+    }
+}
+
 /// The clearance of a case so far.
 #[derive(Clone)]
 pub(crate) struct ClearanceTracker {
@@ -123,14 +142,14 @@ impl ClearanceTracker {
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
     ///
     /// # Errors
-    /// The time (s) at which the bodies move too fast for their distances to be bounded.
+    /// [`ClearanceError`].
     pub(crate) fn add_phase(
         &mut self,
         path: &Path,
         start: f64,
         targets: TargetMotion<'_>,
         attachments: &[Attachment],
-    ) -> Result<(), f64> {
+    ) -> Result<(), ClearanceError> {
         self.bodies.add_phase(path, start, targets, attachments)?;
         self.end_effectors.add_phase(path, start, targets, attachments)
     }

@@ -1,6 +1,7 @@
 //! The search for the least distance and the overlaps of two convex parts over an interval of a path, by branch and
 //! bound.
 
+use super::ClearanceError;
 use super::bodies::BodyPair;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
@@ -84,8 +85,13 @@ impl IntervalSearch<'_> {
     /// Computes the distance at both ends, and between them wherever it may be below the goal.
     ///
     /// # Errors
-    /// The time (s) at which the distances are used up.
-    pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
+    /// [`ClearanceError::TooFast`].
+    pub(super) fn run(
+        &mut self,
+        part: &mut PartDistance,
+        pair: &BodyPair,
+        found: &mut Findings,
+    ) -> Result<(), ClearanceError> {
         let ends = self.interval.span.map(|time| self.at(time));
         for end in &ends {
             found.record(part, pair, end, self.start);
@@ -107,7 +113,7 @@ impl IntervalSearch<'_> {
                 found.record(part, pair, &middle, self.start);
                 rights.push(middle);
                 if found.evaluations > found.max_evaluations {
-                    return Err(self.start + left.time);
+                    return Err(ClearanceError::TooFast { time: self.start + left.time });
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Least distances and overlaps of pairs of bodies over the phases of a case.
 
+use super::ClearanceError;
 use super::bodies::{BodyPair, ClearanceBody};
 use super::search::{Findings, IntervalSearch, PartDistance};
 use crate::capture::assembly::Attachment;
@@ -50,14 +51,14 @@ impl DistanceTracker {
     /// Adds a phase that starts at `start` s; arms do not overlap with the targets that they hold.
     ///
     /// # Errors
-    /// The time (s) at which the bodies move too fast.
+    /// [`ClearanceError`].
     pub(super) fn add_phase(
         &mut self,
         path: &Path,
         start: f64,
         targets: TargetMotion<'_>,
         attachments: &[Attachment],
-    ) -> Result<(), f64> {
+    ) -> Result<(), ClearanceError> {
         let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
         let motions = FrameKinematics { frames, targets, joints: *joints };
         let mut workspace = PathWorkspace::default();
@@ -65,7 +66,7 @@ impl DistanceTracker {
             pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
         };
         let mut end = start;
-        for interval in path.intervals() {
+        path.try_for_each(|interval| {
             let length = interval.span[1] - interval.span[0];
             end = start + interval.span[1];
             workspace.set_bounds(motions, &interval);
@@ -94,7 +95,8 @@ impl DistanceTracker {
                 };
                 search.run(part, pair, found)?;
             }
-        }
+            Ok::<(), ClearanceError>(())
+        })?;
         for overlap in parts.iter().filter_map(|part| part.open) {
             found.overlaps[overlap].span[1] = end;
         }

@@ -1,0 +1,122 @@
+//! The knots of a path: the latest in memory, those before them in a temporary file without a name, so that memory does
+//! not grow with the duration.
+
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// With more numbers than these in memory, all but the last knot go to the file.
+const MOST_IN_MEMORY: usize = 1 << 16;
+
+/// Knots in order of time: each a time and the state then, all of one length.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Knots {
+    in_memory: Vec<f64>,
+    /// How many numbers are in the file.
+    stored: usize,
+    /// Or why it could not be written, which those who read the knots report.
+    file: Option<Arc<Mutex<io::Result<File>>>>,
+}
+
+/// Equal where they share the file.
+impl PartialEq for Knots {
+    fn eq(&self, other: &Self) -> bool {
+        let file = |knots: &Self| knots.file.as_ref().map(Arc::as_ptr);
+        self.in_memory == other.in_memory && file(self) == file(other)
+    }
+}
+
+impl Knots {
+    /// Adds a knot.
+    pub(super) fn push(&mut self, time: f64, state: &[f64]) {
+        if self.in_memory.len() > MOST_IN_MEMORY {
+            self.store(self.in_memory.len() - (1 + state.len()));
+        }
+        self.in_memory.push(time);
+        self.in_memory.extend_from_slice(state);
+    }
+
+    /// The last knot, of this many numbers.
+    pub(super) fn last(&self, length: usize) -> Option<(f64, &[f64])> {
+        let start = self.in_memory.len().checked_sub(length)?;
+        let (time, state) = self.in_memory[start..].split_first()?;
+        Some((*time, state))
+    }
+
+    /// Calls `visit` with each knot and the next one, which have this many numbers.
+    pub(super) fn try_for_each_pair<E: From<io::Error>>(
+        &self,
+        length: usize,
+        mut visit: impl FnMut(&[f64], &[f64]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut visit_all = |knots: &[f64]| {
+            let pairs = knots.chunks_exact(length).zip(knots.chunks_exact(length).skip(1));
+            pairs.into_iter().try_for_each(|(knot, next)| visit(knot, next))
+        };
+        let mut window = Vec::new();
+        let block = MOST_IN_MEMORY.next_multiple_of(length);
+        for from in (0..self.stored).step_by(block) {
+            self.read(from, block.min(self.stored - from), &mut window)?;
+            visit_all(&window)?;
+            window.drain(..window.len() - length);
+        }
+        window.extend_from_slice(&self.in_memory);
+        visit_all(&window)
+    }
+
+    /// Moves the first `count` numbers in memory to the file.
+    fn store(&mut self, count: usize) {
+        let file = self.file.get_or_insert_with(|| Arc::new(Mutex::new(tempfile::tempfile())));
+        let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
+        let bytes: Vec<u8> = self.in_memory.drain(..count).flat_map(f64::to_le_bytes).collect();
+        self.stored += count;
+        if let Ok(to) = &mut *file
+            && let Err(error) = to.write_all(&bytes)
+        {
+            *file = Err(error);
+        }
+    }
+
+    /// Adds numbers of the file to a list.
+    fn read(&self, from: usize, count: usize, to: &mut Vec<f64>) -> io::Result<()> {
+        let Some(file) = &self.file else { return Ok(()) };
+        let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
+        let file = file.as_mut().map_err(|error| again(error))?;
+        let mut bytes = vec![0; 8 * count];
+        file.seek(SeekFrom::Start(8 * from as u64))?;
+        file.read_exact(&mut bytes)?;
+        to.extend(bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)));
+        Ok(())
+    }
+}
+
+/// The same error once more.
+pub(super) fn again(error: &io::Error) -> io::Error {
+    error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knots_in_the_file_are_those_that_were_added() {
+        let mut knots = Knots::default();
+        let knot = |i: u32| [f64::from(i), f64::from(i).sin(), -f64::from(i)];
+        let count = 50_000;
+        for i in 0..count {
+            let [time, state @ ..] = knot(i);
+            knots.push(time, &state);
+            assert_eq!(knots.last(3), Some((time, &state[..])));
+        }
+        assert!(knots.in_memory.len() <= MOST_IN_MEMORY + 3 && knots.stored > 0);
+        let mut seen = 0;
+        let visited = knots.try_for_each_pair(3, |first, second| {
+            assert_eq!([first, second], [knot(seen), knot(seen + 1)]);
+            seen += 1;
+            io::Result::Ok(())
+        });
+        visited.expect("a file");
+        assert_eq!(seen, count - 1);
+    }
+}
