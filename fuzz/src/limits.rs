@@ -2,6 +2,7 @@
 
 use cap::Cap;
 use std::alloc::System;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -15,8 +16,11 @@ const MOST_AT_A_TIME: usize = 256 << 20;
 /// Bytes by which memory may have grown when all inputs have been run: what libraries keep.
 const GROWTH: usize = 8 << 20;
 
-/// Time after which an input hangs.
+/// Time after which an input hangs; of the processor's, where it can be told, for others may use the processor too.
 const HANG: Duration = Duration::from_secs(30);
+
+/// How much longer an input may take where it waits for the processor.
+const WAITING: u32 = 40;
 
 /// Inputs after which libraries keep what they keep.
 const WARM: u64 = 2000;
@@ -26,8 +30,7 @@ static ALLOCATOR: Cap<System> = Cap::new(System, MOST);
 
 /// The bounds of a run.
 pub struct Limits {
-    /// Per thread, when its input began in ms since the start, and its index; 0 between inputs.
-    begun: Vec<(AtomicU64, AtomicU64)>,
+    threads: Vec<Thread>,
     started: Instant,
     /// Bytes after the first inputs.
     warm: OnceLock<usize>,
@@ -35,23 +38,47 @@ pub struct Limits {
     slowest: AtomicU64,
 }
 
+/// What one thread runs.
+#[derive(Default)]
+struct Thread {
+    /// When its input began in ms since the start; 0 between inputs.
+    begun: AtomicU64,
+    index: AtomicU64,
+    /// Its folder in `/proc`, where there is one.
+    folder: OnceLock<Option<PathBuf>>,
+}
+
+impl Thread {
+    /// How long it has run, where the system tells.
+    fn processor_time(&self) -> Option<Duration> {
+        processor_time(self.folder.get()?.as_deref()?)
+    }
+}
+
+/// How long the thread of a folder in `/proc` has run.
+pub fn processor_time(thread: &Path) -> Option<Duration> {
+    let times = std::fs::read_to_string(thread.join("schedstat")).ok()?;
+    times.split(' ').next()?.parse().ok().map(Duration::from_nanos)
+}
+
 impl Limits {
     /// Of a number of threads.
     pub fn new(threads: usize) -> Self {
-        let begun = (0..threads).map(|_| (AtomicU64::new(0), AtomicU64::new(0))).collect();
-        Self { begun, started: Instant::now(), warm: OnceLock::new(), slowest: AtomicU64::new(0) }
+        let threads = (0..threads).map(|_| Thread::default()).collect();
+        Self { threads, started: Instant::now(), warm: OnceLock::new(), slowest: AtomicU64::new(0) }
     }
 
-    /// An input begins.
+    /// An input begins; called by its thread.
     pub fn begin(&self, thread: usize, index: u64) {
-        let (time, input) = &self.begun[thread];
+        let Thread { begun, index: input, folder } = &self.threads[thread];
+        folder.get_or_init(|| std::fs::read_link("/proc/thread-self").ok().map(|link| Path::new("/proc").join(link)));
         input.store(index, Ordering::Relaxed);
-        time.store(self.milliseconds().max(1), Ordering::Relaxed);
+        begun.store(self.milliseconds().max(1), Ordering::Relaxed);
     }
 
     /// An input ends.
     pub fn end(&self, thread: usize) {
-        let (time, index) = &self.begun[thread];
+        let Thread { begun: time, index, .. } = &self.threads[thread];
         let time = self.milliseconds().saturating_sub(time.swap(0, Ordering::Relaxed)).min(u64::from(u16::MAX));
         self.slowest.fetch_max((time << 48) | (index.load(Ordering::Relaxed) & ((1 << 48) - 1)), Ordering::Relaxed);
     }
@@ -85,11 +112,19 @@ impl Limits {
 
     /// Ends the process when an input hangs, until all have been run.
     pub fn watch(&self, target: &str, finished: &AtomicBool) {
+        // when the input that a thread runs began, and the thread's processor time when that was first seen
+        let mut seen = vec![(0, None); self.threads.len()];
         while !finished.load(Ordering::Relaxed) {
             std::thread::sleep(Duration::from_millis(50));
-            for (time, index) in &self.begun {
-                let (time, index) = (time.load(Ordering::Relaxed), index.load(Ordering::Relaxed));
-                if time > 0 && self.milliseconds().saturating_sub(time) > milliseconds(HANG) {
+            for (thread, seen) in self.threads.iter().zip(&mut seen) {
+                let (begun, index) = (thread.begun.load(Ordering::Relaxed), thread.index.load(Ordering::Relaxed));
+                if begun == 0 || begun != seen.0 {
+                    *seen = (begun, thread.processor_time());
+                    continue;
+                }
+                let elapsed = Duration::from_millis(self.milliseconds().saturating_sub(begun));
+                let run = seen.1.zip(thread.processor_time()).map_or(elapsed, |(start, now)| now.saturating_sub(start));
+                if run > HANG || elapsed > WAITING * HANG {
                     eprintln!("fuzz: {target}: input {index} hangs");
                     std::process::exit(1);
                 }

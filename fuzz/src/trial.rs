@@ -1,11 +1,13 @@
 //! One input: made, read, and made small where it fails.
 
 use crate::input::{Input, strategy};
+use crate::limits::processor_time;
 use crate::targets::Target;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Longest time of an input; of the processor's, where it can be told, and in the faster of two more runs.
@@ -86,6 +88,7 @@ fn outcome(target: &Target, input: &Input) -> Result<bool, String> {
     });
     if time > SLOW {
         let again = |_| {
+            let processor_time = || processor_time(Path::new("/proc/thread-self"));
             let start = processor_time();
             let (_, time) = timed();
             start.zip(processor_time()).map_or(time, |(start, end)| end.saturating_sub(start))
@@ -96,10 +99,4 @@ fn outcome(target: &Target, input: &Input) -> Result<bool, String> {
         }
     }
     result
-}
-
-/// How long this thread has run, where the system tells: others may use the processor too.
-fn processor_time() -> Option<Duration> {
-    let times = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    times.split(' ').next()?.parse().ok().map(Duration::from_nanos)
 }
