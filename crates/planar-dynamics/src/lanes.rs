@@ -3,10 +3,11 @@
 //! `wide` selects the vector width at compile time: the cost of a lane depends on `-C target-cpu=…`.
 
 use crate::scalar::Scalar;
-use wide::{f32x8, f64x4, f64x8};
+use crate::scalar::sine_lanes::all;
+use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 macro_rules! lanes {
-    ($lanes:ident, $float:ident) => {
+    ($lanes:ident, $float:ident, $sin_cos:ident) => {
         impl Scalar for $lanes {
             const ZERO: Self = $lanes::ZERO;
             const ONE: Self = $lanes::ONE;
@@ -23,7 +24,12 @@ macro_rules! lanes {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                $lanes::sin_cos(self)
+                all::$sin_cos(self)
+            }
+
+            #[inline]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                if cfg!(feature = "fused") { $lanes::mul_add(self, factor, addend) } else { self * factor + addend }
             }
 
             #[inline]
@@ -44,6 +50,9 @@ macro_rules! lanes {
     };
 }
 
-lanes!(f64x4, f64);
-lanes!(f64x8, f64);
-lanes!(f32x8, f32);
+lanes!(f64x2, f64, sin_cos_f64x2);
+lanes!(f64x4, f64, sin_cos_f64x4);
+lanes!(f64x8, f64, sin_cos_f64x8);
+lanes!(f32x4, f32, sin_cos_f32x4);
+lanes!(f32x8, f32, sin_cos_f32x8);
+lanes!(f32x16, f32, sin_cos_f32x16);

@@ -4,6 +4,10 @@
 //! It never contains: std, an allocation, a panic, a computation for one number type alone, access to files, a parser.
 #![no_std]
 
+// `core` has no fused multiply-add
+#[cfg(feature = "fused")]
+extern crate std;
+
 pub mod body;
 pub mod contact;
 pub mod control;

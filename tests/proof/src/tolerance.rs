@@ -32,6 +32,10 @@ pub const LANE: f64 = 1e-12;
 pub const SINE: f64 = 2e-16;
 /// The same in `f32`. 9e-8 measured.
 pub const SINE_SINGLE: f64 = 1e-7;
+/// Far from 0, where the remainder has been rounded twice more.
+pub const SINE_FAR: f64 = 3e-16;
+/// The same in `f32`.
+pub const SINE_FAR_SINGLE: f64 = 1.5e-7;
 /// The core's arctangents, in rad: the last correction is of a few roundings of π.
 pub const ARCTANGENT: f64 = 1e-15;
 /// A derivative by dual numbers against the closed form, relative: rounding.

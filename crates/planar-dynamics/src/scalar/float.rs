@@ -2,6 +2,7 @@
 //!
 //! Square roots and arctangents are those of parameters, once per model: they are accurate rather than fast.
 
+use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64};
 use super::number::Scalar;
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
@@ -59,7 +60,7 @@ fn atan2(y: f64, x: f64) -> f64 {
 }
 
 macro_rules! scalar {
-    ($float:ident, $sin_cos:ident) => {
+    ($float:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident) => {
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_lossless,
@@ -80,6 +81,17 @@ macro_rules! scalar {
                 $sin_cos(self)
             }
 
+            #[allow(clippy::inline_always, reason = "a call would pass all angles through memory")]
+            #[inline(always)]
+            fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+                $sin_cos_all(angles)
+            }
+
+            #[inline]
+            fn mul_add(self, factor: Self, addend: Self) -> Self {
+                $mul_add(self, factor, addend)
+            }
+
             fn sqrt(self) -> Self {
                 sqrt(self as f64) as $float
             }
@@ -96,5 +108,5 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f32, sin_cos_f32);
-scalar!(f64, sin_cos_f64);
+scalar!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32);
+scalar!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64);

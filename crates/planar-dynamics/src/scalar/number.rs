@@ -19,6 +19,19 @@ pub trait Scalar:
     /// (sine, cosine) of an angle in rad.
     fn sin_cos(self) -> (Self, Self);
 
+    /// (sine, cosine) of several angles in rad, at once where that is faster.
+    #[inline]
+    fn sin_cos_all<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
+        angles.map(Self::sin_cos)
+    }
+
+    /// `self` · `factor` + `addend`; with one rounding where the feature `fused` and the processor allow it.
+    #[inline]
+    #[must_use]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        self * factor + addend
+    }
+
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;

@@ -1,72 +1,113 @@
 //! Sine and cosine together, with `core` alone: the same bits on every target, and inlined.
 //!
 //! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products with
-//! the multiple are exact; two polynomials follow, without a branch that depends on the quadrant.
+//! the multiple are exact, or far from 0 in integers; two polynomials follow. There is no branch but that for far angles,
+//! which is out of line, so that what follows is not prepared for it.
 
+use super::far_angle::{reduce_f32, reduce_f64};
 use core::f32::consts as single;
 use core::f64::consts as double;
 
-/// (sine, cosine) of an angle in rad with an error below 2·10⁻¹⁶ up to 1.6·10⁶ rad, and beyond that at most that of
-/// rounding the angle. NaN for an angle that is not finite.
+/// What reduction and polynomials of a scalar consist of.
+pub(super) struct Coefficients<F, const S: usize, const C: usize> {
+    /// π/2 in three parts, the first two exact when multiplied by the quarter turns of the furthest angle.
+    pub(super) quarter_turn: [F; 3],
+    /// The largest angle that is reduced in line, rad.
+    pub(super) furthest: F,
+    /// Adding it leaves the nearest integer in the last bits of the mantissa.
+    pub(super) round: F,
+    /// (sin x / x − 1) / x² as a polynomial in x².
+    pub(super) sine: [F; S],
+    /// (cos x − 1 + x²/2) / x⁴ as a polynomial in x².
+    pub(super) cosine: [F; C],
+}
+
+/// 33 bits up to 2²⁰; minimax on ±π/4, error below 2⁻⁵⁷; coefficients of Sun's FDLIBM (1993).
+pub(super) const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
+    quarter_turn: [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21],
+    furthest: 1_048_576.0 * 1.570_796_326_734_125_6,
+    round: 6_755_399_441_055_744.0,
+    sine: [
+        -1.666_666_666_666_663_2e-1,
+        8.333_333_333_322_49e-3,
+        -1.984_126_982_985_795e-4,
+        2.755_731_370_707_006_8e-6,
+        -2.505_076_025_340_686_3e-8,
+        1.589_690_995_211_55e-10,
+    ],
+    cosine: [
+        4.166_666_666_666_66e-2,
+        -1.388_888_888_887_411e-3,
+        2.480_158_728_947_673e-5,
+        -2.755_731_435_139_066_3e-7,
+        2.087_572_321_298_175e-9,
+        -1.135_964_755_778_819_5e-11,
+    ],
+};
+
+/// Up to 2¹²; minimax on ±π/4, error below 2⁻²⁶; coefficients of Moshier's Cephes (1992).
+pub(super) const SINGLE: Coefficients<f32, 3, 3> = Coefficients {
+    quarter_turn: [1.570_312_5, 4.837_513e-4, 7.549_79e-8],
+    furthest: 4096.0 * 1.570_312_5,
+    round: 12_582_912.0,
+    sine: [-1.666_665_5e-1, 8.332_161e-3, -1.951_529_6e-4],
+    cosine: [4.166_664_6e-2, -1.388_731_6e-3, 2.443_315_7e-5],
+};
+
+/// (sine, cosine) of an angle in rad with an error below 3·10⁻¹⁶. NaN for an angle that is not finite.
 #[inline]
 #[must_use]
 pub fn sin_cos_f64(angle: f64) -> (f64, f64) {
-    // π/2 = A + B + C, the first two with 33 bits: exact when multiplied by up to 2²⁰
-    const A: f64 = 1.570_796_326_734_125_6;
-    const B: f64 = 6.077_100_506_303_966e-11;
-    const C: f64 = 2.022_266_248_795_950_6e-21;
-    const FURTHEST: f64 = 1_048_576.0 * A;
-    // adding it leaves the nearest integer in the last bits of the mantissa
-    const ROUND: f64 = 6_755_399_441_055_744.0;
-    let angle = if angle.abs() > FURTHEST { angle % double::TAU } else { angle };
-    let shifted = angle * double::FRAC_2_PI + ROUND;
-    let quarters = shifted - ROUND;
-    let x = ((angle - quarters * A) - quarters * B) - quarters * C;
+    const K: Coefficients<f64, 6, 6> = DOUBLE;
+    let (x, quadrant) = if angle.abs() > K.furthest {
+        reduce_f64(angle)
+    } else {
+        let shifted = angle * double::FRAC_2_PI + K.round;
+        let quarters = shifted - K.round;
+        let [a, b, c] = K.quarter_turn;
+        (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
+    };
     let z = x * x;
-    // minimax on ±π/4, error below 2⁻⁵⁷; coefficients of Sun's FDLIBM (1993)
-    let sine = -1.666_666_666_666_663_2e-1
-        + z * (8.333_333_333_322_49e-3
-            + z * (-1.984_126_982_985_795e-4
-                + z * (2.755_731_370_707_006_8e-6 + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10))));
-    let cosine = 4.166_666_666_666_66e-2
-        + z * (-1.388_888_888_887_411e-3
-            + z * (2.480_158_728_947_673e-5
-                + z * (-2.755_731_435_139_066_3e-7
-                    + z * (2.087_572_321_298_175e-9 + z * -1.135_964_755_778_819_5e-11))));
+    let [s0, s1, s2, s3, s4, s5] = K.sine;
+    let [c0, c1, c2, c3, c4, c5] = K.cosine;
+    let sine = s0 + z * (s1 + z * (s2 + z * (s3 + z * (s4 + z * s5))));
+    let cosine = c0 + z * (c1 + z * (c2 + z * (c3 + z * (c4 + z * c5))));
     let sine = x + x * z * sine;
     let half = 0.5 * z;
     let head = 1.0 - half;
     let cosine = head + (((1.0 - head) - half) + z * z * cosine);
-    let quadrant = shifted.to_bits();
-    let (a, b) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
-    let sign = |value: f64, quadrant: u64| f64::from_bits(value.to_bits() ^ ((quadrant & 2) << 62));
-    (sign(a, quadrant), sign(b, quadrant.wrapping_add(1)))
+    // exchanged in odd quadrants
+    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+    let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
+    let sign = |quadrant: u64| (quadrant & 2) << 62;
+    let sine = sine ^ exchange ^ sign(quadrant);
+    let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
+    (f64::from_bits(sine), f64::from_bits(cosine))
 }
 
-/// (sine, cosine) of an angle in rad with an error below 1·10⁻⁷ up to 6·10³ rad, and beyond that at most that of
-/// rounding the angle. NaN for an angle that is not finite. It uses `f32` only: a processor without double precision
-/// computes it in hardware.
+/// (sine, cosine) of an angle in rad with an error below 1.5·10⁻⁷. NaN for an angle that is not finite. It uses `f32` only:
+/// a processor without double precision computes it in hardware.
 #[inline]
 #[must_use]
 pub fn sin_cos_f32(angle: f32) -> (f32, f32) {
-    // π/2 = A + B + C, the first two exact when multiplied by up to 2¹²
-    const A: f32 = 1.570_312_5;
-    const B: f32 = 4.837_513e-4;
-    const C: f32 = 7.549_79e-8;
-    const FURTHEST: f32 = 4096.0 * A;
-    const ROUND: f32 = 12_582_912.0;
-    let angle = if angle.abs() > FURTHEST { angle % single::TAU } else { angle };
-    let shifted = angle * single::FRAC_2_PI + ROUND;
-    let quarters = shifted - ROUND;
-    let x = ((angle - quarters * A) - quarters * B) - quarters * C;
+    const K: Coefficients<f32, 3, 3> = SINGLE;
+    let (x, quadrant) = if angle.abs() > K.furthest {
+        reduce_f32(angle)
+    } else {
+        let shifted = angle * single::FRAC_2_PI + K.round;
+        let quarters = shifted - K.round;
+        let [a, b, c] = K.quarter_turn;
+        (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
+    };
     let z = x * x;
-    // minimax on ±π/4, error below 2⁻²⁶; coefficients of Moshier's Cephes (1992)
-    let sine = -1.666_665_5e-1 + z * (8.332_161e-3 + z * -1.951_529_6e-4);
-    let cosine = 4.166_664_6e-2 + z * (-1.388_731_6e-3 + z * 2.443_315_7e-5);
-    let sine = x + x * z * sine;
-    let cosine = 1.0 - 0.5 * z + z * z * cosine;
-    let quadrant = shifted.to_bits();
-    let (a, b) = if quadrant & 1 == 0 { (sine, cosine) } else { (cosine, sine) };
-    let sign = |value: f32, quadrant: u32| f32::from_bits(value.to_bits() ^ ((quadrant & 2) << 30));
-    (sign(a, quadrant), sign(b, quadrant.wrapping_add(1)))
+    let [s0, s1, s2] = K.sine;
+    let [c0, c1, c2] = K.cosine;
+    let sine = x + x * z * (s0 + z * (s1 + z * s2));
+    let cosine = 1.0 - 0.5 * z + z * z * (c0 + z * (c1 + z * c2));
+    let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
+    let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
+    let sign = |quadrant: u32| (quadrant & 2) << 30;
+    let sine = sine ^ exchange ^ sign(quadrant);
+    let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
+    (f32::from_bits(sine), f32::from_bits(cosine))
 }

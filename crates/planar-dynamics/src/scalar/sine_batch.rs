@@ -1,0 +1,73 @@
+//! Sines and cosines of several angles of one configuration at once, in SIMD lanes.
+
+#![allow(clippy::inline_always, reason = "a call would pass all angles and results through memory")]
+
+use super::portable;
+use super::sine::sin_cos_f64;
+use super::sine_lanes::near_f64x4;
+
+/// (sine, cosine) of each angle, rad.
+#[inline(always)]
+pub(super) fn sin_cos_all_f64<const N: usize>(angles: [f64; N]) -> [(f64, f64); N] {
+    if N < 3 {
+        return portable::sin_cos_all_f64(angles);
+    }
+    let mut results = [(0.0, 0.0); N];
+    let mut from = 0;
+    while from < N {
+        let angle = |i: usize| angles.get(from + i).copied().unwrap_or(0.0);
+        let [first, second] = [0, 4].map(|i| [angle(i), angle(i + 1), angle(i + 2), angle(i + 3)]);
+        let pairs = if from + 4 < N { eight(first, second) } else { four(first) };
+        results.iter_mut().skip(from).zip(pairs).for_each(|(result, pair)| *result = pair);
+        from += 8;
+    }
+    results
+}
+
+type Pairs = [(f64, f64); 8];
+
+/// Two vectors at once, whose operations fill each other's waiting times.
+#[inline(always)]
+fn eight(first: [f64; 4], second: [f64; 4]) -> Pairs {
+    let ((sine, cosine), is_far) = near_f64x4(first.into());
+    let ((next_sine, next_cosine), is_further) = near_f64x4(second.into());
+    if (is_far | is_further).any() {
+        return far(first, second);
+    }
+    let [sine, cosine, next_sine, next_cosine] =
+        [sine.to_array(), cosine.to_array(), next_sine.to_array(), next_cosine.to_array()];
+    [
+        (sine[0], cosine[0]),
+        (sine[1], cosine[1]),
+        (sine[2], cosine[2]),
+        (sine[3], cosine[3]),
+        (next_sine[0], next_cosine[0]),
+        (next_sine[1], next_cosine[1]),
+        (next_sine[2], next_cosine[2]),
+        (next_sine[3], next_cosine[3]),
+    ]
+}
+
+#[inline(always)]
+fn four(angles: [f64; 4]) -> Pairs {
+    let ((sine, cosine), is_far) = near_f64x4(angles.into());
+    if is_far.any() {
+        return far(angles, [0.0; 4]);
+    }
+    let [sine, cosine] = [sine.to_array(), cosine.to_array()];
+    let none = (0.0, 0.0);
+    [(sine[0], cosine[0]), (sine[1], cosine[1]), (sine[2], cosine[2]), (sine[3], cosine[3]), none, none, none, none]
+}
+
+#[inline(always)]
+fn far(first: [f64; 4], second: [f64; 4]) -> Pairs {
+    one_by_one(first[0], first[1], first[2], first[3], second[0], second[1], second[2], second[3])
+}
+
+/// The angles are not passed as arrays, which would keep them in memory wherever this may be called.
+#[cold]
+#[inline(never)]
+#[allow(clippy::too_many_arguments, clippy::many_single_char_names, reason = "eight registers")]
+fn one_by_one(a: f64, b: f64, c: f64, d: f64, e: f64, f: f64, g: f64, h: f64) -> Pairs {
+    [a, b, c, d, e, f, g, h].map(sin_cos_f64)
+}
