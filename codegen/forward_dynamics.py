@@ -164,24 +164,25 @@ class ForwardDynamics:
             self.base = TwoMassBody(symbols, ratios, children[0].inertia)
         else:
             self.base = (GeneralBody if children else LeafBody)(symbols, own, children, ZERO)
-        # L D L^T of the articulated inertia of the whole robot at the first mount
-        self.inertia = self.base.inertia.plus(first.inertia)
-        self.inverse_xx = symbols.reciprocal(self.inertia.xx)
-        self.factor = self.inertia.xy * self.inverse_xx
-        self.pivot = self.inertia.yy - self.factor * self.inertia.xy
-        self.inverse_pivot = symbols.reciprocal(self.pivot)
+        # the articulated inertia of the whole robot at the first mount; its 2 x 2 system is solved by Cramer's rule:
+        # a division is on the longest path, and L D L^T has two of them
+        inertia = self.inertia = self.base.inertia.plus(first.inertia)
+        self.diagonal = inertia.xx * inertia.yy
+        self.determinant = self.diagonal - inertia.xy * inertia.xy
+        self.inverse_determinant = symbols.reciprocal(self.determinant)
         self.base_rotation = rotation(inputs.base_pose[0])
 
     @property
     def sections(self) -> list[Section]:
         """The parts that depend on the configuration alone."""
-        solution = [self.factor, self.inverse_xx, self.inverse_pivot, self.smallest_pivot()]
+        solution = [*self.inertia.elements, self.inverse_determinant, self.smallest_pivot()]
         base = Section("base, articulated inertia", self.base.configuration_values, solution)
-        return [*(arm.inertia_section for arm in self.arms), base, Section("base, rotation", self.base_rotation)]
+        return [*(arm.inertia_section for arm in self.arms), base]
 
     def smallest_pivot(self) -> ca.SX:
-        """The last pivot relative to its diagonal entry; those before it are bounded by the parameters."""
-        return self.pivot / self.inertia.yy
+        """The last pivot relative to its diagonal entry, (yy - xy^2 / xx) / yy; those before it are bounded by the
+        parameters."""
+        return self.determinant / self.diagonal
 
     def accelerations(self, base_wrench: bool, end_effector_wrenches: bool) -> tuple[ca.SX, ca.SX, list[Section]]:
         """(base acceleration, joint accelerations, sections) of eq. (1), without the operations of absent wrenches."""
@@ -200,8 +201,9 @@ class ForwardDynamics:
         if base_wrench:
             b = subtract(b, external)
         # A a + b = 0 at the first mount
-        y = (self.factor * b[0] - b[1]) * self.inverse_pivot
-        x = -(b[0] * self.inverse_xx) - self.factor * y
+        inertia = self.inertia
+        x = (inertia.xy * b[1] - inertia.yy * b[0]) * self.inverse_determinant
+        y = (inertia.xy * b[0] - inertia.xx * b[1]) * self.inverse_determinant
         alpha, points = self.base.accelerations((x, y))
         points = [(x, y), *points]
         tangential, centripetal = scale(alpha, perpendicular(self.com)), scale(base_rate_squared, self.com)

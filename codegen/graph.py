@@ -13,6 +13,7 @@ from .casadi_import import CasadiImport
 from .functions import Functions
 from .inputs import INPUTS, input_shapes
 from .layout import content_hash
+from .regrouping import Regrouping
 from .signatures import Family, Function
 from .statements import NodeSection, Statements, count, evaluation_order
 from .symbols import Symbols
@@ -86,6 +87,11 @@ def family_graph(imported: CasadiImport, family: Family) -> dict:
         [i for _, values in sections[-len(function.outputs) :] for i in values]
         for sections, function in zip(own, family.functions, strict=True)
     ]
+    shared, *own = (with_negated(numbering, sections) for sections in (shared, *own))
+    named = {i for sections in (shared, *own) for _, values in sections for i in values}
+    regrouping = Regrouping(numbering, chain(*results), named)
+    shared, *own = (regrouped(regrouping, sections) for sections in (shared, *own))
+    results = [[regrouping.nodes[i] for i in roots] for roots in results]
     configuration = configuration_statements(numbering, [*shared, *chain(*own)], [*chain(*results)])
     functions = [
         function_graph(numbering, configuration.names, function, [*shared, *sections], roots)
@@ -106,6 +112,21 @@ def family_graph(imported: CasadiImport, family: Family) -> dict:
     }
 
 
+def with_negated(numbering: ValueNumbering, sections: Iterable[NodeSection]) -> list[NodeSection]:
+    """The same sections, with the operand of each negation: the sum that uses the value may have absorbed it."""
+
+    def nodes(i: int) -> list[int]:
+        return [numbering[i].args[0], i] if numbering[i].op == "neg" else [i]
+
+    return [(name, [node for i in values for node in nodes(i)]) for name, values in sections]
+
+
+def regrouped(regrouping: Regrouping, sections: Iterable[NodeSection]) -> list[NodeSection]:
+    """The same sections, without the values that are dissolved or not needed."""
+    nodes = regrouping.nodes
+    return [(name, [nodes[i] for i in values if i in nodes]) for name, values in sections]
+
+
 def configuration_statements(
     numbering: ValueNumbering, sections: Iterable[NodeSection], results: Iterable[int]
 ) -> Statements:
@@ -114,13 +135,19 @@ def configuration_statements(
     used = {a for i in reached if numbering[i].stage == Stage.CALL for a in numbering.operands(i)}.union(results)
     needed = numbering.reachable(i for i in used if numbering[i].stage < Stage.CALL)
     statements = Statements(numbering, "c", {})
-    for section, i in evaluation_order(numbering, sections):
+    for section, i in evaluation_order(numbering, [sines_section(numbering, needed), *sections]):
         if i in needed and numbering[i].stage == Stage.CONFIGURATION:
             if not numbering[i].is_leaf:
                 statements.assign(i, section)
             elif i in used:
                 statements.copy_input(i, section)
     return statements
+
+
+def sines_section(numbering: ValueNumbering, needed: set[int]) -> NodeSection:
+    """The sines and cosines of all angles, one after the other: they are computed at once."""
+    sines = sorted(i for i in needed if numbering[i].op in ("sin", "cos") and numbering[i].stage == Stage.CONFIGURATION)
+    return "sines and cosines", [*(numbering[i].args[0] for i in sines), *sines]
 
 
 def function_graph(

@@ -39,7 +39,8 @@ def differences(values: list[int]) -> list[int]:
 
 @pytest.mark.parametrize("arms", [1, 2])
 def test_operations_are_polynomials_in_the_links(arms):
-    counts = [operations(*[links] * arms) for links in range(2, 8)]
+    # the poses of two links have a sum in common that those of three do not have
+    counts = [operations(*[links] * arms) for links in range(3, 9)]
     assert counts[0].keys() == DEGREES.keys()
     for name, degree in DEGREES.items():
         values = [count[name]["flops"] for count in counts]

@@ -78,7 +78,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     } else {
         progress.set_message("rendering");
         let (source, command) = origin(arguments, &layout);
-        let module = Module { standalone: arguments.standalone, item: false, source: &source, command: &command };
+        let module =
+            Module { standalone: arguments.standalone, item: false, fused: false, source: &source, command: &command };
         module
             .render(&graph)
             .map_err(|problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem))))?

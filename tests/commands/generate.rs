@@ -280,7 +280,7 @@ fn a_graph_with_a_result_missing_is_not_proved() {
 fn a_modules_own_test_sees_its_parameters() {
     let (layout, text) = shipped("single_arm_2r");
     let graph = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}")).graph;
-    let module = Module { standalone: true, item: false, source: "a", command: "b" };
+    let module = Module { standalone: true, item: false, fused: false, source: "a", command: "b" };
     let text = module.render(&graph).unwrap_or_else(|e| panic!("{e}"));
     let mass = format!("default: {:?}", layout.base.mass);
     let folder = TempDir::new().expect("a folder");
@@ -325,7 +325,7 @@ fn a_module_is_the_same_every_time() {
     let (layout, text) = shipped("single_arm_2r");
     let graph = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}")).graph;
     for standalone in [false, true] {
-        let module = Module { standalone, item: false, source: "a", command: "b" };
+        let module = Module { standalone, item: false, fused: false, source: "a", command: "b" };
         let [first, second] = [0, 1].map(|_| module.render(&graph).unwrap_or_else(|e| panic!("{e}")));
         assert!(first == second);
     }

@@ -34,7 +34,7 @@ impl Derivation {
         let proved = complete(&text, &layout)?.graph;
         let render = |standalone| {
             let module =
-                Module { standalone, item: !standalone, source: "the scaling benchmark", command: "cargo run" };
+                Module { standalone, item: !standalone, fused: false, source: "the scaling benchmark", command: "cargo run" };
             module.render(&proved)
         };
         let (item, standalone) = (render(false)?, render(true)?);

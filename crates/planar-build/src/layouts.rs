@@ -1,7 +1,7 @@
 //! Rust modules from committed graphs, for build scripts: needs no Python.
 
 use crate::command::command;
-use crate::pipeline::{fresh, names, write};
+use crate::pipeline::{fresh, is_fused, names, write};
 use crate::renderer::Module;
 use planar_layout::layout::{Layout, sha256};
 use std::fmt;
@@ -82,7 +82,7 @@ fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
     if graph.self_test.is_none() {
         return Err(BuildError(format!("{shown} has no reference vectors; to mend: {mend}")));
     }
-    let module = Module { standalone: false, item: true, source: &shown, command: &command };
+    let module = Module { standalone: false, item: true, fused: is_fused(), source: &shown, command: &command };
     let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
     Ok(write(&out.join(format!("{name}.rs")), &text)?)
 }

@@ -43,7 +43,7 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
     }
     let (enabled, disabled): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| enabled(name));
     for name in &enabled {
-        let code = render_one(codegen, name)?;
+        let code = render_one(codegen, name, is_fused())?;
         write(&out.join(format!("{name}.rs")), &code)?;
     }
     let include = |name: &String| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));\n");
@@ -58,13 +58,19 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
 ///
 /// # Errors
 /// As [`render_all`].
-pub fn render_one(codegen: &Path, name: &str) -> Result<String, String> {
+pub fn render_one(codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
     let command = format!("python -m codegen {name}");
     let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
     let (_, value) = fresh(&layout, &graph, &command)?;
     let source = format!("codegen/graphs/{name}.json");
-    let module = Module { standalone: false, item: true, source: &source, command: &command };
+    let module = Module { standalone: false, item: true, fused, source: &source, command: &command };
     module.render(&value).map_err(|e| format!("{}: {e}; generate it again: {command}", graph.display()))
+}
+
+/// Whether the crate that is built has a feature `fused`, and it is on.
+#[must_use]
+pub fn is_fused() -> bool {
+    std::env::var_os("CARGO_FEATURE_FUSED").is_some()
 }
 
 /// A layout and the graph that was derived from it; `command` makes the graph again. With the feature `prove` the graph

@@ -48,7 +48,7 @@ fn read(bytes: &[u8]) -> Result<bool, String> {
             Ok(graph) => graph,
             Err(error) => return refused(&error),
         };
-        let module = Module { standalone: false, item: true, source: "graph.json", command: "make" };
+        let module = Module { standalone: false, item: true, fused: false, source: "graph.json", command: "make" };
         let module = module.render(&graph).map_err(|error| format!("it does not render: {error}"))?;
         let parsed = syn::parse_file(&module).map_err(|error| format!("its module is no Rust: {error}"))?;
         promised(parsed.items.len() == 1, "a graph renders to one module")?;

@@ -1,6 +1,7 @@
 //! Renders a graph as Rust text: decides names, types and operands; the templates hold the layout.
 
 mod doc_text;
+mod fused;
 mod statements;
 mod wrap;
 
@@ -27,6 +28,8 @@ pub struct Module<'a> {
     pub standalone: bool,
     /// Whether the text is an item `pub mod NAME { … }`, for `include!`, or a file of its own.
     pub item: bool,
+    /// Whether products and sums are fused, as the feature `fused` of `planar-capture` wants it.
+    pub fused: bool,
     /// The source that its header names.
     pub source: &'a str,
     /// The command that its header names, which generates it again.
@@ -106,7 +109,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "constants": {"statements": body(&set_up), "values": graph.constants.values, "names": constants},
-        "families": graph.families.iter().map(|family| render_family(graph, family)).collect::<Vec<_>>(),
+        "families": graph.families.iter().map(|family| render_family(graph, family, module.fused)).collect::<Vec<_>>(),
     })
 }
 
@@ -115,11 +118,11 @@ fn body(lines: &[String]) -> String {
     indented(&lines.join("\n"), 8).trim_end().to_owned()
 }
 
-fn render_family(graph: &Graph, family: &Family) -> Value {
+fn render_family(graph: &Graph, family: &Family, is_fused: bool) -> Value {
     let Family { name, description, configuration, functions } = family;
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
-    let lines = Scope::constants(graph).lines(&configuration.sections, &configuration.statements, &values);
-    let call = Scope::call(graph, &configuration.values);
+    let lines = Scope::constants(graph, is_fused).lines(&configuration.sections, &configuration.statements, &values);
+    let call = Scope::call(graph, &configuration.values, is_fused);
     let functions: Vec<Value> = functions.iter().map(|function| render_function(graph, function, &call)).collect();
     let needs_model = functions.iter().any(|function| function["needs_model"] == true);
     json!({

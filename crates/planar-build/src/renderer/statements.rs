@@ -1,5 +1,6 @@
 //! Statements of a graph as Rust: how a name is reached from the body of a function, and what is written as one line.
 
+use super::fused::{MultiplyAdd, fuse};
 use crate::format::{Graph, Operand, Operation, Statement, Variable};
 use std::collections::{HashMap, HashSet};
 
@@ -18,6 +19,8 @@ pub struct Scope<'a> {
     constants: HashSet<&'a str>,
     /// Fields of the configuration; empty where they are computed.
     configuration: HashSet<&'a str>,
+    /// Whether products and sums are fused.
+    is_fused: bool,
 }
 
 /// An expression, and how tightly its outermost operator binds.
@@ -51,13 +54,15 @@ impl<'a> Scope<'a> {
     }
 
     /// Of a family's configuration.
-    pub fn constants(graph: &'a Graph) -> Self {
-        Self { constants: graph.constants.values.iter().map(|c| c.name.as_str()).collect(), ..Self::parameters(graph) }
+    pub fn constants(graph: &'a Graph, is_fused: bool) -> Self {
+        let constants = graph.constants.values.iter().map(|c| c.name.as_str()).collect();
+        Self { constants, is_fused, ..Self::parameters(graph) }
     }
 
     /// Of a call, with the values that it reads of the configuration.
-    pub fn call(graph: &'a Graph, configuration: &'a [String]) -> Self {
-        Self { configuration: configuration.iter().map(String::as_str).collect(), ..Self::constants(graph) }
+    pub fn call(graph: &'a Graph, configuration: &'a [String], is_fused: bool) -> Self {
+        let configuration = configuration.iter().map(String::as_str).collect();
+        Self { configuration, ..Self::constants(graph, is_fused) }
     }
 
     /// A stage's lines, with the name of each section before it, in blocks of [`BLOCK`] statements where there are
@@ -106,12 +111,30 @@ impl<'a> Scope<'a> {
                 uses.entry(name).or_default().push(section(index));
             }
         }
+        let fused = if self.is_fused { fuse(statements, results) } else { HashMap::new() };
         let results: HashSet<&str> = results.iter().copied().collect();
+        let is_used = |name: &str| uses.contains_key(name) || results.contains(name);
+        let bound = |targets: Vec<&'a str>| -> Vec<&'a str> {
+            targets.into_iter().map(|name| if is_used(name) { name } else { "_" }).collect()
+        };
         let mut inlined = HashMap::new();
         let mut lines = Vec::new();
+        let mut angles = Vec::new();
         for (index, statement) in statements.iter().enumerate() {
-            let expression = self.expression(statement, &mut inlined);
+            let expression = match fused.get(&index) {
+                None => self.expression(statement, &mut inlined),
+                Some(Some(sum)) => self.multiply_add(sum, &mut inlined),
+                Some(None) => continue,
+            };
             let (section, targets) = (section(index), statement.targets.names());
+            if statement.operation == Operation::SinCos {
+                angles.push((bound(targets), expression));
+                let is_last = statements.get(index + 1).is_none_or(|next| next.operation != Operation::SinCos);
+                if is_last {
+                    lines.push(sines(section, std::mem::take(&mut angles)));
+                }
+                continue;
+            }
             if let [name] = targets.as_slice()
                 && is_numbered(name)
                 && expression.text.len() <= OPERAND
@@ -121,29 +144,39 @@ impl<'a> Scope<'a> {
                 inlined.insert(*name, expression);
                 continue;
             }
-            let is_used = |name: &str| uses.contains_key(name) || results.contains(name);
-            let targets: Vec<&str> = targets.into_iter().map(|name| if is_used(name) { name } else { "_" }).collect();
-            let target = if targets.len() == 1 { targets.concat() } else { format!("({})", targets.join(", ")) };
-            let text = format!("let {target} = {};", expression.text);
+            let targets = bound(targets);
+            let text = format!("let {} = {};", targets.concat(), expression.text);
             lines.push(Line { section, targets, names: expression.names, text });
         }
         lines
     }
 
-    fn expression(&self, statement: &'a Statement, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
-        let mut operand = |operand: &'a Operand| {
-            operand.name().and_then(|name| inlined.remove(name)).unwrap_or_else(|| Expression {
-                text: self.operand(operand),
-                precedence: Precedence::Atom,
-                names: operand.name().into_iter().collect(),
-            })
+    /// The expression of an operand: what is written in its place, or its name.
+    fn inline(&self, operand: &'a Operand, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+        operand.name().and_then(|name| inlined.remove(name)).unwrap_or_else(|| Expression {
+            text: self.operand(operand),
+            precedence: Precedence::Atom,
+            names: operand.name().into_iter().collect(),
+        })
+    }
+
+    fn multiply_add(&self, sum: &MultiplyAdd<'a>, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+        let [a, b, addend] = [sum.a, sum.b, sum.addend].map(|operand| self.inline(operand, inlined));
+        let signed = |expression: &Expression<'_>, is_negative: bool| {
+            if is_negative { format!("-{}", expression.within(Precedence::Sign)) } else { expression.text.clone() }
         };
-        let (a, b) = (operand(&statement.a), operand(&statement.b));
+        let (first, last) = (signed(&a, sum.is_product_negative), signed(&addend, sum.is_addend_negative));
+        let text = format!("T::mul_add({first}, {}, {last})", b.text);
+        Expression { text, precedence: Precedence::Atom, names: [a.names, b.names, addend.names].concat() }
+    }
+
+    fn expression(&self, statement: &'a Statement, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
+        let (a, b) = (self.inline(&statement.a, inlined), self.inline(&statement.b, inlined));
         let (text, precedence) = match statement.operation {
-            Operation::Copy => (a.text, a.precedence),
             Operation::Neg => (format!("-{}", a.within(Precedence::Sign)), Precedence::Sign),
             Operation::Sqrt => (format!("{}.sqrt()", a.within(Precedence::Atom)), Precedence::Atom),
-            Operation::SinCos => (format!("{}.sin_cos()", a.within(Precedence::Atom)), Precedence::Atom),
+            // the function is written by those who have its targets
+            Operation::SinCos | Operation::Copy => (a.text, a.precedence),
             Operation::Add => infix(&a, '+', &b, Precedence::Sum),
             Operation::Sub => infix(&a, '-', &b, Precedence::Sum),
             Operation::Mul => infix(&a, '*', &b, Precedence::Product),
@@ -187,6 +220,22 @@ impl Expression<'_> {
 fn infix(a: &Expression<'_>, operator: char, b: &Expression<'_>, precedence: Precedence) -> (String, Precedence) {
     let tighter = if precedence == Precedence::Sum { Precedence::Product } else { Precedence::Sign };
     (format!("{} {operator} {}", a.within(precedence), b.within(tighter)), precedence)
+}
+
+/// The sines and cosines of some angles, none of which depends on another's, in one line.
+fn sines<'a>(section: &'a str, angles: Vec<(Vec<&'a str>, Expression<'a>)>) -> Line<'a> {
+    let target = |targets: &[&str]| format!("({})", targets.join(", "));
+    let text = match angles.as_slice() {
+        [(targets, angle)] => format!("let {} = {}.sin_cos();", target(targets), angle.within(Precedence::Atom)),
+        all => {
+            let targets: Vec<String> = all.iter().map(|(targets, _)| target(targets)).collect();
+            let angles: Vec<&str> = all.iter().map(|(_, angle)| angle.text.as_str()).collect();
+            format!("let [{}] = T::sin_cos_all([{}]);", targets.join(", "), angles.join(", "))
+        }
+    };
+    let (targets, expressions): (Vec<_>, Vec<_>) = angles.into_iter().unzip();
+    let names = expressions.into_iter().flat_map(|angle| angle.names).collect();
+    Line { section, targets: targets.concat(), names, text }
 }
 
 /// The lines of statements, with the name of each section before its first.
