@@ -24,7 +24,7 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scalar::{Real, Scalar};
 use crate::simulate::conservation::ConservationErrors;
-use crate::simulate::event::{Events, NoEvents};
+use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::{Path, PathInterval};
@@ -217,36 +217,10 @@ pub fn simulate(
     events: &mut dyn Events,
     tick: &mut dyn FnMut(),
 ) -> Result<Phase, PhaseError> {
-    run(system, control, initial, timing, events, tick, true)
-}
-
-/// As [`simulate()`] without events, for iterations whose path is not a result: its error is not estimated, which takes
-/// a second solution.
-pub(crate) fn simulate_trial(
-    system: &System<'_>,
-    control: &mut dyn Control<f64>,
-    initial: &RobotState,
-    timing: &Timing,
-    tick: &mut dyn FnMut(),
-) -> Result<Phase, PhaseError> {
-    run(system, control, initial, timing, &mut NoEvents, tick, false)
-}
-
-fn run(
-    system: &System<'_>,
-    control: &mut dyn Control<f64>,
-    initial: &RobotState,
-    timing: &Timing,
-    events: &mut dyn Events,
-    tick: &mut dyn FnMut(),
-    estimates_error: bool,
-) -> Result<Phase, PhaseError> {
     let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
-    if estimates_error {
-        stepper.estimate_error(timing.integration.integrator, timing.duration, &x);
-    }
+    stepper.estimate_error(timing.integration.integrator, timing.duration, &x);
     let mut locator = EventLocator::new(system, events);
     let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());

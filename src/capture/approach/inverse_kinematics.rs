@@ -1,12 +1,13 @@
 //! Inverse kinematics: final joint angles of the approach from the desired end effector poses at its end.
 
 use crate::capture::approach::ApproachTracking;
+use crate::capture::approach::exact_end::ApproachEnd;
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, rates_for};
 use crate::capture::reach::Reach;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
-use crate::simulate::{PhaseError, Sample};
+use crate::simulate::PhaseError;
 use nalgebra::{DMatrix, DVector};
 
 /// Largest number of iterations; each gains about a digit.
@@ -172,10 +173,11 @@ impl Trial {
         sample: f64,
         tick: &mut dyn FnMut(),
     ) -> Result<Step, TerminalRatesError> {
-        let phase = ApproachTracking::new(&self.scenario, sample).trial(model, &self.rates, tick)?;
-        let mut step = self.step(model, goals, phase.end())?;
+        tick();
+        let end = ApproachTracking::new(&self.scenario, sample).exact_end(model, &self.rates)?;
+        let mut step = self.step(model, goals, &end)?;
         if let FinalRates::EndEffectorTwists(twists) = &self.scenario.approach.end {
-            let (rates, margin) = rates_for(model, phase.end(), twists)?;
+            let (rates, margin) = rates_for(model, &end, twists)?;
             let changes = rates.iter().zip(&self.rates).map(|(a, b)| (a - b).abs());
             (step.rates_margin, step.rate_change) = (margin, changes.fold(0.0, f64::max));
             self.rates = rates;
@@ -183,7 +185,7 @@ impl Trial {
         Ok(step)
     }
 
-    fn step(&self, model: &dyn Model<f64>, goals: &[EndEffectorGoal], end: &Sample) -> Result<Step, PhaseError> {
+    fn step(&self, model: &dyn Model<f64>, goals: &[EndEffectorGoal], end: &ApproachEnd) -> Result<Step, PhaseError> {
         let (_, jacobian) =
             reduced_matrices(model, &end.state.view()).map_err(|source| PhaseError { time: end.time, source })?;
         let mut rows = Vec::new();

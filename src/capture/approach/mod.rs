@@ -1,10 +1,12 @@
 //! The approach of a scenario: its trajectory, eqs. (6) and (7), followed by its tracking law, eq. (18).
 
 pub mod end_effector_paths;
+pub mod exact_end;
 pub mod inverse_kinematics;
 pub mod terminal_rates;
 
 use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
+use crate::capture::approach::exact_end::{ApproachEnd, exact_end};
 use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::Model;
 use crate::owned::RobotState;
@@ -12,7 +14,7 @@ use crate::scenario::{self, Scenario, Tracking};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, PhaseError, Timing, simulate, simulate_trial};
+use crate::simulate::{Phase, PhaseError, Timing, simulate};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
 
 /// A simulation of a system under a law, from a state, with steps and samples.
@@ -83,23 +85,27 @@ impl<'a> ApproachTracking<'a> {
         }
     }
 
-    /// Simulates it for a design: with torques from inverse dynamics and without tracking error, whatever the scenario's
-    /// law is, and without an estimate of the path's error.
+    /// Its end when it is tracked exactly, for a design: whatever the scenario's law and integrator are.
     ///
     /// # Errors
-    /// When and why it stopped.
-    pub(crate) fn trial(
-        &self,
-        model: &dyn Model<f64>,
-        rates: &[f64],
-        tick: &mut dyn FnMut(),
-    ) -> Result<Phase, PhaseError> {
-        self.by_inverse_dynamics(model, rates, &mut |system, law, initial, timing| {
-            simulate_trial(system, law, initial, timing, tick)
-        })
+    /// When and why it has none.
+    pub(crate) fn exact_end(&self, model: &dyn Model<f64>, rates: &[f64]) -> Result<ApproachEnd, PhaseError> {
+        let approach = &self.scenario.approach;
+        let mut knots = vec![approach.trajectory_time().min(approach.duration), approach.duration];
+        knots.dedup();
+        exact_end(model, self.trajectory(rates), &self.start(), &knots)
     }
 
-    /// Simulates it with torques from inverse dynamics: the joints start at the trajectory's initial rates.
+    /// Where an exactly tracked approach begins: the joints have the trajectory's initial rates.
+    fn start(&self) -> RobotState {
+        let mut initial = self.scenario.initial.clone();
+        if self.scenario.approach.trajectory.properties().starts_at_rest {
+            initial.joint_rates.fill(0.0);
+        }
+        initial
+    }
+
+    /// Simulates it with torques from inverse dynamics.
     fn by_inverse_dynamics(
         &self,
         model: &dyn Model<f64>,
@@ -113,11 +119,7 @@ impl<'a> ApproachTracking<'a> {
             generalized_bias: &mut vec![0.0; joints],
             generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
         };
-        let mut initial = self.scenario.initial.clone();
-        if self.scenario.approach.trajectory.properties().starts_at_rest {
-            initial.joint_rates.fill(0.0);
-        }
-        simulate(&self.system(model), &mut law, &initial, &self.timing)
+        simulate(&self.system(model), &mut law, &self.start(), &self.timing)
     }
 
     fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {

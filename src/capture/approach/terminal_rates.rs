@@ -1,10 +1,11 @@
 //! Terminal joint rates of the approach from the desired end effector twists at its end, by the generalized Jacobian.
 
 use crate::capture::approach::ApproachTracking;
+use crate::capture::approach::exact_end::ApproachEnd;
 use crate::capture::reduced_matrices::reduced_matrices;
 use crate::dynamics::Model;
 use crate::scenario::EndEffectorTwistGoal;
-use crate::simulate::{PhaseError, Sample};
+use crate::simulate::PhaseError;
 use nalgebra::DVector;
 
 /// Largest number of fixed-point iterations; each gains several digits.
@@ -74,11 +75,11 @@ pub struct TerminalRates {
     pub joint_rates: Vec<f64>,
     /// Smallest singular value of the generalized Jacobian at the final pose over its largest.
     pub singularity_margin: f64,
-    /// How many approaches were tracked.
+    /// How many ends of approaches were computed.
     pub iterations: usize,
 }
 
-/// The fixed point of: track the approach exactly → final base pose → J⁻¹ → terminal rates → track.
+/// The fixed point of: the end of an exactly tracked approach → final base pose → J⁻¹ → terminal rates → its end.
 ///
 /// The base turns along the path (the robot is non-holonomic), so the final pose depends on the terminal rates, but
 /// weakly: the iteration contracts.
@@ -94,11 +95,12 @@ pub fn terminal_rates(
     let mut rates = vec![0.0; model.joints()];
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
-        let phase = approach.trial(model, &rates, tick).map_err(|source| match iteration {
+        tick();
+        let end = approach.exact_end(model, &rates).map_err(|source| match iteration {
             1 => TerminalRatesError::PhaseError(source),
             _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
         })?;
-        let (next, margin) = rates_for(model, phase.end(), goals)?;
+        let (next, margin) = rates_for(model, &end, goals)?;
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
         change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));
         size = largest(&mut next.iter().copied());
@@ -113,7 +115,7 @@ pub fn terminal_rates(
 /// The joint rates that give the desired twists in a state, rad/s, and the singularity margin there.
 pub(crate) fn rates_for(
     model: &dyn Model<f64>,
-    Sample { state, end_effector_twists, time, .. }: &Sample,
+    ApproachEnd { state, end_effector_twists, time, .. }: &ApproachEnd,
     goals: &[EndEffectorTwistGoal],
 ) -> Result<(Vec<f64>, f64), TerminalRatesError> {
     let (_, jacobian) = reduced_matrices(model, &state.view()).map_err(|source| PhaseError { time: *time, source })?;

@@ -113,7 +113,7 @@ impl<T: Real> Control<T> for ZeroTorque {
 }
 
 /// The desired motion of a joint, or [`Error::Length`] for a trajectory of fewer than `expected` joints.
-fn desired<T: Real>(
+pub(crate) fn desired<T: Real>(
     trajectory: &impl Trajectory<T>,
     joint: usize,
     time: T,

@@ -1,10 +1,12 @@
 //! The differential equation of a controlled robot and its actuators' work: in full coordinates, in
-//! [`ReducedCoordinates`] and in [`CanonicalVariables`].
+//! [`ReducedCoordinates`] and in [`CanonicalVariables`]; and that of a robot with [`PrescribedJoints`].
 
 mod canonical_variables;
+mod prescribed_joints;
 mod reduced_coordinates;
 
 pub use canonical_variables::CanonicalVariables;
+pub use prescribed_joints::PrescribedJoints;
 pub use reduced_coordinates::ReducedCoordinates;
 
 use crate::control::Control;
