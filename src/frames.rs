@@ -5,6 +5,7 @@
 
 use crate::layout::Layout;
 use crate::owned::RobotState;
+use crate::scalar::Scalar;
 
 /// A coordinate frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,6 +109,6 @@ pub fn poses(frames: &[Frame], state: &RobotState, targets: &[[f64; 3]]) -> Vec<
 /// Inertial coordinates of the point [along, across] of a frame with this pose.
 #[must_use]
 pub fn point([yaw, x, y]: [f64; 3], [along, across]: [f64; 2]) -> [f64; 2] {
-    let (sin, cos) = yaw.sin_cos();
+    let (sin, cos) = Scalar::sin_cos(yaw);
     [x + cos * along - sin * across, y + sin * along + cos * across]
 }

@@ -3,6 +3,7 @@
 use super::convex::{ConvexPart, separation};
 use super::motion::FrameState;
 use crate::error::Error;
+use crate::scalar::Scalar;
 
 /// Shortest interval that is divided, s.
 pub(in crate::capture) const SHORTEST: f64 = 1e-9;
@@ -39,7 +40,7 @@ impl PartPair<'_> {
 
     /// The corners of a part in inertial axes from the position of a frame.
     fn corners(&self, part: usize, state: &FrameState, [_, x, y]: [f64; 3]) -> impl Iterator<Item = [f64; 2]> {
-        let (sin, cos) = state.pose[0].sin_cos();
+        let (sin, cos) = Scalar::sin_cos(state.pose[0]);
         let [_, ox, oy] = state.pose;
         let at = move |[along, across]: &[f64; 2]| {
             [ox - x + (cos * along - sin * across), oy - y + (sin * along + cos * across)]

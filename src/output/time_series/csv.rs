@@ -14,15 +14,16 @@ pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl
     let mut csv = csv::Writer::from_writer(to);
     let names = ["time [s]".to_owned(), "phase".to_owned()];
     csv.write_record(names.into_iter().chain(columns.iter().map(Column::heading)))?;
+    // the shortest text that reads back exactly
+    let mut text = zmij::Buffer::new();
     for row in all_rows(study, case) {
         let row = row?;
-        let values = columns.iter().map(|column| number(column.value(&row)));
-        csv.write_record([number(row.time), row.phase.to_owned()].into_iter().chain(values))?;
+        csv.write_field(text.format(row.time))?;
+        csv.write_field(row.phase)?;
+        for column in &columns {
+            csv.write_field(text.format(column.value(&row)))?;
+        }
+        csv.write_record(None::<&[u8]>)?;
     }
     csv.flush()
-}
-
-/// The shortest text that reads back exactly.
-fn number(value: f64) -> String {
-    format!("{value:?}")
 }
