@@ -4,6 +4,7 @@ use crate::against_product::{Excitation, excitation_torques};
 use crate::product::{self, law};
 use crate::{add_target, robot, robot_state, scaled_velocities};
 use planar_capture::capture::assembly::{Assembly, Attachment};
+use planar_capture::contact::{ContactPartner, LoopConstraint};
 use planar_capture::control::{Control, ZeroTorque};
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
@@ -229,4 +230,47 @@ fn projection_keeps_centre_and_momentum() {
         system.restore(&mut x).expect("projection");
         close("momentum", &centre_and_momentum(&capture, &x).1, &was, tolerance::IDENTITY);
     }
+}
+
+/// Errors are those of an opened constraint: the larger coordinate of the gap, and of its rate.
+#[test]
+fn constraint_errors_are_the_gap_and_its_rate() {
+    let capture = capture(&layout("dual_arm_3r"), &start(), &[(0, Kind::Pin), (1, Kind::Pin)]);
+    let system = capture.assembly.system();
+    let (closed, joints) = (system.vector(&capture.state.view()).expect("a vector"), system.model.joints());
+    let body = 3 + joints;
+    let half = (closed.len() - 3) / 2;
+    let [open, opening] = system.constraint_errors(&closed).expect("errors");
+    assert!(open.max(opening) <= tolerance::CONSTRAINT_ERROR, "{open:e} {opening:e}");
+    for (dx, dy) in [(0.02, -0.3), (-0.4, 0.1)] {
+        let (mut x, largest) = (closed.clone(), f64::max(dx, -dx).max(f64::max(dy, -dy)));
+        x[half + body + 1] += 3.0 * dx;
+        x[half + body + 2] += 3.0 * dy;
+        assert_close(
+            "rate",
+            &system.constraint_errors(&x).expect("errors"),
+            &[0.0, 3.0 * largest],
+            tolerance::IDENTITY,
+        );
+        x[body + 1] += dx;
+        x[body + 2] += dy;
+        let [gap, _] = system.constraint_errors(&x).expect("errors");
+        assert_close("gap", &[gap], &[largest], tolerance::IDENTITY);
+    }
+}
+
+/// A constraint that no configuration satisfies takes bounded time too: end effectors of two arms 100 m apart.
+#[test]
+fn a_projection_onto_an_impossible_constraint_ends() {
+    let layout = layout("dual_arm_3r");
+    let (model, state) = (registry::generic(&layout), robot_state(&robot(&layout, &start()), &start()));
+    let apart = LoopConstraint { arm: 0, partner: ContactPartner::EndEffector(1), offset: [100.0, 0.0], yaw: None };
+    let system = planar_capture::simulate::system::System {
+        constraints: &[apart],
+        ..planar_capture::simulate::system::System::alone(&*model)
+    };
+    let mut x = system.vector(&state.view()).expect("a vector");
+    let found = system.restore(&mut x);
+    let [gap, _] = system.constraint_errors(&x).expect("errors");
+    assert!(found.is_ok() && gap > 10.0, "{found:?} {gap}");
 }

@@ -9,6 +9,7 @@ mod laws;
 mod loops;
 mod merged;
 mod product;
+mod scaling;
 mod textbook;
 
 use nalgebra::Vector2;

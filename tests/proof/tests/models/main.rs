@@ -3,11 +3,13 @@
 
 mod capture;
 mod closed_form;
+mod control;
 mod coordinates;
 mod equivalence;
 mod float;
 mod generic;
 mod identities;
+mod integrators;
 mod light_last_link;
 mod not_a_number;
 mod references;

@@ -1,0 +1,86 @@
+//! A step of an integrator does not depend on the unit of time, and where it converges does not depend on the state's
+//! size.
+
+use planar_capture::error::Error;
+use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
+use proptest::prelude::*;
+
+/// ẋ = f(t, x).
+type Derivative<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error>;
+
+type Step = fn(f64, f64, &mut [f64], Derivative<'_>) -> Result<(), Error>;
+
+fn runge_kutta(time: f64, step: f64, x: &mut [f64], f: Derivative<'_>) -> Result<(), Error> {
+    RungeKutta4::new(&mut vec![f64::NAN; 3 * x.len()])?.step(time, step, x, f)
+}
+
+fn gauss_legendre(time: f64, step: f64, x: &mut [f64], f: Derivative<'_>) -> Result<(), Error> {
+    GaussLegendre::new(&mut vec![f64::NAN; GaussLegendre::<f64>::WORKSPACE * x.len()])?.step(time, step, x, f)
+}
+
+/// With slopes `λ f(λ t, x)` a step of `step / λ` at `time / λ` gives the same numbers; λ is a power of two, so that
+/// nothing rounds.
+fn in_units(step: Step, lambda: f64, stiffness: f64, x: [f64; 2]) -> Result<[f64; 2], Error> {
+    let mut x = x;
+    let mut slope = |time: f64, x: &[f64], rate: &mut [f64]| {
+        rate[0] = lambda * (x[1] - stiffness * x[0]);
+        rate[1] = lambda * ((lambda * time).cos() - x[0] * x[0]);
+        Ok(())
+    };
+    step(0.75 / lambda, 0.125 / lambda, &mut x, &mut slope).map(|()| x)
+}
+
+proptest! {
+    #[test]
+    fn the_unit_of_time_is_arbitrary(x in prop::array::uniform2(-2.0..2.0_f64)) {
+        for step in [runge_kutta as Step, gauss_legendre] {
+            let expected = in_units(step, 1.0, 3.0, x);
+            for exponent in [-60, -30, 30, 60] {
+                prop_assert_eq!(&in_units(step, 2.0_f64.powi(exponent), 3.0, x), &expected);
+            }
+            prop_assert!(expected.is_ok());
+        }
+    }
+}
+
+/// Where the stages do not contract, they do not in any unit of time.
+#[test]
+fn a_step_that_is_too_long_is_refused_in_every_unit_of_time() {
+    for exponent in [-60, 0, 60] {
+        let found = in_units(gauss_legendre, 2.0_f64.powi(exponent), 100.0, [1.0, 0.5]);
+        assert!(matches!(found, Err(Error::NotConverged { .. })), "{exponent}: {found:?}");
+    }
+}
+
+/// A derivative that rounds differently each time: the change of the stages does not become zero, and is compared with
+/// the size of the step where the state itself is zero.
+#[test]
+fn stages_converge_from_the_origin() {
+    let mut calls = 0_u32;
+    let mut x = [0.0];
+    let mut noisy = |_: f64, x: &[f64], rate: &mut [f64]| {
+        calls += 1;
+        rate[0] = 1.0 + x[0] * x[0] + f64::from(calls % 7) * f64::EPSILON;
+        Ok(())
+    };
+    gauss_legendre(0.0, 0.1, &mut x, &mut noisy).expect("a step");
+    assert!((x[0] - 0.1_f64.tan()).abs() < 1e-9 && calls < 100, "{x:?} after {calls} calls");
+}
+
+/// A semi-implicit step is its two parts: the positions move with the new rates.
+#[test]
+fn a_semi_implicit_step_is_its_two_parts() {
+    // a position, a rate, three works
+    let mut force = |time: f64, x: &[f64], rate: &mut [f64]| {
+        rate.copy_from_slice(&[f64::NAN, time - 2.0 * x[0], 1.0, 2.0, 3.0]);
+        Ok(())
+    };
+    let (mut whole, mut parts) = ([1.0, 0.5, 0.0, 0.0, 0.0], [1.0, 0.5, 0.0, 0.0, 0.0]);
+    let mut workspace = [f64::NAN; 5];
+    let mut euler = SemiImplicitEuler::new(&mut workspace);
+    euler.step(3.0, 0.25, &mut whole, &mut force).expect("a step");
+    euler.update_rates(3.0, 0.25, &mut parts, &mut force).expect("rates");
+    assert_eq!(parts, [1.0, 0.75, 0.25, 0.5, 0.75]);
+    SemiImplicitEuler::update_positions(0.25, &mut parts).expect("positions");
+    assert_eq!((whole, whole[0]), (parts, 1.1875));
+}
