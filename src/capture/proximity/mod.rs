@@ -3,4 +3,6 @@
 pub(super) mod convex;
 pub(super) mod motion;
 pub(super) mod part_pair;
+#[cfg(test)]
+mod tests;
 pub(super) mod workspace;

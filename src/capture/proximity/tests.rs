@@ -1,0 +1,299 @@
+//! Motions and their bounds against differences of positions; bounds that are attained; first contacts against dense
+//! samples.
+
+use super::convex::ConvexPart;
+use super::motion::{FrameKinematics, FrameState, MotionBound};
+use super::part_pair::{Instant, PartPair};
+use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::target_motion::TargetMotion;
+use crate::contact::ContactKind;
+use crate::frames::{Frame, FrameMotion, frames, point, poses};
+use crate::outline::Outline;
+use crate::owned::RobotState;
+use crate::registry;
+use crate::simulate::path::PathInterval;
+use crate::simulate::system::Body;
+use planar_proof::layout;
+use planar_proof::sample::config;
+use proptest::array::uniform2;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Half the time of a central difference, s, and the error of such a difference per unit.
+const HALF: f64 = 1e-5;
+const DIFFERENCE: f64 = 1e-7;
+
+/// The motion of frames over an interval.
+struct Motion<'a> {
+    kinematics: FrameKinematics<'a>,
+    span: [f64; 2],
+    /// Positions and rates at its ends.
+    ends: [[Vec<f64>; 2]; 2],
+}
+
+impl Motion<'_> {
+    fn interval(&self) -> PathInterval<'_> {
+        let [start, end] = self.ends.each_ref().map(|half| half.each_ref().map(Vec::as_slice));
+        PathInterval { span: self.span, start, end }
+    }
+
+    fn buffers(&self) -> [Vec<f64>; 2] {
+        self.ends[0].clone()
+    }
+
+    fn states(&self, time: f64) -> Vec<FrameState> {
+        let mut states = Vec::new();
+        self.kinematics.at(&self.interval(), time, &mut self.buffers(), &mut states);
+        states
+    }
+
+    fn bounds(&self) -> Vec<MotionBound> {
+        let mut bounds = Vec::new();
+        self.kinematics.bounds(&self.interval(), &mut self.buffers(), &mut bounds);
+        bounds
+    }
+
+    /// Velocity and acceleration of a point of a frame, by differences.
+    fn point_motion(&self, frame: usize, at: [f64; 2], time: f64) -> [[f64; 2]; 2] {
+        let [before, now, after] = [-HALF, 0.0, HALF].map(|step| {
+            let FrameState { pose, twist: [omega, vx, vy] } = self.states(time + step)[frame];
+            let [x, y] = point(pose, at);
+            ([x, y], [vx - omega * (y - pose[2]), vy + omega * (x - pose[1])])
+        });
+        let half = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|i| (b[i] - a[i]) / (2.0 * HALF));
+        let velocity = half(before.0, after.0);
+        assert!((0..2).all(|i| (velocity[i] - now.1[i]).abs() < DIFFERENCE * 1e3), "{velocity:?} {:?}", now.1);
+        [now.1, half(before.1, after.1)]
+    }
+}
+
+fn length([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}
+
+/// A robot with two arms, of which the second has captured the first of two targets.
+fn captured(angles: &[f64]) -> (Vec<Frame>, Assembly, Vec<Body>) {
+    let layout = layout("dual_arm_2r");
+    let state = RobotState {
+        base_pose: [0.3, -0.2, 0.5],
+        joint_angles: angles.to_vec(),
+        base_twist: [0.0; 3],
+        joint_rates: vec![0.0; 4],
+    };
+    let body = |x: f64| Body { mass: 2.0, inertia: 0.3, pose: [0.4, x, 1.1], twist: [0.7, -0.3, 0.2] };
+    let targets = vec![body(1.5), body(-2.0)];
+    let held = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
+    let assembly = Assembly::new(registry::generic(&layout), &state, &targets, &held).expect("an assembly");
+    (frames(&layout, ["held", "free"]), assembly, targets)
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    /// Poses are those of the forward kinematics and of the assembly, twists their derivatives, and no point is faster
+    /// or accelerates more than its bounds.
+    #[test]
+    fn frames_move_within_their_bounds(
+        ends in uniform2(uniform2(vec(-1.5..1.5_f64, 10))), free in any::<bool>(),
+        time in 0.1..0.6_f64, direction in 0.0..TAU, reach in 0.0..1.5_f64,
+    ) {
+        let (frames, assembly, targets) = captured(&ends[0][0][3..7]);
+        let motion = if free { TargetMotion::Free(&targets) } else { TargetMotion::Assembled(&assembly, &targets) };
+        let kinematics = FrameKinematics { frames: &frames, targets: motion, joints: 4 };
+        let motion = Motion { kinematics, span: [0.0, 0.7], ends };
+        let (states, bounds) = (motion.states(time), motion.bounds());
+
+        let mut coordinates = motion.buffers();
+        let [positions, rates] = &mut coordinates;
+        motion.interval().at(time, positions, rates);
+        let state = RobotState {
+            base_pose: [positions[0], positions[1], positions[2]],
+            joint_angles: positions[3..7].to_vec(),
+            base_twist: [rates[0], rates[1], rates[2]],
+            joint_rates: rates[3..7].to_vec(),
+        };
+        let mut end_effectors = [[0.0; 3]; 2];
+        assembly.model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut end_effectors).expect("poses");
+        let beside = Body { pose: [positions[7], positions[8], positions[9]], ..targets[1] };
+        let placed: Vec<_> = if free {
+            targets.iter().map(|target| target.after(time)).collect()
+        } else {
+            assembly.targets(&targets, &end_effectors, &[[0.0; 3]; 2], &[beside])
+        };
+        let expected = poses(&frames, &state, &placed.iter().map(|target| target.pose).collect::<Vec<_>>());
+        let (sin, cos) = direction.sin_cos();
+        for (i, (state, bound)) in states.iter().zip(&bounds).enumerate() {
+            planar_proof::assert_close(&frames[i].name, &state.pose, &expected[i], 1e-12);
+            let [velocity, acceleration] = motion.point_motion(i, [reach * cos, reach * sin], time);
+            let slack = 1.0 + DIFFERENCE * 1e3;
+            prop_assert!(length(velocity) <= bound.speed_within(reach) * slack, "{}", frames[i].name);
+            prop_assert!(length(acceleration) <= bound.acceleration_within(reach) * slack + DIFFERENCE * 1e3, "{}", frames[i].name);
+            prop_assert!((frames[i].motion != FrameMotion::Base) || (state.twist[0] - rates[0]).abs() < 1e-12);
+        }
+    }
+
+    /// The interpolant's rates stay below their bound, which is at most three times the largest, and its accelerations
+    /// reach theirs at an end.
+    #[test]
+    fn bounds_of_an_interpolant(ends in uniform2(uniform2(-2.0..2.0_f64)), span in 0.1..3.0_f64) {
+        let [start, end] = ends.each_ref().map(|[x, v]| [std::slice::from_ref(x), std::slice::from_ref(v)]);
+        let interval = PathInterval { span: [1.0, 1.0 + span], start, end };
+        let (mut rate, mut acceleration) = ([0.0], [0.0]);
+        interval.bounds(&mut rate, &mut acceleration);
+        let rate_at = |part: f64| {
+            let (mut x, mut v) = ([0.0], [0.0]);
+            interval.at(1.0 + part * span, &mut x, &mut v);
+            v[0]
+        };
+        let largest = (0..=1000).map(|i| rate_at(f64::from(i) / 1000.0).abs()).fold(0.0, f64::max);
+        prop_assert!(largest <= rate[0] * (1.0 + 1e-12) && rate[0] <= 3.0 * largest * (1.0 + 1e-5), "{} {}", rate[0], largest);
+        // the rate is a quadratic polynomial: differences of its values give its derivatives at the ends exactly
+        let [a, b, c] = [0.0, 0.5, 1.0].map(rate_at);
+        let at_ends = f64::max((4.0 * b - 3.0 * a - c).abs(), (3.0 * c + a - 4.0 * b).abs()) / span;
+        planar_proof::assert_close("acceleration", &acceleration, &[at_ends], 1e-12 * (1.0 + at_ends) / span);
+    }
+}
+
+/// A base with an arm of two links along the x-axis.
+fn straight_arm() -> Vec<Frame> {
+    let frame = |i: usize, pose: [f64; 3], motion: FrameMotion| Frame {
+        name: format!("{motion:?}"),
+        parent: i.checked_sub(1),
+        pose,
+        motion,
+        arm: Some(0),
+    };
+    vec![
+        frame(0, [0.0; 3], FrameMotion::Base),
+        frame(1, [0.0, 0.5, 0.0], FrameMotion::Joint(0)),
+        frame(2, [0.0, 1.0, 0.0], FrameMotion::Joint(1)),
+        frame(3, [0.0, 0.7, 0.0], FrameMotion::Fixed),
+    ]
+}
+
+/// A stretched arm whose base and joints all turn one way reaches the bounds of speed, at constant rates those of
+/// acceleration, and from rest those of angular acceleration.
+#[test]
+fn bounds_are_attained_by_a_stretched_arm() {
+    let frames = straight_arm();
+    let kinematics = FrameKinematics { frames: &frames, targets: TargetMotion::Free(&[]), joints: 2 };
+    let rates = vec![0.6, 0.0, 0.3, 0.4, 0.9]; // turns, moves across
+    let scaled = |factor: f64| rates.iter().map(|rate| rate * factor).collect::<Vec<_>>();
+    let turning =
+        Motion { kinematics, span: [-0.5, 0.5], ends: [[scaled(-0.5), rates.clone()], [scaled(0.5), rates.clone()]] };
+    let short = 1e-3;
+    let starting = Motion {
+        kinematics,
+        span: [-short, short],
+        ends: [[scaled(0.5 * short * short), scaled(-short)], [scaled(0.5 * short * short), scaled(short)]],
+    };
+    for (motion, at_constant_rates) in [(turning, true), (starting, false)] {
+        for (frame, bound) in motion.bounds().iter().enumerate() {
+            for reach in [0.0, 0.3, 2.0] {
+                let [velocity, acceleration] = motion.point_motion(frame, [reach, 0.0], 0.0);
+                if at_constant_rates {
+                    assert!((bound.speed_within(reach) - length(velocity)).abs() < 1e-12, "{frame} {velocity:?}");
+                }
+                let bound = bound.acceleration_within(reach);
+                assert!((bound - length(acceleration)).abs() < 1e-4, "{frame} {reach}: {bound} {acceleration:?}");
+            }
+        }
+    }
+}
+
+/// A body that moves freely.
+fn free_body(values: &[f64; 6]) -> Body {
+    let [yaw, x, y, omega, vx, vy] = *values;
+    Body { mass: 1.0, inertia: 1.0, pose: [3.0 * yaw, x, y], twist: [4.0 * omega, vx, vy] }
+}
+
+fn shape(kind: u8, size: f64) -> ConvexPart {
+    let corners = |radii: [f64; 2]| {
+        let corner = |k: u8| {
+            let (sin, cos) = (TAU * (f64::from(k) / 5.0 + 0.1 * size)).sin_cos();
+            [0.2 * size + radii[0] * cos, radii[1] * sin]
+        };
+        (0..5).map(corner).collect::<Vec<_>>()
+    };
+    let outline = match kind {
+        0 => Outline::Disc { center: [0.3 * size, -0.1], radius: 0.4 * size },
+        1 => Outline::Capsule { ends: [[-0.5 * size, 0.1], [0.6, 0.2 * size]], radius: 0.05 },
+        _ => Outline::polygon(corners([0.7 * size, 0.2])).expect("a polygon"),
+    };
+    ConvexPart::of(&outline).remove(0)
+}
+
+/// Two parts of freely moving bodies.
+struct FreePair<'a> {
+    pair: PartPair<'a>,
+    bodies: [Body; 2],
+}
+
+impl<'a> FreePair<'a> {
+    fn new(parts: [&'a ConvexPart; 2], bodies: [Body; 2]) -> Self {
+        let of = |i: usize| bodies[i].twist[0].powi(2) * parts[i].reach;
+        Self { pair: PartPair { parts, acceleration: of(0) + of(1) }, bodies }
+    }
+
+    fn at(&self, time: f64) -> Instant {
+        let state = |body: &Body| {
+            let Body { pose, twist, .. } = body.after(time);
+            FrameState { pose, twist }
+        };
+        self.pair.at(time, self.bodies.each_ref().map(state))
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..config() })]
+
+    /// The bound is below the distance at every time; the first contact is that of dense samples, to a depth.
+    #[test]
+    fn distances_stay_above_their_bounds(
+        values in uniform2([-1.0..1.0_f64, -2.0..2.0, -2.0..2.0, -1.0..1.0, -2.0..2.0, -2.0..2.0]),
+        kinds in uniform2(0..4_u8), sizes in uniform2(0.5..1.5_f64), depth in 0.0..0.1_f64,
+    ) {
+        let parts = [shape(kinds[0], sizes[0]), shape(kinds[1], sizes[1])];
+        let free = FreePair::new(parts.each_ref(), values.each_ref().map(free_body));
+        let times = || (-500..=500).map(|i| f64::from(i) * 1e-3);
+        for time in [-0.3, 0.0, 0.2] {
+            let now = free.at(time);
+            prop_assert!((free.pair.bound(&now, 0.0) - now.distance).abs() < 1e-12);
+            for other in times().step_by(7) {
+                let bound = free.pair.bound(&now, other - time);
+                prop_assert!(bound <= free.at(other).distance + 1e-12, "{} {} {}", time, other, bound);
+            }
+        }
+        prop_assume!(free.at(-0.5).distance > -depth);
+        let mut count = 0;
+        let found = free.pair.first_contact([-0.5, 0.5], depth, |_, time| { count += 1; free.at(time) }).expect("bounds");
+        let sampled = times().find(|time| free.at(*time).distance < -depth - 1e-9);
+        match found {
+            None => prop_assert_eq!(sampled, None),
+            Some([before, after]) => {
+                prop_assert!(free.at(before).distance >= -depth && free.at(after).distance < -depth);
+                prop_assert!(times().filter(|time| *time <= before).all(|time| free.at(time).distance >= -depth));
+            }
+        }
+        prop_assert!(count < 400, "{} distances", count);
+    }
+}
+
+/// On a straight line the bound is the distance, less half the bound of accelerations times the square of the time.
+#[test]
+fn bounds_of_distances_are_attained_on_a_line() {
+    let parts = [shape(0, 1.0), shape(1, 1.0)];
+    let still = Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] };
+    let coming = Body { pose: [0.0, 5.0, -0.2], twist: [0.0, -1.5, 0.0], ..still };
+    let mut free = FreePair::new(parts.each_ref(), [still, coming]);
+    let line = Body { pose: [0.0, 5.0, -0.2], ..coming };
+    free.bodies[1] = line;
+    let now = free.at(0.0);
+    for after in [0.5, 1.0] {
+        let exact = free.at(after).distance;
+        assert!((free.pair.bound(&now, after) - exact).abs() < 1e-12, "{after} {exact}");
+        let slower = PartPair { acceleration: 0.8, ..free.pair };
+        assert!((slower.bound(&now, after) - (exact - 0.4 * after * after)).abs() < 1e-12);
+    }
+}
