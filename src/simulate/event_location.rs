@@ -193,7 +193,7 @@ impl<'a> EventLocator<'a> {
             let middle = above + 0.5 * (below - above);
             let chord = above + (below - above) * (high / (high - low));
             let toward = (middle - chord).signum();
-            let moved = shift * (below - above).powi(2);
+            let moved = (shift * (below - above).powi(2)).max(0.5 * tolerance);
             let truncated = if moved <= (middle - chord).abs() { chord + toward * moved } else { middle };
             let radius = (0.5 * (reach - (below - above))).max(0.0);
             let time = if (truncated - middle).abs() <= radius { truncated } else { middle - toward * radius };
@@ -214,3 +214,6 @@ impl<'a> EventLocator<'a> {
 fn bisections(length: f64, tolerance: f64) -> i32 {
     (length / tolerance).log2().ceil().max(0.0) as i32
 }
+
+#[cfg(test)]
+mod tests;
