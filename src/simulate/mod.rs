@@ -263,3 +263,6 @@ pub fn simulate(
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
     Ok(recorder.end(timing.duration, None, stepper.path_error()))
 }
+
+#[cfg(test)]
+mod tests;

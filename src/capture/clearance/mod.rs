@@ -216,3 +216,6 @@ impl ClearanceTracker {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,264 @@
+//! Pairs of bodies by name; least distances and overlaps of moving bodies against dense samples.
+
+use super::bodies::{bodies, pairs};
+use super::{Clearance, ClearanceTracker, LeastDistance};
+use crate::capture::assembly::Attachment;
+use crate::capture::contact_pair::ContactPair;
+use crate::capture::proximity::convex::{ConvexPart, separation};
+use crate::capture::target_motion::TargetMotion;
+use crate::contact::ContactKind;
+use crate::frames::{point, poses};
+use crate::outline::Outline;
+use crate::owned::RobotState;
+use crate::registry;
+use crate::scenario::Scenario;
+use crate::simulate::path::{Path, PathRecorder};
+use crate::simulate::system::Body;
+use planar_proof::file;
+use planar_proof::sample::config;
+use proptest::array::uniform2;
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+/// A scenario of a layout with two targets, which arms 1 and 2 are to capture.
+fn scenario(layout: &str, arms: [&str; 2], joints: usize) -> Scenario {
+    let angles = format!("{:?}", vec![0.1; joints]);
+    let target = |name: &str, arm: &str| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nmass = 1.0\ninertia = 1.0\nradius = 0.5\nposition = [9.0, 9.0]\n"
+        )
+    };
+    let text = format!(
+        "name = \"it\"\nlayout = \"{layout}\"\n[initial]\njoint_angles = {angles}\n[approach]\nduration = 1.0\n\
+         trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {angles}\n\
+         [contact]\ndetection = \"event\"\n{}{}[post_impact]\nduration = 1.0\nstep = 0.01\n",
+        target("t1", arms[0]),
+        target("t2", arms[1])
+    );
+    Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The pairs that are looked at, by the last parts of their names, and whether they are to meet.
+fn named_pairs(scenario: &Scenario) -> BTreeSet<(String, String, bool)> {
+    let frames = scenario.frames();
+    let all = bodies(scenario, &frames);
+    let name = |i: usize| all[i].name.replace("arms/", "").replace("targets/", "");
+    let found = pairs(scenario, &frames, &all);
+    assert!(found.iter().all(|pair| pair.group == usize::from(pair.contact.is_some())));
+    found.iter().map(|pair| (name(pair.bodies[0]), name(pair.bodies[1]), pair.contact.is_some())).collect()
+}
+
+/// All pairs of these names but those, and the ones that are to meet.
+fn expected_pairs(names: &[&str], joined: &[(&str, &str)], meet: &[(&str, &str)]) -> BTreeSet<(String, String, bool)> {
+    let mut expected = BTreeSet::new();
+    for (i, a) in names.iter().enumerate() {
+        for b in &names[i + 1..] {
+            if !joined.contains(&(a, b)) {
+                expected.insert(((*a).to_owned(), (*b).to_owned(), meet.contains(&(a, b))));
+            }
+        }
+    }
+    expected
+}
+
+#[test]
+fn pairs_are_those_that_no_joint_joins() {
+    let mut it = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    let names = ["base", "arm1/link1", "arm1/link2", "arm2/link1", "arm2/link2", "t1", "t2"];
+    let meet = [("arm1/link2", "t1"), ("arm2/link2", "t2")];
+    let mut joined = vec![
+        ("base", "arm1/link1"),
+        ("arm1/link1", "arm1/link2"),
+        ("base", "arm2/link1"),
+        ("arm2/link1", "arm2/link2"),
+    ];
+    assert_eq!(named_pairs(&it), expected_pairs(&names, &joined, &meet));
+    // whichever is named first
+    for (ignored, pair) in [(["base", "targets/t2"], ("base", "t2")), (["targets/t2", "targets/t1"], ("t1", "t2"))] {
+        it.clearance.ignore = vec![ignored.map(str::to_owned)];
+        let without = [&joined[..], &[pair]].concat();
+        assert_eq!(named_pairs(&it), expected_pairs(&names, &without, &meet));
+    }
+    it.clearance.ignore = Vec::new();
+    // arms that begin at one point of the base
+    it.layout.arms[1].mount = it.layout.arms[0].mount;
+    joined.push(("arm1/link1", "arm2/link1"));
+    assert_eq!(named_pairs(&it), expected_pairs(&names, &joined, &meet));
+
+    // a wheel between a link and the base joins all three; nothing else does
+    let mut wheel = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    wheel.layout.arms[0].links[0].length = 0.0;
+    let joined = [&joined[..4], &[("base", "arm1/link2")]].concat();
+    assert_eq!(named_pairs(&wheel), expected_pairs(&names, &joined, &meet));
+}
+
+/// A robot that drifts, turns and moves its joints, and free targets, over two phases; in the second, arm 1 holds the
+/// first target.
+struct Motion {
+    scenario: Scenario,
+    targets: Vec<Body>,
+    rates: [f64; 3],
+}
+
+const DURATIONS: [f64; 2] = [2.0, 1.5];
+const GRID: f64 = 0.004;
+
+impl Motion {
+    fn robot(&self, time: f64) -> (RobotState, Vec<f64>) {
+        let [a, b, c] = self.rates;
+        let turn = |k: f64, phase: f64| (k * (0.8 * time + phase).sin(), k * 0.8 * (0.8 * time + phase).cos());
+        let joints = [turn(a, 0.0), turn(b, 1.0), turn(c, 2.0), turn(a, 3.0)];
+        let state = RobotState {
+            base_pose: [0.2 * a * time, 0.3 * b * time, 0.2 * c * time],
+            joint_angles: joints.iter().map(|(angle, _)| *angle).collect(),
+            base_twist: [0.2 * a, 0.3 * b, 0.2 * c],
+            joint_rates: joints.iter().map(|(_, rate)| *rate).collect(),
+        };
+        let parts: [&[f64]; 4] = [&state.base_pose, &state.joint_angles, &state.base_twist, &state.joint_rates];
+        let numbers = parts.concat();
+        (state, numbers)
+    }
+
+    fn path(&self, start: f64, duration: f64) -> Path {
+        let mut recorder = PathRecorder::new(7);
+        for i in 0..=200 {
+            let time = duration * f64::from(i) / 200.0;
+            recorder.record(time, &self.robot(start + time).1);
+        }
+        recorder.end()
+    }
+
+    fn result(&self) -> (Clearance, ClearanceTracker) {
+        let mut tracker = ClearanceTracker::new(&self.scenario, &[ContactPair { target: 0, contact: 0, arm: 0 }]);
+        let held = [Attachment { target: 0, arm: 0, kind: ContactKind::Pin }];
+        for (start, duration, attachments) in [(0.0, DURATIONS[0], &[][..]), (DURATIONS[0], DURATIONS[1], &held)] {
+            let targets: Vec<_> = self.targets.iter().map(|target| target.after(start)).collect();
+            let path = self.path(start, duration);
+            tracker.add_phase(&path, start, TargetMotion::Free(&targets), attachments).expect("bounds");
+        }
+        (tracker.result(), tracker)
+    }
+
+    /// The signed distance of two bodies, or of an end effector and a target, by names.
+    fn distance(&self, names: [&str; 2], time: f64) -> f64 {
+        let frames = self.scenario.frames();
+        let targets: Vec<_> = self.targets.iter().map(|target| target.after(time).pose).collect();
+        let placed = poses(&frames, &self.robot(time).0, &targets);
+        let all = bodies(&self.scenario, &frames);
+        let parts = names.map(|name| {
+            let frame = frames.iter().position(|frame| frame.name == name).expect("a frame");
+            let own = all.iter().find(|body| body.name == name).map(|body| body.parts.clone());
+            let place = |part: &ConvexPart| {
+                let corners = part.corners.iter().map(|corner| point(placed[frame], *corner));
+                (corners.collect::<Vec<_>>(), part.radius)
+            };
+            own.unwrap_or_else(|| vec![ConvexPart::point()]).iter().map(place).collect::<Vec<_>>()
+        });
+        let mut least = f64::INFINITY;
+        for (a, radius) in &parts[0] {
+            for (b, other) in &parts[1] {
+                least = least.min(separation(a, b, radius + other).distance);
+            }
+        }
+        least
+    }
+
+    /// The least of dense samples, and its time; a held pair until then.
+    fn sampled(&self, names: [&str; 2], end: f64) -> Vec<(f64, f64)> {
+        let count = f64::floor(end / GRID);
+        let times = std::iter::successors(Some(0.0), |i| (*i < count).then_some(i + 1.0)).map(|i| i * GRID);
+        times.map(|time| (time, self.distance(names, time))).collect()
+    }
+}
+
+fn targets() -> impl Strategy<Value = [Vec<f64>; 2]> {
+    let target = (-3.0..3.0_f64, -2.0..2.0_f64, -2.0..2.0_f64, -3.0..3.0_f64, -1.5..1.5_f64, -1.5..1.5_f64);
+    uniform2(target.prop_map(|(yaw, x, y, omega, vx, vy)| vec![yaw, x, y, omega, vx, vy]))
+}
+
+/// An L, and a disc.
+fn outlines() -> [Outline; 2] {
+    let corners = vec![[-0.4, -0.3], [0.6, -0.3], [0.6, -0.1], [-0.2, -0.1], [-0.2, 0.5], [-0.4, 0.5]];
+    [Outline::polygon(corners).expect("a polygon"), Outline::Disc { center: [0.1, 0.0], radius: 0.25 }]
+}
+
+/// Compares a least distance with dense samples of all pairs that it is the least of.
+fn check_least(motion: &Motion, found: &LeastDistance, pairs: &[([String; 2], f64)]) {
+    let [a, b] = found.bodies.each_ref().map(String::as_str);
+    let there = motion.distance([a, b], found.time);
+    assert!((there - found.distance).abs() < 1e-8, "{found:?}, not {there}");
+    for (names, end) in pairs {
+        let names = names.each_ref().map(String::as_str);
+        for (time, distance) in motion.sampled(names, *end) {
+            assert!(found.distance <= distance + 1.1e-6, "{names:?} {time}: {distance} below {found:?}");
+        }
+    }
+}
+
+/// Compares the overlaps of a pair with dense samples.
+fn check_overlaps(motion: &Motion, clearance: &Clearance, names: &[String; 2], end: f64) {
+    let found: Vec<_> = clearance.overlaps.iter().filter(|overlap| overlap.bodies == *names).collect();
+    let samples = motion.sampled(names.each_ref().map(String::as_str), end);
+    let inside = |time: f64| found.iter().find(|overlap| (overlap.span[0]..=overlap.span[1]).contains(&time));
+    for (time, distance) in &samples {
+        match inside(*time) {
+            Some(overlap) => assert!(overlap.depth >= -distance - 1.1e-6, "{time} {distance}: {overlap:?}"),
+            None => assert!(*distance > -1.1e-6, "{time} {distance}: {names:?} {found:?}"),
+        }
+    }
+    for overlap in found {
+        let [from, to] = overlap.span;
+        let at = |time| motion.distance(names.each_ref().map(String::as_str), time);
+        assert!(from <= to && (from == 0.0 || at(from).abs() < 1e-7), "{overlap:?} {}", at(from));
+        assert!((to - end).abs() < 1e-9 || at(to).abs() < 1e-7, "{overlap:?} {}", at(to));
+        let within = samples.iter().filter(|(time, _)| (from..=to).contains(time));
+        let deepest = within.fold(0.0, |depth: f64, (_, distance)| depth.max(-distance));
+        // points move by some 6 m/s at most
+        assert!(overlap.depth <= deepest + 6.0 * GRID, "{overlap:?} {deepest}");
+        assert_eq!(overlap.is_default, names.iter().any(|name| !name.starts_with("targets")));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 10, ..config() })]
+
+    #[test]
+    fn least_distances_and_overlaps_are_those_of_dense_samples(moved in targets(), rates in prop::array::uniform3(-1.2..1.2_f64)) {
+        let mut scenario = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+        for (target, outline) in scenario.targets.iter_mut().zip(outlines()) {
+            target.outline = outline;
+        }
+        let body = |v: &Vec<f64>| Body { mass: 1.0, inertia: 1.0, pose: [v[0], v[1], v[2]], twist: [v[3], v[4], v[5]] };
+        let motion = Motion { scenario, targets: moved.iter().map(body).collect(), rates };
+        let (clearance, tracker) = motion.result();
+        let end: f64 = DURATIONS.iter().sum();
+        let name = |short: &str| if short.contains('/') { format!("arms/{short}") } else if short.starts_with('t') { format!("targets/{short}") } else { short.to_owned() };
+        let pairs: Vec<_> = named_pairs(&motion.scenario)
+            .into_iter()
+            .map(|(a, b, meet)| {
+                let held = (a.as_str(), b.as_str()) == ("arm1/link2", "t1");
+                ([name(&a), name(&b)], if held { DURATIONS[0] } else { end }, meet)
+            })
+            .collect();
+        let of = |with_contacts: bool| -> Vec<_> {
+            pairs.iter().filter(|(.., meet)| with_contacts || !meet).map(|(names, end, _)| (names.clone(), *end)).collect()
+        };
+        check_least(&motion, clearance.least.as_ref().expect("pairs"), &of(true));
+        check_least(&motion, clearance.besides_contacts.as_ref().expect("pairs"), &of(false));
+        for (names, end) in of(true) {
+            check_overlaps(&motion, &clearance, &names, end);
+        }
+        prop_assert!(clearance.overlaps.is_sorted_by(|a, b| a.span[0] <= b.span[0]));
+        let given = clearance.overlaps.iter().find(|overlap| !overlap.is_default).map(|overlap| overlap.span[0]);
+        prop_assert_eq!(tracker.first_given_overlap().map(|(_, time)| time), given);
+
+        let closest = tracker.closest();
+        let samples = motion.sampled(["arms/arm1/tip", "targets/t1"], DURATIONS[0]);
+        let least = samples.iter().fold(f64::INFINITY, |least, (_, distance)| least.min(*distance));
+        prop_assert!(closest.len() == 1 && closest[0].arm == 0 && closest[0].target == 0);
+        let there = motion.distance(["arms/arm1/tip", "targets/t1"], closest[0].time);
+        prop_assert!((there - closest[0].distance).abs() < 1e-8 && closest[0].distance <= least + 1.1e-6);
+        let depth = tracker.penetration();
+        prop_assert!(depth >= -least - 1.1e-6 && depth <= f64::max(0.0, -closest[0].distance) + 1.1e-6, "{} {}", depth, least);
+    }
+}

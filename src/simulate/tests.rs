@@ -1,0 +1,230 @@
+//! Phases in sequence, what is at a limit, samples through a file, and identities of bodies.
+#![allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    reason = "small whole numbers, and numbers that are copied"
+)]
+
+use super::bodies::{bodies, inertia_about};
+use super::conservation::{AccumulatedInput, ConservationAudit};
+use super::event::{EndTime, EventState, Events, NoEvents};
+use super::limits::{JointLimits, LimitViolation, LimitViolations};
+use super::sample_file::SampleWriter;
+use super::sample_list::{MOST_IN_MEMORY, SampleList};
+use super::stepper::{Formulation, Integration, Integrator};
+use super::system::{Body, System};
+use super::{Phase, PhaseError, Sample, Saturation, Timing, simulate};
+use crate::contact::{ContactPartner, LoopConstraint};
+use crate::control::ZeroTorque;
+use crate::error::Error;
+use crate::owned::{CloneModel, RobotState};
+use crate::registry;
+use crate::simulate::path::PathInterval;
+use crate::state::ActuatorWork;
+use planar_proof::{assert_close, layout};
+
+fn robot() -> (Box<dyn CloneModel>, RobotState) {
+    let state = RobotState {
+        base_pose: [0.2, -0.4, 0.7],
+        joint_angles: vec![0.4, -0.9],
+        base_twist: [0.3, 0.2, -0.1],
+        joint_rates: vec![-0.2, 0.5],
+    };
+    (registry::generic(&layout("single_arm_2r")), state)
+}
+
+fn phase(duration: f64) -> Phase {
+    let (model, state) = robot();
+    let timing = Timing { duration, step: 0.25, sample: 0.25, ..Timing::default() };
+    simulate(&System::alone(&*model), &mut ZeroTorque, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+}
+
+/// Times, saturation and errors of two phases as one.
+#[test]
+fn a_phase_and_the_next() {
+    let first = Phase {
+        saturation: Saturation { joints: vec![0.5, 1.0], base: 0.25 },
+        path_error: 1e-9,
+        singularity_margin: Some(0.5),
+        ..phase(2.0)
+    };
+    let work = ActuatorWork { joint_work: 1.0, base_work: 2.0, base_impulse: 3.0 };
+    let next = Phase {
+        saturation: Saturation { joints: vec![0.25, 3.0], base: 1.5 },
+        path_error: 2e-9,
+        singularity_margin: Some(0.25),
+        event: Some((1, 0.75)),
+        ..phase(1.0)
+    };
+    let mut first_with_work = first.clone();
+    first_with_work.samples.last_mut().expect("samples").work = work;
+    let both = first_with_work.then(next.clone());
+    assert_eq!(both.saturation, Saturation { joints: vec![0.75, 4.0], base: 1.75 });
+    assert_eq!((both.duration, both.event, both.singularity_margin), (3.0, Some((1, 2.75)), Some(0.25)));
+    assert!((both.path_error - 3e-9).abs() < 1e-20);
+    let times: Vec<f64> = both.samples.iter().map(|sample| sample.time).collect();
+    let expected = first.samples.iter().map(|s| s.time).chain(next.samples.iter().map(|s| 2.0 + s.time));
+    assert_eq!(times, expected.collect::<Vec<_>>());
+    assert_eq!((both.end().work, &both.end().state), (work, &next.end().state));
+    assert_eq!(next.then(first).event, None);
+}
+
+/// At a limit is within it; of two equal violations the earlier is kept.
+#[test]
+fn at_a_limit() {
+    let limits = JointLimits { angles: Some([-1.0, 2.0]), rate: Some(0.5), ..JointLimits::default() };
+    for angle in [-1.0, 0.0, 2.0] {
+        assert_eq!(limits.angle_beyond(angle), None);
+    }
+    assert_eq!([-1.01, 2.01].map(|angle| limits.angle_beyond(angle)), [Some(-1.0), Some(2.0)]);
+    assert_eq!([-0.5, 0.5, -0.51].map(|rate| limits.rate_beyond(rate)), [None, None, Some(-0.5)]);
+    let at = |time| LimitViolations {
+        joint_angle: Some(LimitViolation { joint: "it".to_owned(), time, value: 2.5, limit: 2.0 }),
+        joint_rate: None,
+    };
+    assert_eq!(at(0.25).then(at(0.5), 1.0), at(0.25));
+}
+
+/// What a phase that stopped says to do about it.
+#[test]
+fn hints_of_errors() {
+    let stopped = |source| {
+        let error = PhaseError { time: 0.5, source };
+        (error.is_misuse(), error.to_string())
+    };
+    let (misuse, text) = stopped(Error::UnsupportedBodies { count: 2 });
+    assert!(misuse && text.ends_with(", expected `coordinates = \"full\"`"), "{text}");
+    let (misuse, text) = stopped(Error::Tolerance { tolerance: 1e-9, step: 1e-12 });
+    assert!(!misuse && text.ends_with(" (a larger one may help)"), "{text}");
+    let (misuse, text) = stopped(Error::StateVector { found: 2 });
+    assert!(!misuse && text.ends_with(" (a shorter step may help)"), "{text}");
+}
+
+/// Reduced coordinates are refused with bodies beside the robot, constrained or not, and with constraints alone.
+#[test]
+fn reduced_coordinates_are_of_a_robot_alone() {
+    let (model, state) = robot();
+    let body = Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] };
+    let pin = LoopConstraint { arm: 0, partner: ContactPartner::Body(0), offset: [0.0; 2], yaw: None };
+    let integration = Integration { integrator: Integrator::RungeKutta4, coordinates: Formulation::Reduced };
+    let timing = Timing { duration: 1.0, step: 0.5, sample: 0.5, integration };
+    for (bodies, constraints) in [(&[body][..], &[][..]), (&[body], &[pin])] {
+        let system = System { bodies, constraints, ..System::alone(&*model) };
+        let found = simulate(&system, &mut ZeroTorque, &state, &timing, &mut NoEvents, &mut || ());
+        let count = bodies.len() + constraints.len();
+        assert_eq!(found.map(|_| ()).map_err(|e| e.source), Err(Error::UnsupportedBodies { count }));
+    }
+}
+
+struct Three;
+
+impl Events for Three {
+    fn count(&self) -> usize {
+        3
+    }
+
+    fn values(&mut self, _: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
+        values.fill(1.0);
+        Ok(())
+    }
+}
+
+/// Events without bounds have no crossings by bounds; the end of a phase is an event at its time.
+#[test]
+fn events_without_bounds() {
+    let (model, state) = robot();
+    let system = System::alone(&*model);
+    let x = system.vector(&state.view()).expect("a vector");
+    let step = PathInterval::between([0.0, 1.0], &x, &x).expect("a step");
+    assert_eq!(Three.crossings(&step), Ok(vec![None; 3]));
+    assert!(!Three.are_bounded() && NoEvents.count() == 0);
+    let timing = Timing { duration: 2.0, step: 0.25, sample: 0.25, ..Timing::default() };
+    let ended = simulate(&system, &mut ZeroTorque, &state, &timing, &mut EndTime(0.9), &mut || ()).expect("a phase");
+    let (event, when) = ended.event.expect("the end");
+    assert!(event == 0 && (when - 0.9).abs() < 1e-13 && ended.samples.len() == 5, "{when}");
+}
+
+/// A change of momentum and energy that the input explains is no drift; the same input with a sign changed is.
+#[test]
+fn an_external_impulse_is_no_drift() {
+    let (model, before) = robot();
+    let after = RobotState { base_twist: [-0.1, 0.5, 0.4], joint_rates: vec![0.3, 0.1], ..before.clone() };
+    let [start, end] = [&before, &after].map(|state| model.momentum(&state.view()).expect("momentum"));
+    let change = [0, 1].map(|i| end.linear_momentum[i] - start.linear_momentum[i]);
+    let impulse = [end.angular_momentum - start.angular_momentum, change[0], change[1]];
+    let work = end.kinetic_energy - start.kinetic_energy;
+    let drift = |input: AccumulatedInput| {
+        let mut audit = ConservationAudit::new(&*model, &before.view(), &[]).expect("a state");
+        audit.record(&after.view(), &[], &input).expect("a state");
+        audit.drift()
+    };
+    let exact = drift(AccumulatedInput { time: 0.0, work, impulse });
+    assert!(exact.momentum_drift < 1e-15 && exact.energy_error < 1e-15, "{exact:?}");
+    for place in 0..3 {
+        let mut wrong = impulse;
+        wrong[place] = -wrong[place];
+        assert!(drift(AccumulatedInput { time: 0.0, work, impulse: wrong }).momentum_drift > 1e-3, "{place}");
+    }
+    assert!(drift(AccumulatedInput { time: 0.0, work: -work, impulse }).energy_error > 1e-3);
+}
+
+/// Bodies that turn together about a point have half the inertia about it as energy, per square of the rate.
+#[test]
+fn inertia_is_twice_the_energy_of_a_rotation() {
+    let (model, state) = robot();
+    let still = Body { mass: 3.0, inertia: 0.2, pose: [0.1, 2.0, -1.5], twist: [0.0; 3] };
+    let all = bodies(&*model, &state.view(), &[still]).expect("bodies");
+    for about in [[0.0; 2], [0.7, -2.0]] {
+        let turned = |body: &Body| {
+            let [_, x, y] = body.pose;
+            Body { twist: [1.0, about[1] - y, x - about[0]], ..*body }.momentum().1
+        };
+        let energy: f64 = all.iter().map(turned).sum();
+        assert_close("inertia", &[inertia_about(&all, about)], &[2.0 * energy], 1e-12 * energy);
+    }
+}
+
+fn numbered(i: u32) -> Sample {
+    let x = f64::from(i);
+    let body = Body { mass: 1.0 + x, inertia: 2.0, pose: [x, 3.0, 4.0], twist: [5.0, -x, 6.0] };
+    let base_torque = [None, Some(0.0), Some(0.5 + x), Some(-x)][i as usize % 4];
+    let mut sample = phase(0.25).samples[0].clone();
+    (sample.time, sample.base_torque, sample.bodies) = (x, base_torque, vec![body]);
+    sample.joint_torques = vec![x, -x];
+    sample
+}
+
+/// Samples and targets come back from a file bit by bit, also those of more than its buffer.
+#[test]
+fn samples_through_a_file() {
+    let samples: Vec<_> = (0..8).map(numbered).collect();
+    let target = |i: usize| vec![Body { pose: [i as f64, 1.0, 2.0], ..samples[0].bodies[0] }];
+    let mut writer = SampleWriter::new(&samples[0], &target(0));
+    let count = 5000;
+    (0..count).for_each(|i| writer.push(&samples[i % 8], &target(i)));
+    let file = writer.finish();
+    assert_eq!(file.len(), count);
+    for (i, read) in file.samples().enumerate() {
+        assert_eq!(read.expect("a sample"), (samples[i % 8].clone(), target(i)));
+    }
+    assert_eq!(file.samples().count(), count);
+}
+
+/// Of a long phase every second, fourth … sample is in memory, with the last, and all are in the file.
+#[test]
+fn samples_in_memory_are_evenly_spaced() {
+    let like = numbered(0);
+    for count in [MOST_IN_MEMORY, MOST_IN_MEMORY + 1, 3 * MOST_IN_MEMORY + 2] {
+        let mut list = SampleList::default();
+        (0..count).for_each(|i| list.push(Sample { time: i as f64, ..like.clone() }));
+        let (in_memory, file) = list.end();
+        let spacing = (count - 1).div_ceil(MOST_IN_MEMORY).next_power_of_two();
+        let spacing = if count == MOST_IN_MEMORY { 1 } else { spacing.max(2) };
+        let mut expected: Vec<usize> = (0..count).step_by(spacing).collect();
+        expected.extend((expected.last() != Some(&(count - 1))).then_some(count - 1));
+        assert!(in_memory.iter().map(|sample| sample.time as usize).eq(expected), "{count}: {}", in_memory.len());
+        assert_eq!(file.map(|file| file.len()), (spacing > 1).then_some(count));
+    }
+}
