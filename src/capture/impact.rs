@@ -233,3 +233,6 @@ fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Resul
     let sizes = momentum_sizes(&bodies(&*assembly.model, state, &separate)?);
     Ok((with_bodies(assembly.model.momentum(state)?, &separate), sizes))
 }
+
+#[cfg(test)]
+mod tests;

@@ -390,3 +390,6 @@ fn phase_failures(name: &str, phase: &Phase) -> Vec<String> {
     let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
     drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,96 @@
+//! When the paper's equations apply, and the momentum jump of velocities that do not conserve it.
+
+use super::{ImpactSolution, Velocities, balance, solve_impact};
+use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::contact_at_time::ImpactContact;
+use crate::contact::{ContactKind, ContactLaw};
+use crate::owned::RobotState;
+use crate::registry;
+use crate::simulate::system::Body;
+use planar_proof::layout;
+
+const PLASTIC: ContactLaw<f64> = ContactLaw::Bounce { normal: [0.6, 0.8], restitution: 0.0 };
+
+fn state() -> RobotState {
+    RobotState {
+        base_pose: [0.1, 0.2, -0.3],
+        joint_angles: vec![0.7, -1.6, 1.0, 2.4, 1.5, -1.1],
+        base_twist: [0.05, 0.1, -0.2],
+        joint_rates: vec![0.1, -0.2, 0.15, 0.05, 0.3, -0.1],
+    }
+}
+
+/// Two targets, of which attachments hold some, and contacts (target, arm, law).
+fn impact(held: &[Attachment], touched: &[(usize, usize, ContactLaw<f64>)]) -> ImpactSolution {
+    let model = registry::generic(&layout("dual_arm_3r"));
+    let state = state();
+    let mut poses = [[0.0; 3]; 2];
+    model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut poses).expect("poses");
+    let at = |arm: usize| {
+        let [_, x, y] = poses[arm];
+        Body { mass: 4.0, inertia: 0.5, pose: [0.2, x - 0.3, y + 0.1], twist: [0.3, -0.1, 0.2] }
+    };
+    let targets = [at(0), at(1)];
+    let offset = |target: usize, arm: usize| {
+        let [_, x, y] = targets[target].pose;
+        [poses[arm][1] - x, poses[arm][2] - y]
+    };
+    let contact = |&(target, arm, law): &(usize, usize, ContactLaw<f64>)| ImpactContact {
+        target,
+        arm,
+        law,
+        offset: offset(target, arm),
+        miss: 0.0,
+    };
+    let contacts: Vec<_> = touched.iter().map(contact).collect();
+    let assembly = Assembly::new(model, &state, &targets, held).expect("an assembly");
+    solve_impact(&assembly, &state, &targets, &contacts).expect("an impact")
+}
+
+/// The paper's equations are of rigid captures of one target each by a robot that holds none.
+#[test]
+fn when_the_papers_equations_apply() {
+    let (rigid, pin) = (ContactLaw::Rigid, ContactLaw::Pin);
+    for (contacts, applies) in [
+        (&[(0, 0, rigid), (1, 1, rigid)][..], true),
+        (&[(1, 0, rigid), (0, 1, rigid)], true),
+        (&[(1, 1, rigid)], true),
+        (&[(0, 0, pin)], false),
+        (&[(0, 0, PLASTIC)], false),
+        (&[(0, 0, rigid), (1, 1, pin)], false),
+        (&[(0, 0, rigid), (0, 1, rigid)], false),
+        (&[], false),
+    ] {
+        let found = impact(&[], contacts);
+        assert_eq!(found.paper.is_some(), applies, "{contacts:?}");
+    }
+    for kind in [ContactKind::Rigid, ContactKind::Pin] {
+        let held = [Attachment { target: 0, arm: 0, kind }];
+        assert!(impact(&held, &[(1, 1, rigid)]).paper.is_none(), "{kind:?}");
+    }
+}
+
+/// The jump of wrong velocities is relative to the larger sum of the bodies' momenta.
+#[test]
+fn relative_jumps_of_momentum() {
+    let model = registry::generic(&layout("dual_arm_3r"));
+    let jump = |before: f64, after: f64, turn: f64| {
+        let twist = |speed: f64| [0.0, speed, 0.0];
+        let state = RobotState { base_twist: twist(before), joint_rates: vec![0.0; 6], ..state() };
+        let targets = [Body { mass: 4.0, inertia: 0.5, pose: [0.0, 3.0, -2.0], twist: [0.0; 3] }];
+        let assembly = Assembly::new(model.clone_box(), &state, &targets, &[]).expect("an assembly");
+        let velocities = Velocities {
+            base_twist: twist(after),
+            joint_rates: vec![0.0; 6],
+            targets: vec![[turn, 0.0, 0.0]],
+            impulses: Vec::new(),
+        };
+        balance(&assembly, &state, &targets, &[], &velocities).expect("sums").relative_momentum_jump
+    };
+    assert_eq!([jump(0.0, 0.0, 0.0), jump(0.5, 0.5, 0.0)], [0.0; 2]);
+    // the angular momentum about the origin is in the same ratio
+    for (before, after, expected) in [(0.2, 0.5, 0.6), (0.5, 0.2, 0.6), (0.0, 0.5, 1.0), (0.5, -0.5, 2.0)] {
+        assert!((jump(before, after, 0.0) - expected).abs() < 1e-12, "{before} {after}");
+    }
+    assert!((jump(0.0, 0.0, 0.3) - 1.0).abs() < 1e-12);
+}

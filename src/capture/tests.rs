@@ -1,0 +1,145 @@
+//! Light targets that reach a robot at rest one after the other: times, contacts and what is not met; bodies that are
+//! held, and terminal errors in words.
+
+use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::{Silent, Study, StudyError, study};
+use crate::contact::ContactKind;
+use crate::owned::RobotState;
+use crate::registry;
+use crate::scenario::Scenario;
+use crate::simulate::system::Body;
+use planar_proof::{file, layout};
+
+const ANGLES: [f64; 6] = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047];
+const RADIUS: f64 = 0.2;
+
+fn end_effectors() -> [[f64; 3]; 2] {
+    let mut poses = [[0.0; 3]; 2];
+    registry::generic(&layout("dual_arm_3r")).end_effector_poses(&[0.0; 3], &ANGLES, &mut poses).expect("poses");
+    poses
+}
+
+/// A light disc that comes along y, `aside` of an end effector, and is there at a time.
+struct Coming {
+    arm: usize,
+    speed: f64,
+    time: f64,
+    aside: f64,
+}
+
+/// The robot at rest for 10 s, and 6 s after the first contact.
+fn meet(coming: [Coming; 2], step: f64) -> Result<Study, StudyError> {
+    let poses = end_effectors();
+    let target = |(i, Coming { arm, speed, time, aside }): (usize, &Coming)| {
+        let [_, x, y] = poses[*arm];
+        format!(
+            "[[target]]\nname = \"t{i}\"\narm = \"arm{}\"\nmass = 1e-9\ninertia = 1e-10\nradius = {RADIUS}\n\
+             position = [{}, {}]\ntwist = [0.0, 0.0, {speed}]\n",
+            arm + 1,
+            x + aside,
+            y - RADIUS - speed * time
+        )
+    };
+    let targets: String = coming.iter().enumerate().map(target).collect();
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {ANGLES:?}\n[approach]\nduration = 10.0\n\
+         step = {step}\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {ANGLES:?}\n\
+         [contact]\ndetection = \"event\"\n{targets}[post_impact]\nduration = 6.0\nstep = {step}\n"
+    );
+    let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED);
+    let model = || registry::generic(&layout("dual_arm_3r"));
+    study(&scenario.unwrap_or_else(|e| panic!("{e}")), &model, 1.0, &mut Silent)
+}
+
+/// Both targets are met: each at its time and by its arm, whatever the step, and the motion lasts as long as it should.
+#[test]
+fn two_targets_one_after_the_other() {
+    for step in [0.1, 2.0] {
+        let coming = [
+            Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 },
+            Coming { arm: 1, speed: 3.0, time: 8.75, aside: 0.0 },
+        ];
+        let study = meet(coming, step).expect("a study");
+        let case = &study.cases[0];
+        let first = case.approach.as_ref().expect("an approach").duration;
+        let capture = case.capture.as_ref().expect("a capture");
+        let touched = |impact: &crate::capture::impact::ImpactSolution| {
+            impact.contacts.iter().map(|it| (it.contact.target, it.contact.arm)).collect::<Vec<_>>()
+        };
+        assert!((first - 5.5).abs() < 1e-9, "{step}: {first}");
+        assert_eq!(touched(&capture.impact), [(0, 0)]);
+        let [later] = capture.later_impacts.as_slice() else { panic!("{:?}", capture.later_impacts) };
+        // the robot drifts with the momentum of a milligram
+        assert!((later.time - 3.25).abs() < 1e-6, "{step}: {}", later.time);
+        assert_eq!(touched(&later.impact), [(1, 1)]);
+        assert!((capture.post_impact.duration - 6.0).abs() < 1e-12 && case.closest.is_empty());
+        let end = capture.post_impact.end();
+        assert!((end.time - 6.0).abs() < 1e-12 && end.state.joint_angles.len() == 6);
+        // held: both targets are at their end effectors
+        for (target, pose) in capture.targets.last().expect("samples").iter().zip(&end.end_effector_poses) {
+            assert!((target.pose[1] - pose[1]).hypot(target.pose[2] - pose[2]) < RADIUS + 1e-9, "{target:?} {pose:?}");
+        }
+    }
+}
+
+/// A target that passes beside its end effector is the one that is not met, by its least distance and time.
+#[test]
+fn what_is_not_met() {
+    for missed in [0, 1] {
+        let coming =
+            |arm: usize, time: f64| Coming { arm, speed: 4.0, time, aside: if arm == missed { 0.75 } else { 0.0 } };
+        let study = meet([coming(0, 5.5), coming(1, 8.75)], 2.0).expect("a study");
+        let case = &study.cases[0];
+        let [closest] = case.closest.as_slice() else { panic!("{:?}", case.closest) };
+        assert_eq!((closest.target, closest.arm), (missed, missed));
+        assert!((closest.distance - (0.75 - RADIUS)).abs() < 2e-6, "{closest:?}");
+        let time = [5.5, 8.75][missed] + RADIUS / 4.0;
+        assert!((closest.time - time).abs() < 2e-3, "{closest:?}, not {time}");
+        assert!(case.capture.as_ref().is_some_and(|capture| capture.later_impacts.is_empty()));
+    }
+}
+
+/// An end effector inside its target at the start is refused, with how far.
+#[test]
+fn a_start_inside_a_target() {
+    let inside = Coming { arm: 0, speed: 1.0, time: -0.15, aside: 0.0 };
+    let error = meet([inside, Coming { arm: 1, speed: 1.0, time: 5.0, aside: 0.0 }], 0.1).expect_err("inside");
+    let StudyError::Inside { arm, target, depth, .. } = error else { panic!("{error}") };
+    assert_eq!((arm.as_str(), target.as_str()), ("arm1", "t0"));
+    assert!((depth - 0.15).abs() < 1e-12, "{depth}");
+}
+
+/// The bodies beside the robot that pins hold: not those that are free, nor those that are merged.
+#[test]
+fn bodies_that_pins_hold() {
+    let state = RobotState {
+        base_pose: [0.0; 3],
+        joint_angles: ANGLES.to_vec(),
+        base_twist: [0.0; 3],
+        joint_rates: vec![0.0; 6],
+    };
+    let body = |x: f64| Body { mass: 1.0, inertia: 1.0, pose: [0.0, x, 0.0], twist: [0.0; 3] };
+    let targets = [body(1.0), body(2.0), body(3.0)];
+    let pinned = |attachments: &[Attachment]| {
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let assembly = Assembly::new(model, &state, &targets, attachments).expect("an assembly");
+        assembly.pinned(&assembly.separate(&targets)).iter().map(|body| body.pose[1]).collect::<Vec<_>>()
+    };
+    let hold = |target: usize, arm: usize, kind: ContactKind| Attachment { target, arm, kind };
+    assert!(pinned(&[]).is_empty());
+    assert_eq!(pinned(&[hold(1, 0, ContactKind::Pin)]), [2.0]);
+    assert_eq!(pinned(&[hold(1, 0, ContactKind::Rigid), hold(2, 1, ContactKind::Pin)]), [3.0]);
+    assert!(pinned(&[hold(0, 1, ContactKind::Rigid)]).is_empty());
+}
+
+#[test]
+fn terminal_errors_in_words() {
+    let error = crate::capture::terminal_error::TerminalError {
+        parts: vec![],
+        distance: 0.001_25,
+        yaw: Some(0.5),
+        reached: false,
+    };
+    assert_eq!(error.to_string(), "1.25e-3 m, 5.00e-1 rad");
+    assert_eq!(crate::capture::terminal_error::TerminalError { yaw: None, ..error }.to_string(), "1.25e-3 m");
+}
