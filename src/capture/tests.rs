@@ -82,6 +82,14 @@ fn two_targets_one_after_the_other() {
     }
 }
 
+/// Targets that come at the same time are met in one impact.
+#[test]
+fn two_targets_at_once() {
+    let study = meet([0, 1].map(|arm| Coming { arm, speed: 4.0, time: 5.5, aside: 0.0 }), 0.1).expect("a study");
+    let capture = study.cases[0].capture.as_ref().expect("a capture");
+    assert_eq!((capture.impact.contacts.len(), capture.later_impacts.len()), (2, 0));
+}
+
 /// A target that passes beside its end effector is the one that is not met, by its least distance and time.
 #[test]
 fn what_is_not_met() {

@@ -17,12 +17,13 @@ use super::stepper::{Formulation, Integration, Integrator};
 use super::system::{Body, System};
 use super::{Phase, PhaseError, Sample, Saturation, Timing, simulate};
 use crate::contact::{ContactPartner, LoopConstraint};
-use crate::control::ZeroTorque;
+use crate::control::{ProportionalDerivative, TorqueLimiter, ZeroTorque};
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
 use crate::simulate::path::PathInterval;
 use crate::state::ActuatorWork;
+use crate::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, layout};
 
 fn robot() -> (Box<dyn CloneModel>, RobotState) {
@@ -116,6 +117,22 @@ fn reduced_coordinates_are_of_a_robot_alone() {
         let count = bodies.len() + constraints.len();
         assert_eq!(found.map(|_| ()).map_err(|e| e.source), Err(Error::UnsupportedBodies { count }));
     }
+}
+
+/// Actuators that are always at their limits are so until the event that ends the phase.
+#[test]
+fn saturation_up_to_an_event() {
+    let (model, state) = robot();
+    let law = ProportionalDerivative {
+        trajectory: ConstantSetpoint { angles: &[9.0; 2] },
+        proportional_gain: &[10.0; 2],
+        derivative_gain: &[0.0; 2],
+    };
+    let mut limited = TorqueLimiter { law, torque_limits: &[1e-3; 2], saturated: &mut [false; 2] };
+    let timing = Timing { duration: 2.0, step: 0.25, sample: 0.25, ..Timing::default() };
+    let system = System::alone(&*model);
+    let ended = simulate(&system, &mut limited, &state, &timing, &mut EndTime(0.9), &mut || ()).expect("a phase");
+    assert_close("saturated", &ended.saturation.joints, &[0.9; 2], 1e-12);
 }
 
 struct Three;

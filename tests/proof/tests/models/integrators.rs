@@ -2,7 +2,7 @@
 //! size.
 
 use planar_capture::error::Error;
-use planar_capture::integrate::{GaussLegendre, RungeKutta4, SemiImplicitEuler};
+use planar_capture::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
 use proptest::prelude::*;
 
 /// ẋ = f(t, x).
@@ -83,4 +83,26 @@ fn a_semi_implicit_step_is_its_two_parts() {
     assert_eq!(parts, [1.0, 0.75, 0.25, 0.5, 0.75]);
     SemiImplicitEuler::update_positions(0.25, &mut parts).expect("positions");
     assert_eq!((whole, whole[0]), (parts, 1.1875));
+}
+
+/// An error of the derivative ends an adaptive step, at its start or later, and is the one that is returned.
+#[test]
+fn errors_of_a_derivative_are_returned() {
+    for last in [-1.0, 0.3] {
+        let mut calls_after = 0;
+        let mut failing = |time: f64, x: &[f64], rate: &mut [f64]| {
+            rate.copy_from_slice(x);
+            if time <= last {
+                return Ok(());
+            }
+            calls_after += 1;
+            Err(Error::StateVector { found: 7 })
+        };
+        let mut solver = Adaptive::new(1e-9);
+        let mut x = [1.0];
+        let started = solver.start(0.0, 1.0, &[1.0], &mut failing);
+        let ended = started.and_then(|()| solver.advance(1.0, &mut x, &mut failing, &mut |_| Ok(false)));
+        assert_eq!(ended, Err(Error::StateVector { found: 7 }), "{last}");
+        assert_eq!(calls_after, 1, "the derivative is not asked again");
+    }
 }
