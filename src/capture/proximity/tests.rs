@@ -72,8 +72,8 @@ fn length([x, y]: [f64; 2]) -> f64 {
     x.hypot(y)
 }
 
-/// A robot with two arms, of which the second has captured the first of two targets.
-fn captured(angles: &[f64]) -> (Vec<Frame>, Assembly, Vec<Body>) {
+/// A robot with two arms, of which the second may hold the first of two targets.
+fn captured(angles: &[f64], holds: bool) -> (Vec<Frame>, Assembly, Vec<Body>) {
     let layout = layout("dual_arm_2r");
     let state = RobotState {
         base_pose: [0.3, -0.2, 0.5],
@@ -84,7 +84,8 @@ fn captured(angles: &[f64]) -> (Vec<Frame>, Assembly, Vec<Body>) {
     let body = |x: f64| Body { mass: 2.0, inertia: 0.3, pose: [0.4, x, 1.1], twist: [0.7, -0.3, 0.2] };
     let targets = vec![body(1.5), body(-2.0)];
     let held = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
-    let assembly = Assembly::new(registry::generic(&layout), &state, &targets, &held).expect("an assembly");
+    let held = if holds { &held[..] } else { &[] };
+    let assembly = Assembly::new(registry::generic(&layout), &state, &targets, held).expect("an assembly");
     (frames(&layout, ["held", "free"]), assembly, targets)
 }
 
@@ -95,10 +96,10 @@ proptest! {
     /// or accelerates more than its bounds.
     #[test]
     fn frames_move_within_their_bounds(
-        ends in uniform2(uniform2(vec(-1.5..1.5_f64, 10))), free in any::<bool>(),
+        ends in uniform2(uniform2(vec(-1.5..1.5_f64, 13))), free in any::<bool>(), holds in any::<bool>(),
         time in 0.1..0.6_f64, direction in 0.0..TAU, reach in 0.0..1.5_f64,
     ) {
-        let (frames, assembly, targets) = captured(&ends[0][0][3..7]);
+        let (frames, assembly, targets) = captured(&ends[0][0][3..7], holds);
         let motion = if free { TargetMotion::Free(&targets) } else { TargetMotion::Assembled(&assembly, &targets) };
         let kinematics = FrameKinematics { frames: &frames, targets: motion, joints: 4 };
         let motion = Motion { kinematics, span: [0.0, 0.7], ends };
@@ -115,11 +116,12 @@ proptest! {
         };
         let mut end_effectors = [[0.0; 3]; 2];
         assembly.model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut end_effectors).expect("poses");
-        let beside = Body { pose: [positions[7], positions[8], positions[9]], ..targets[1] };
+        let separate = assembly.bodies.iter().zip(positions[7..].chunks_exact(3));
+        let beside: Vec<_> = separate.map(|(body, pose)| Body { pose: [pose[0], pose[1], pose[2]], ..*body }).collect();
         let placed: Vec<_> = if free {
             targets.iter().map(|target| target.after(time)).collect()
         } else {
-            assembly.targets(&targets, &end_effectors, &[[0.0; 3]; 2], &[beside])
+            assembly.targets(&targets, &end_effectors, &[[0.0; 3]; 2], &beside)
         };
         let expected = poses(&frames, &state, &placed.iter().map(|target| target.pose).collect::<Vec<_>>());
         let (sin, cos) = direction.sin_cos();
