@@ -4,6 +4,7 @@
 use super::convex::ConvexPart;
 use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
+use super::workspace::PathWorkspace;
 use crate::capture::assembly::{Assembly, Attachment};
 use crate::capture::target_motion::TargetMotion;
 use crate::contact::ContactKind;
@@ -190,6 +191,14 @@ fn bounds_are_attained_by_a_stretched_arm() {
         span: [-short, short],
         ends: [[scaled(0.5 * short * short), scaled(-short)], [scaled(0.5 * short * short), scaled(short)]],
     };
+    // points on opposite sides of the base accelerate towards each other
+    let mut workspace = PathWorkspace::default();
+    workspace.set_bounds(kinematics, &turning.interval());
+    let [_, one] = turning.point_motion(0, [-0.4, 0.0], 0.0);
+    let [_, other] = turning.point_motion(3, [0.3, 0.0], 0.0);
+    let (relative, bound) =
+        (length([one[0] - other[0], one[1] - other[1]]), workspace.acceleration([0, 3], [0.4, 0.3]));
+    assert!((bound - relative).abs() < 1e-4, "{bound} {relative}");
     for (motion, at_constant_rates) in [(turning, true), (starting, false)] {
         for (frame, bound) in motion.bounds().iter().enumerate() {
             for reach in [0.0, 0.3, 2.0] {
