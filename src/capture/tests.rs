@@ -28,7 +28,7 @@ struct Coming {
 }
 
 /// The robot at rest for 10 s, and 6 s after the first contact.
-fn meet(coming: [Coming; 2], step: f64) -> Result<Study, StudyError> {
+fn meet(coming: &[Coming; 2], step: f64) -> Result<Study, StudyError> {
     let poses = end_effectors();
     let target = |(i, Coming { arm, speed, time, aside }): (usize, &Coming)| {
         let [_, x, y] = poses[*arm];
@@ -59,7 +59,7 @@ fn two_targets_one_after_the_other() {
             Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 },
             Coming { arm: 1, speed: 3.0, time: 8.75, aside: 0.0 },
         ];
-        let study = meet(coming, step).expect("a study");
+        let study = meet(&coming, step).expect("a study");
         let case = &study.cases[0];
         let first = case.approach.as_ref().expect("an approach").duration;
         let capture = case.capture.as_ref().expect("a capture");
@@ -85,7 +85,7 @@ fn two_targets_one_after_the_other() {
 /// Targets that come at the same time are met in one impact.
 #[test]
 fn two_targets_at_once() {
-    let study = meet([0, 1].map(|arm| Coming { arm, speed: 4.0, time: 5.5, aside: 0.0 }), 0.1).expect("a study");
+    let study = meet(&[0, 1].map(|arm| Coming { arm, speed: 4.0, time: 5.5, aside: 0.0 }), 0.1).expect("a study");
     let capture = study.cases[0].capture.as_ref().expect("a capture");
     assert_eq!((capture.impact.contacts.len(), capture.later_impacts.len()), (2, 0));
 }
@@ -96,7 +96,7 @@ fn what_is_not_met() {
     for missed in [0, 1] {
         let coming =
             |arm: usize, time: f64| Coming { arm, speed: 4.0, time, aside: if arm == missed { 0.75 } else { 0.0 } };
-        let study = meet([coming(0, 5.5), coming(1, 8.75)], 2.0).expect("a study");
+        let study = meet(&[coming(0, 5.5), coming(1, 8.75)], 2.0).expect("a study");
         let case = &study.cases[0];
         let [closest] = case.closest.as_slice() else { panic!("{:?}", case.closest) };
         assert_eq!((closest.target, closest.arm), (missed, missed));
@@ -111,7 +111,7 @@ fn what_is_not_met() {
 #[test]
 fn a_start_inside_a_target() {
     let inside = Coming { arm: 0, speed: 1.0, time: -0.15, aside: 0.0 };
-    let error = meet([inside, Coming { arm: 1, speed: 1.0, time: 5.0, aside: 0.0 }], 0.1).expect_err("inside");
+    let error = meet(&[inside, Coming { arm: 1, speed: 1.0, time: 5.0, aside: 0.0 }], 0.1).expect_err("inside");
     let StudyError::Inside { arm, target, depth, .. } = error else { panic!("{error}") };
     assert_eq!((arm.as_str(), target.as_str()), ("arm1", "t0"));
     assert!((depth - 0.15).abs() < 1e-12, "{depth}");

@@ -1,4 +1,5 @@
 //! When the paper's equations apply, and the momentum jump of velocities that do not conserve it.
+#![allow(clippy::float_cmp, reason = "exact zeros")]
 
 use super::{ImpactSolution, Velocities, balance, solve_impact};
 use crate::capture::assembly::{Assembly, Attachment};

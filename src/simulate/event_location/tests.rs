@@ -10,6 +10,9 @@ use crate::simulate::system::System;
 use planar_proof::layout;
 use std::f64::consts::FRAC_PI_4;
 
+/// A value as a function of time.
+type Value = fn(f64) -> f64;
+
 /// A value of time alone that counts how often it is evaluated.
 struct Counted<'a> {
     value: &'a dyn Fn(f64) -> f64,
@@ -55,7 +58,7 @@ fn locate(value: &dyn Fn(f64) -> f64, span: [f64; 2]) -> (Option<f64>, u32) {
 /// The root of a smooth value takes few evaluations, that of any other no more than bisection, and three.
 #[test]
 fn roots_are_found_as_fast_as_by_bisection_and_faster_where_smooth() {
-    let roots: [(fn(f64) -> f64, f64, bool); 10] = [
+    let roots: [(Value, f64, bool); 10] = [
         (|t| 0.7 - t, 0.7, true),
         (|t| (2.0 * t).cos(), FRAC_PI_4, true),
         (|t| (-5.0 * t).exp() - 0.1, 10.0_f64.ln() / 5.0, true),

@@ -1,4 +1,5 @@
 //! Control laws around other laws, and laws that have nothing to do.
+#![allow(clippy::float_cmp, reason = "numbers that are copied, and exact zeros")]
 
 use planar_capture::control::{
     BaseTorque, Control, EndEffectorWorkspace, ResolvedMotionRate, SampledControl, Stabilisation, TorqueLimiter,
@@ -53,8 +54,11 @@ impl Control<f64> for Own {
     }
 }
 
+/// Held steps, base torque, saturation, torques.
+type Answers = (Option<u32>, Option<BaseTorque<f64>>, Vec<bool>, [f64; JOINTS]);
+
 /// Three steps of a law around [`Own`]: what the law says, and the torques.
-fn three_steps(mut law: impl Control<f64>) -> Vec<(Option<u32>, Option<BaseTorque<f64>>, Vec<bool>, [f64; JOINTS])> {
+fn three_steps(mut law: impl Control<f64>) -> Vec<Answers> {
     let model = DualArm::<f64>::default();
     let steps = [1.0, 2.0, 3.0].map(|time| {
         law.begin_step(time, &model, &AT_REST).expect("a step");

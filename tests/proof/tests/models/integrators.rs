@@ -1,5 +1,6 @@
 //! A step of an integrator does not depend on the unit of time, and where it converges does not depend on the state's
 //! size.
+#![allow(clippy::float_cmp, reason = "steps by powers of two do not round")]
 
 use planar_capture::error::Error;
 use planar_capture::integrate::{Adaptive, GaussLegendre, RungeKutta4, SemiImplicitEuler};
