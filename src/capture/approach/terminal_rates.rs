@@ -21,22 +21,23 @@ pub enum TerminalRatesError {
     /// The approach could not be tracked.
     #[error("while the terminal rates were computed, {0}")]
     PhaseError(#[from] PhaseError),
-    /// The terminal rates grew until their approach could not be tracked.
+    /// The terminal rates grew until their approach could not be tracked, or ended in a singular pose.
     #[error(
         "the terminal joint rates for the wanted end effector twists grow without bound, to {largest_rate:.3e} rad/s in \
          iteration {iteration}: the final pose is close to singular (generalized Jacobian: smallest/largest singular value \
          {singularity_margin:.1e}). Choose other final_joint_angles, or final_end_effector_twists that the arms can \
-         give ({source})"
+         give{}",
+        source.as_ref().map(|source| format!(" ({source})")).unwrap_or_default()
     )]
     Diverged {
         /// The iteration that failed.
         iteration: usize,
         /// rad/s.
         largest_rate: f64,
-        /// Of the iteration before.
+        /// Of the last pose.
         singularity_margin: f64,
-        /// Why.
-        source: PhaseError,
+        /// Why; `None` where the final pose has become singular.
+        source: Option<PhaseError>,
     },
     /// The generalized Jacobian at the final pose cannot give the desired twists.
     #[error(
@@ -98,9 +99,19 @@ pub fn terminal_rates(
         tick();
         let end = approach.exact_end(model, &rates).map_err(|source| match iteration {
             1 => TerminalRatesError::PhaseError(source),
-            _ => TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source },
+            _ => {
+                let source = Some(source);
+                TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source }
+            }
         })?;
-        let (next, margin) = rates_for(model, &end, goals)?;
+        let (next, margin) = rates_for(model, &end, goals).map_err(|error| match error {
+            // the goals were in reach before
+            TerminalRatesError::Unreachable { largest, smallest, .. } if iteration > 1 => {
+                let singularity_margin = smallest / largest;
+                TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source: None }
+            }
+            error => error,
+        })?;
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
         change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));
         size = largest(&mut next.iter().copied());

@@ -1,0 +1,229 @@
+//! What one build measures: nanoseconds of processor time per evaluation.
+
+use crate::Problem;
+use crate::casadi::{self, Results};
+use crate::runge_kutta::{self, Vector, parts, torques};
+use crate::states::{State, states};
+use planar_build::prove::generic::Generic;
+use planar_capture::dynamics::{ForwardDynamics, Impact, ReducedDynamics};
+use planar_capture::error::Error;
+use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
+use planar_capture::state::{Forces, State as View};
+use planar_capture::target::Target;
+use planar_layout::layout::Layout;
+use rustix::time::{ClockId, clock_gettime};
+use serde_json::{Map, Value};
+use std::hint::black_box;
+use std::path::Path;
+use wide::{f32x8, f32x16, f64x4, f64x8};
+
+/// States that stay in the first-level cache, and that do not.
+const FEW: usize = 64;
+const MANY: usize = 16_384;
+/// Least time of a measurement, s.
+const LEAST: f64 = 0.02;
+/// Largest difference from CasADi's results, relative to 1 or the value.
+const AGREEMENT: f64 = 1e-11;
+
+/// Forward dynamics of as many states at once as there are lanes, per state.
+macro_rules! per_lane {
+    ($lanes:ty, $float:ty, $count:literal, $states:expr, $from:expr) => {{
+        let lanes: fn([$float; $count]) -> $lanes = $from;
+        let model = Model::<$lanes>::default();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "rounding to the lane")]
+        let vectors: Vec<_> = $states
+            .chunks_exact($count)
+            .map(|states| {
+                let lane = |of: &dyn Fn(&State) -> f64| -> $lanes {
+                    lanes(std::array::from_fn::<$float, $count, _>(|k| of(&states[k]) as $float))
+                };
+                (
+                    std::array::from_fn(|i| lane(&|s| s.base_pose[i])),
+                    std::array::from_fn(|i| lane(&|s| s.joint_angles[i])),
+                    std::array::from_fn(|i| lane(&|s| s.base_twist[i])),
+                    std::array::from_fn(|i| lane(&|s| s.joint_rates[i])),
+                    std::array::from_fn(|i| lane(&|s| s.torques[i])),
+                )
+            })
+            .collect();
+        each(&vectors, |(pose, angles, twist, rates, torques)| {
+            black_box(model.forward_dynamics(pose, angles, twist, rates, torques));
+        }) / f64::from($count)
+    }};
+}
+/// Compares with CasADi, measures, and prints names and times as JSON.
+pub fn print() -> Result<(), Problem> {
+    let layout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen/layouts/dual_arm_3r.toml");
+    let layout = Layout::read(&layout).map_err(|report| report.to_string())?;
+    let (generic, model) = (Generic::new(&layout), Model::<f64>::default());
+    let (few, many) = (states(FEW), states(MANY));
+    compare(&model, &few)?;
+    let mut times = Map::new();
+    let mut record = |name: &str, time: f64| drop(times.insert(name.to_owned(), Value::from(time)));
+
+    let mut results = Results::default();
+    record("C, forward dynamics", each(&few, |s| casadi::forward_dynamics(s, &mut results)));
+    record("C, reduced dynamics", each(&few, |s| casadi::reduced_dynamics(s, &mut results)));
+    record("C, reduced impact", each(&few, |s| casadi::reduced_impact(s, &mut results)));
+    record("C, full impact", each(&few, |s| casadi::full_impact(s, &mut results)));
+    record("C, forward dynamics, many states", each(&many, |s| casadi::forward_dynamics(s, &mut results)));
+    record("C, step", steps(by_casadi));
+    black_box(&results);
+
+    let forward = |s: &State| {
+        black_box(model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques));
+    };
+    record("f64, forward dynamics", each(&few, forward));
+    record("f64, forward dynamics, many states", each(&many, forward));
+    record(
+        "f64, reduced dynamics",
+        each(&few, |s| {
+            black_box(model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates));
+        }),
+    );
+    record("f64, reduced impact", each(&few, |s| consume(reduced_impact(&model, s))));
+    record("f64, full impact", each(&few, |s| consume(full_impact(&model, s))));
+    record("f64, step", steps(|x| by_model(&model, x)));
+
+    record("f32, forward dynamics", per_lane!(f32, f32, 1, few, |[value]| value));
+    record("f64x4, forward dynamics", per_lane!(f64x4, f64, 4, few, f64x4::from));
+    record("f64x8, forward dynamics", per_lane!(f64x8, f64, 8, few, f64x8::from));
+    record("f32x8, forward dynamics", per_lane!(f32x8, f32, 8, few, f32x8::from));
+    record("f32x16, forward dynamics", per_lane!(f32x16, f32, 16, few, f32x16::from));
+
+    record("generic, forward dynamics", each(&few, |s| consume(of_generic(&generic, s))));
+    record("generic, reduced dynamics", each(&few, |s| consume(reduced_of_generic(&generic, s))));
+    record("generic, full impact", each(&few, |s| consume(impact_of_generic(&generic, s))));
+    println!("{}", Value::Object(times));
+    Ok(())
+}
+
+/// Keeps the compiler from leaving out what has no use.
+fn consume<T>(result: T) {
+    let _ = black_box(result);
+}
+
+/// Nanoseconds of this thread's processor time per call, over all states again and again.
+fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
+    let mut pass = || states.iter().for_each(|state| evaluate(black_box(state)));
+    pass();
+    let mut passes = 1_u32;
+    loop {
+        let start = seconds();
+        (0..passes).for_each(|_| pass());
+        let time = seconds() - start;
+        if time >= LEAST {
+            #[allow(clippy::cast_precision_loss, reason = "thousands")]
+            return time * 1e9 / (f64::from(passes) * states.len() as f64);
+        }
+        passes *= 2;
+    }
+}
+
+/// Nanoseconds per Runge–Kutta step of a motion under control.
+fn steps(accelerations: impl Fn(&Vector) -> [f64; 9]) -> f64 {
+    let mut start = [0.0; 18];
+    start[3..9].copy_from_slice(&[0.3, -0.4, 0.5, -0.3, 0.4, -0.5]);
+    let mut x = start;
+    let mut count = 0;
+    let time = each(&[()], |()| {
+        // the robot comes to rest in 20 s
+        if count % 20_000 == 0 {
+            x = start;
+        }
+        count += 1;
+        runge_kutta::step(&accelerations, &mut x, 1e-3);
+    });
+    black_box(x);
+    time
+}
+
+#[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
+fn seconds() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+fn by_model(model: &Model<f64>, x: &Vector) -> [f64; 9] {
+    let (pose, angles, twist, rates) = parts(x);
+    let found = model.forward_dynamics(&pose, &angles, &twist, &rates, &torques(x));
+    joined(found.base_acceleration, found.joint_accelerations)
+}
+
+fn by_casadi(x: &Vector) -> [f64; 9] {
+    let (base_pose, joint_angles, base_twist, joint_rates) = parts(x);
+    let none = State { base_pose, joint_angles, base_twist, joint_rates, torques: torques(x), ..State::default() };
+    let mut results = Results::default();
+    casadi::forward_dynamics(&none, &mut results);
+    std::array::from_fn(|i| if i < 3 { results.of(0, 3)[i] } else { results.of(1, 6)[i - 3] })
+}
+
+fn joined(base: [f64; 3], joints: [f64; 6]) -> [f64; 9] {
+    std::array::from_fn(|i| if i < 3 { base[i] } else { joints[i - 3] })
+}
+
+fn reduced_impact(model: &Model<f64>, s: &State) -> ReducedImpact<f64> {
+    model.reduced_impact(&s.base_pose, &s.joint_angles, &s.joint_rates, &s.masses, &s.inertias, &s.contacts, &s.twists)
+}
+
+fn full_impact(model: &Model<f64>, s: &State) -> FullImpact<f64> {
+    let (pose, twist) = (&s.base_pose, &s.base_twist);
+    model.full_impact(pose, &s.joint_angles, twist, &s.joint_rates, &s.masses, &s.inertias, &s.contacts, &s.twists)
+}
+
+fn view(s: &State) -> View<'_, f64> {
+    View {
+        base_pose: s.base_pose,
+        joint_angles: &s.joint_angles,
+        base_twist: s.base_twist,
+        joint_rates: &s.joint_rates,
+    }
+}
+
+fn of_generic(generic: &Generic, s: &State) -> Result<[f64; 9], Error> {
+    let mut joints = [0.0; 6];
+    let base = generic.forward_dynamics(&view(s), &Forces::torques(&s.torques), &mut joints)?;
+    Ok(joined(base, joints))
+}
+
+/// Generalized inertia and Jacobian.
+fn reduced_of_generic(generic: &Generic, s: &State) -> Result<[[f64; 36]; 2], Error> {
+    let [mut inertia, mut jacobian] = [[0.0; 36]; 2];
+    generic.reduced_dynamics(&view(s), &mut inertia, &mut [0.0; 6], &mut jacobian)?;
+    Ok([inertia, jacobian])
+}
+
+fn impact_of_generic(generic: &Generic, s: &State) -> Result<[f64; 9], Error> {
+    let targets = [0, 1].map(|i| {
+        Some(Target { mass: s.masses[i], inertia: s.inertias[i], contact: s.contacts[i], twist: s.twists[i] })
+    });
+    let mut joints = [0.0; 6];
+    let base = generic.full_impact(&view(s), &targets, &mut joints)?;
+    Ok(joined(base, joints))
+}
+
+/// Whether generated code and CasADi's agree.
+fn compare(model: &Model<f64>, states: &[State]) -> Result<(), Problem> {
+    let mut results = Results::default();
+    for s in states {
+        let check = |what: &str, found: &[f64], expected: &[f64]| {
+            let size = expected.iter().fold(1.0, |size: f64, value| size.max(value.abs()));
+            let differs = |(a, b): (&f64, &f64)| ((a - b) / size).abs() > AGREEMENT;
+            let first = found.iter().zip(expected).find(|(a, b)| differs((a, b)));
+            first.map_or(Ok(()), |(a, b)| Err(Problem::from(format!("{what}: {a}, CasADi {b}"))))
+        };
+        casadi::forward_dynamics(s, &mut results);
+        let found = model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques);
+        check("base acceleration", &found.base_acceleration, results.of(0, 3))?;
+        check("joint accelerations", &found.joint_accelerations, results.of(1, 6))?;
+        casadi::reduced_dynamics(s, &mut results);
+        let found = model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates);
+        check("generalized inertia", found.generalized_inertia.as_flattened(), results.of(0, 36))?;
+        check("generalized bias", &found.generalized_bias, results.of(1, 6))?;
+        casadi::reduced_impact(s, &mut results);
+        check("joint rates after", &reduced_impact(model, s).joint_rates_after, results.of(2, 6))?;
+        casadi::full_impact(s, &mut results);
+        check("base twist after", &full_impact(model, s).base_twist_after, results.of(2, 3))?;
+    }
+    Ok(())
+}

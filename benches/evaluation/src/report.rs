@@ -1,0 +1,118 @@
+//! Medians and ratios as Markdown and JSON.
+
+use crate::Problem;
+use crate::builds::{BUILDS, Measured};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Command;
+
+const HEAD: &str = "# Performance
+
+<!-- Written by `cargo run --release --manifest-path benches/evaluation/Cargo.toml`, which also writes the numbers as JSON. -->
+
+Processor time of one evaluation for the paper's robot (two arms of three links, 9 degrees of freedom), in one run in which all
+builds take turns. CasADi's C code is that of the same formulation with the robot's numbers in it, compiled with `-O3
+-march=native`; generated code takes its numbers at run time. All results agree to 1e-11 before anything is measured. Times
+depend on the machine: compare ratios.
+
+";
+
+/// Measurements with a counterpart in C: title, names without the implementation.
+const COMPARED: [(&str, &str); 6] = [
+    ("forward dynamics", "forward dynamics"),
+    ("forward dynamics, 16,384 states", "forward dynamics, many states"),
+    ("GIM, generalized bias and GJM", "reduced dynamics"),
+    ("impact, paper's equations", "reduced impact"),
+    ("impact, exact", "full impact"),
+    ("Runge–Kutta step with PD control", "step"),
+];
+
+const LANES: [&str; 5] = ["f32", "f64x4", "f64x8", "f32x8", "f32x16"];
+
+/// Writes `docs/performance.md`, and `performance.json` beside the builds.
+pub fn write(measured: &[Measured]) -> Result<(), Problem> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let text = markdown(measured)?;
+    print!("{text}");
+    std::fs::write(folder.join("../../docs/performance.md"), text)?;
+    let all: serde_json::Map<_, _> = measured
+        .iter()
+        .map(|Measured { build, times }| {
+            let times: serde_json::Map<_, _> = times.iter().map(|(name, times)| (name.clone(), json!(times))).collect();
+            ((*build).to_owned(), times.into())
+        })
+        .collect();
+    Ok(std::fs::write(folder.join("target/performance.json"), serde_json::to_string_pretty(&all)?)?)
+}
+
+fn markdown(measured: &[Measured]) -> Result<String, Problem> {
+    let c = |name: &str| {
+        // C is compiled in the same way for every build
+        let of_builds = measured.iter().filter_map(|build| build.median(&format!("C, {name}")));
+        of_builds.min_by(f64::total_cmp).ok_or(format!("no time of C, {name}"))
+    };
+    let mut text = HEAD.to_owned();
+    writeln!(text, "{}\n", machine())?;
+    text += "## Against CasADi's C\n\nRatio to the time of C; in brackets ns. Spread is the larger quartile over the median, of all builds.\n\n| | C, ns |";
+    for (build, ..) in BUILDS {
+        write!(text, " {build} |")?;
+    }
+    text += " spread |\n|---|---|---|---|---|---|---|\n";
+    for (title, name) in COMPARED {
+        let base = c(name)?;
+        write!(text, "| {title} | {base:.0} |")?;
+        let key = format!("f64, {name}");
+        for build in measured {
+            let time = build.median(&key).ok_or(format!("no time of {key}"))?;
+            write!(text, " **{:.2}** ({time:.0}) |", time / base)?;
+        }
+        let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
+        writeln!(text, " {:.0} % |", 100.0 * spread)?;
+    }
+    text += "\n## Other scalars\n\nForward dynamics, ns per state (one per lane), and the ratio to one state of CasADi's C.\n\n| |";
+    for (build, ..) in BUILDS {
+        write!(text, " {build} |")?;
+    }
+    text += "\n|---|---|---|---|---|\n";
+    let base = c("forward dynamics")?;
+    for scalar in LANES {
+        write!(text, "| `{scalar}` |")?;
+        for build in measured {
+            let key = format!("{scalar}, forward dynamics");
+            let time = build.median(&key).ok_or(format!("no time of {key}"))?;
+            write!(text, " {time:.1} ({:.2}) |", time / base)?;
+        }
+        text += "\n";
+    }
+    text += "\n## The generic implementation\n\nDense matrices of nalgebra, what one would write by hand: ratio to generated code of the same build.\n\n| |";
+    for (build, ..) in BUILDS {
+        write!(text, " {build} |")?;
+    }
+    text += "\n|---|---|---|---|---|\n";
+    for (title, name) in [COMPARED[0], COMPARED[2], COMPARED[4]] {
+        write!(text, "| {title} |")?;
+        for build in measured {
+            let times = ["generic", "f64"].map(|of| build.median(&format!("{of}, {name}")));
+            let [Some(generic), Some(generated)] = times else {
+                return Err(format!("no time of generic, {name}").into());
+            };
+            write!(text, " {:.0} |", generic / generated)?;
+        }
+        text += "\n";
+    }
+    Ok(text)
+}
+
+/// Processor and compilers.
+fn machine() -> String {
+    let processor = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model =
+        processor.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": ").map(|(_, name)| name));
+    let version = |program: &str| {
+        let output = Command::new(program).arg("--version").output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).lines().next()?.to_owned())
+    };
+    let known = [model.map(str::to_owned), version("rustc"), version("cc")];
+    format!("Measured on: {}.", known.into_iter().flatten().collect::<Vec<_>>().join("; "))
+}
