@@ -295,8 +295,38 @@ FAULTS = [
     Fault(
         "last part of π/2 forgotten",
         "crates/planar-dynamics/src/scalar/sine.rs",
-        "const C: f64 = 2.022_266_248_795_950_6e-21;",
-        "const C: f64 = 0.0;",
+        "6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21]",
+        "6.077_100_506_303_966e-11, 0.0]",
+    ),
+    Fault(
+        "a far angle's quarter turns with the wrong sign",
+        "crates/planar-dynamics/src/scalar/far_angle.rs",
+        "(-x, quarters.wrapping_neg()) } else { (x, quarters) }\n}\n\n/// As",
+        "(-x, quarters) } else { (x, quarters) }\n}\n\n/// As",
+    ),
+    Fault(
+        "a batch with the second four angles first",
+        "crates/planar-dynamics/src/scalar/sine_batch.rs",
+        "let pairs = if from + 4 < N { eight(first, second) }",
+        "let pairs = if from + 4 < N { eight(second, first) }",
+    ),
+    Fault(
+        "a fused product without its sign",
+        "crates/planar-build/src/renderer/fused.rs",
+        "let sum = MultiplyAdd { a, b, addend, is_product_negative, is_addend_negative };",
+        "let sum = MultiplyAdd { a, b, addend, is_product_negative: false, is_addend_negative };",
+    ),
+    Fault(
+        "a regrouped difference as a sum",
+        "codegen/regrouping.py",
+        '"add" if sign == other else "sub"',
+        '"add"',
+    ),
+    Fault(
+        "the end of an approach without the robot's momentum",
+        "src/capture/approach/exact_end.rs",
+        "momentum: [momentum.angular_momentum, px, py],",
+        "momentum: [0.0 * momentum.angular_momentum, px, py],",
     ),
     Fault(
         "a minimum that drops what is not a number",
