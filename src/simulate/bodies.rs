@@ -5,17 +5,53 @@ use crate::error::Error;
 use crate::simulate::system::Body;
 use crate::state::State;
 
-/// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
+/// The bodies of a robot, and the memory for them.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyList {
+    /// Mass (kg) and inertia (kg m²) of the base and of the links, arm by arm.
+    inertias: Vec<[f64; 2]>,
+    poses: Vec<[f64; 3]>,
+    twists: Vec<[f64; 3]>,
+    bodies: Vec<Body>,
+}
+
+impl BodyList {
+    /// Of a robot, whose inertias are read once.
+    pub(crate) fn new(model: &dyn Model<f64>) -> Result<Self, Error> {
+        let count = model.joints() + 1;
+        let mut inertias = vec![[0.0; 2]; count];
+        model.body_inertias(&mut inertias)?;
+        Ok(Self { inertias, poses: vec![[0.0; 3]; count], twists: vec![[0.0; 3]; count], bodies: Vec::new() })
+    }
+
+    /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
+    pub(crate) fn at(
+        &mut self,
+        model: &dyn Model<f64>,
+        state: &State<'_, f64>,
+        beside: &[Body],
+    ) -> Result<&[Body], Error> {
+        let Self { inertias, poses, twists, bodies } = self;
+        model.body_poses(&state.base_pose, state.joint_angles, poses)?;
+        model.body_twists(state, twists)?;
+        let of_robot = inertias.iter().zip(poses).zip(twists);
+        let of_robot = of_robot.map(|(([mass, inertia], pose), twist)| Body {
+            mass: *mass,
+            inertia: *inertia,
+            pose: *pose,
+            twist: *twist,
+        });
+        bodies.clear();
+        bodies.extend(of_robot.chain(beside.iter().copied()));
+        Ok(bodies)
+    }
+}
+
+/// [`BodyList::at`], once.
 pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
-    let count = model.joints() + 1;
-    let (mut inertias, mut poses, mut twists) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
-    model.body_inertias(&mut inertias)?;
-    model.body_poses(&state.base_pose, state.joint_angles, &mut poses)?;
-    model.body_twists(state, &mut twists)?;
-    let of_robot = inertias.iter().zip(poses).zip(twists);
-    let of_robot =
-        of_robot.map(|(([mass, inertia], pose), twist)| Body { mass: *mass, inertia: *inertia, pose, twist });
-    Ok(of_robot.chain(beside.iter().copied()).collect())
+    let mut list = BodyList::new(model)?;
+    list.at(model, state, beside)?;
+    Ok(list.bodies)
 }
 
 /// Σ |I ω| + m |r × v| and Σ m |v|, the scales that changes of angular and linear momentum are compared with.

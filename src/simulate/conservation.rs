@@ -3,7 +3,7 @@
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::simulate::bodies::{bodies, center_of_mass, momentum_sizes, with_bodies};
+use crate::simulate::bodies::{BodyList, center_of_mass, momentum_sizes, with_bodies};
 use crate::simulate::system::Body;
 use crate::state::State;
 
@@ -48,6 +48,7 @@ pub struct AccumulatedInput {
 /// The conservation errors of a phase so far.
 pub struct ConservationAudit<'a> {
     model: &'a dyn Model<f64>,
+    bodies: BodyList,
     start: Momentum<f64>,
     center: [f64; 2],
     linear: Ratio,
@@ -81,9 +82,10 @@ impl<'a> ConservationAudit<'a> {
     /// Those of the model.
     pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let start = with_bodies(model.momentum(state)?, beside);
-        let (center, _) = center_of_mass(&bodies(model, state, beside)?);
+        let mut bodies = BodyList::new(model)?;
+        let (center, _) = center_of_mass(bodies.at(model, state, beside)?);
         let none = Ratio::default();
-        let mut audit = Self { model, start, center, linear: none, angular: none, energy: none, motion: none };
+        let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
         audit.record(state, beside, &AccumulatedInput::default())?;
         Ok(audit)
     }
@@ -99,15 +101,15 @@ impl<'a> ConservationAudit<'a> {
         input: &AccumulatedInput,
     ) -> Result<Momentum<f64>, Error> {
         let now = with_bodies(self.model.momentum(state)?, beside);
-        let bodies = bodies(self.model, state, beside)?;
-        let [angular, linear] = momentum_sizes(&bodies);
+        let bodies = self.bodies.at(self.model, state, beside)?;
+        let [angular, linear] = momentum_sizes(bodies);
         let [l, px, py] = input.impulse;
         let [x0, y0] = self.start.linear_momentum;
         let [x1, y1] = now.linear_momentum;
         self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
-        let ([x, y], mass) = center_of_mass(&bodies);
+        let ([x, y], mass) = center_of_mass(bodies);
         let extent = bodies.iter().fold(0.0, |most: f64, body| most.max((body.pose[1] - x).hypot(body.pose[2] - y)));
         let [from_x, from_y] = self.center;
         let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * input.time);

@@ -78,17 +78,21 @@ macro_rules! implement_dynamics {
                     finite_forces(forces)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
                     let twist = &state.base_twist;
-                    let configuration = self.forward_dynamics_configuration(&state.base_pose, angles);
+                    let pose = &state.base_pose;
                     let wrench = forces.base_wrench.unwrap_or([T::ZERO; 3]);
                     let (base, joints, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
                         let wrenches = array("end_effector_wrenches", wrenches)?;
-                        let r = configuration.forward_dynamics_with_wrenches(twist, rates, torques, &wrench, wrenches);
+                        let r = Model::forward_dynamics_with_wrenches(
+                            self, pose, angles, twist, rates, torques, &wrench, wrenches,
+                        );
                         (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
                     } else if forces.base_wrench.is_some() {
-                        let r = configuration.forward_dynamics_with_base_wrench(twist, rates, torques, &wrench);
+                        let r = Model::forward_dynamics_with_base_wrench(
+                            self, pose, angles, twist, rates, torques, &wrench,
+                        );
                         (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
                     } else {
-                        let r = configuration.forward_dynamics(twist, rates, torques);
+                        let r = Model::forward_dynamics(self, pose, angles, twist, rates, torques);
                         (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
                     };
                     pivot("the articulated mass of the base", smallest)?;

@@ -97,12 +97,12 @@ pub fn terminal_rates(
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
         tick();
-        let end = approach.exact_end(model, &rates).map_err(|source| match iteration {
-            1 => TerminalRatesError::PhaseError(source),
-            _ => {
-                let source = Some(source);
-                TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source }
+        let end = approach.exact_end(model, &rates).map_err(|source| {
+            if iteration == 1 {
+                return TerminalRatesError::PhaseError(source);
             }
+            let source = Some(source);
+            TerminalRatesError::Diverged { iteration, largest_rate: size, singularity_margin, source }
         })?;
         let (next, margin) = rates_for(model, &end, goals).map_err(|error| match error {
             // the goals were in reach before

@@ -165,3 +165,81 @@ fn sine_and_cosine_in_single_precision() {
         assert!(scalar::sin_cos_f32(odd).0.is_nan() && scalar::sin_cos_f32(odd).1.is_nan());
     }
 }
+
+/// Angles in which near ones, far ones and what is not a number follow each other.
+fn mixed_angles() -> Vec<f64> {
+    let odd = [f64::NAN, f64::INFINITY, -0.0, 1e300, -3e6, f64::NEG_INFINITY];
+    angles().step_by(97).chain(odd).chain(angles().skip(5).step_by(131)).collect()
+}
+
+/// The bits of a batch are those of its angles one by one, whatever its length is.
+#[cfg(not(feature = "fused"))]
+#[test]
+fn a_batch_of_sines_has_the_bits_of_each() {
+    fn check<const N: usize>(angles: &[f64]) {
+        for angles in angles.chunks_exact(N) {
+            let angles: [f64; N] = angles.try_into().expect("as many");
+            for ((sine, cosine), angle) in f64::sin_cos_all(angles).into_iter().zip(angles) {
+                let (right_sine, right_cosine) = scalar::sin_cos_f64(angle);
+                let bits = [sine, cosine].map(f64::to_bits);
+                let is_same = bits == [right_sine, right_cosine].map(f64::to_bits);
+                assert!(is_same || (sine.is_nan() && right_sine.is_nan()), "{N}: {angle:e} gives {sine:e}, {cosine:e}");
+            }
+        }
+    }
+    let angles = mixed_angles();
+    check::<1>(&angles);
+    check::<2>(&angles);
+    check::<3>(&angles);
+    check::<4>(&angles);
+    check::<5>(&angles);
+    check::<7>(&angles);
+    check::<8>(&angles);
+    check::<9>(&angles);
+    check::<13>(&angles);
+    check::<16>(&angles);
+}
+
+/// So are those of lanes.
+#[cfg(not(feature = "fused"))]
+#[test]
+fn lanes_have_the_sines_of_the_scalar() {
+    macro_rules! check {
+        ($lanes:ident, $float:ident, $count:literal, $sin_cos:ident) => {
+            #[allow(clippy::cast_possible_truncation, clippy::unnecessary_cast, reason = "that is the test")]
+            let angles: Vec<$float> = mixed_angles().into_iter().map(|angle| angle as $float).collect();
+            for angles in angles.chunks_exact($count) {
+                let angles: [$float; $count] = angles.try_into().expect("as many");
+                let (sine, cosine) = Scalar::sin_cos(wide::$lanes::from(angles));
+                for ((angle, sine), cosine) in angles.into_iter().zip(sine.to_array()).zip(cosine.to_array()) {
+                    let (right_sine, right_cosine) = scalar::$sin_cos(angle);
+                    let is_same =
+                        [sine, cosine].map($float::to_bits) == [right_sine, right_cosine].map($float::to_bits);
+                    assert!(is_same || (sine.is_nan() && right_sine.is_nan()), "{angle:e} gives {sine:e}, {cosine:e}");
+                }
+            }
+        };
+    }
+    check!(f64x2, f64, 2, sin_cos_f64);
+    check!(f64x4, f64, 4, sin_cos_f64);
+    check!(f64x8, f64, 8, sin_cos_f64);
+    check!(f32x4, f32, 4, sin_cos_f32);
+    check!(f32x8, f32, 8, sin_cos_f32);
+    check!(f32x16, f32, 16, sin_cos_f32);
+}
+
+/// With the feature `fused`, too, a batch has the sines of the library.
+#[cfg(feature = "fused")]
+#[test]
+fn a_fused_batch_has_the_librarys_sines() {
+    for angles in mixed_angles().chunks_exact(7) {
+        let angles: [f64; 7] = angles.try_into().expect("seven");
+        for ((sine, cosine), angle) in f64::sin_cos_all(angles).into_iter().zip(angles) {
+            assert!((sine - angle.sin()).abs() <= tolerance::SINE_FAR || angle.sin().is_nan(), "{angle:e}: {sine:e}");
+            assert!(
+                (cosine - angle.cos()).abs() <= tolerance::SINE_FAR || angle.cos().is_nan(),
+                "{angle:e}: {cosine:e}"
+            );
+        }
+    }
+}
