@@ -102,10 +102,16 @@ impl Assembly {
         Ok(Self { model, bodies, constraints, places })
     }
 
-    /// The system of a phase, without joint limits.
+    /// The system of a phase, without joint limits, of a reach of 1 m.
     #[must_use]
     pub fn system(&self) -> System<'_> {
-        System { model: &*self.model, bodies: &self.bodies, constraints: &self.constraints, joint_limits: &[] }
+        System {
+            model: &*self.model,
+            bodies: &self.bodies,
+            constraints: &self.constraints,
+            joint_limits: &[],
+            reach: 1.0,
+        }
     }
 
     /// Those of all targets that are not merged.

@@ -340,7 +340,8 @@ impl SequenceState<'_> {
         let mut detection = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
         let wheels = wheels(&sequence.scenario.layout, attachments);
         let timing = sequence.timing(after, after.duration - time);
-        let system = System { joint_limits: &sequence.scenario.joint_limits, ..assembly.system() };
+        let Scenario { joint_limits, .. } = sequence.scenario;
+        let system = System { joint_limits, reach: sequence.scenario.reach(), ..assembly.system() };
         let mut simulate = |events: &mut dyn Events| {
             let wanted = PostCaptureLaw { after, wheels: &wheels, angles: &self.angles };
             run_post_capture(&system, wanted, state, &timing, events, &mut || observer.step())

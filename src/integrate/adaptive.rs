@@ -47,12 +47,6 @@ impl Adaptive {
         Self { solver: Box::new(solver), tolerance, end: 0.0, next_step: 0.0 }
     }
 
-    /// Sets the first step, s, in place of the solver's estimate.
-    #[must_use]
-    pub fn try_first(self, step: f64) -> Self {
-        Self { next_step: step, ..self }
-    }
-
     /// Starts at `x`; f holds until `end`. Where it was started before, the last step's length is tried first.
     ///
     /// # Errors
@@ -67,33 +61,40 @@ impl Adaptive {
         problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))
     }
 
-    /// Steps until x is known at `time`, no later than the end, and writes it to `into`.
+    /// Steps until x is known at a time after `from`, for which the last step was taken: at `time`, or at the end of a
+    /// step before it. Writes x to `into` and returns its time. `time` is no later than the end.
     ///
-    /// Before every step `restore` may change the x that it starts from, and says whether it did.
+    /// Before a step `restore` may change the x that it starts from, and says whether it did.
     ///
     /// # Errors
     /// [`Error::Tolerance`] where steps become too short, and those of `derivative` and `restore`.
     pub fn advance(
         &mut self,
-        time: f64,
+        [from, time]: [f64; 2],
         into: &mut [f64],
         derivative: &mut Derivative<'_>,
         restore: &mut dyn FnMut(&mut [f64]) -> Result<bool, Error>,
-    ) -> Result<(), Error> {
+    ) -> Result<f64, Error> {
         // `end` may be a sum of steps, rounded to before the requested time
-        let time = time.min(self.end);
+        let wanted = time.min(self.end);
         let rounding = 4.0 * f64::EPSILON * self.end.abs();
-        while time > self.solver.t() + rounding {
+        if wanted > self.solver.t() + rounding && from + rounding >= self.solver.t() {
             let mut x = self.solver.y().clone();
             if restore(&mut x)? {
                 self.start(self.solver.t(), self.end, &x, derivative)?;
             }
             self.step(derivative)?;
         }
-        self.interpolate(time, into)
+        let now = self.solver.t();
+        let reached = if wanted > now + rounding { now } else { time };
+        self.interpolate(reached, into).map(|()| reached)
     }
 
-    fn interpolate(&mut self, time: f64, into: &mut [f64]) -> Result<(), Error> {
+    /// x at a time within the last step.
+    ///
+    /// # Errors
+    /// None that its steps have not had.
+    pub fn interpolate(&mut self, time: f64, into: &mut [f64]) -> Result<(), Error> {
         let (before, now) = (self.solver.t_prev(), self.solver.t());
         if time >= now || before >= now {
             into.copy_from_slice(self.solver.y());

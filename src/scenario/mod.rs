@@ -56,4 +56,11 @@ impl Scenario {
     pub fn frames(&self) -> Vec<Frame> {
         frames(&self.layout, self.targets.iter().map(|target| target.name.as_str()))
     }
+
+    /// The largest distance of a point of the robot from its base's COM, or of a target held by it, m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let of_targets = self.targets.iter().map(|target| target.outline.reach());
+        self.layout.reach() + 2.0 * of_targets.fold(0.0, f64::max)
+    }
 }

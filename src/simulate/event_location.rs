@@ -3,6 +3,8 @@
 use crate::error::Error;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::path::PathInterval;
+use crate::simulate::stepper::{StateAt, Stepper};
+use crate::simulate::subdivision::Subdivision;
 use crate::simulate::system::System;
 use crate::state::State;
 
@@ -16,15 +18,13 @@ const DIFFERENCE: f64 = 1e-3;
 /// The part of a bracket that a step of golden-section search keeps.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The integrated vector at a time within the step, into the last argument.
-pub(crate) type StateAt<'a> = dyn FnMut(f64, &mut Vec<f64>) -> Result<(), Error> + 'a;
-
 /// The values of events at the end of the last step.
 pub(crate) struct EventLocator<'a> {
     system: &'a System<'a>,
     events: &'a mut dyn Events,
     armed: Vec<bool>,
     now: EventValues,
+    is_started: bool,
 }
 
 /// Values and their rates at one instant.
@@ -37,28 +37,55 @@ impl<'a> EventLocator<'a> {
     pub(crate) fn new(system: &'a System<'a>, events: &'a mut dyn Events) -> Self {
         let count = events.count();
         let now = EventValues { values: vec![0.0; count], rates: vec![0.0; count] };
-        Self { system, events, armed: vec![false; count], now }
+        Self { system, events, armed: vec![false; count], now, is_started: false }
     }
 
-    /// Whether there are no events.
-    pub(crate) fn is_idle(&self) -> bool {
-        self.armed.is_empty()
-    }
-
-    /// Whether the events have bounds.
-    pub(crate) fn is_bounded(&self) -> bool {
-        self.events.are_bounded()
+    /// Before a part of a step, from `x`: evaluates the events at the start of a phase.
+    pub(crate) fn begin(&mut self, [start, end]: [f64; 2], x: &[f64], stepper: &mut Stepper<'_>) -> Result<(), Error> {
+        if self.is_started || self.armed.is_empty() || self.events.are_bounded() {
+            return Ok(());
+        }
+        let mut rate = vec![0.0; x.len()];
+        stepper.rate(start, x, &mut rate)?;
+        self.start(start, end - start, x, &rate)
     }
 
     /// Evaluates the events at the start of a phase, at x with the derivative `rate`.
-    pub(crate) fn start(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<(), Error> {
+    fn start(&mut self, time: f64, step: f64, x: &[f64], rate: &[f64]) -> Result<(), Error> {
+        self.is_started = true;
         self.now = self.evaluate(time, step, x, rate)?;
         self.arm();
         Ok(())
     }
 
+    /// After a part of a step, between `before` and `x`: the first event within it and its time.
+    pub(crate) fn find(
+        &mut self,
+        part @ [start, end]: [f64; 2],
+        [before, x]: [&[f64]; 2],
+        subdivision: &Subdivision,
+        stepper: &mut Stepper<'_>,
+    ) -> Result<Option<(usize, f64)>, Error> {
+        if self.armed.is_empty() {
+            return Ok(None);
+        }
+        if !self.events.are_bounded() {
+            let mut rate = vec![0.0; x.len()];
+            stepper.rate(end, x, &mut rate)?;
+            return self.end_step(part, x, &rate, &mut |t, into| stepper.within([start, t], before, into));
+        }
+        for interval in subdivision.intervals() {
+            let mut state_at = |t: f64, into: &mut Vec<f64>| stepper.within([start, t], before, into);
+            let event = self.end_bounded_step(&interval?, &mut state_at)?;
+            if event.is_some() {
+                return Ok(event);
+            }
+        }
+        Ok(None)
+    }
+
     /// Evaluates the events at the end of a step; returns the first one within the step and its time.
-    pub(crate) fn end_step(
+    fn end_step(
         &mut self,
         [start, end]: [f64; 2],
         x: &[f64],
@@ -92,7 +119,7 @@ impl<'a> EventLocator<'a> {
     }
 
     /// As [`end_step`](Self::end_step), by the bounds of the events.
-    pub(crate) fn end_bounded_step(
+    fn end_bounded_step(
         &mut self,
         step: &PathInterval<'_>,
         state_at: &mut StateAt<'_>,

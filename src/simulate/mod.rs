@@ -15,6 +15,7 @@ mod sample_file;
 pub mod sample_list;
 pub mod stepper;
 pub mod stored_samples;
+mod subdivision;
 pub mod system;
 pub(crate) mod translation;
 
@@ -27,11 +28,12 @@ use crate::simulate::conservation::ConservationErrors;
 use crate::simulate::event::Events;
 use crate::simulate::event_location::EventLocator;
 use crate::simulate::limits::LimitViolations;
-use crate::simulate::path::{Path, PathInterval};
+use crate::simulate::path::Path;
 use crate::simulate::recorder::Recorder;
 use crate::simulate::stepper::Integration;
 use crate::simulate::stepper::Stepper;
 use crate::simulate::stored_samples::StoredSamples;
+use crate::simulate::subdivision::Subdivision;
 use crate::simulate::system::{Body, System};
 use crate::state::ActuatorWork;
 
@@ -226,36 +228,34 @@ pub fn simulate(
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
-    let (mut before, mut rate) = (x.clone(), x.clone());
+    let divisions = timing.integration.integrator.properties().path_divisions;
+    let mut subdivision = Subdivision::new(system, divisions);
+    let mut before = x.clone();
+    recorder.record_path(0.0, &x);
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
         stepper.begin_step(time, &x).map_err(at(time))?;
         recorder.record(stepper.control(), time, &x, i % stride == 0).map_err(at(time))?;
-        if locator.is_idle() {
-            stepper.advance(span, &mut x).map_err(at(time))?;
-        } else {
-            if i == 0 && !locator.is_bounded() {
-                stepper.rate(time, &x, &mut rate).map_err(at(time))?;
-                locator.start(time, end - time, &x, &rate).map_err(at(time))?;
-            }
+        let mut from = time;
+        while from < end {
+            locator.begin([from, end], &x, &mut stepper).map_err(at(from))?;
             before.copy_from_slice(&x);
-            stepper.advance(span, &mut x).map_err(at(time))?;
-            if !locator.is_bounded() {
-                stepper.rate(end, &x, &mut rate).map_err(at(end))?;
+            let part @ [_, to] = [from, stepper.advance(span, from, &mut x).map_err(at(from))?];
+            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([from, t], &before, into);
+            subdivision.divide(part, &before, &x, &mut within).map_err(at(from))?;
+            let event = locator.find(part, [&before, &x], &subdivision, &mut stepper).map_err(at(from))?;
+            let until = event.map_or(to, |(_, when)| when);
+            subdivision.ends().filter(|(knot, _)| *knot < until).for_each(|(knot, x)| recorder.record_path(knot, x));
+            if let Some((_, when)) = event {
+                stepper.within([from, when], &before, &mut x).map_err(at(when))?;
             }
-            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([time, t], &before, into);
-            let event = if locator.is_bounded() {
-                let step = PathInterval::between(span, &before, &x).map_err(at(time))?;
-                locator.end_bounded_step(&step, &mut within)
-            } else {
-                locator.end_step(span, &x, &rate, &mut within)
-            };
-            if let Some((event, when)) = event.map_err(at(time))? {
-                within(when, &mut x).map_err(at(when))?;
+            recorder.record_path(until, &x);
+            if let Some((_, when)) = event {
                 recorder.add_saturation(when - time);
                 recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;
-                return Ok(recorder.end(when, Some((event, when)), stepper.path_error()));
+                return Ok(recorder.end(when, event, stepper.path_error()));
             }
+            from = to;
         }
         recorder.add_saturation(end - time);
         tick();

@@ -60,8 +60,6 @@ impl<'a> Recorder<'a> {
         let errors = self.system.constraint_errors(x)?;
         self.constraint_errors = std::array::from_fn(|i| Real::maximum(errors[i], self.constraint_errors[i]));
         self.limit_violations.record(self.system.joint_limits, time, &state);
-        let (halves, _) = x.split_at(x.len() - 3);
-        self.path.record(time, halves);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &input)?;
         // the law determines saturation together with its torques
@@ -89,6 +87,12 @@ impl<'a> Recorder<'a> {
         model.end_effector_twists(&state, &mut sample.end_effector_twists)?;
         self.samples.push(sample);
         Ok(())
+    }
+
+    /// Adds a state to the path.
+    pub(crate) fn record_path(&mut self, time: f64, x: &[f64]) {
+        let (halves, _) = x.split_at(x.len() - 3);
+        self.path.record(time, halves);
     }
 
     /// Adds the length of a step, s, to the saturation of the actuators that were saturated at its start.

@@ -22,13 +22,16 @@ pub struct System<'a> {
     pub constraints: &'a [LoopConstraint<f64>],
     /// Ranges of the joints, one per joint, which are checked and not enforced; empty where there are none.
     pub joint_limits: &'a [JointLimits],
+    /// The largest distance of a point of a body from a joint that moves it or from its own COM, m: how exact angles on
+    /// the path have to be.
+    pub reach: f64,
 }
 
 impl<'a> System<'a> {
-    /// A robot alone.
+    /// A robot alone, of a reach of 1 m.
     #[must_use]
     pub fn alone(model: &'a dyn Model<f64>) -> Self {
-        Self { model, bodies: &[], constraints: &[], joint_limits: &[] }
+        Self { model, bodies: &[], constraints: &[], joint_limits: &[], reach: 1.0 }
     }
 
     /// The integrated vector at the start, from the robot's state.

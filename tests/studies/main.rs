@@ -12,6 +12,7 @@ mod far_origin;
 mod figures;
 mod inverse_kinematics;
 mod long_phases;
+mod long_steps;
 mod maximal_coordinates;
 mod outputs;
 mod path_error;

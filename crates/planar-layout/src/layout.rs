@@ -137,6 +137,16 @@ impl Layout {
         [0, 1].map(|i| 2.0 * self.arms.iter().map(|arm| arm.mount[i].abs()).fold(half, f64::max))
     }
 
+    /// Upper bound of the distance of a point of its outlines from the base's COM, in m.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let [x, y] = self.default_base_size();
+        let base = self.base.outline.as_ref().map_or(0.5 * x.hypot(y), Outline::reach);
+        let outline = |link: &Link| link.outline.as_ref().map_or(link.length, Outline::reach);
+        let arm = |arm: &Arm| arm.reach_from_base() + arm.links.iter().map(outline).fold(0.0, f64::max);
+        self.arms.iter().map(arm).fold(base, f64::max)
+    }
+
     /// The mass of all bodies, in kg.
     #[must_use]
     pub fn mass(&self) -> f64 {

@@ -123,7 +123,7 @@ impl<'a> ApproachTracking<'a> {
     }
 
     fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {
-        System { joint_limits: &self.scenario.joint_limits, ..System::alone(model) }
+        System { joint_limits: &self.scenario.joint_limits, reach: self.scenario.reach(), ..System::alone(model) }
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {

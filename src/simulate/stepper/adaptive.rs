@@ -1,4 +1,4 @@
-//! Adaptive steps, with dense output where a step of the phase ends.
+//! Adaptive steps, with dense output within each and where a step of the phase ends.
 
 use super::{Properties, Steps};
 use crate::error::Error;
@@ -6,10 +6,9 @@ use crate::integrate::Adaptive;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
-    Properties { name: "adaptive", is_adaptive: true, is_canonical: false, order: None };
+    Properties { name: "adaptive", is_adaptive: true, is_canonical: false, order: None, path_divisions: 10 };
 
 pub(super) struct AdaptiveSteps {
-    tolerance: f64,
     solver: Adaptive,
     /// When the phase ends, s.
     duration: f64,
@@ -19,16 +18,17 @@ pub(super) struct AdaptiveSteps {
 
 impl AdaptiveSteps {
     pub(super) fn new(tolerance: f64, duration: f64) -> Self {
-        Self { tolerance, solver: Adaptive::new(tolerance), duration, until: None }
+        Self { solver: Adaptive::new(tolerance), duration, until: None }
     }
 }
 
 impl Steps for AdaptiveSteps {
-    fn advance(&mut self, equation: &mut Equation<'_>, [time, end]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        let Self { solver, duration, until, .. } = self;
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
+        let Self { solver, duration, until } = self;
+        let [time, end] = span;
         // times are multiples of the step, rounded: half a step tells them apart
         let half = 0.5 * (end - time);
-        if until.is_none_or(|until| until < time + half) {
+        if from <= time && until.is_none_or(|until| until < time + half) {
             let held = equation.control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
             let next = if held > *duration - half { *duration } else { held.max(end) };
             *until = Some(next);
@@ -39,15 +39,13 @@ impl Steps for AdaptiveSteps {
             let before = x.to_vec();
             system.restore(x).map(|()| before != x)
         };
-        solver.advance(end, x, &mut |t, x, rate| equation.derivative(t, x, rate), &mut restore)?;
-        equation.restore(x)
+        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(t, x, rate);
+        let reached = solver.advance([from, end], x, &mut derivative, &mut restore)?;
+        equation.restore(x).map(|()| reached)
     }
 
-    fn within(&mut self, equation: &mut Equation<'_>, [start, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        let mut solver = Adaptive::new(self.tolerance).try_first(time - start);
-        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(t, x, rate);
-        solver.start(start, time, x, &mut derivative)?;
-        solver.advance(time, x, &mut derivative, &mut |_| Ok(false))?;
+    fn within(&mut self, equation: &mut Equation<'_>, [_, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
+        self.solver.interpolate(time, x)?;
         equation.restore(x)
     }
 }

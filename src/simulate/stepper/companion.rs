@@ -68,13 +68,13 @@ impl Companion {
     /// Advances it; returns the share of the difference that is the error, `None` where it is still behind.
     fn advance(&mut self, equation: &mut Equation<'_>, span @ [start, end]: [f64; 2]) -> Result<Option<f64>, Error> {
         let Some(order) = self.order else {
-            return self.steps.advance(equation, span, &mut self.x).map(|()| Some(ADAPTIVE_SHARE));
+            return self.steps.advance_to_end(equation, span, &mut self.x).map(|()| Some(ADAPTIVE_SHARE));
         };
         let growth = 2.0_f64.powi(order);
         if equation.control.held_steps().is_some() {
             let middle = f64::midpoint(start, end);
-            self.steps.advance(equation, [start, middle], &mut self.x)?;
-            self.steps.advance(equation, [middle, end], &mut self.x)?;
+            self.steps.advance_to_end(equation, [start, middle], &mut self.x)?;
+            self.steps.advance_to_end(equation, [middle, end], &mut self.x)?;
             return Ok(Some(growth / (growth - 1.0)));
         }
         match self.pending.take() {
@@ -82,7 +82,9 @@ impl Companion {
                 self.pending = Some(start);
                 Ok(None)
             }
-            Some(start) => self.steps.advance(equation, [start, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0))),
+            Some(start) => {
+                self.steps.advance_to_end(equation, [start, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0)))
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use crate::integrate::GaussLegendre;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
-    Properties { name: "gauss_legendre", is_adaptive: false, is_canonical: true, order: Some(6) };
+    Properties { name: "gauss_legendre", is_adaptive: false, is_canonical: true, order: Some(6), path_divisions: 7 };
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; GaussLegendre::<f64>::WORKSPACE * length];

@@ -43,6 +43,8 @@ pub struct Properties {
     pub is_canonical: bool,
     /// The order of its steps; `None` where they follow from a tolerance.
     pub order: Option<i32>,
+    /// Most bisections of a step until cubics are the path within it; 0 where they are as exact as its steps.
+    pub path_divisions: u32,
 }
 
 /// An integrator. Each has a file of its own with its properties and steps; this file lists them.
@@ -96,20 +98,40 @@ impl Integrator {
     }
 }
 
+/// The integrated vector at a time within a part of a step, into the last argument.
+pub(crate) type StateAt<'a> = dyn FnMut(f64, &mut Vec<f64>) -> Result<(), Error> + 'a;
+
 /// The steps of one integrator, with its data between them.
 trait Steps {
-    /// Advances `x` over the next step, `span` (from, to; s).
-    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error>;
+    /// Advances `x` over a part of the next step, `span` (from, to; s), of which it has come to `from`; returns where
+    /// the part ends.
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error>;
 
-    /// Advances `x` over a part of a step, without changing the data for the next one.
-    fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        self.advance(equation, span, x)
+    /// Advances `x` from the start of the last part to a time within it, without changing the data for the next one.
+    fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error>;
+
+    /// Advances `x` over the whole step.
+    fn advance_to_end(
+        &mut self,
+        equation: &mut Equation<'_>,
+        span @ [start, end]: [f64; 2],
+        x: &mut [f64],
+    ) -> Result<(), Error> {
+        let mut time = start;
+        while time < end {
+            time = self.advance(equation, span, time, x)?;
+        }
+        Ok(())
     }
 }
 
 /// An integrator whose steps are independent is the function that advances `x`.
 impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Steps for F {
-    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], _: f64, x: &mut [f64]) -> Result<f64, Error> {
+        self(equation, span, x).map(|()| span[1])
+    }
+
+    fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         self(equation, span, x)
     }
 }
@@ -120,6 +142,8 @@ pub(crate) struct Stepper<'a> {
     steps: Box<dyn Steps>,
     /// `None` where the error of the path is not estimated.
     companion: Option<Companion>,
+    /// At the end of a part of a step, with rates and with momenta.
+    last_part: [Vec<f64>; 2],
 }
 
 impl<'a> Stepper<'a> {
@@ -138,7 +162,7 @@ impl<'a> Stepper<'a> {
         };
         let equation = Equation::new(system, control, form);
         let steps = integration.integrator.steps(duration, x.len());
-        Ok(Self { equation, steps, companion: None })
+        Ok(Self { equation, steps, companion: None, last_part: [Vec::new(), Vec::new()] })
     }
 
     /// Estimates the error of the path, for the same arguments as [`new`](Self::new).
@@ -157,13 +181,14 @@ impl<'a> Stepper<'a> {
         self.equation.control
     }
 
-    /// Advances `x` over the next step.
-    pub(crate) fn advance(&mut self, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        self.steps.advance(&mut self.equation, span, x)?;
-        if let Some(companion) = &mut self.companion {
+    /// Advances `x` over a part of the next step, of which it has come to `from`; returns where the part ends: within it
+    /// [`within`](Self::within) has the motion.
+    pub(crate) fn advance(&mut self, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
+        let reached = self.steps.advance(&mut self.equation, span, from, x)?;
+        if let Some(companion) = self.companion.as_mut().filter(|_| reached >= span[1]) {
             companion.follow(&mut self.equation, span, x);
         }
-        Ok(())
+        Ok(reached)
     }
 
     /// The estimated largest error of a position so far, rad or m; 0 where it is not estimated.
@@ -171,14 +196,17 @@ impl<'a> Stepper<'a> {
         self.companion.as_ref().map_or(0.0, Companion::error)
     }
 
-    /// The vector at `time` within a step that starts at `start` with `x`, into `into`.
+    /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.
     pub(crate) fn within(&mut self, [start, time]: [f64; 2], x: &[f64], into: &mut Vec<f64>) -> Result<(), Error> {
         into.clear();
         into.extend_from_slice(x);
         if time <= start {
             return Ok(());
         }
-        self.steps.within(&mut self.equation, [start, time], into)
+        self.equation.exchange_last_step(&mut self.last_part);
+        let found = self.steps.within(&mut self.equation, [start, time], into);
+        self.equation.exchange_last_step(&mut self.last_part);
+        found
     }
 
     /// d/dt of `x`.

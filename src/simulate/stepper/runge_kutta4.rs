@@ -5,7 +5,7 @@ use crate::integrate::RungeKutta4;
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
-    Properties { name: "rk4", is_adaptive: false, is_canonical: false, order: Some(4) };
+    Properties { name: "rk4", is_adaptive: false, is_canonical: false, order: Some(4), path_divisions: 4 };
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; RungeKutta4::<f64>::WORKSPACE * length];

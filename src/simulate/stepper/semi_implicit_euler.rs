@@ -4,8 +4,13 @@ use super::{Properties, Steps};
 use crate::integrate::SemiImplicitEuler;
 use crate::simulate::equation::Equation;
 
-pub(super) const PROPERTIES: Properties =
-    Properties { name: "semi_implicit_euler", is_adaptive: false, is_canonical: false, order: Some(1) };
+pub(super) const PROPERTIES: Properties = Properties {
+    name: "semi_implicit_euler",
+    is_adaptive: false,
+    is_canonical: false,
+    order: Some(1),
+    path_divisions: 0,
+};
 
 pub(super) fn steps(length: usize) -> impl Steps {
     let mut workspace = vec![0.0; length];

@@ -79,6 +79,9 @@ pub const INTEGRATED: f64 = 1e-8;
 pub const ENERGY_GRADIENT: f64 = 1e-8;
 /// Times of events, s, and event functions there: events are located to 1e-13.
 pub const EVENT_TIME: f64 = 1e-12;
+/// Times, s, and relative impulses of contacts found in long steps, against RK4 at 1 ms: the errors of both
+/// integrators, of which Gauss–Legendre has ten steps in a turn.
+pub const LONG_STEPS: f64 = 1e-6;
 /// Least distances and depths, m: the resolution of the search.
 pub const CLEARANCE: f64 = 1e-6;
 /// Time of an event that passes zero by a nanometre, s: the value decreases by 2e-5 m/s there, and rounding over 600

@@ -1,0 +1,120 @@
+//! Subdivides a step until the cubic interpolant of its states is the motion between them.
+//!
+//! An accurate step may be long: those of an adaptive integrator and of Gauss–Legendre follow motions that turn far
+//! within one, which the cubic through its ends does not show. Interpolant and integrator are compared in the middle of
+//! an interval, where the error of the interpolant is largest: in positions, and in rates, as an error that is odd about
+//! the middle has a slope there.
+
+use crate::error::Error;
+use crate::simulate::path::PathInterval;
+use crate::simulate::stepper::StateAt;
+use crate::simulate::system::System;
+use crate::state::split;
+
+/// Largest deviation of a point of the bodies from its motion, m: a hundredth of the resolution of distances.
+const TOLERANCE: f64 = 1e-8;
+/// The same relative to a position, for rounding.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The states within the last part of a step, and what is needed to divide the next one.
+pub(crate) struct Subdivision {
+    /// Times and states at the ends of its intervals, the first one at the start of the part.
+    knots: Vec<(f64, Vec<f64>)>,
+    /// Metres per unit of each position.
+    weights: Vec<f64>,
+    /// Most bisections of an interval; 0 where the interpolant is not compared.
+    divisions: u32,
+    middle: Vec<f64>,
+    found: [Vec<f64>; 2],
+}
+
+impl Subdivision {
+    pub(crate) fn new(system: &System<'_>, divisions: u32) -> Self {
+        let joints = system.model.joints();
+        let mut weights = vec![system.reach; 3 + joints + 3 * system.bodies.len()];
+        for (i, weight) in weights.iter_mut().enumerate() {
+            let of_body = if i < 3 { i } else { i.saturating_sub(3 + joints) % 3 };
+            if of_body > 0 {
+                *weight = 1.0;
+            }
+        }
+        let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
+        Self { knots: Vec::new(), weights, divisions, middle: Vec::new(), found }
+    }
+
+    /// Divides the part of a step from `start` to `end`, integrated vectors at the times of `span`.
+    pub(crate) fn divide(
+        &mut self,
+        span: [f64; 2],
+        start: &[f64],
+        end: &[f64],
+        state_at: &mut StateAt<'_>,
+    ) -> Result<(), Error> {
+        let before = self.knots.len().checked_sub(2).map(|i| self.knots.swap_remove(i));
+        self.knots.clear();
+        self.knots.push((span[0], start.to_vec()));
+        let is_reproduced = match &before {
+            // where the interpolant over this part and one before it is the motion, that over this part alone is
+            Some((time, state)) if span[0] - time >= 0.5 * (span[1] - span[0]) => {
+                self.is_reproduced([*time, span[1]], [state, end], (span[0], start))?
+            }
+            _ => false,
+        };
+        if self.divisions == 0 || is_reproduced {
+            self.knots.push((span[1], end.to_vec()));
+            return Ok(());
+        }
+        self.bisect(span, end, state_at)
+    }
+
+    /// The intervals of the part, in order.
+    pub(crate) fn intervals(&self) -> impl Iterator<Item = Result<PathInterval<'_>, Error>> {
+        let pairs = self.knots.iter().zip(self.knots.iter().skip(1));
+        pairs.map(|((from, start), (to, end))| PathInterval::between([*from, *to], start, end))
+    }
+
+    /// The states at the ends of the intervals, in order.
+    pub(crate) fn ends(&self) -> impl Iterator<Item = (f64, &[f64])> {
+        self.knots.iter().skip(1).map(|(time, state)| (*time, &state[..]))
+    }
+
+    fn bisect(&mut self, [from, to]: [f64; 2], end: &[f64], state_at: &mut StateAt<'_>) -> Result<(), Error> {
+        let shortest = (to - from) * 0.5_f64.powi(self.divisions.cast_signed());
+        // the states to the right, the nearest last
+        let mut rights = vec![(to, end.to_vec())];
+        while let Some(right) = rights.pop() {
+            let (time, state) = self.knots.last().expect("the start");
+            let middle = f64::midpoint(*time, right.0);
+            if right.0 - time > 1.5 * shortest && middle > *time && middle < right.0 {
+                let mut between = std::mem::take(&mut self.middle);
+                state_at(middle, &mut between)?;
+                let (time, state) = (*time, state.clone());
+                if !self.is_reproduced([time, right.0], [&state, &right.1], (middle, &between))? {
+                    rights.extend([right, (middle, between)]);
+                    continue;
+                }
+                self.middle = between;
+            }
+            self.knots.push(right);
+        }
+        Ok(())
+    }
+
+    /// Whether the interpolant between two states passes through one between them.
+    fn is_reproduced(
+        &mut self,
+        span: [f64; 2],
+        [start, end]: [&[f64]; 2],
+        (time, between): (f64, &[f64]),
+    ) -> Result<bool, Error> {
+        let (interval, between) = (PathInterval::between(span, start, end)?, split(between)?);
+        let [positions, rates] = &mut self.found;
+        interval.at(time, positions, rates);
+        // the largest position error of a rate error: a quarter of the interval at most
+        let lever = 0.125 * (span[1] - span[0]);
+        Ok(self.weights.iter().enumerate().all(|(i, weight)| {
+            let error = (positions[i] - between.positions[i]).abs().max(lever * (rates[i] - between.rates[i]).abs());
+            weight * error <= TOLERANCE.max(weight * ROUNDING * between.positions[i].abs())
+        }))
+    }
+}
