@@ -30,6 +30,7 @@ use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
 use crate::owned::CloneModel;
+use crate::scalar::Real;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
 use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
@@ -340,17 +341,20 @@ impl Study {
                 found.extend(phase_failures(&format!("{}, approach", case.name), own));
             }
             found.extend(case.clearance.failures().map(|overlap| format!("{}: {}", case.name, overlap.sentence())));
+            let depths = case.closest.iter().map(|pair| -pair.distance);
+            let depths = depths.chain(case.capture.iter().map(|captured| captured.penetration));
+            let depth = depths.fold(0.0, Real::maximum);
+            if exceeds(depth, PENETRATION_BOUND) {
+                found.push(format!(
+                    "{}: an end effector is {depth:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
+                    case.name
+                ));
+            }
             let Some(captured) = &case.capture else { continue };
             let impacts =
                 std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));
             found.extend(impacts.flat_map(|impact| impact_failures(&case.name, &impact.exact)));
             found.extend(phase_failures(&format!("{}, post-impact", case.name), &captured.post_impact));
-            if exceeds(captured.penetration, PENETRATION_BOUND) {
-                found.push(format!(
-                    "{}: an end effector is {:.2e} m inside a target that it does not hold: contacts at rest are not modelled",
-                    case.name, captured.penetration
-                ));
-            }
         }
         found
     }

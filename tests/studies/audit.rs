@@ -2,6 +2,7 @@
 
 use crate::command;
 use crate::{run, scenario, summary};
+use planar_capture::capture::clearance::ClosestApproach;
 use planar_capture::capture::impact::ImpactResult;
 use planar_capture::capture::{CaptureResult, LaterImpact, Study};
 use planar_capture::layout::Layout;
@@ -114,7 +115,7 @@ fn every_audited_number_has_its_bound() {
     let first = capture(&mut study).impact.clone();
     capture(&mut study).later_impacts = vec![LaterImpact { time: 1.0, impact: first }];
     assert_eq!(study.audit_failures(), Vec::<String>::new());
-    let numbers: [(&str, f64, Change); 15] = [
+    let numbers: [(&str, f64, Change); 16] = [
         ("approach: momentum drift", 1e-9, |s, x| s.approach.drift.momentum_drift = x),
         ("approach: energy error", 1e-6, |s, x| s.approach.drift.energy_error = x),
         ("post-impact: momentum drift", 1e-9, |s, x| capture(s).post_impact.drift.momentum_drift = x),
@@ -134,6 +135,11 @@ fn every_audited_number_has_its_bound() {
             raise_energy(&mut capture(s).later_impacts[0].impact.exact, x);
         }),
         ("inside a target", 1e-6, |s, x| capture(s).penetration = x),
+        ("inside a target", 1e-6, |s, x| {
+            // no impact either: the pair never meets
+            s.cases[0].capture = None;
+            s.cases[0].closest = vec![ClosestApproach { target: 0, arm: 0, distance: -x, time: 1.0 }];
+        }),
     ];
     for (what, bound, change) in numbers {
         let failures = |value: f64| {
