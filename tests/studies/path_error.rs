@@ -97,3 +97,26 @@ fn sampled_torques_have_an_estimate() {
         assert!(error > least && error < most, "{error:e} at {step} s");
     }
 }
+
+/// The last step of an odd number of steps has its share, and so has a phase of one step.
+#[test]
+fn the_last_of_an_odd_number_of_steps_is_estimated() {
+    let mut seen = 0;
+    for (integrator, step) in [
+        (Integrator::GaussLegendre, 0.3),
+        (Integrator::GaussLegendre, 0.15),
+        (Integrator::RungeKutta4, 0.15),
+        (Integrator::SemiImplicitEuler, 0.05),
+    ] {
+        for steps in [1.0, 2.0, 3.0, 5.0] {
+            let rates = [0.6, -0.8, 2.0];
+            let exact = run(&free(rates, steps * step, 0.01, Integrator::Adaptive { tolerance: 1e-13 }));
+            let study = run(&free(rates, steps * step, step, integrator));
+            let (error, estimate) = (true_error(&study, &exact), study.approach.path_error);
+            let name = format!("{steps} of {step} s, {integrator:?}: error {error:e}, estimate {estimate:e}");
+            assert!(error > 1e-13 && estimate >= 0.3 * error && estimate <= 100.0 * error, "{name}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 16);
+}

@@ -3,7 +3,8 @@
 //!
 //! Steps of twice the length give a solution whose error is 2ᵖ times as large, p being the order: the error is the
 //! difference of the two over 2ᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
-//! leaves of it. A law whose torques are held decides at the first solution alone; the second then takes steps of half
+//! leaves of it. To what it has after an even number of steps, a last step without a pair adds the difference of itself
+//! and two of half its length. A law whose torques are held decides at the first solution alone; the second then takes steps of half
 //! the length. Adaptive steps are followed with a larger tolerance.
 
 use super::{Integrator, Steps};
@@ -25,8 +26,8 @@ pub(super) struct Companion {
     x: Vec<f64>,
     /// At the end of its last step, with rates and with momenta.
     last_step: [Vec<f64>; 2],
-    /// The start of a step that the next one is to double, s.
-    pending: Option<f64>,
+    /// A step that the next one is to double, s.
+    pending: Option<[f64; 2]>,
     /// The order of the steps; `None` where they follow from a tolerance.
     order: Option<i32>,
     error: f64,
@@ -50,46 +51,83 @@ impl Companion {
         if self.is_lost {
             return;
         }
-        equation.exchange_last_step(&mut self.last_step);
-        let advanced = self.advance(equation, span);
-        equation.exchange_last_step(&mut self.last_step);
-        match advanced {
+        match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
             Ok(None) => {}
-            Ok(Some(share)) => {
-                let positions = split(x).map_or(0, |parts| parts.positions.len());
-                let differences = x.iter().zip(&self.x).take(positions).map(|(x, y)| (x - y).abs());
-                let largest = differences.fold(0.0, |most: f64, difference| Real::maximum(most, difference));
-                self.error = Real::maximum(self.error, share * largest);
-            }
-            Err(_) => (self.is_lost, self.error) = (true, Real::maximum(self.error, UNKNOWN)),
+            Ok(Some(share)) => self.error = Real::maximum(self.error, share * largest_difference(x, &self.x)),
+            Err(_) => self.lose(),
         }
     }
 
+    /// Adds the error of a last step without a pair.
+    pub(super) fn end(&mut self, equation: &mut Equation<'_>) {
+        let Some(span) = self.pending.take().filter(|_| !self.is_lost) else { return };
+        match self.exchanged(equation, |own, equation| own.error_of_step(equation, span)) {
+            Ok(error) => self.error += error,
+            Err(_) => self.lose(),
+        }
+    }
+
+    /// Runs with the vectors at the end of this solution's last step.
+    fn exchanged<R>(
+        &mut self,
+        equation: &mut Equation<'_>,
+        run: impl FnOnce(&mut Self, &mut Equation<'_>) -> Result<R, Error>,
+    ) -> Result<R, Error> {
+        equation.exchange_last_step(&mut self.last_step);
+        let result = run(self, equation);
+        equation.exchange_last_step(&mut self.last_step);
+        result
+    }
+
+    fn lose(&mut self) {
+        (self.is_lost, self.error) = (true, Real::maximum(self.error, UNKNOWN));
+    }
+
     /// Advances it; returns the share of the difference that is the error, `None` where it is still behind.
-    fn advance(&mut self, equation: &mut Equation<'_>, span @ [start, end]: [f64; 2]) -> Result<Option<f64>, Error> {
+    fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<Option<f64>, Error> {
         let Some(order) = self.order else {
             return self.steps.advance_to_end(equation, span, &mut self.x).map(|()| Some(ADAPTIVE_SHARE));
         };
         let growth = 2.0_f64.powi(order);
         if equation.control.held_steps().is_some() {
-            let middle = f64::midpoint(start, end);
-            self.steps.advance_to_end(equation, [start, middle], &mut self.x)?;
-            self.steps.advance_to_end(equation, [middle, end], &mut self.x)?;
-            return Ok(Some(growth / (growth - 1.0)));
+            return self.halves(equation, span).map(|()| Some(growth / (growth - 1.0)));
         }
         match self.pending.take() {
             None => {
-                self.pending = Some(start);
+                self.pending = Some(span);
                 Ok(None)
             }
-            Some(start) => {
-                self.steps.advance_to_end(equation, [start, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0)))
+            Some([from, _]) => {
+                self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0)))
             }
         }
+    }
+
+    /// Two steps of half the length.
+    fn halves(&mut self, equation: &mut Equation<'_>, [start, end]: [f64; 2]) -> Result<(), Error> {
+        let middle = f64::midpoint(start, end);
+        self.steps.advance_to_end(equation, [start, middle], &mut self.x)?;
+        self.steps.advance_to_end(equation, [middle, end], &mut self.x)
+    }
+
+    /// The error of one step from here.
+    fn error_of_step(&mut self, equation: &mut Equation<'_>, span: [f64; 2]) -> Result<f64, Error> {
+        let growth = 2.0_f64.powi(self.order.unwrap_or_default());
+        let mut whole = self.x.clone();
+        self.steps.advance_to_end(equation, span, &mut whole)?;
+        self.halves(equation, span)?;
+        Ok(growth / (growth - 1.0) * largest_difference(&whole, &self.x))
     }
 
     /// The largest error of a position so far, rad or m.
     pub(super) fn error(&self) -> f64 {
         self.error
     }
+}
+
+/// Of the positions of two integrated vectors.
+fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
+    let positions = split(x).map_or(0, |parts| parts.positions.len());
+    let differences = x.iter().zip(y).take(positions).map(|(x, y)| (x - y).abs());
+    differences.fold(0.0, |most: f64, difference| Real::maximum(most, difference))
 }

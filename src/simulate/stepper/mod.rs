@@ -191,9 +191,12 @@ impl<'a> Stepper<'a> {
         Ok(reached)
     }
 
-    /// The estimated largest error of a position so far, rad or m; 0 where it is not estimated.
-    pub(crate) fn path_error(&self) -> f64 {
-        self.companion.as_ref().map_or(0.0, Companion::error)
+    /// The estimated largest error of a position at the end of a phase, rad or m; 0 where it is not estimated.
+    pub(crate) fn path_error(&mut self) -> f64 {
+        self.companion.as_mut().map_or(0.0, |companion| {
+            companion.end(&mut self.equation);
+            companion.error()
+        })
     }
 
     /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.
