@@ -23,7 +23,7 @@ pub mod terminal_error;
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
-use crate::capture::clearance::{Clearance, ClosestApproach};
+use crate::capture::clearance::{Clearance, ClosestApproach, Exhausted};
 use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
@@ -145,16 +145,16 @@ pub enum StudyError {
         /// m.
         depth: f64,
     },
-    /// Bodies move too fast for bounds of their distances.
+    /// There are too many distances to compute.
     #[error(
-        "case `{case}`: the bodies move too fast for their clearance to be computed: too many distances by {time} s; \
-         expected slower twists and joint rates"
+        "case `{case}`: the clearance was not computed to the end: {what}; expected outlines of fewer corners, slower \
+         twists, or the pair in `clearance.ignore`"
     )]
-    TooFast {
+    ClearanceExhausted {
         /// The case's name.
         case: String,
-        /// Since the start of the approach, s.
-        time: f64,
+        /// What was computed.
+        what: Box<Exhausted>,
     },
     /// The path of a long phase is not in its temporary file.
     #[error("case `{case}`: the path of a long phase could not be kept in a temporary file: {reason}")]

@@ -3,10 +3,14 @@
 use crate::capture::StudyError;
 use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
 use crate::capture::approach::terminal_rates::TerminalRatesError;
+use crate::capture::clearance::Exhausted;
 use crate::error::Error;
 use crate::scenario::{Approach, Case, PostImpact, Scenario, contact_name};
 use crate::simulate::PhaseError;
 use crate::simulate::stepper::{Integration, Integrator};
+
+/// Convex parts of an outline that are more than its motion needs.
+const MANY_PARTS: usize = 20;
 
 /// A key and what the scenario has for it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,7 +42,7 @@ impl StudyError {
             }
             Self::Approach(stopped) => of_approach(scenario, stopped),
             Self::Inside { target, .. } => key(format!("target[{}].position", index(scenario, target)), "none"),
-            Self::TooFast { case, .. } => fastest(scenario, case),
+            Self::ClearanceExhausted { case, what } => most_distances(scenario, case, what),
             Self::PathFile { .. } => key("approach.duration", format!("{:?}", scenario.approach.duration)),
             Self::Chatter { case, target, .. } => restitution(scenario, case, target),
             Self::Impact { case, .. } => contact_kind(scenario, case),
@@ -52,13 +56,19 @@ impl StudyError {
     }
 }
 
-/// The twist of the target with the largest spin; without targets the approach.
-fn fastest(scenario: &Scenario, case: &str) -> ScenarioKey {
-    let twists = scenario.cases.iter().filter(|other| other.name == case).flat_map(|case| &case.target_twists);
-    match twists.enumerate().max_by(|(_, a), (_, b)| a[0].abs().total_cmp(&b[0].abs())) {
-        Some((target, twist)) => key(format!("target[{target}].twist"), format!("{twist:?}")),
-        None => key("approach", ""),
+/// Of the pair with the most distances the outline of many parts; else the twist of a target that turns.
+fn most_distances(scenario: &Scenario, case: &str, what: &Exhausted) -> ScenarioKey {
+    let target = |body: &String| body.strip_prefix("targets/").map(|name| index(scenario, name));
+    let targets: Vec<_> = what.bodies.iter().map(target).zip(what.parts).collect();
+    if let Some((Some(i), _)) = targets.iter().find(|(target, parts)| target.is_some() && *parts >= MANY_PARTS) {
+        return key(format!("target[{i}].polygon"), "none");
     }
+    let twist = |i: usize| case_of(scenario, case).map_or([0.0; 3], |(_, case)| case.target_twists[i]);
+    let turning = targets.iter().filter_map(|(target, _)| *target).max_by(|a, b| {
+        let [a, b] = [*a, *b].map(|i| twist(i)[0].abs());
+        a.total_cmp(&b)
+    });
+    turning.map_or_else(|| key("approach", ""), |i| key(format!("target[{i}].twist"), format!("{:?}", twist(i))))
 }
 
 fn key(path: impl Into<String>, value: impl Into<String>) -> ScenarioKey {

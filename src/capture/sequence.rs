@@ -197,7 +197,7 @@ impl<'a> CaptureSequence<'a> {
     fn clearance_error(self, error: ClearanceError) -> StudyError {
         let case = self.case.name.clone();
         match error {
-            ClearanceError::TooFast { time } => StudyError::TooFast { case, time },
+            ClearanceError::Exhausted(what) => StudyError::ClearanceExhausted { case, what },
             ClearanceError::Path(error) => StudyError::PathFile { case, reason: error.to_string() },
         }
     }

@@ -7,8 +7,8 @@ pub struct ClearanceRules {
     pub on_overlap: OnOverlap,
     /// Pairs of bodies by the names of their frames, which may overlap.
     pub ignore: Vec<[String; 2]>,
-    /// Most distances of one case. The default takes about ten seconds; a spin of more than some thousand turns per
-    /// second needs more.
+    /// Most distances of a case of up to 100 s, more in proportion for a longer one. The default takes about ten seconds;
+    /// a spin of more than some thousand turns per second needs more.
     pub max_distances: u64,
 }
 

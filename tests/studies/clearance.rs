@@ -7,6 +7,7 @@ use planar_capture::registry;
 use planar_capture::scenario::Scenario;
 use planar_capture::simulate::system::Body;
 use planar_proof::{file, tolerance};
+use std::f64::consts::TAU;
 
 const ONE_ARM: &str = "[0.4, -0.9, 0.5]";
 const TWO_ARMS: &str = "[0.698, -1.571, 1.047, 2.444, 1.571, -1.047]";
@@ -148,4 +149,54 @@ fn rules_of_overlaps() {
         overlaps.iter().any(|overlap| overlap.bodies.iter().all(|body| body.starts_with("targets/")))
     };
     assert!(is_of_targets(&failing) && !is_of_targets(&ignored));
+}
+
+/// A wheel of a hundred teeth that turns beside a robot with one like it: their circles show that they are apart.
+#[test]
+fn turning_wheels_apart_cost_little() {
+    let wheel: Vec<[f64; 2]> = (0..200)
+        .map(|k| {
+            let (sin, cos) = (TAU * f64::from(k) / 200.0).sin_cos();
+            let radius = if k % 2 == 0 { 0.8 } else { 1.0 };
+            [radius * cos, radius * sin]
+        })
+        .collect();
+    let target = format!(
+        "[[target]]\nname = \"wheel\"\narm = \"arm1\"\nkind = \"none\"\nmass = 10.0\ninertia = 1.0\npolygon = {wheel:?}\n\
+         position = [-3.0, -3.0]\ntwist = [1.0, 0.0, 0.0]\n"
+    );
+    let mut scenario = at_rest("single_arm_3r", ONE_ARM, 0.01, &target);
+    scenario.layout.base.outline = Some(Outline::polygon(wheel).expect("a wheel"));
+    scenario.approach.duration = 200.0;
+    scenario.cases[0].kinds[0][0] = None;
+    let result = run_sampled(&scenario, 5.0);
+    let clearance = &result.cases[0].clearance;
+    let least = clearance.least.as_ref().expect("a pair");
+    assert!(least.distance > 0.0 && clearance.evaluations < 100_000, "{least:?}, {}", clearance.evaluations);
+}
+
+/// Distances are bounded in proportion to the time; where they are used up, the error says by which bodies.
+#[test]
+fn the_most_distances_are_for_a_time() {
+    let rod = |x: f64| {
+        format!(
+            "[[target]]\nname = \"rod\"\narm = \"arm1\"\nkind = \"none\"\nmass = 5.0\ninertia = 1.1\n\
+             polygon = [[-1.5, -0.005], [1.5, -0.005], [1.5, 0.005], [-1.5, 0.005]]\nposition = [{x}, 0.0]\n\
+             twist = [3.0, 0.0, 0.0]\n"
+        )
+    };
+    let of = |duration: f64, max_distances: u64| {
+        let mut scenario = at_rest("single_arm_3r", ONE_ARM, 0.01, &rod(3.5));
+        (scenario.approach.duration, scenario.clearance.max_distances) = (duration, max_distances);
+        scenario
+    };
+    let model = registry::generated(&of(1.0, 1).layout).expect("generated code");
+    let run = |scenario: &Scenario| study(scenario, &|| model.clone_box(), 5.0, &mut Silent);
+    let short = run(&of(100.0, u64::MAX)).expect("a study").cases[0].clearance.evaluations;
+    let (fits, too_few) = (of(400.0, short + short / 4), of(400.0, short / 2));
+    assert!(run(&fits).expect("as many in proportion").cases[0].clearance.evaluations > 2 * short);
+    let error = run(&too_few).expect_err("half as many");
+    let message = error.to_string();
+    assert!(message.contains("`targets/rod`") && message.contains("was not computed to the end"), "{message}");
+    assert_eq!(error.key(&too_few).path, "target[0].twist");
 }

@@ -20,6 +20,13 @@ pub(super) struct ClearanceBody {
     pub(super) is_default: bool,
 }
 
+impl ClearanceBody {
+    /// The largest distance of its points from the origin of its frame, m.
+    pub(super) fn reach(&self) -> f64 {
+        self.parts.iter().map(|part| part.reach + part.radius).fold(0.0, f64::max)
+    }
+}
+
 /// Two bodies that are not joined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct BodyPair {

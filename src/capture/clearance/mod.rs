@@ -15,6 +15,7 @@ use crate::scenario::{OnOverlap, Scenario};
 use crate::simulate::path::Path;
 use bodies::{bodies, end_effector_pairs, pairs};
 use search::PairOverlap;
+use std::fmt::{self, Display, Formatter};
 use std::io;
 use tracker::DistanceTracker;
 
@@ -96,13 +97,36 @@ pub struct ClosestApproach {
 /// Why the clearance of a phase is not known.
 #[derive(Debug)]
 pub(crate) enum ClearanceError {
-    /// Bodies move too fast for bounds of their distances.
-    TooFast {
-        /// At which the distances are used up, since the start of the approach, s.
-        time: f64,
-    },
+    /// There are too many distances to compute.
+    Exhausted(Box<Exhausted>),
     /// The path is not in its file.
     Path(io::Error),
+}
+
+/// Distances that are used up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exhausted {
+    /// When, since the start of the approach, s.
+    pub time: f64,
+    /// How many were computed.
+    pub evaluations: u64,
+    /// The pair with the most of them, as in [`LeastDistance`].
+    pub bodies: [String; 2],
+    /// How many of these.
+    pub of_pair: u64,
+    /// The convex parts of the two.
+    pub parts: [usize; 2],
+}
+
+impl Display for Exhausted {
+    fn fmt(&self, to: &mut Formatter<'_>) -> fmt::Result {
+        let Self { time, evaluations, bodies: [first, second], of_pair, parts: [of_first, of_second] } = self;
+        write!(
+            to,
+            "{evaluations} distances were computed by {time} s, {of_pair} of them of `{first}` and `{second}`, whose \
+             outlines have {of_first} and {of_second} convex parts"
+        )
+    }
 }
 
 impl From<io::Error> for ClearanceError {

@@ -1,7 +1,6 @@
 //! The search for the least distance and the overlaps of two convex parts over an interval of a path, by branch and
 //! bound.
 
-use super::ClearanceError;
 use super::bodies::BodyPair;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
@@ -10,6 +9,9 @@ use crate::simulate::path::PathInterval;
 
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
+
+/// Time for which the most distances are meant, s; longer cases may have more in proportion.
+const BUDGETED: f64 = 100.0;
 
 /// Two convex parts, and what is known of them.
 #[derive(Clone)]
@@ -29,9 +31,11 @@ pub(super) struct Findings {
     /// Distance (m), time (s) and pair of each group.
     pub(super) least: Vec<Option<(f64, f64, usize)>>,
     pub(super) overlaps: Vec<PairOverlap>,
+    /// How many distances were computed, and of each pair.
     pub(super) evaluations: u64,
-    /// Most of them.
-    pub(super) max_evaluations: u64,
+    pub(super) of_pairs: Vec<u64>,
+    /// Most of them in [`BUDGETED`].
+    max_evaluations: u64,
 }
 
 /// An overlap of two parts of a pair.
@@ -43,21 +47,31 @@ pub(super) struct PairOverlap {
 }
 
 impl Findings {
-    /// For this many groups of pairs.
-    pub(super) fn new(groups: usize, max_evaluations: u64) -> Self {
-        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0, max_evaluations }
+    /// For pairs, before their first phase.
+    pub(super) fn new(pairs: &[BodyPair], max_evaluations: u64) -> Self {
+        let groups = pairs.iter().map(|pair| pair.group + 1).max().unwrap_or(0);
+        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0, of_pairs: vec![0; pairs.len()], max_evaluations }
     }
 
-    /// The distance above which nothing about the pair is of interest.
-    pub(super) fn goal(&self, part: &PartDistance, pair: &BodyPair) -> f64 {
-        if let Some(open) = part.open {
-            return -self.overlaps[open].depth - RESOLUTION;
-        }
+    /// The distance above which nothing about a pair is of interest, of whose parts no overlap is open.
+    pub(super) fn goal(&self, pair: &BodyPair) -> f64 {
         self.least[pair.group].map_or(f64::INFINITY, |(distance, ..)| distance - RESOLUTION).max(-RESOLUTION)
+    }
+
+    /// The same of a part.
+    fn goal_of_part(&self, part: &PartDistance, pair: &BodyPair) -> f64 {
+        part.open.map_or_else(|| self.goal(pair), |open| -self.overlaps[open].depth - RESOLUTION)
+    }
+
+    /// Whether more distances were computed by a time, s, than are allowed until then.
+    #[allow(clippy::cast_precision_loss, reason = "a limit")]
+    fn are_used_up(&self, time: f64) -> bool {
+        self.evaluations as f64 > self.max_evaluations as f64 * (time / BUDGETED).max(1.0)
     }
 
     fn record(&mut self, part: &PartDistance, body_pair: &BodyPair, instant: &Instant, start: f64) {
         self.evaluations += 1;
+        self.of_pairs[part.pair] += 1;
         let (pair, distance, time) = (part.pair, instant.distance, start + instant.time);
         if let Some(open) = part.open {
             self.overlaps[open].depth = self.overlaps[open].depth.max(-distance);
@@ -85,13 +99,13 @@ impl IntervalSearch<'_> {
     /// Computes the distance at both ends, and between them wherever it may be below the goal.
     ///
     /// # Errors
-    /// [`ClearanceError::TooFast`].
+    /// The time at which the distances are used up, since the start of the approach, s.
     pub(super) fn run(
         &mut self,
         part: &mut PartDistance,
         pair: &BodyPair,
         found: &mut Findings,
-    ) -> Result<(), ClearanceError> {
+    ) -> Result<(), f64> {
         let ends = self.interval.span.map(|time| self.at(time));
         for end in &ends {
             found.record(part, pair, end, self.start);
@@ -103,7 +117,7 @@ impl IntervalSearch<'_> {
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
             let lowest = self.shapes.bound(&left, half).min(self.shapes.bound(right, -half));
-            if lowest >= found.goal(part, pair) || 2.0 * half <= SHORTEST {
+            if lowest >= found.goal_of_part(part, pair) || 2.0 * half <= SHORTEST {
                 let now = *right;
                 self.pass(part, found, [left, now], &rights);
                 left = now;
@@ -112,8 +126,8 @@ impl IntervalSearch<'_> {
                 let middle = self.at(left.time + half);
                 found.record(part, pair, &middle, self.start);
                 rights.push(middle);
-                if found.evaluations > found.max_evaluations {
-                    return Err(ClearanceError::TooFast { time: self.start + left.time });
+                if found.are_used_up(self.start + left.time) {
+                    return Err(self.start + left.time);
                 }
             }
         }

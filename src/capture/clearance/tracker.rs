@@ -1,6 +1,6 @@
 //! Least distances and overlaps of pairs of bodies over the phases of a case.
 
-use super::ClearanceError;
+use super::{ClearanceError, Exhausted};
 use super::bodies::{BodyPair, ClearanceBody};
 use super::search::{Findings, IntervalSearch, PartDistance};
 use crate::capture::assembly::Attachment;
@@ -17,10 +17,21 @@ pub(super) struct DistanceTracker {
     frames: Vec<Frame>,
     pub(super) bodies: Vec<ClearanceBody>,
     pub(super) pairs: Vec<BodyPair>,
-    parts: Vec<PartDistance>,
+    /// One for each pair.
+    distances: Vec<PairDistance>,
     pub(super) found: Findings,
     /// Number of joints.
     joints: usize,
+}
+
+/// What is known of the distance of a pair.
+#[derive(Clone)]
+struct PairDistance {
+    /// Lower bound at the end of the last interval by circles about the frames, m.
+    circles: f64,
+    /// Whether this is all that is known: the parts were not looked at.
+    is_far: bool,
+    parts: Vec<PartDistance>,
 }
 
 impl DistanceTracker {
@@ -31,16 +42,16 @@ impl DistanceTracker {
         pairs: Vec<BodyPair>,
         max_distances: u64,
     ) -> Self {
-        let mut parts = Vec::new();
-        for (pair, BodyPair { bodies: [a, b], .. }) in pairs.iter().enumerate() {
-            for i in 0..bodies[*a].parts.len() {
-                let of_pair = |j| PartDistance { pair, parts: [i, j], lower: f64::NEG_INFINITY, open: None };
-                parts.extend((0..bodies[*b].parts.len()).map(of_pair));
-            }
-        }
-        let groups = pairs.iter().map(|pair| pair.group + 1).max().unwrap_or(0);
+        let of_pair = |(pair, BodyPair { bodies: [a, b], .. }): (usize, &BodyPair)| {
+            let second = bodies[*b].parts.len();
+            let indices = (0..bodies[*a].parts.len()).flat_map(|i| (0..second).map(move |j| [i, j]));
+            let part = |parts| PartDistance { pair, parts, lower: f64::NEG_INFINITY, open: None };
+            PairDistance { circles: f64::NEG_INFINITY, is_far: false, parts: indices.map(part).collect() }
+        };
+        let distances = pairs.iter().enumerate().map(of_pair).collect();
+        let found = Findings::new(&pairs, max_distances);
         let joints = frames.iter().filter(|frame| matches!(frame.motion, FrameMotion::Joint(_))).count();
-        Self { frames, bodies, pairs, parts, found: Findings::new(groups, max_distances), joints }
+        Self { frames, bodies, pairs, distances, found, joints }
     }
 
     /// Whether the layout leaves the outline of a body of a pair at its default.
@@ -59,7 +70,7 @@ impl DistanceTracker {
         targets: TargetMotion<'_>,
         attachments: &[Attachment],
     ) -> Result<(), ClearanceError> {
-        let Self { frames, bodies, pairs, parts, found, joints, .. } = self;
+        let Self { frames, bodies, pairs, distances, found, joints, .. } = self;
         let motions = FrameKinematics { frames, targets, joints: *joints };
         let mut workspace = PathWorkspace::default();
         let holds = |pair: &BodyPair| {
@@ -70,36 +81,67 @@ impl DistanceTracker {
             let length = interval.span[1] - interval.span[0];
             end = start + interval.span[1];
             workspace.set_bounds(motions, &interval);
-            for part in parts.iter_mut() {
-                let pair = &pairs[part.pair];
+            for (pair, known) in pairs.iter().zip(distances.iter_mut()) {
                 if holds(pair) {
-                    part.open = None;
+                    known.parts.iter_mut().for_each(|part| part.open = None);
                     continue;
                 }
-                let frames = pair.bodies.map(|body| bodies[body].frame);
-                let shapes = [0, 1].map(|i| &bodies[pair.bodies[i]].parts[part.parts[i]]);
-                let reaches = shapes.map(|part| part.reach);
-                let speed = workspace.speed(frames, reaches);
-                if part.open.is_none() && part.lower - speed * length >= found.goal(part, pair) {
-                    part.lower -= speed * length;
-                    continue;
+                let [a, b] = pair.bodies.map(|body| &bodies[body]);
+                let frames = [a.frame, b.frame];
+                if known.parts.iter().all(|part| part.open.is_none()) {
+                    let (goal, away) = (found.goal(pair), workspace.speed(frames, [0.0; 2]) * length);
+                    if known.circles - away < goal {
+                        let between = workspace.origin_distance(motions, &interval, frames, interval.span[0]);
+                        known.circles = between - a.reach() - b.reach();
+                    }
+                    known.circles -= away;
+                    known.is_far |= known.circles >= goal;
+                    if known.circles >= goal {
+                        continue;
+                    }
                 }
-                let acceleration = workspace.acceleration(frames, reaches);
-                let mut search = IntervalSearch {
-                    shapes: PartPair { parts: shapes, acceleration },
-                    frames,
-                    motions,
-                    interval,
-                    start,
-                    workspace: &mut workspace,
-                };
-                search.run(part, pair, found)?;
+                if std::mem::take(&mut known.is_far) {
+                    known.parts.iter_mut().for_each(|part| part.lower = f64::NEG_INFINITY);
+                }
+                for part in &mut known.parts {
+                    let shapes = [&a.parts[part.parts[0]], &b.parts[part.parts[1]]];
+                    let reaches = shapes.map(|part| part.reach);
+                    let speed = workspace.speed(frames, reaches);
+                    if part.open.is_none() && part.lower - speed * length >= found.goal(pair) {
+                        part.lower -= speed * length;
+                        continue;
+                    }
+                    let acceleration = workspace.acceleration(frames, reaches);
+                    let mut search = IntervalSearch {
+                        shapes: PartPair { parts: shapes, acceleration },
+                        frames,
+                        motions,
+                        interval,
+                        start,
+                        workspace: &mut workspace,
+                    };
+                    search.run(part, pair, found).map_err(|time| exhausted(found, pairs, bodies, time))?;
+                }
             }
             Ok::<(), ClearanceError>(())
         })?;
-        for overlap in parts.iter().filter_map(|part| part.open) {
+        for overlap in distances.iter().flat_map(|known| &known.parts).filter_map(|part| part.open) {
             found.overlaps[overlap].span[1] = end;
         }
         Ok(())
     }
+}
+
+/// What has used up the distances by a time, s.
+fn exhausted(found: &Findings, pairs: &[BodyPair], bodies: &[ClearanceBody], time: f64) -> ClearanceError {
+    let most = found.of_pairs.iter().copied().zip(pairs).max_by_key(|(count, _)| *count);
+    let (of_pair, pair) = most.expect("distances are of a pair");
+    let of_pair = Exhausted {
+        time,
+        evaluations: found.evaluations,
+        bodies: pair.bodies.map(|body| bodies[body].name.clone()),
+        of_pair,
+        parts: pair.bodies.map(|body| bodies[body].parts.len()),
+    };
+    ClearanceError::Exhausted(Box::new(of_pair))
 }

@@ -31,6 +31,19 @@ impl PathWorkspace {
         self.bounds[frames[0]].acceleration_within(a) + self.bounds[frames[1]].acceleration_within(b)
     }
 
+    /// Distance of the origins of two frames at a time within the interval, m.
+    pub(in crate::capture) fn origin_distance(
+        &mut self,
+        motions: FrameKinematics<'_>,
+        interval: &PathInterval<'_>,
+        frames: [usize; 2],
+        time: f64,
+    ) -> f64 {
+        motions.at(interval, time, &mut self.coordinates, &mut self.states);
+        let [[_, ax, ay], [_, bx, by]] = frames.map(|frame| self.states[frame].pose);
+        (ax - bx).hypot(ay - by)
+    }
+
     /// Two parts of bodies with these frames at a time within the interval.
     pub(in crate::capture) fn instant(
         &mut self,

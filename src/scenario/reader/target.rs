@@ -1,6 +1,6 @@
 //! `[[target]]`: the bodies that arms touch.
 
-use super::distance::check_distance;
+use super::distance::{check_distance, check_size};
 use super::joints::check_length;
 use super::{LARGEST_ANGLE, POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
@@ -51,7 +51,7 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
     };
     let mass = table.number("mass", &MASS);
     let inertia = table.number("inertia", &INERTIA);
-    let outline = outline(table);
+    let outline = outline(table).filter(|outline| check_size(table, outline, layout));
     let restitution = read_or(table, "restitution", 0.0, restitution);
     let twist = table.vector_or("twist", &TWIST, [0.0; 3]);
     let yaw = table.number_or("yaw", &YAW, 0.0);
