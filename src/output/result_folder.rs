@@ -66,11 +66,8 @@ impl ResultFolder {
                 None => {}
             }
         }
-        // the folders above it too, where a run was killed that was to make this one
-        let folders = existing.ancestors().take(3);
-        folders
-            .map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
-            .for_each(temporary::sweep);
+        // the folder that results are staged in: this one, or one above it until it is made
+        temporary::sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
         // a file without a name: nothing is left even if the process is killed
         tempfile::tempfile_in(existing).map_err(|source| OutputError { path: path.to_owned(), source })?;
         Ok(Self { path: path.to_owned() })

@@ -8,8 +8,10 @@ use std::io;
 use std::path::Path;
 use tempfile::{NamedTempFile, TempDir};
 
-/// Of the names of all temporary files.
-pub(super) const PREFIX: &str = ".planar-capture-";
+/// The names of all temporary files: this, then letters and digits.
+const PREFIX: &str = ".planar-capture-";
+/// Number of these random letters and digits: no name that people choose.
+const RANDOM: usize = 24;
 
 /// A temporary folder, removed with its content when it is dropped.
 #[derive(Debug)]
@@ -21,7 +23,7 @@ pub(super) struct TemporaryFolder {
 /// A temporary file in a folder, with the permissions of an ordinary one.
 pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
+    builder.prefix(PREFIX).rand_bytes(RANDOM);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
     let file = builder.tempfile_in(folder)?;
@@ -33,7 +35,7 @@ pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
 /// A temporary folder in a folder, with the permissions of an ordinary one (less the process's mask).
 pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX);
+    builder.prefix(PREFIX).rand_bytes(RANDOM);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
     let folder = builder.tempdir_in(folder)?;
@@ -43,7 +45,8 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
 
 /// Whether a file of this name is one of them.
 pub(super) fn is_temporary(name: &str) -> bool {
-    name.starts_with(PREFIX)
+    let random = name.strip_prefix(PREFIX);
+    random.is_some_and(|random| random.len() == RANDOM && random.chars().all(|c| c.is_ascii_alphanumeric()))
 }
 
 /// Removes the temporary files and folders in a folder that no living process holds.

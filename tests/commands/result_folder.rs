@@ -1,7 +1,12 @@
 //! Folders of results: one run each, refused or replaced whole; what killed runs leave behind; the run's manifest.
 
 use crate::{command, said};
+use planar_capture::capture::{Silent, study};
 use planar_capture::layout::sha256;
+use planar_capture::output::run_manifest::RunManifest;
+use planar_capture::output::summary::summary;
+use planar_capture::registry;
+use planar_capture::scenario::Scenario;
 use planar_proof::file;
 use serde_json::Value;
 use std::fs::{self, File};
@@ -116,36 +121,62 @@ fn what_is_no_folder_is_refused_before_anything_is_computed() {
     assert_eq!(fs::read_to_string(occupied).expect("a file"), "a file");
 }
 
+/// A name that temporary files have.
+fn temporary(letter: char) -> String {
+    format!(".planar-capture-{}", letter.to_string().repeat(24))
+}
+
+/// Names that begin in the same way are the user's, in the folder and above it.
+#[test]
+fn files_of_the_user_are_not_swept() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let names = ["backup", "backup-2026", "2026-11-22-12-00-00-0000", "aaaaaaaaaaaaaaaaaaaaaaaaa"];
+    let kept: Vec<_> = names.iter().map(|name| folder.path().join(format!(".planar-capture-{name}"))).collect();
+    for path in &kept {
+        fs::create_dir(path).expect("a folder");
+        fs::write(path.join("mine"), "mine").expect("written");
+    }
+    let above = folder.path().join(temporary('a'));
+    fs::create_dir(&above).expect("a folder");
+    let results = folder.path().join("results");
+    fs::create_dir(&results).expect("a folder");
+    assert_eq!(run(&one, &results, &[]).0, 0);
+    assert!(above.exists(), "a run works in its own folder");
+    assert_eq!(run(&one, &folder.path().join("other"), &[]).0, 0);
+    assert!(!above.exists(), "the second one made its folder here");
+    for path in kept {
+        assert_eq!(fs::read_to_string(path.join("mine")).expect("kept"), "mine");
+    }
+}
+
 #[test]
 fn temporary_files_of_killed_runs_are_swept() {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results");
     let one = scenario("one", &["a"], folder.path());
     assert_eq!(run(&one, &results, &[]).0, 0);
-    // in the folder, and beside it, from before it was made
-    for folder in [results.as_path(), folder.path()] {
-        fs::write(folder.join(".planar-capture-abc"), "half").expect("written");
-        fs::create_dir(folder.join(".planar-capture-def")).expect("a folder");
-        fs::write(folder.join(".planar-capture-def/a.csv"), "half").expect("written");
-    }
-    let alive = results.join(".planar-capture-alive");
+    fs::write(results.join(temporary('a')), "half").expect("written");
+    fs::create_dir(results.join(temporary('b'))).expect("a folder");
+    fs::write(results.join(temporary('b')).join("a.csv"), "half").expect("written");
+    let alive = results.join(temporary('c'));
     let lock = File::create(&alive).expect("a file");
     lock.lock().expect("a lock");
     assert_eq!(run(&one, &results, &[]), (0, String::new()));
-    assert_eq!(names(&results), [".planar-capture-alive", "a.csv", "summary.json"], "that of a living process stays");
+    assert_eq!(names(&results), [&temporary('c'), "a.csv", "summary.json"], "that of a living process stays");
     assert_eq!(names(folder.path()), ["one.toml", "results"]);
     drop(lock);
     assert_eq!(run(&one, &results, &[]), (0, String::new()));
     assert_eq!(names(&results), ["a.csv", "summary.json"]);
     // killed while it put its results in their place: the old ones are away, not all of the new ones there
-    let away = results.join(".planar-capture-old");
+    let away = results.join(temporary('d'));
     fs::create_dir(&away).expect("a folder");
     fs::rename(results.join("summary.json"), away.join("summary.json")).expect("moved");
     assert_eq!(run(&one, &results, &[]), (0, String::new()));
     assert_eq!(names(&results), ["a.csv", "summary.json"]);
     // so are those of files
     let module = folder.path().join("robot.urdf");
-    fs::write(folder.path().join(".planar-capture-ghi"), "half").expect("written");
+    fs::write(folder.path().join(temporary('e')), "half").expect("written");
     assert_eq!(said(&["export", "dual_arm_3r", "--out", &module.display().to_string()]).0, 0);
     assert_eq!(names(folder.path()), ["one.toml", "results", "robot.urdf"]);
 }
@@ -231,12 +262,13 @@ fn the_summary_says_what_the_run_was_made_of() {
 #[test]
 fn a_result_that_is_no_number_is_an_error() {
     let folder = TempDir::new().expect("a folder");
-    let one = scenario("one", &["a"], folder.path());
-    let text = fs::read_to_string(&one).expect("the scenario");
-    fs::write(&one, format!("{text}[contact]\nduration = 1e-320\n")).expect("written");
-    let results = folder.path().join("results");
-    let (code, err) = run(&one, &results, &[]);
-    assert_eq!(code, 1, "{err}");
-    assert!(err.contains("one.toml") && err.contains("`cases[0].impact.contacts[0].mean_force[0]`"), "{err}");
-    assert!(!results.exists(), "nothing is written");
+    let path = scenario("one", &["a"], folder.path());
+    let (mut one, source) = Scenario::read_with_source(Path::new(&path), registry::SHIPPED).expect("a scenario");
+    // none that can be read from a file
+    one.contact.duration = Some(1e-320);
+    let model = registry::generated(&one.layout).expect("generated code");
+    let result = study(&one, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+    let manifest = RunManifest::new(&one, source, "planar-capture run".to_owned());
+    let found = summary(&one, "generated", &result, &manifest).expect_err("an infinite force").to_string();
+    assert!(found.contains("`cases[0].impact.contacts[0].mean_force[0]`"), "{found}");
 }
