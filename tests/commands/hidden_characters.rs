@@ -12,7 +12,8 @@ use std::fs;
 
 /// Those that rustc refuses in literals and comments, marks and isolates, and others that show nothing.
 const HIDDEN: &str = "\u{0}\u{1b}\u{7f}\u{85}\u{9b}\u{ad}\u{61c}\u{200b}\u{200e}\u{200f}\u{2028}\u{202a}\u{202b}\u{202c}\u{202d}\
-                      \u{202e}\u{2060}\u{2066}\u{2067}\u{2068}\u{2069}\u{feff}\u{e0041}";
+                      \u{202e}\u{2060}\u{2066}\u{2067}\u{2068}\u{2069}\u{feff}\u{e0041}\u{34f}\u{115f}\u{1160}\u{17b4}\u{3164}\u{fe0f}\u{ffa0}\
+                      \u{1d173}\u{e0100}";
 
 /// Checks a refusal: file, line, key, and the value, with its hidden character as an escape sequence.
 #[track_caller]
