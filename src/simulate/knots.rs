@@ -66,14 +66,14 @@ impl Knots {
 
     /// Moves the first `count` numbers in memory to the file.
     fn store(&mut self, count: usize) {
-        let file = self.file.get_or_insert_with(|| Arc::new(Mutex::new(tempfile::tempfile())));
+        let file = self.file.get_or_insert_with(|| Arc::new(Mutex::new(temporary_file())));
         let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
         let bytes: Vec<u8> = self.in_memory.drain(..count).flat_map(f64::to_le_bytes).collect();
         self.stored += count;
         if let Ok(to) = &mut *file
             && let Err(error) = to.write_all(&bytes)
         {
-            *file = Err(error);
+            *file = Err(in_folder(&error));
         }
     }
 
@@ -90,9 +90,21 @@ impl Knots {
     }
 }
 
+/// A file without a name.
+pub(super) fn temporary_file() -> io::Result<File> {
+    tempfile::tempfile().map_err(|error| in_folder(&error))
+}
+
+/// An error of a temporary file, with the folder that the system has for these.
+pub(super) fn in_folder(error: &io::Error) -> io::Error {
+    let folder = std::env::temp_dir();
+    let text = format!("{error}: the folder for temporary files is {} (`TMPDIR`)", folder.display());
+    io::Error::new(error.kind(), text)
+}
+
 /// The same error once more.
 pub(super) fn again(error: &io::Error) -> io::Error {
-    error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
+    io::Error::new(error.kind(), error.to_string())
 }
 
 #[cfg(test)]

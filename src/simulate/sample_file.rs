@@ -6,7 +6,7 @@
 use crate::dynamics::Momentum;
 use crate::owned::RobotState;
 use crate::simulate::Sample;
-use crate::simulate::knots::again;
+use crate::simulate::knots::{again, in_folder, temporary_file};
 use crate::simulate::system::Body;
 use crate::state::ActuatorWork;
 use std::fs::File;
@@ -55,7 +55,7 @@ pub(crate) struct SampleWriter {
 impl SampleWriter {
     /// For samples like this one.
     pub(crate) fn new(like: &Sample, targets: &[Body]) -> Self {
-        let to = tempfile::tempfile().map(|file| BufWriter::with_capacity(BUFFER, file));
+        let to = temporary_file().map(|file| BufWriter::with_capacity(BUFFER, file));
         Self { lengths: Lengths::of(like, targets), to, count: 0 }
     }
 
@@ -66,14 +66,14 @@ impl SampleWriter {
         if let Ok(to) = &mut self.to
             && let Err(error) = to.write_all(&record(sample, targets))
         {
-            self.to = Err(error);
+            self.to = Err(in_folder(&error));
         }
     }
 
     /// Ends the file.
     pub(crate) fn finish(self) -> SampleFile {
         let Self { lengths, to, count } = self;
-        let file = to.and_then(|to| to.into_inner().map_err(io::IntoInnerError::into_error));
+        let file = to.and_then(|to| to.into_inner().map_err(|error| in_folder(error.error())));
         SampleFile { lengths, file: file.map(Mutex::new), count }
     }
 }

@@ -36,7 +36,7 @@ pub enum UrdfError {
 impl UrdfError {
     pub(super) fn part(kind: &str, name: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
         let (found, wanted) = (printable(&found.into()), printable(&wanted.into()));
-        Self::Part { part: printable(&format!("{kind} `{name}`")), found, wanted }
+        Self::Part { part: part_name(kind, name), found, wanted }
     }
 
     pub(super) fn link(link: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
@@ -46,4 +46,9 @@ impl UrdfError {
     pub(super) fn joint(joint: &str, found: impl Into<String>, wanted: impl Into<String>) -> Self {
         Self::part("joint", joint, found, wanted)
     }
+}
+
+/// Kind and name of a part.
+pub(super) fn part_name(kind: &str, name: &str) -> String {
+    printable(&format!("{kind} `{name}`"))
 }

@@ -1,7 +1,7 @@
 //! Converts the tree of a URDF to a layout.
 
 use super::chain::{self, ChainJoint};
-use super::description::JointKind;
+use super::description::{JointKind, Robot};
 use super::end_effector::{EndEffector, end_effectors};
 use super::imported_layout::{ImportedJoint, ImportedLayout};
 use super::link_group::LinkGroup;
@@ -37,7 +37,12 @@ pub struct ImportOptions {
 /// # Errors
 /// [`UrdfError`] with the first link or joint that a layout cannot represent.
 pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, UrdfError> {
-    let tree = Tree::new(reader::read(text)?)?;
+    let (robot, lines) = reader::read(text)?;
+    layout_of(robot, options).map_err(|error| lines.locate(error))
+}
+
+fn layout_of(robot: Robot, options: &ImportOptions) -> Result<ImportedLayout, UrdfError> {
+    let tree = Tree::new(robot)?;
     let name = layout_name(tree.name(), options.name.as_deref())?;
     let (base_link, passed) = tree.base()?;
     let base = LinkGroup::new(&tree, base_link)?;

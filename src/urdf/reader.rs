@@ -1,7 +1,7 @@
 //! Reads the links and joints of a URDF file. Visuals, collisions and all else that a layout does not have are ignored.
 
-use super::UrdfError;
 use super::description::{Inertial, Joint, JointKind, Limit, Link, Pose, Robot};
+use super::error::{UrdfError, part_name};
 use super::xml::{Element, root};
 use crate::diagnostic::{excerpt, listing, printable};
 use nalgebra::{Quaternion, UnitQuaternion};
@@ -12,8 +12,25 @@ const WITH_QUATERNIONS: (u32, u32) = (1, 1);
 /// The version from which a limit that is not given is none; before it is 0.
 const WITHOUT_ZERO_LIMITS: (u32, u32) = (1, 2);
 
+/// The lines of the parts of a robot by kind and name, as in messages.
+#[derive(Debug, Default)]
+pub(super) struct PartLines(HashMap<String, usize>);
+
+impl PartLines {
+    /// An error with the line of the part that it is about.
+    pub(super) fn locate(&self, error: UrdfError) -> UrdfError {
+        match error {
+            UrdfError::Part { part, found, wanted } => match self.0.get(&part) {
+                Some(line) => UrdfError::Element { line: *line, element: part, found: format!("{found}; {wanted}") },
+                None => UrdfError::Part { part, found, wanted },
+            },
+            other => other,
+        }
+    }
+}
+
 /// Reads the elements of a URDF; does not check that they form a tree.
-pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
+pub(super) fn read(text: &str) -> Result<(Robot, PartLines), UrdfError> {
     let top = root(text).map_err(|message| UrdfError::Unreadable(printable(&message)))?;
     let unreadable = |found: String| UrdfError::Unreadable(printable(&format!("line {}: {found}", top.line)));
     if top.name() != "robot" {
@@ -22,14 +39,18 @@ pub(super) fn read(text: &str) -> Result<Robot, UrdfError> {
     let mut attributes = top.attributes().map_err(unreadable)?;
     let version = attributes.get("version").map_or((1, 0), |version| version_numbers(version));
     let mut robot = Robot { name: attributes.remove("name").unwrap_or_default(), ..Robot::default() };
-    for element in &top.children {
+    let mut lines = PartLines::default();
+    lines.0.insert(part_name("robot", &robot.name), top.line);
+    for element in top.children.iter().filter(|element| ["link", "joint"].contains(&element.name())) {
+        let part = Part::new(element, version)?;
+        // of two with the same name the second one
+        lines.0.insert(part_name(element.name(), &part.name), element.line);
         match element.name() {
-            "link" => robot.links.push(Part::new(element, version)?.link()?),
-            "joint" => robot.joints.push(Part::new(element, version)?.joint()?),
-            _ => {}
+            "link" => robot.links.push(part.link()?),
+            _ => robot.joints.push(part.joint()?),
         }
     }
-    Ok(robot)
+    Ok((robot, lines))
 }
 
 /// Major and minor number of the version of the format; 1.0 for anything else.
@@ -56,6 +77,9 @@ impl<'a> Part<'a> {
         let unnamed = Self { element, name: String::new(), version };
         let name = unnamed.entry(element)?.attributes.remove("name");
         let name = name.ok_or_else(|| unnamed.problem(element, "it has no `name`"))?;
+        if name.trim().is_empty() {
+            return Err(unnamed.problem(element, &format!("its `name` is \"{name}\", expected a name")));
+        }
         Ok(Self { name, ..unnamed })
     }
 
@@ -200,7 +224,7 @@ impl<'a> Part<'a> {
     }
 
     fn problem(&self, element: &Element<'_>, found: &str) -> UrdfError {
-        let (kind, name) = (self.element.name(), printable(&self.name));
-        UrdfError::Element { line: element.line, element: format!("{kind} `{name}`"), found: printable(found) }
+        let element_name = part_name(self.element.name(), &self.name);
+        UrdfError::Element { line: element.line, element: element_name, found: printable(found) }
     }
 }

@@ -137,3 +137,21 @@ fn bounces_without_end_are_shown_at_the_restitution() {
     let chatter = StudyError::Chatter { case, impacts: 1001, target, time: 3.0 }.key(&plain);
     assert_eq!((chatter.path.as_str(), chatter.value.as_str()), ("target[1].restitution", "0"));
 }
+
+/// A long phase needs a temporary file: a message names the folder that there is none in.
+#[cfg(unix)]
+#[test]
+fn an_absent_folder_for_temporary_files_is_named() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    let path = folder.path().join("long.toml");
+    let text = text.replacen("duration = 20.0", "duration = 200.0\nstep = 0.005", 1);
+    fs::write(&path, text).expect("written");
+    let absent = folder.path().join("absent");
+    let mut run = command();
+    run.arg("run").arg(&path).args(["--sample", "0.005", "--out"]).arg(folder.path().join("results"));
+    let output = run.env("TMPDIR", &absent).output().expect("it runs");
+    let err = String::from_utf8(output.stderr).expect("UTF-8");
+    assert!(output.status.code() == Some(2) && err.contains(&absent.display().to_string()), "{err}");
+    assert!(err.contains("TMPDIR"), "{err}");
+}

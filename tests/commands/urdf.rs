@@ -374,7 +374,7 @@ fn refused_joints() -> Vec<Refused> {
         (
             "mimic",
             changed(elbow, &format!("{elbow}<mimic joint=\"shoulder\"/>")),
-            &["`elbow`", "mimics joint `shoulder`"],
+            &["line 6, joint `elbow`", "mimics joint `shoulder`"],
         ),
         (
             "another axis",
@@ -465,7 +465,12 @@ fn refused_trees() -> Vec<Refused> {
             )),
             &["link `p`", "circle"],
         ),
-        ("a link twice", with("<link name=\"tip\"/>"), &["link `tip`", "two"]),
+        (
+            "a name of nothing",
+            changed("<joint name=\"elbow\"", "<joint name=\"\""),
+            &["line 6, joint ``", "its `name` is \"\", expected a name"],
+        ),
+        ("a link twice", with("<link name=\"tip\"/>"), &["line 1", "link `tip`", "two"]),
         ("a joint twice", with(&joint("fixed", "end", ["tip", "tip"], "", "")), &["joint `end`", "two"]),
         (
             "millimetres",
@@ -597,7 +602,7 @@ fn bad_input_is_exit_code_2_and_leaves_nothing() {
     let toml = folder.path().join("robot.toml");
     let (urdf, toml) = (urdf.display().to_string(), toml.display().to_string());
     for (arguments, hints) in [
-        (&["import", &urdf, "--out", &toml][..], &["robot.urdf: joint `end`", "prismatic"][..]),
+        (&["import", &urdf, "--out", &toml][..], &["robot.urdf: line 8, joint `end`", "prismatic"][..]),
         (&["import", &urdf, "--name", "Fn", "--out", &toml], &["robot.urdf", "`Fn`", "lower-case"]),
         (&["import", &urdf.replace("robot.", "robto."), "--out", &toml], &["no file", "robot.urdf"]),
         (&["import", &folder.path().display().to_string()], &["directory", "URDF", "robot.urdf"]),

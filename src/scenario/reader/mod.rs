@@ -5,10 +5,10 @@ mod approach;
 mod capture;
 mod case;
 mod clearance;
-mod distance;
 mod integration;
 mod joints;
 mod limits;
+mod magnitude;
 mod post_impact;
 mod target;
 
@@ -17,8 +17,8 @@ use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::scenario::{ClearanceRules, Scenario, Tracking};
-use distance::check_distance;
 use joints::Joints;
+use magnitude::check_distance;
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -198,7 +198,7 @@ fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
     let (duration, step) = (duration?, step?);
     let steps = duration / step;
     let why = if steps < 1.0 {
-        format!("the step, {step} s, must not be longer than the duration, {duration} s")
+        format!("the step, {step:?} s, must not be longer than the duration, {duration:?} s")
     } else if steps > MOST_STEPS {
         let least = duration / MOST_STEPS;
         format!("{duration:?} s would take {steps:.3e} steps, expected at most 1e8 (step >= {least:?} s)")

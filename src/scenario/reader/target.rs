@@ -1,7 +1,7 @@
 //! `[[target]]`: the bodies that arms touch.
 
-use super::distance::{check_distance, check_size};
 use super::joints::check_length;
+use super::magnitude::{check_distance, check_mass, check_size};
 use super::{LARGEST_ANGLE, POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
 use crate::diagnostic::{NumberRule, Table, Value, every, listing};
@@ -49,8 +49,8 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
         Some(value) => contact_kinds(&value, count),
         None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
     };
-    let mass = table.number("mass", &MASS);
-    let inertia = table.number("inertia", &INERTIA);
+    let mass = table.number("mass", &MASS).filter(|mass| check_mass(table, "mass", *mass, layout));
+    let inertia = table.number("inertia", &INERTIA).filter(|inertia| check_mass(table, "inertia", *inertia, layout));
     let outline = outline(table).filter(|outline| check_size(table, outline, layout));
     let restitution = read_or(table, "restitution", 0.0, restitution);
     let twist = table.vector_or("twist", &TWIST, [0.0; 3]);

@@ -3,6 +3,10 @@
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
+/// Magnitudes whose products of three have a place in 64 bits, which those of masses, lengths and rates need.
+const SMALLEST: f64 = 1e-100;
+const LARGEST: f64 = 1e100;
+
 /// A physical quantity: its name with an article, its unit, and the values it may take.
 ///
 /// Shown as "a mass in kg greater than 0".
@@ -64,10 +68,13 @@ impl NumberRule {
         Self { wrong_unit: Some(WrongUnit { limit, unit, factor }), ..self }
     }
 
-    /// Checks that the number is finite and in range; the error is a hint, if there is one.
+    /// Checks that the number is finite, of a magnitude that can be computed with, and in range; the error is a hint, if there is one.
     pub(super) fn check(&self, number: f64) -> Result<(), Option<String>> {
         if !number.is_finite() {
             return Err(Some("the number must be finite and fit in 64 bits".to_owned()));
+        }
+        if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
+            return Err(Some(format!("the number must be 0 or of a magnitude from {SMALLEST:e} to {LARGEST:e}")));
         }
         let too_small = match self.minimum {
             Minimum::None => false,

@@ -1,4 +1,4 @@
-//! Distances from the inertial origin that positions can be written at, and sizes that distances can be computed of.
+//! Distances, sizes and masses that 16 digits resolve beside the robot's.
 
 use crate::diagnostic::{Table, Value};
 use crate::layout::{Arm, Layout};
@@ -31,6 +31,24 @@ pub(super) fn check_size(table: &Table<'_>, outline: &Outline, layout: Option<&L
         let most = LARGEST * reach;
         value.reject(&format!(
             "{size:.3e} m from the COM, expected at most {most:.3e} m (1e6 times the robot's reach of {reach:.3} m)"
+        ));
+    }
+    is_fine
+}
+
+/// Smallest and largest ratio of mass or inertia to the robot's: impacts have the sum of both.
+const RATIOS: [f64; 2] = [1e-15, 1e12];
+
+/// Whether a target's `mass`, or its `inertia`, is comparable with that of the robot; rejects it otherwise.
+pub(super) fn check_mass(table: &Table<'_>, key: &str, found: f64, layout: Option<&Layout>) -> bool {
+    let reach = reach(layout);
+    let (arm, unit) = if key == "mass" { (1.0, "kg") } else { (reach * reach, "kg m²") };
+    let own = layout.map_or(0.0, Layout::mass) * arm;
+    let [least, most] = RATIOS.map(|ratio| ratio * own);
+    let is_fine = own == 0.0 || (least..=most).contains(&found);
+    if let Some(value) = table.get(key).filter(|_| !is_fine) {
+        value.reject(&format!(
+            "expected {least:.1e} to {most:.1e} {unit}, 1e-15 to 1e12 times that of the robot, {own:.3e}"
         ));
     }
     is_fine
