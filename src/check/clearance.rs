@@ -2,28 +2,37 @@
 
 use super::number::short;
 use super::warning;
-use crate::capture::{Silent, study};
+use crate::capture::clearance::{Overlap, ineffective_ignores};
+use crate::capture::{Silent, StudyError, study};
 use crate::diagnostic::Warning;
 use crate::registry;
-use crate::scenario::{Actuation, Scenario, Tracking};
+use crate::scenario::{Actuation, OnOverlap, Scenario, Tracking};
 use crate::simulate::stepper::Integration;
 
 /// Number of steps of the planned path.
 const STEPS: f64 = 200.0;
-/// Most distances of one case.
-const MAX_DISTANCES: u64 = 20_000;
-/// Depth of an overlap without a warning, m: end effectors may reach their targets a little from within.
+/// Most distances of one case, which take some tenths of a second.
+const MAX_DISTANCES: u64 = 200_000;
+/// Depth of a reported overlap without a warning, m: end effectors may reach their targets a little from within.
 const TOLERATED_DEPTH: f64 = 1e-3;
 
-/// One warning for each case in which bodies of given outlines overlap before the contact.
+/// One warning for each case in which bodies of given outlines overlap before the contact, and for pairs in `ignore`
+/// that are not compared anyway.
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
+    let ineffective = ineffective_ignores(scenario)
+        .into_iter()
+        .map(|(i, why)| warning(format!("clearance.ignore[{i}]"), why, "remove it, or name the pair that is meant"));
+    ineffective.chain(overlaps(scenario)).collect()
+}
+
+fn overlaps(scenario: &Scenario) -> Vec<Warning> {
     let mut planned = scenario.clone();
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
-    if scenario.approach.final_end_effector_poses.is_some() && !by_end_effectors {
-        return Vec::new(); // the run computes the path
-    }
     planned.post_impact = None;
     planned.clearance.max_distances = MAX_DISTANCES;
+    planned.clearance.only_given = true;
+    // a case that stops has no depth
+    planned.clearance.on_overlap = OnOverlap::Report;
     // feedback needs the scenario's steps
     if !by_end_effectors {
         planned.approach.step = planned.approach.step.max(planned.approach.duration / STEPS);
@@ -36,13 +45,24 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     }
     let layout = &scenario.layout;
     let make = || registry::generated(layout).unwrap_or_else(|_| registry::generic(layout));
-    // what stops a run is reported by the run
-    let Ok(result) = study(&planned, &make, planned.approach.duration, &mut Silent) else { return Vec::new() };
+    let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
+        Ok(result) => result,
+        Err(StudyError::ClearanceExhausted { what, .. }) => {
+            let why =
+                format!("overlaps along the planned path were looked for only until {} s: {what}", short(what.time));
+            return vec![warning("approach", why, "`run` looks at all of it")];
+        }
+        // what stops a run is reported by the run
+        Err(_) => return Vec::new(),
+    };
+    let is_deep = |overlap: &&Overlap| match scenario.clearance.on_overlap {
+        OnOverlap::Report => overlap.depth > TOLERATED_DEPTH,
+        OnOverlap::Fail | OnOverlap::Stop => true,
+    };
     let mut warnings: Vec<Warning> = Vec::new();
     for case in &result.cases {
         let overlaps = case.clearance.overlaps.iter().filter(|overlap| !overlap.is_default);
-        let deep =
-            overlaps.filter(|overlap| overlap.depth > TOLERATED_DEPTH).min_by(|a, b| a.span[0].total_cmp(&b.span[0]));
+        let deep = overlaps.filter(is_deep).min_by(|a, b| a.span[0].total_cmp(&b.span[0]));
         let Some(overlap) = deep else { continue };
         let [a, b] = &overlap.bodies;
         let why = format!(

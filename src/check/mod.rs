@@ -9,6 +9,7 @@ mod bodies;
 mod clearance;
 mod kind;
 mod link;
+mod names;
 mod number;
 mod pose;
 mod robot;
@@ -43,8 +44,14 @@ pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) 
         }
         Kind::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let warnings =
-                [approach::warnings, pose::warnings, stiffness::warnings, targets::warnings, clearance::warnings];
+            let warnings = [
+                names::warnings,
+                approach::warnings,
+                pose::warnings,
+                stiffness::warnings,
+                targets::warnings,
+                clearance::warnings,
+            ];
             let warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
             Ok(CheckReport {

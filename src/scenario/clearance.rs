@@ -10,11 +10,13 @@ pub struct ClearanceRules {
     /// Most distances of a case of up to 100 s, more in proportion for a longer one. The default takes about ten seconds;
     /// a spin of more than some thousand turns per second needs more.
     pub max_distances: u64,
+    /// Whether pairs with a default outline are left out, which fail no run.
+    pub only_given: bool,
 }
 
 impl Default for ClearanceRules {
     fn default() -> Self {
-        Self { on_overlap: OnOverlap::Report, ignore: Vec::new(), max_distances: 20_000_000 }
+        Self { on_overlap: OnOverlap::Report, ignore: Vec::new(), max_distances: 20_000_000, only_given: false }
     }
 }
 

@@ -77,13 +77,33 @@ pub(super) fn pairs(scenario: &Scenario, frames: &[Frame], bodies: &[ClearanceBo
     let mut pairs = Vec::new();
     for (i, a) in bodies.iter().enumerate() {
         for (j, b) in bodies.iter().enumerate().skip(i + 1) {
-            if !are_joined(scenario, frames, [a.frame, b.frame]) && !ignored(&a.name, &b.name) {
+            let is_left_out = scenario.clearance.only_given && (a.is_default || b.is_default);
+            if !is_left_out && !are_joined(scenario, frames, [a.frame, b.frame]) && !ignored(&a.name, &b.name) {
                 let contact = contact(scenario, frames, [a.frame, b.frame]);
                 pairs.push(BodyPair { bodies: [i, j], contact, group: usize::from(contact.is_some()) });
             }
         }
     }
     pairs
+}
+
+/// Indices of the pairs in `ignore` that change nothing, and why.
+pub(crate) fn ineffective_ignores(scenario: &Scenario) -> Vec<(usize, &'static str)> {
+    let frames = scenario.frames();
+    let frame = |name: &str| frames.iter().position(|frame| frame.name == name);
+    let pairs = &scenario.clearance.ignore;
+    let is_same = |[a, b]: &[String; 2], [c, d]: &[String; 2]| (a, b) == (c, d) || (a, b) == (d, c);
+    let reason = |(i, pair @ [a, b]): (usize, &[String; 2])| {
+        let (first, second) = (frame(a)?, frame(b)?);
+        if a == b {
+            Some((i, "a body is not compared with itself"))
+        } else if are_joined(scenario, &frames, [first.min(second), first.max(second)]) {
+            Some((i, "the two have a common joint, and are not compared"))
+        } else {
+            pairs[..i].iter().any(|earlier| is_same(earlier, pair)).then_some((i, "the pair is there before"))
+        }
+    };
+    pairs.iter().enumerate().filter_map(reason).collect()
 }
 
 /// The end effectors as points, the targets, and the pairs of the planned contacts, each a group.

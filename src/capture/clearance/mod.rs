@@ -13,6 +13,7 @@ use crate::capture::contact_pair::ContactPair;
 use crate::capture::target_motion::TargetMotion;
 use crate::scenario::{OnOverlap, Scenario};
 use crate::simulate::path::Path;
+pub(crate) use bodies::ineffective_ignores;
 use bodies::{bodies, end_effector_pairs, pairs};
 use search::PairOverlap;
 use std::fmt::{self, Display, Formatter};

@@ -50,7 +50,13 @@ impl Findings {
     /// For pairs, before their first phase.
     pub(super) fn new(pairs: &[BodyPair], max_evaluations: u64) -> Self {
         let groups = pairs.iter().map(|pair| pair.group + 1).max().unwrap_or(0);
-        Self { least: vec![None; groups], overlaps: Vec::new(), evaluations: 0, of_pairs: vec![0; pairs.len()], max_evaluations }
+        Self {
+            least: vec![None; groups],
+            overlaps: Vec::new(),
+            evaluations: 0,
+            of_pairs: vec![0; pairs.len()],
+            max_evaluations,
+        }
     }
 
     /// The distance above which nothing about a pair is of interest, of whose parts no overlap is open.
@@ -100,12 +106,7 @@ impl IntervalSearch<'_> {
     ///
     /// # Errors
     /// The time at which the distances are used up, since the start of the approach, s.
-    pub(super) fn run(
-        &mut self,
-        part: &mut PartDistance,
-        pair: &BodyPair,
-        found: &mut Findings,
-    ) -> Result<(), f64> {
+    pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
         let ends = self.interval.span.map(|time| self.at(time));
         for end in &ends {
             found.record(part, pair, end, self.start);

@@ -1,8 +1,8 @@
 //! Least distances and overlaps of pairs of bodies over the phases of a case.
 
-use super::{ClearanceError, Exhausted};
 use super::bodies::{BodyPair, ClearanceBody};
 use super::search::{Findings, IntervalSearch, PartDistance};
+use super::{ClearanceError, Exhausted};
 use crate::capture::assembly::Attachment;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::PartPair;

@@ -6,6 +6,7 @@ use planar_capture::registry::SHIPPED;
 use planar_proof::file;
 use std::fs;
 use std::path::Path;
+use tempfile::TempDir;
 
 /// Replaced text, its replacement, the line of the warning, and texts of the warning.
 type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
@@ -174,6 +175,27 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("[0.2, 0.0", "[11.5, 0.0", 17, &["`target[0].twist[0]` is 11.5", "1.83 times a second", "0.2007 rad/s"]),
     ("{ ball = [0.0", "{ ball = [11.5", 23, &["`case[1].target_twists` is { ball = [11.5", "1.83 times a second"]),
     ("[1.5, -2.0]", "[3.0, -2.5]", 18, &["`target[0].position` is [3.0, -2.5]", "no pose", "further out than"]),
+    // names
+    ("\"study\"", "\"-study\"", 1, &["`name` is \"-study\"", "option"]),
+    // pairs that are not compared anyway
+    (
+        "[post_impact]",
+        "[clearance]\nignore = [[\"base\", \"arms/left/link1\"]]\n[post_impact]",
+        25,
+        &["`clearance.ignore[0]` is", "common joint"],
+    ),
+    (
+        "[post_impact]",
+        "[clearance]\nignore = [[\"base\", \"base\"]]\n[post_impact]",
+        25,
+        &["`clearance.ignore[0]` is", "with itself"],
+    ),
+    (
+        "[post_impact]",
+        "[clearance]\nignore = [[\"base\", \"arms/left/link3\"], [\"arms/left/link3\", \"base\"]]\n[post_impact]",
+        25,
+        &["`clearance.ignore[1]` is", "there before"],
+    ),
     ("\"left\"", "\"wheel\"", 12, &["`target[0].arm` is \"wheel\"", "reaction wheel", "left, right"]),
 ];
 
@@ -304,4 +326,39 @@ fn warnings_are_in_the_order_of_the_files() {
     let at =
         ["it.toml:9:", "it.toml:15:", "robot.toml (shipped):3:", "robot.toml (shipped):27:"].map(|p| shown.find(p));
     assert!(at.iter().all(Option::is_some) && at.is_sorted() && warnings.count() == 4, "{shown}");
+}
+
+/// What makes `run` exit with 1 for overlaps is a warning of `check`, or `check` says what it has not looked at.
+#[test]
+fn overlaps_that_fail_a_run_are_warned_of() {
+    let read = |name: &str| fs::read_to_string(file(&format!("scenarios/{name}.toml"))).expect("a scenario");
+    let shown = |text: &str| inspect(text, "it.toml", &file("scenarios"), SHIPPED).expect("valid").warnings.to_string();
+    // the panel that the end effectors pass through before they hold it
+    let inside = read("large_target").replace("[[0.7, -0.5], [-0.7, -0.5]]", "[[0.7, 0.3], [-0.7, 0.3]]");
+    let inside = inside.replace("[0.0, 2.7]", "[0.0, 1.9]");
+    for rule in ["fail", "stop", "report"] {
+        let text = inside.replace("on_overlap = \"fail\"", &format!("on_overlap = \"{rule}\""));
+        assert!(shown(&text).contains("are inside each other along the planned path"), "{rule}: {}", shown(&text));
+    }
+    // end effectors that reach the panel half a millimetre within, which a rule that reports tolerates
+    let within = read("large_target").replace("[[0.7, -0.5], [-0.7, -0.5]]", "[[0.7, -0.4995], [-0.7, -0.4995]]");
+    assert!(shown(&within).contains("along the planned path"), "{}", shown(&within));
+    let reported = within.replace("on_overlap = \"fail\"", "on_overlap = \"report\"");
+    assert!(!shown(&reported).contains("along the planned path"), "{}", shown(&reported));
+    // a joint trajectory to poses: the design gives the path
+    let designed = |offset: &str| {
+        let text = read("spinning_target").replace("contact = [-0.6, 0.0]", &format!("contact = [{offset}]"));
+        text.replace("layout = \"single_arm_3r\"", "layout = \"./outlined.toml\"")
+    };
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    let layout = layout.replace("length = 1.0", "outline = { capsule = 0.01 }\nlength = 1.0");
+    fs::write(folder.path().join("outlined.toml"), layout).expect("written");
+    let check = |text: &str| inspect(text, "it.toml", folder.path(), SHIPPED).expect("valid").warnings.to_string();
+    let text = designed("0.0, 0.6") + "\n[clearance]\non_overlap = \"fail\"\n";
+    assert!(check(&text).contains("along the planned path"), "{}", check(&text));
+    // a rod that turns ten thousand times a second
+    let fast = designed("0.0, 0.6").replace("twist = [0.3, 0.0, 0.0]", "twist = [62831.85, 0.0, 0.0]");
+    let fast = fast.replace("radius = 0.6", "polygon = [[-1.4, -0.05], [1.4, -0.05], [1.4, 0.05], [-1.4, 0.05]]");
+    assert!(check(&fast).contains("were looked for only until"), "{}", check(&fast));
 }
