@@ -245,8 +245,8 @@ FAULTS = [
     Fault(
         "centripetal term of the base in the generic implementation",
         "crates/planar-build/src/prove/generic/configuration.rs",
-        "let mut linear = velocity[0] * quarter_turn(&com);",
-        "let mut linear = -velocity[0] * quarter_turn(&com);",
+        "let mut linear = velocity[0] * quarter_turn(&self.arm_rate(0, body, velocity));",
+        "let mut linear = -velocity[0] * quarter_turn(&self.arm_rate(0, body, velocity));",
     ),
     # contacts
     Fault(

@@ -7,6 +7,8 @@ use planar_capture::quantities::Difference;
 use planar_capture::quantity::Quantity;
 use planar_capture::registry::SHIPPED;
 use planar_capture::sampling::REGIMES;
+use planar_proof::file;
+use std::fs;
 use std::path::Path;
 
 #[test]
@@ -76,4 +78,20 @@ fn an_error_over_its_bound_is_no_agreement() {
     assert!(!comparison(2e-12).agrees());
     assert!(!comparison(f64::NAN).agrees());
     assert!(!Comparison::default().agrees(), "what was not compared does not agree");
+}
+
+/// Links far shorter or longer than the rest: the reference, which once subtracted positions, has their digits too.
+#[test]
+fn links_of_any_length_agree() {
+    let text = fs::read_to_string(file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    let valid = Layout::parse(&text, "single_arm_3r.toml").expect("a layout");
+    for (link, length) in [(0, 1e4), (0, 1e-6), (1, 1e-9), (1, 1e-12), (2, 1e-6), (2, 1e-20), (2, 1e-90)] {
+        let mut layout = valid.clone();
+        let changed = &mut layout.arms[0].links[link];
+        (changed.length, changed.com) = (length, [length / 2.0, 0.0]);
+        let comparison = planar_capture::compare::compare(&layout, 100, 7).expect("generated code");
+        let over = comparison.largest_errors.iter().filter(|largest| largest.difference.ratio() > 1.0);
+        let over: Vec<_> = over.map(|largest| (&largest.difference, largest.index)).collect();
+        assert!(comparison.agrees(), "link {link} of {length} m: {over:?}");
+    }
 }

@@ -7,7 +7,8 @@ use planar_dynamics::state::State;
 use planar_dynamics::validate::{finite_configuration, finite_state};
 
 /// The robot at one configuration. Positions count from the base COM, in inertial axes, so that a robot far from the
-/// origin loses no digits.
+/// origin loses no digits; distances along an arm are sums of what lies between, so that short links beside long ones
+/// lose none either.
 #[derive(Clone, Debug)]
 pub struct Configuration<'a> {
     pub(super) robot: &'a Generic,
@@ -15,8 +16,8 @@ pub struct Configuration<'a> {
     base_position: [f64; 2],
     /// Direction of each body's frame, rad.
     yaws: Vec<f64>,
-    /// Origin of each body's frame, at its joint.
-    origins: Vec<Vector2<f64>>,
+    /// From the origin of the frame before it to that of each body, at its joint.
+    offsets: Vec<Vector2<f64>>,
 }
 
 impl<'a> Configuration<'a> {
@@ -28,30 +29,42 @@ impl<'a> Configuration<'a> {
         finite_configuration(base_pose, joint_angles)?;
         length("joint_angles", robot.bodies.len() - 1, joint_angles.len())?;
         let [yaw, x, y] = *base_pose;
-        let mut at = Self { robot, base_position: [x, y], yaws: vec![yaw], origins: vec![Vector2::zeros()] };
+        let mut at = Self { robot, base_position: [x, y], yaws: vec![yaw], offsets: vec![Vector2::zeros()] };
         for (body, joint_angle) in robot.bodies.iter().skip(1).zip(joint_angles) {
             let Some(frame) = &body.joint else { continue };
-            let origin = at.point(frame.body, &frame.position);
+            at.offsets.push(at.in_inertial_axes(frame.body, &frame.position));
             at.yaws.push(at.yaws[frame.body] + frame.angle + joint_angle);
-            at.origins.push(origin);
         }
         Ok(at)
     }
 
-    /// A point given in a body's frame.
-    fn point(&self, body: usize, position: &[f64; 2]) -> Vector2<f64> {
-        self.origins[body] + Rotation2::new(self.yaws[body]) * Vector2::from(*position)
+    fn in_inertial_axes(&self, body: usize, vector: &[f64; 2]) -> Vector2<f64> {
+        Rotation2::new(self.yaws[body]) * Vector2::from(*vector)
+    }
+
+    /// The vectors that lead from the origin of a link's frame to a point given in a body's frame, outermost first, each
+    /// with the body that it turns with. The link is the body, or before it; 0 is the base.
+    fn segments(&self, link: usize, body: usize, position: &[f64; 2]) -> impl Iterator<Item = (usize, Vector2<f64>)> {
+        let between = self.chain(body).take_while(move |other| *other != link);
+        let offset =
+            |other: usize| self.robot.bodies[other].joint.as_ref().map(|frame| (frame.body, self.offsets[other]));
+        std::iter::once((body, self.in_inertial_axes(body, position))).chain(between.filter_map(offset))
+    }
+
+    /// From the origin of a link's frame to a point given in a body's frame.
+    fn arm(&self, link: usize, body: usize, position: &[f64; 2]) -> Vector2<f64> {
+        self.segments(link, body, position).fold(Vector2::zeros(), |sum, (_, segment)| sum + segment)
     }
 
     /// Direction and COM of a body.
     fn body(&self, body: usize) -> (f64, Vector2<f64>) {
-        (self.yaws[body], self.point(body, &self.robot.bodies[body].com))
+        (self.yaws[body], self.arm(0, body, &self.robot.bodies[body].com))
     }
 
     /// Direction and position of an arm's end effector.
     pub fn end_effector(&self, arm: usize) -> (f64, Vector2<f64>) {
         let frame = &self.robot.end_effectors[arm];
-        (self.yaws[frame.body] + frame.angle, self.point(frame.body, &frame.position))
+        (self.yaws[frame.body] + frame.angle, self.arm(0, frame.body, &frame.position))
     }
 
     /// [yaw, x, y] in the inertial frame, of a direction and a position.
@@ -70,13 +83,13 @@ impl<'a> Configuration<'a> {
     ///
     /// A rotation at rate 1 about a joint at p moves the point r by (r − p) turned by a right angle; the base turns
     /// about its COM.
-    fn jacobian(&self, body: usize, point: &Vector2<f64>) -> DMatrix<f64> {
+    fn jacobian(&self, body: usize, position: &[f64; 2]) -> DMatrix<f64> {
         let mut jacobian = DMatrix::zeros(3, self.robot.bodies.len() + 2);
-        jacobian.set_column(0, &turning(point));
+        jacobian.set_column(0, &turning(&self.arm(0, body, position)));
         jacobian[(1, 1)] = 1.0;
         jacobian[(2, 2)] = 1.0;
         for link in self.chain(body) {
-            jacobian.set_column(2 + link, &turning(&(point - self.origins[link])));
+            jacobian.set_column(2 + link, &turning(&self.arm(link, body, position)));
         }
         jacobian
     }
@@ -93,12 +106,13 @@ impl<'a> Configuration<'a> {
 
     /// `B_i`, at the body's COM.
     pub fn body_jacobian(&self, body: usize) -> DMatrix<f64> {
-        self.jacobian(body, &self.body(body).1)
+        self.jacobian(body, &self.robot.bodies[body].com)
     }
 
     /// `[J_be J_me]` of one arm.
     pub fn arm_jacobian(&self, arm: usize) -> DMatrix<f64> {
-        self.jacobian(self.robot.end_effectors[arm].body, &self.end_effector(arm).1)
+        let frame = &self.robot.end_effectors[arm];
+        self.jacobian(frame.body, &frame.position)
     }
 
     /// `[J_be J_me]` of all arms, one under the other.
@@ -111,19 +125,22 @@ impl<'a> Configuration<'a> {
         jacobian
     }
 
-    /// Velocity of a body's point less that of the base COM: it turns only with the base and the joints.
-    fn relative_velocity(&self, body: usize, point: &Vector2<f64>, velocity: &DVector<f64>) -> Vector2<f64> {
-        let links = self.chain(body).map(|link| velocity[2 + link] * quarter_turn(&(point - self.origins[link])));
-        links.fold(velocity[0] * quarter_turn(point), |sum, part| sum + part)
+    /// ω of a body's frame.
+    fn yaw_rate(&self, body: usize, velocity: &DVector<f64>) -> f64 {
+        self.chain(body).fold(velocity[0], |sum, link| sum + velocity[2 + link])
+    }
+
+    /// The rate of [`arm`](Self::arm) to a body's COM: each vector turns with its body.
+    fn arm_rate(&self, link: usize, body: usize, velocity: &DVector<f64>) -> Vector2<f64> {
+        let segments = self.segments(link, body, &self.robot.bodies[body].com);
+        segments.fold(Vector2::zeros(), |sum, (k, segment)| sum + self.yaw_rate(k, velocity) * quarter_turn(&segment))
     }
 
     /// `Ḃ_i v`: differentiating the columns of `B_i`, each column's arm r − p changes at the rate ṙ − ṗ.
     pub fn body_jacobian_rate_times(&self, body: usize, velocity: &DVector<f64>) -> Vector3<f64> {
-        let com = self.relative_velocity(body, &self.body(body).1, velocity);
-        let mut linear = velocity[0] * quarter_turn(&com);
+        let mut linear = velocity[0] * quarter_turn(&self.arm_rate(0, body, velocity));
         for link in self.chain(body) {
-            let joint = self.relative_velocity(link, &self.origins[link], velocity);
-            linear += velocity[2 + link] * quarter_turn(&(com - joint));
+            linear += velocity[2 + link] * quarter_turn(&self.arm_rate(link, body, velocity));
         }
         Vector3::new(0.0, linear.x, linear.y)
     }
