@@ -33,8 +33,13 @@ impl Derivation {
         }
         let proved = complete(&text, &layout)?.graph;
         let render = |standalone| {
-            let module =
-                Module { standalone, item: !standalone, fused: false, source: "the scaling benchmark", command: "cargo run" };
+            let module = Module {
+                standalone,
+                item: !standalone,
+                fused: false,
+                source: "the scaling benchmark",
+                command: "cargo run",
+            };
             module.render(&proved)
         };
         let (item, standalone) = (render(false)?, render(true)?);
