@@ -87,3 +87,67 @@ fn longest_list(line: &str) -> Option<List<'_>> {
     let items = places.windows(2).map(|ends| line[ends[0] + 1..ends[1]].trim()).filter(|item| !item.is_empty());
     Some(List { before: &line[..=places[0]], items: items.collect(), after: &line[places[places.len() - 1]..] })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{WIDTH, longest_list, wrap};
+
+    /// The items of the list that is broken, and what stands before and after it.
+    fn list(line: &str) -> Option<(&str, Vec<&str>, &str)> {
+        longest_list(line).map(|list| (list.before, list.items, list.after))
+    }
+
+    #[test]
+    fn the_longest_outermost_list_is_broken() {
+        assert_eq!(
+            list("f(a, b) + g(longer, list, here);"),
+            Some(("f(a, b) + g(", vec!["longer", "list", "here"], ");"))
+        );
+        assert_eq!(
+            list("g(longer, list, here) + f(a, b);"),
+            Some(("g(", vec!["longer", "list", "here"], ") + f(a, b);"))
+        );
+        assert_eq!(list("f(a, b) + g(c, d);"), Some(("f(", vec!["a", "b"], ") + g(c, d);")), "the first of two");
+        assert_eq!(list("f([a, b], {c, d});"), Some(("f(", vec!["[a, b]", "{c, d}"], ");")));
+        assert_eq!(list("f(a, b,);"), Some(("f(", vec!["a", "b"], ");")), "an empty item is none");
+        assert_eq!(list("f(a) + [b];"), None, "a list has a comma");
+        assert_eq!(list("a, b) + c"), None, "an unopened bracket is no list");
+    }
+
+    #[test]
+    fn brackets_and_commas_in_strings_are_text() {
+        assert_eq!(list(r#"f("a, (b", c);"#), Some(("f(", vec![r#""a, (b""#, "c"], ");")));
+        assert_eq!(list(r#"f("a \", ) b", c);"#), Some(("f(", vec![r#""a \", ) b""#, "c"], ");")));
+        assert_eq!(list(r#"f("a, b");"#), None);
+    }
+
+    #[test]
+    fn lines_are_broken_from_their_width_on() {
+        let of_length = |length: usize| {
+            let line = format!("let x = f(a, {});", "b".repeat(length - "let x = f(a, );".len()));
+            assert_eq!(line.len(), length);
+            wrap(&line)
+        };
+        assert_eq!(of_length(WIDTH).lines().count(), 1);
+        assert_eq!(of_length(WIDTH + 1).lines().count(), 3);
+        let long = wrap(&format!("    let [{}] = x;", vec!["name"; 60].join(", ")));
+        assert!(long.lines().all(|line| line.len() <= WIDTH), "{long}");
+        assert!(
+            long.lines().skip(1).take(2).all(|line| line.len() > WIDTH - "name, ".len()),
+            "lines are full:\n{long}"
+        );
+        assert!(long.starts_with("    let [\n        name, name") && long.ends_with("name,\n    ] = x;\n"), "{long}");
+    }
+
+    #[test]
+    fn a_matrix_has_a_line_for_each_row_and_a_comment_stays_whole() {
+        assert_eq!(wrap("m: [[a, b], [c, d]],"), "m: [\n    [a, b],\n    [c, d],\n],\n");
+        let comment = format!("a: [b, c], // {}", "d, ".repeat(60).trim_end());
+        assert_eq!(wrap(&comment), format!("{comment}\n"));
+    }
+
+    #[test]
+    fn blocks_neither_begin_nor_end_with_a_blank_line() {
+        assert_eq!(wrap("a {\n\nb\n\n\nc\n\n}\n"), "a {\nb\n\nc\n}\n");
+    }
+}
