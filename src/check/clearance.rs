@@ -2,6 +2,7 @@
 
 use super::number::short;
 use super::warning;
+use crate::capture::approach::ApproachTracking;
 use crate::capture::clearance::{Overlap, ineffective_ignores};
 use crate::capture::{Silent, StudyError, study};
 use crate::diagnostic::Warning;
@@ -11,6 +12,8 @@ use crate::simulate::stepper::Integration;
 
 /// Number of steps of the planned path.
 const STEPS: f64 = 200.0;
+/// Most steps of a path that needs the scenario's own: a few seconds at most.
+const MAX_STEPS: u64 = 20_000;
 /// Most distances of one case, which take some tenths of a second.
 const MAX_DISTANCES: u64 = 200_000;
 /// Depth of a reported overlap without a warning, m: end effectors may reach their targets a little from within.
@@ -33,8 +36,23 @@ fn overlaps(scenario: &Scenario) -> Vec<Warning> {
     planned.clearance.only_given = true;
     // a case that stops has no depth
     planned.clearance.on_overlap = OnOverlap::Report;
+    // the approaches of cases differ by the targets' motions, and by which contacts end them
+    let mut seen = Vec::new();
+    planned.cases.retain(|case| {
+        let contacts: Vec<bool> = case.kinds.iter().flatten().map(Option::is_some).collect();
+        let approach = (case.target_twists.clone(), contacts);
+        let is_new = !seen.contains(&approach);
+        seen.push(approach);
+        is_new
+    });
     // feedback needs the scenario's steps
-    if !by_end_effectors {
+    if by_end_effectors {
+        let steps = ApproachTracking::new(scenario, scenario.approach.duration).steps();
+        if steps > MAX_STEPS {
+            let why = format!("overlaps along the planned path were not looked for: it takes {steps} steps");
+            return vec![warning("approach", why, "`run` looks at all of it")];
+        }
+    } else {
         planned.approach.step = planned.approach.step.max(planned.approach.duration / STEPS);
         planned.approach.integration = Integration::default();
         planned.approach.tracking = Tracking::InverseDynamics;

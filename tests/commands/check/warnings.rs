@@ -345,6 +345,9 @@ fn overlaps_that_fail_a_run_are_warned_of() {
     assert!(shown(&within).contains("along the planned path"), "{}", shown(&within));
     let reported = within.replace("on_overlap = \"fail\"", "on_overlap = \"report\"");
     assert!(!shown(&reported).contains("along the planned path"), "{}", shown(&reported));
+    // a path that takes as long to follow as a run
+    let long = read("large_target").replace("duration = 20.0", "duration = 1000.0");
+    assert!(shown(&long).contains("were not looked for: it takes 200000 steps"), "{}", shown(&long));
     // a joint trajectory to poses: the design gives the path
     let designed = |offset: &str| {
         let text = read("spinning_target").replace("contact = [-0.6, 0.0]", &format!("contact = [{offset}]"));
