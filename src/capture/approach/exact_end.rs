@@ -12,7 +12,7 @@ use crate::trajectory::Trajectory;
 /// Steps of the first integration.
 const FIRST_STEPS: u32 = 64;
 /// Most steps: a path that needs more of them is rougher than any simulation of it.
-const MOST_STEPS: u32 = 1 << 16;
+const MOST_STEPS: u32 = 1 << 13;
 /// Largest change by half the step, rad or m for positions up to 1. The error is then a fifteenth of it, which is known
 /// and subtracted (Richardson's extrapolation): some 1e-12 are left.
 const TOLERANCE: f64 = 5e-10;
