@@ -17,10 +17,6 @@ use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing, simulate};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
 
-/// A simulation of a system under a law, from a state, with steps and samples.
-type Simulate<'a> =
-    dyn FnMut(&System<'_>, &mut dyn Control<f64>, &RobotState, &Timing) -> Result<Phase, PhaseError> + 'a;
-
 /// The approach of one scenario.
 #[derive(Clone, Copy, Debug)]
 pub struct ApproachTracking<'a> {
@@ -62,9 +58,7 @@ impl<'a> ApproachTracking<'a> {
             drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
         };
         match &self.scenario.approach.tracking {
-            Tracking::InverseDynamics => self.by_inverse_dynamics(model, rates, &mut |system, law, initial, timing| {
-                simulate(system, law, initial, timing, events, tick)
-            }),
+            Tracking::InverseDynamics => self.by_inverse_dynamics(model, rates, events, tick),
             Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
                 drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
             }
@@ -110,7 +104,8 @@ impl<'a> ApproachTracking<'a> {
         &self,
         model: &dyn Model<f64>,
         rates: &[f64],
-        simulate: &mut Simulate<'_>,
+        events: &mut dyn Events,
+        tick: &mut dyn FnMut(),
     ) -> Result<Phase, PhaseError> {
         let joints = model.joints();
         let mut law = InverseDynamics {
@@ -119,7 +114,7 @@ impl<'a> ApproachTracking<'a> {
             generalized_bias: &mut vec![0.0; joints],
             generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
         };
-        simulate(&self.system(model), &mut law, &self.start(), &self.timing)
+        simulate(&self.system(model), &mut law, &self.start(), &self.timing, events, tick)
     }
 
     fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {

@@ -36,8 +36,7 @@ impl<T: Real, R: Trajectory<T>> PrescribedJoints<'_, T, R> {
         let (pose, moved) = x.split_first_chunk().ok_or(wrong)?;
         let (angles, rates) = moved.split_at_checked(joints).ok_or(wrong)?;
         length("joint_rates", joints, rates.len())?;
-        model.mass_matrix(pose, angles, self.mass_matrix)?;
-        let twist = MomentumEquation::new(self.mass_matrix, joints)?.base_twist(self.momentum, pose, rates);
+        let twist = self.base_twist(model, pose, angles, rates)?;
         let accelerations = (0..joints).map(|joint| Ok(desired(&self.trajectory, joint, time, joints)?.acceleration));
         let all = twist.into_iter().chain(rates.iter().copied()).map(Ok).chain(accelerations);
         rate.iter_mut().zip(all).try_for_each(|(place, value): (&mut T, Result<T, Error>)| {
