@@ -222,7 +222,6 @@ pub fn simulate(
     let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
-    stepper.estimate_error(timing.integration.integrator, timing.duration, &x);
     let mut locator = EventLocator::new(system, events);
     let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());

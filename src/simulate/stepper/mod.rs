@@ -140,8 +140,7 @@ impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Ste
 pub(crate) struct Stepper<'a> {
     equation: Equation<'a>,
     steps: Box<dyn Steps>,
-    /// `None` where the error of the path is not estimated.
-    companion: Option<Companion>,
+    companion: Companion,
     /// At the end of a part of a step, with rates and with momenta.
     last_part: [Vec<f64>; 2],
 }
@@ -161,13 +160,9 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let equation = Equation::new(system, control, form);
-        let steps = integration.integrator.steps(duration, x.len());
-        Ok(Self { equation, steps, companion: None, last_part: [Vec::new(), Vec::new()] })
-    }
-
-    /// Estimates the error of the path, for the same arguments as [`new`](Self::new).
-    pub(crate) fn estimate_error(&mut self, integrator: Integrator, duration: f64, x: &[f64]) {
-        self.companion = Some(Companion::new(integrator, duration, x));
+        let (steps, companion) =
+            (integration.integrator.steps(duration, x.len()), Companion::new(integration.integrator, duration, x));
+        Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()] })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
@@ -185,18 +180,16 @@ impl<'a> Stepper<'a> {
     /// [`within`](Self::within) has the motion.
     pub(crate) fn advance(&mut self, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
         let reached = self.steps.advance(&mut self.equation, span, from, x)?;
-        if let Some(companion) = self.companion.as_mut().filter(|_| reached >= span[1]) {
-            companion.follow(&mut self.equation, span, x);
+        if reached >= span[1] {
+            self.companion.follow(&mut self.equation, span, x);
         }
         Ok(reached)
     }
 
-    /// The estimated largest error of a position at the end of a phase, rad or m; 0 where it is not estimated.
+    /// The estimated largest error of a position at the end of a phase, rad or m.
     pub(crate) fn path_error(&mut self) -> f64 {
-        self.companion.as_mut().map_or(0.0, |companion| {
-            companion.end(&mut self.equation);
-            companion.error()
-        })
+        self.companion.end(&mut self.equation);
+        self.companion.error()
     }
 
     /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.
