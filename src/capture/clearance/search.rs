@@ -10,6 +10,10 @@ use crate::simulate::path::PathInterval;
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
 
+/// Parts that separate by less than this, m, may overlap on: to look for smaller gaps in an overlap would cost more than
+/// the rest.
+const GAP: f64 = 1e-2;
+
 /// Time for which the most distances are meant, s; longer cases may have more in proportion.
 const BUDGETED: f64 = 100.0;
 
@@ -59,14 +63,9 @@ impl Findings {
         }
     }
 
-    /// The distance above which nothing about a pair is of interest, of whose parts no overlap is open.
+    /// The distance above which nothing about a pair is of interest, whose parts do not overlap.
     pub(super) fn goal(&self, pair: &BodyPair) -> f64 {
         self.least[pair.group].map_or(f64::INFINITY, |(distance, ..)| distance - RESOLUTION).max(-RESOLUTION)
-    }
-
-    /// The same of a part.
-    fn goal_of_part(&self, part: &PartDistance, pair: &BodyPair) -> f64 {
-        part.open.map_or_else(|| self.goal(pair), |open| -self.overlaps[open].depth - RESOLUTION)
     }
 
     /// Whether more distances were computed by a time, s, than are allowed until then.
@@ -75,16 +74,13 @@ impl Findings {
         self.evaluations as f64 > self.max_evaluations as f64 * (time / BUDGETED).max(1.0)
     }
 
-    fn record(&mut self, part: &PartDistance, body_pair: &BodyPair, instant: &Instant, start: f64) {
+    fn record(&mut self, pair: (usize, &BodyPair), instant: &Instant, start: f64) {
         self.evaluations += 1;
-        self.of_pairs[part.pair] += 1;
-        let (pair, distance, time) = (part.pair, instant.distance, start + instant.time);
-        if let Some(open) = part.open {
-            self.overlaps[open].depth = self.overlaps[open].depth.max(-distance);
-        }
-        let least = &mut self.least[body_pair.group];
-        if least.is_none_or(|(least, ..)| distance < least) {
-            *least = Some((distance, time, pair));
+        let (index, BodyPair { group, .. }) = pair;
+        self.of_pairs[index] += 1;
+        let least = &mut self.least[*group];
+        if least.is_none_or(|(least, ..)| instant.distance < least) {
+            *least = Some((instant.distance, start + instant.time, index));
         }
     }
 }
@@ -98,77 +94,120 @@ pub(super) struct IntervalSearch<'a> {
     pub(super) interval: PathInterval<'a>,
     /// Of the phase, s.
     pub(super) start: f64,
+    /// Bound of the relative speed of their points, m/s.
+    pub(super) speed: f64,
     pub(super) workspace: &'a mut PathWorkspace,
 }
 
 impl IntervalSearch<'_> {
-    /// Computes the distance at both ends, and between them wherever it may be below the goal.
+    /// Computes the distance at both ends, and between them wherever it may be below the goal; where the parts overlap,
+    /// wherever there may be a gap, and the largest depth.
     ///
     /// # Errors
     /// The time at which the distances are used up, since the start of the approach, s.
     pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
-        let ends = self.interval.span.map(|time| self.at(time));
-        for end in &ends {
-            found.record(part, pair, end, self.start);
-        }
-        let mut left = ends[0];
+        let known = (part.pair, pair);
+        let [first, last] = self.interval.span;
+        let (mut left, end) = (self.record_at(first, known, found)?, self.record_at(last, known, found)?);
+        let mut instants = vec![left];
         // the instants to the right, the nearest last
-        let mut rights = vec![ends[1]];
-        self.pass(part, found, [left, left], &rights);
+        let mut rights = vec![end];
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
-            let lowest = self.shapes.bound(&left, half).min(self.shapes.bound(right, -half));
-            if lowest >= found.goal_of_part(part, pair) || 2.0 * half <= SHORTEST {
-                let now = *right;
-                self.pass(part, found, [left, now], &rights);
-                left = now;
+            let is_known = if left.distance.min(right.distance) < -RESOLUTION {
+                0.5 * (left.distance + right.distance) + self.speed * half <= GAP
+            } else {
+                self.lowest(&left, right) >= found.goal(pair)
+            };
+            if is_known || 2.0 * half <= SHORTEST {
+                left = *right;
+                instants.push(left);
                 rights.pop();
             } else {
-                let middle = self.at(left.time + half);
-                found.record(part, pair, &middle, self.start);
-                rights.push(middle);
-                if found.are_used_up(self.start + left.time) {
-                    return Err(self.start + left.time);
+                rights.push(self.record_at(left.time + half, known, found)?);
+            }
+        }
+        part.lower = end.distance;
+        let mut begins = 0;
+        for (i, now) in instants.iter().enumerate() {
+            let before = i.saturating_sub(1);
+            match part.open {
+                None if now.distance < -RESOLUTION => {
+                    begins = before;
+                    part.open = Some(found.overlaps.len());
+                    let span = [self.touch(&instants[before], now), now.time].map(|time| self.start + time);
+                    found.overlaps.push(PairOverlap { pair: part.pair, span, depth: -now.distance });
+                }
+                Some(open) if now.distance > 0.0 => {
+                    self.deepen(open, known, found, &instants[begins..=i])?;
+                    found.overlaps[open].span[1] = self.start + self.crossing([instants[before].time, now.time]);
+                    part.open = None;
+                }
+                _ => {}
+            }
+        }
+        if let Some(open) = part.open {
+            self.deepen(open, known, found, &instants[begins..])?;
+            found.overlaps[open].span[1] = self.start + last;
+        }
+        Ok(())
+    }
+
+    /// Finds the largest depth of an overlap between instants.
+    fn deepen(
+        &mut self,
+        overlap: usize,
+        pair: (usize, &BodyPair),
+        found: &mut Findings,
+        instants: &[Instant],
+    ) -> Result<(), f64> {
+        let least = |depth: f64, instant: &Instant| depth.max(-instant.distance);
+        let mut depth = instants.iter().fold(found.overlaps[overlap].depth, least);
+        for ends in instants.windows(2) {
+            let (mut left, mut rights) = (ends[0], vec![ends[1]]);
+            while let Some(right) = rights.last() {
+                let half = 0.5 * (right.time - left.time);
+                if self.lowest(&left, right) >= -depth - RESOLUTION || 2.0 * half <= SHORTEST {
+                    left = *right;
+                    rights.pop();
+                } else {
+                    let middle = self.record_at(left.time + half, pair, found)?;
+                    depth = least(depth, &middle);
+                    rights.push(middle);
                 }
             }
         }
-        part.lower = ends[1].distance;
+        found.overlaps[overlap].depth = depth;
         Ok(())
+    }
+
+    /// A lower bound of the distance between two instants, at which it may be lower.
+    fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
+        let half = 0.5 * (right.time - left.time);
+        self.shapes.bound(left, half).min(self.shapes.bound(right, -half))
+    }
+
+    fn record_at(&mut self, time: f64, pair: (usize, &BodyPair), found: &mut Findings) -> Result<Instant, f64> {
+        let instant = self.at(time);
+        found.record(pair, &instant, self.start);
+        if found.are_used_up(self.start + time) { Err(self.start + time) } else { Ok(instant) }
     }
 
     fn at(&mut self, time: f64) -> Instant {
         self.workspace.instant(self.motions, &self.interval, (self.frames, &self.shapes), time)
     }
 
-    /// Begins, continues or ends an overlap at the second instant; all before it is known, and the distances at those
-    /// after it.
-    fn pass(&mut self, part: &mut PartDistance, found: &mut Findings, [before, now]: [Instant; 2], later: &[Instant]) {
-        match part.open {
-            None if now.distance < -RESOLUTION => {
-                let from = self.touch([self.interval.span[0], now.time]);
-                part.open = Some(found.overlaps.len());
-                let span = [self.start + from, self.start + now.time];
-                let depth = later.iter().fold(-now.distance, |depth, instant| depth.max(-instant.distance));
-                found.overlaps.push(PairOverlap { pair: part.pair, span, depth });
-            }
-            None => {}
-            Some(open) => {
-                let overlap = &mut found.overlaps[open];
-                overlap.span[1] = self.start + now.time;
-                if now.distance > 0.0 {
-                    part.open = None;
-                    overlap.span[1] = self.start + self.crossing([before.time, now.time]);
-                }
-            }
+    /// The time at which the parts touch before they overlap at an instant; nothing is known of the times before an
+    /// earlier instant at which they do.
+    fn touch(&mut self, before: &Instant, now: &Instant) -> f64 {
+        if before.distance > 0.0 {
+            return self.crossing([now.time, before.time]);
         }
-    }
-
-    /// The last time before the second one, not before the first, at which the parts touch: they overlap at the second.
-    fn touch(&mut self, [earliest, overlapping]: [f64; 2]) -> f64 {
+        let earliest = self.interval.span[0];
         let mut step = SHORTEST;
-        let mut late = overlapping;
+        let mut late = now.time;
         loop {
-            let early = (overlapping - step).max(earliest);
+            let early = (now.time - step).max(earliest);
             if self.at(early).distance > 0.0 {
                 return self.crossing([late, early]);
             }

@@ -118,6 +118,7 @@ impl DistanceTracker {
                         motions,
                         interval,
                         start,
+                        speed,
                         workspace: &mut workspace,
                     };
                     search.run(part, pair, found).map_err(|time| exhausted(found, pairs, bodies, time))?;
