@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::formulation::PrescribedJoints;
 use crate::integrate::RungeKutta4;
 use crate::owned::RobotState;
+use crate::scalar::Real;
 use crate::simulate::PhaseError;
 use crate::state::State;
 use crate::trajectory::Trajectory;
@@ -36,7 +37,7 @@ pub struct ApproachEnd {
 /// the last one the end, accelerations may jump.
 ///
 /// # Errors
-/// Time and reason of a singular base inertia.
+/// Time and reason of a singular base inertia; [`Error::NotConverged`] for an end that does not settle.
 pub(crate) fn exact_end(
     model: &dyn Model<f64>,
     trajectory: impl Trajectory<f64>,
@@ -72,11 +73,15 @@ pub(crate) fn exact_end(
     loop {
         steps *= 2;
         let finer = integrate(steps)?;
-        let is_same = |(x, y): (&f64, &f64)| (x - y).abs() <= TOLERANCE * y.abs().max(1.0);
-        let is_settled = x.iter().zip(&finer).all(is_same);
-        x = x.iter().zip(&finer).map(|(x, y)| y + (y - x) / 15.0).collect();
-        if is_settled || steps >= MOST_STEPS {
+        let changes = x.iter().zip(&finer).map(|(x, y)| (x - y).abs() / y.abs().max(1.0));
+        let change = changes.fold(0.0, |most: f64, change| Real::maximum(most, change));
+        if change <= TOLERANCE {
+            x = x.iter().zip(&finer).map(|(x, y)| y + (y - x) / 15.0).collect();
             break;
+        }
+        if steps >= MOST_STEPS {
+            let what = "positions and rates at the end of the approach, with its steps halved each time,";
+            return Err(at(end)(Error::NotConverged { what, iterations: (steps / FIRST_STEPS).ilog2(), change }));
         }
         x = finer;
     }
