@@ -147,14 +147,15 @@ impl StepSearch<'_> {
     fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Result<Option<[f64; 2]>, Error> {
         let [start, end] = self.step.span;
         let reaches = [0.0, detected.parts.iter().map(|part| part.reach).fold(0.0, f64::max)];
-        let approach = self.workspace.speed(detected.frames, reaches) * (end - start);
+        let speed = self.workspace.speed(detected.frames, reaches);
+        let approach = speed * (end - start);
         if detected.armed && detected.lower - approach > 0.0 {
             detected.lower -= approach;
             return Ok(None);
         }
         let acceleration = self.workspace.acceleration(detected.frames, reaches);
         let pairs: Vec<_> =
-            detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], acceleration }).collect();
+            detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], speed, acceleration }).collect();
         let frames = detected.frames;
         let mut instant_at = |pair: &PartPair<'_>, time: f64| self.at(pair, frames, time);
         let mut distance_at = |time: f64| {

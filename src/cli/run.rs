@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let manifest = RunManifest::new(&scenario, source, command());
     let summary = summary(&scenario, arguments.dynamics.name(), &study, &manifest)
         .map_err(|source| CommandError::Numbers { file: arguments.scenario.display().to_string(), source })?;
-    write_results(folder.stage()?, &scenario, arguments, &study, (&manifest, &summary))?;
+    write_results(folder.stage()?, &scenario, arguments, &study, (&manifest, summary))?;
     print(&format!("{}\nResults in {shown}\n", table(&scenario, &study)));
     for failure in &failures {
         note(format_args!("audit: {failure}"));
@@ -100,19 +100,23 @@ fn write_results(
     scenario: &Scenario,
     arguments: &Arguments,
     study: &Study,
-    (manifest, summary): (&RunManifest, &Value),
+    (manifest, mut summary): (&RunManifest, Value),
 ) -> Result<(), CommandError> {
     file_per_case(&folder, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
-    folder.write(SUMMARY, |to| {
-        serde_json::to_writer_pretty(&mut *to, summary)?;
-        writeln!(to)
-    })?;
     if arguments.report {
         folder.write("report.html", |to| write_report(scenario, study, manifest, to))?;
     }
     for output in arguments.optional_outputs.requested() {
         output.write(&folder, scenario, study, manifest)?;
     }
+    let mut files = folder.files()?;
+    files.push(SUMMARY.to_owned());
+    files.sort();
+    summary["files"] = files.into();
+    folder.write(SUMMARY, |to| {
+        serde_json::to_writer_pretty(&mut *to, &summary)?;
+        writeln!(to)
+    })?;
     Ok(folder.commit(SUMMARY)?)
 }
 

@@ -114,6 +114,26 @@ impl StagedFolder {
         attempt().map_err(OutputError::at(&self.path.join(name)))
     }
 
+    /// The paths of the files that have been written, relative to the folder.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the reason.
+    pub fn files(&self) -> Result<Vec<String>, OutputError> {
+        let root = self.staged.folder.path();
+        let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
+        while let Some(folder) = folders.pop() {
+            for name in names(&root.join(&folder))? {
+                let path = folder.join(name);
+                if root.join(&path).is_dir() {
+                    folders.push(path);
+                } else {
+                    files.push(path.to_string_lossy().replace(std::path::MAIN_SEPARATOR, "/"));
+                }
+            }
+        }
+        Ok(files)
+    }
+
     /// Puts the results in their place. A new folder appears at once. In a folder that exists (which may be a mount
     /// point, or where a terminal is) the file `last` of the old results is moved away first and that of the new ones
     /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back.

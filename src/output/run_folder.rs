@@ -1,24 +1,26 @@
 //! What the folder of a run has in it, to tell the results of one scenario from anything else.
 
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// The file that names the scenario and its cases.
+/// The file that names the scenario, its cases, and the files of the run.
 pub const SUMMARY: &str = "summary.json";
 
-/// What stands against replacing the content of a folder with a run of this scenario, as a predicate: a file that no run
-/// of it writes, or the results of another scenario.
+/// What stands against replacing the content of a folder with a run of this scenario, as a predicate: a file that is not
+/// in the list of its summary, or the results of another scenario.
 ///
-/// A run that was killed while it put its results in their place leaves them without a summary; it is then in one of the
-/// temporary folders.
+/// A run that was killed while it put its results in their place leaves them without a summary: the old one and the new
+/// one are then in temporary folders.
 #[must_use]
 pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<String> {
     let inner = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let inner = inner
         .filter(|path| path.file_name().and_then(|name| name.to_str()).is_some_and(super::temporary::is_temporary));
-    let summaries = std::iter::once(folder.to_owned()).chain(inner).map(|folder| folder.join(SUMMARY));
-    let Some(summary) = summaries.into_iter().find_map(|path| read(&path)) else {
+    let folders = std::iter::once(folder.to_owned()).chain(inner);
+    let summaries: Vec<_> = folders.filter_map(|folder| read(&folder.join(SUMMARY))).collect();
+    let Some(summary) = summaries.first() else {
         let name = names.iter().find(|name| *name == SUMMARY).or(names.first())?;
         return Some(format!("has `{name}`, which is not from a run"));
     };
@@ -26,10 +28,10 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
     if found != scenario {
         return Some(format!("holds the results of `{found}`, not of `{scenario}`"));
     }
-    let cases: Vec<_> =
-        summary["cases"].as_array().into_iter().flatten().filter_map(|case| case["name"].as_str()).collect();
-    let foreign = names.iter().find(|name| !belongs(folder, name, &cases))?;
-    Some(format!("has `{foreign}`, which is not from a run of `{scenario}`"))
+    let lists = summaries.iter().filter_map(|summary| summary["files"].as_array());
+    let listed: BTreeSet<_> = lists.flatten().filter_map(Value::as_str).collect();
+    let foreign = names.iter().find_map(|name| foreign(folder, Path::new(name), &listed))?;
+    Some(format!("has `{}`, which is not from a run of `{scenario}`", foreign.display()))
 }
 
 /// A summary: a JSON object with scenario and cases.
@@ -38,20 +40,13 @@ fn read(path: &Path) -> Option<Value> {
     (summary["scenario"].is_string() && summary["cases"].is_array()).then_some(summary)
 }
 
-/// Whether a run with these cases writes a file or folder of this name.
-fn belongs(folder: &Path, name: &str, cases: &[&str]) -> bool {
-    let path = folder.join(name);
-    match name {
-        SUMMARY | "report.html" => path.is_file(),
-        "figures" => {
-            let mut figures = fs::read_dir(&path).into_iter().flatten().flatten().map(|entry| entry.path());
-            path.is_dir() && figures.all(|path| path.extension().is_some_and(|kind| kind == "svg" || kind == "png"))
+/// What is not listed of a file or folder, by its path in the results.
+fn foreign(folder: &Path, name: &Path, listed: &BTreeSet<&str>) -> Option<PathBuf> {
+    match fs::read_dir(folder.join(name)) {
+        Ok(inner) => {
+            let mut inner = inner.flatten().map(|entry| name.join(entry.file_name()));
+            inner.find_map(|name| foreign(folder, &name, listed))
         }
-        name => {
-            let of_case = name
-                .rsplit_once('.')
-                .is_some_and(|(case, kind)| cases.contains(&case) && ["csv", "parquet", "mcap"].contains(&kind));
-            of_case && path.is_file()
-        }
+        Err(_) => name.to_str().is_none_or(|name| !listed.contains(name)).then(|| name.to_owned()),
     }
 }

@@ -72,6 +72,15 @@ fn results_of_something_else_are_refused_unless_forced() {
     assert!(err.contains("`notes.txt`"), "{err}");
     assert_eq!(names(&results), ["a.csv", "notes.txt", "summary.json"]);
 
+    fs::remove_file(results.join("notes.txt")).expect("removed");
+    // an image where a run would have its figures
+    fs::create_dir(results.join("figures")).expect("a folder");
+    fs::write(results.join("figures/annotated.png"), "mine").expect("written");
+    let (code, err) = run(&one, &results, &[]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("`figures/annotated.png`"), "{err}");
+    assert_eq!(names(&results.join("figures")), ["annotated.png"]);
+
     assert_eq!(run(&other, &results, &["--force"]), (0, String::new()));
     assert_eq!(names(&results), ["summary.json", "z.csv"]);
     // a folder of files that no run wrote

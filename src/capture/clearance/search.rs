@@ -94,8 +94,6 @@ pub(super) struct IntervalSearch<'a> {
     pub(super) interval: PathInterval<'a>,
     /// Of the phase, s.
     pub(super) start: f64,
-    /// Bound of the relative speed of their points, m/s.
-    pub(super) speed: f64,
     pub(super) workspace: &'a mut PathWorkspace,
 }
 
@@ -115,11 +113,11 @@ impl IntervalSearch<'_> {
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
             let is_known = if left.distance.min(right.distance) < -RESOLUTION {
-                0.5 * (left.distance + right.distance) + self.speed * half <= GAP
+                0.5 * (left.distance + right.distance) + self.shapes.speed * half <= GAP
             } else {
                 self.lowest(&left, right) >= found.goal(pair)
             };
-            if is_known || 2.0 * half <= SHORTEST {
+            if is_known || self.shapes.is_shortest([left.time, right.time]) {
                 left = *right;
                 instants.push(left);
                 rights.pop();
@@ -167,7 +165,8 @@ impl IntervalSearch<'_> {
             let (mut left, mut rights) = (ends[0], vec![ends[1]]);
             while let Some(right) = rights.last() {
                 let half = 0.5 * (right.time - left.time);
-                if self.lowest(&left, right) >= -depth - RESOLUTION || 2.0 * half <= SHORTEST {
+                if self.lowest(&left, right) >= -depth - RESOLUTION || self.shapes.is_shortest([left.time, right.time])
+                {
                     left = *right;
                     rights.pop();
                 } else {

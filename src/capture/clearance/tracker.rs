@@ -113,12 +113,11 @@ impl DistanceTracker {
                     }
                     let acceleration = workspace.acceleration(frames, reaches);
                     let mut search = IntervalSearch {
-                        shapes: PartPair { parts: shapes, acceleration },
+                        shapes: PartPair { parts: shapes, speed, acceleration },
                         frames,
                         motions,
                         interval,
                         start,
-                        speed,
                         workspace: &mut workspace,
                     };
                     search.run(part, pair, found).map_err(|time| exhausted(found, pairs, bodies, time))?;

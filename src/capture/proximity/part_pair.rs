@@ -5,8 +5,11 @@ use super::motion::FrameState;
 use crate::error::Error;
 use crate::scalar::Scalar;
 
-/// Shortest interval that is divided, s.
+/// Longest interval that need not be divided, s.
 pub(in crate::capture) const SHORTEST: f64 = 1e-9;
+
+/// Parts that move by less than this, m, need no instant between: what fast ones pass in the interval is no deeper.
+const NEAREST: f64 = 1e-9;
 
 /// Most divisions of one step.
 const MAX_DIVISIONS: u32 = 1_000_000;
@@ -24,6 +27,8 @@ pub(in crate::capture) struct Instant {
 /// Two convex parts of two bodies.
 pub(in crate::capture) struct PartPair<'a> {
     pub(in crate::capture) parts: [&'a ConvexPart; 2],
+    /// Bound of the relative speed of their points over the interval, m/s.
+    pub(in crate::capture) speed: f64,
     /// Bound of the relative acceleration of their points over the interval, m/s².
     pub(in crate::capture) acceleration: f64,
 }
@@ -46,6 +51,12 @@ impl PartPair<'_> {
             [ox - x + (cos * along - sin * across), oy - y + (sin * along + cos * across)]
         };
         self.parts[part].corners.iter().map(at)
+    }
+
+    /// Whether an interval between two times is too short to be divided: for the motion, or for digits of the time.
+    pub(in crate::capture) fn is_shortest(&self, [start, end]: [f64; 2]) -> bool {
+        let shortest = SHORTEST.min(NEAREST / self.speed);
+        end - start <= shortest.max(4.0 * f64::EPSILON * end.abs())
     }
 
     /// A lower bound of the distance `after` s (or before, where negative) the instant.
@@ -88,7 +99,7 @@ impl PartPair<'_> {
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
             let lowest = self.bound(&left, half).min(self.bound(right, -half));
-            if lowest < -depth && 2.0 * half > SHORTEST {
+            if lowest < -depth && !self.is_shortest([left.time, right.time]) {
                 if divisions == MAX_DIVISIONS {
                     let (what, change) = ("bounds of the distance between an end effector and its target", half);
                     return Err(Error::NotConverged { what, iterations: divisions, change });

@@ -244,7 +244,11 @@ struct FreePair<'a> {
 impl<'a> FreePair<'a> {
     fn new(parts: [&'a ConvexPart; 2], bodies: [Body; 2]) -> Self {
         let of = |i: usize| bodies[i].twist[0].powi(2) * parts[i].reach;
-        Self { pair: PartPair { parts, acceleration: of(0) + of(1) }, bodies }
+        let speed = |i: usize| {
+            let [omega, vx, vy] = bodies[i].twist;
+            vx.hypot(vy) + omega.abs() * parts[i].reach
+        };
+        Self { pair: PartPair { parts, speed: speed(0) + speed(1), acceleration: of(0) + of(1) }, bodies }
     }
 
     fn at(&self, time: f64) -> Instant {
@@ -288,6 +292,20 @@ proptest! {
             }
         }
         prop_assert!(count < 400, "{} distances", count);
+    }
+}
+
+/// A disc that is inside a point for less than a nanosecond is met all the same.
+#[test]
+fn small_discs_are_met_at_any_speed() {
+    let (point, still) = (ConvexPart::point(), Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] });
+    for (radius, speed) in [(1e-4, 3e6), (1e-6, 3e3), (1e-8, 30.0), (1e-8, 3e3)] {
+        let disc = ConvexPart::of(&Outline::Disc { center: [0.0; 2], radius }).remove(0);
+        let passing = Body { pose: [0.0, -0.3 * speed, 0.5 * radius], twist: [0.0, speed, 0.0], ..still };
+        let free = FreePair::new([&point, &disc], [still, passing]);
+        let found = free.pair.first_contact([0.0, 1.0], 1e-9, |_, time| free.at(time)).expect("bounds");
+        let [before, after] = found.unwrap_or_else(|| panic!("{radius} m at {speed} m/s"));
+        assert!(before < 0.3 && after > 0.3 - radius / speed && after < 0.3 + radius / speed, "{before} {after}");
     }
 }
 
