@@ -156,6 +156,21 @@ pub enum StudyError {
         /// What was computed.
         what: Box<Exhausted>,
     },
+    /// There are too many distances to compute along a path that is wrong.
+    #[error(
+        "case `{case}`: the path is wrong by some {path_error:.1e} rad or m, and distances along it were computed \
+         until {time} s only: a shorter step, or `integrator = \"adaptive\"`, makes the error smaller"
+    )]
+    RoughPath {
+        /// The case's name.
+        case: String,
+        /// `approach` or `post_impact`.
+        table: &'static str,
+        /// Since the start of the approach, s.
+        time: f64,
+        /// Of the phase.
+        path_error: f64,
+    },
     /// The path of a long phase is not in its temporary file.
     #[error("case `{case}`: the path of a long phase could not be kept in a temporary file: {reason}")]
     PathFile {

@@ -43,6 +43,11 @@ impl StudyError {
             Self::Approach(stopped) => of_approach(scenario, stopped),
             Self::Inside { target, .. } => key(format!("target[{}].position", index(scenario, target)), "none"),
             Self::ClearanceExhausted { case, what } => most_distances(scenario, case, what),
+            Self::RoughPath { table, .. } => {
+                let after = scenario.post_impact.as_ref().filter(|_| *table == "post_impact");
+                let step = after.map_or(scenario.approach.step, |after| after.step);
+                key(format!("{table}.step"), format!("{step:?}"))
+            }
             Self::PathFile { .. } => key("approach.duration", format!("{:?}", scenario.approach.duration)),
             Self::Chatter { case, target, .. } => restitution(scenario, case, target),
             Self::Impact { case, .. } => contact_kind(scenario, case),

@@ -10,7 +10,7 @@ use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::target_motion::TargetMotion;
-use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Observer, StudyError};
+use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Observer, PATH_BOUND, StudyError};
 use crate::contact::ContactLaw;
 use crate::error::Error;
 use crate::owned::RobotState;
@@ -51,7 +51,7 @@ impl<'a> CaptureSequence<'a> {
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance
             .add_phase(&approach.path, 0.0, TargetMotion::Free(&start), &[])
-            .map_err(|error| self.clearance_error(error))?;
+            .map_err(|error| self.clearance_error(error, ("approach", approach)))?;
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
         }
@@ -80,7 +80,7 @@ impl<'a> CaptureSequence<'a> {
         let mut clearance = ClearanceTracker::new(self.scenario, &pairs);
         clearance
             .add_phase(&phase.path, 0.0, TargetMotion::Free(&start), &[])
-            .map_err(|error| self.clearance_error(error))?;
+            .map_err(|error| self.clearance_error(error, ("approach", &phase)))?;
         clearance.add_evaluations(contact_detection.evaluations());
         if let Some(overlap) = self.stop(&clearance) {
             return self.stopped_approach(&start, overlap, observer);
@@ -132,7 +132,7 @@ impl<'a> CaptureSequence<'a> {
         let mut clearance = ClearanceTracker::new(self.scenario, &[]);
         clearance
             .add_phase(&phase.path, 0.0, TargetMotion::Free(start), &[])
-            .map_err(|error| self.clearance_error(error))?;
+            .map_err(|error| self.clearance_error(error, ("approach", &phase)))?;
         clearance.end_at(overlap);
         Ok(CaseResult {
             name: self.case.name.clone(),
@@ -194,9 +194,12 @@ impl<'a> CaptureSequence<'a> {
         Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
     }
 
-    fn clearance_error(self, error: ClearanceError) -> StudyError {
+    fn clearance_error(self, error: ClearanceError, (table, phase): (&'static str, &Phase)) -> StudyError {
         let case = self.case.name.clone();
         match error {
+            ClearanceError::Exhausted(what) if phase.path_error > PATH_BOUND => {
+                StudyError::RoughPath { case, table, time: what.time, path_error: phase.path_error }
+            }
             ClearanceError::Exhausted(what) => StudyError::ClearanceExhausted { case, what },
             ClearanceError::Path(error) => StudyError::PathFile { case, reason: error.to_string() },
         }
@@ -353,13 +356,13 @@ impl SequenceState<'_> {
         let before = clearance.clone();
         clearance
             .add_phase(&phase.path, begin, motion, attachments)
-            .map_err(|error| sequence.clearance_error(error))?;
+            .map_err(|error| sequence.clearance_error(error, ("post_impact", &phase)))?;
         if let Some(overlap) = sequence.stop(clearance) {
             phase = Phase { event: None, ..simulate(&mut EndTime(overlap.1 - begin))? };
             *clearance = before;
             clearance
                 .add_phase(&phase.path, begin, motion, attachments)
-                .map_err(|error| sequence.clearance_error(error))?;
+                .map_err(|error| sequence.clearance_error(error, ("post_impact", &phase)))?;
             clearance.end_at(overlap);
         }
         let at =

@@ -201,7 +201,7 @@ impl PhaseError {
         match self.source {
             Error::UnsupportedBodies { .. } => ", expected `coordinates = \"full\"`",
             Error::Tolerance { .. } => " (a larger one may help)",
-            _ => " (a shorter step may help)",
+            _ => " (a shorter step, or smaller gains of a control, may help)",
         }
     }
 }

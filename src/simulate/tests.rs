@@ -100,7 +100,7 @@ fn hints_of_errors() {
     let (misuse, text) = stopped(Error::Tolerance { tolerance: 1e-9, step: 1e-12 });
     assert!(!misuse && text.ends_with(" (a larger one may help)"), "{text}");
     let (misuse, text) = stopped(Error::StateVector { found: 2 });
-    assert!(!misuse && text.ends_with(" (a shorter step may help)"), "{text}");
+    assert!(!misuse && text.ends_with(" (a shorter step, or smaller gains of a control, may help)"), "{text}");
 }
 
 /// Reduced coordinates are refused with bodies beside the robot, constrained or not, and with constraints alone.

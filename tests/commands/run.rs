@@ -43,7 +43,8 @@ fn the_papers_study_prints_its_table_and_writes_its_files() {
     assert_eq!(summary["layout"]["name"], "dual_arm_3r");
     let keys =
         |value: &serde_json::Value| -> Vec<String> { value.as_object().expect("an object").keys().cloned().collect() };
-    assert_eq!(keys(&summary), ["scenario", "layout", "dynamics", "run", "cases"]);
+    assert_eq!(keys(&summary), ["scenario", "layout", "dynamics", "run", "cases", "files"]);
+    assert_eq!(summary["files"], serde_json::json!(["case1.csv", "case2.csv", "case3.csv", "summary.json"]));
     assert_eq!(keys(&summary["cases"][0]), ["name", "approach", "clearance", "impact", "post_impact"]);
     assert_eq!(
         keys(&summary["cases"][0]["impact"]["exact"]),
@@ -318,7 +319,7 @@ fn integrators_say_what_they_cannot_do() {
     let stiff = paper().replacen("step = 0.005", "step = 0.5\nintegrator = \"gauss_legendre\"", 1);
     let (code, _, err, _) = run_text(&stiff);
     assert_eq!(code, 1, "{err}");
-    assert!(err.contains("do not converge") && err.contains("a shorter step may help"), "{err}");
+    assert!(err.contains("do not converge") && err.contains("a shorter step, or smaller gains"), "{err}");
 }
 
 /// Steps that are far too long: the audit objects, and the exit code says so.

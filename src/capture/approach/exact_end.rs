@@ -1,22 +1,19 @@
 //! The end of an approach that is tracked exactly, from kinematics alone.
 
+use crate::capture::approach::collocation::{Collocation, POINTS};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::formulation::PrescribedJoints;
-use crate::integrate::RungeKutta4;
 use crate::owned::RobotState;
 use crate::scalar::Real;
 use crate::simulate::PhaseError;
 use crate::state::State;
 use crate::trajectory::Trajectory;
 
-/// Steps of the first integration.
-const FIRST_STEPS: u32 = 64;
-/// Most steps: a path that needs more of them is rougher than any simulation of it.
-const MOST_STEPS: u32 = 1 << 13;
-/// Largest change by half the step, rad or m for positions up to 1. The error is then a fifteenth of it, which is known
-/// and subtracted (Richardson's extrapolation): some 1e-12 are left.
-const TOLERANCE: f64 = 5e-10;
+/// Most divisions of the time between two knots: a few hundred turns of the joints.
+const MOST_PANELS: u32 = 1 << 8;
+/// Largest change by half as long panels, rad or rad/s for values up to 1; the error is then of rounding.
+const TOLERANCE: f64 = 1e-10;
 
 /// A robot at the end of its approach.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,13 +28,13 @@ pub struct ApproachEnd {
     pub end_effector_twists: Vec<[f64; 3]>,
 }
 
-/// The end of a motion from a state whose joints have a trajectory's accelerations. The base follows from the momentum,
-/// so that no dynamics are computed; the steps of a Runge–Kutta method are halved until the end no longer
-/// changes. At `knots` (s), in order and
-/// the last one the end, accelerations may jump.
+/// The end of a motion from a state whose joints have a trajectory's accelerations, without forces. Its center of mass
+/// moves uniformly; about it the angular momentum is constant, so that the rate of the base's yaw follows from the joints'
+/// motion alone. What is left are integrals over time. At `knots` (s), in order and the last one the end, accelerations
+/// may jump.
 ///
 /// # Errors
-/// Time and reason of a singular base inertia; [`Error::NotConverged`] for an end that does not settle.
+/// Time and reason of a singular base inertia; [`Error::NotConverged`] for integrals that do not settle.
 pub(crate) fn exact_end(
     model: &dyn Model<f64>,
     trajectory: impl Trajectory<f64>,
@@ -47,54 +44,104 @@ pub(crate) fn exact_end(
     let at = |time| move |source| PhaseError { time, source };
     let end = knots.last().copied().unwrap_or_default();
     let joints = model.joints();
+    let mut mass_matrix = vec![0.0; (3 + joints) * (3 + joints)];
+    let mut prescribed = PrescribedJoints { mass_matrix: &mut mass_matrix };
     let momentum = model.momentum(&initial.view()).map_err(at(0.0))?;
     let [px, py] = momentum.linear_momentum;
-    let mut mass_matrix = vec![0.0; (3 + joints) * (3 + joints)];
-    let mut motion =
-        PrescribedJoints { momentum: [momentum.angular_momentum, px, py], trajectory, mass_matrix: &mut mass_matrix };
-    let start = [&initial.base_pose[..], &initial.joint_angles, &initial.joint_rates].concat();
-    let mut workspace = vec![0.0; RungeKutta4::<f64>::WORKSPACE * start.len()];
-    let mut integrate = |steps: u32| -> Result<Vec<f64>, PhaseError> {
-        let mut method = RungeKutta4::new(&mut workspace).map_err(at(0.0))?;
-        let (mut x, mut from) = (start.clone(), 0.0);
+    let [mass, mx, my] = prescribed.first_moment(model, &initial.base_pose, &initial.joint_angles).map_err(at(0.0))?;
+    let [yaw, x, y] = initial.base_pose;
+    let start = [x + mx / mass, y + my / mass];
+    let spin = momentum.angular_momentum - (start[0] * py - start[1] * px);
+    let mut motion = JointMotion { model, trajectory, prescribed, spin, collocation: Collocation::new() };
+
+    let mut panels = 1;
+    let mut found = motion.integrate(initial, knots, panels)?;
+    loop {
+        panels *= 2;
+        let finer = motion.integrate(initial, knots, panels)?;
+        let changes = found.iter().zip(&finer).map(|(x, y)| (x - y).abs() / y.abs().max(1.0));
+        let change = changes.fold(0.0, |most: f64, change| Real::maximum(most, change));
+        found = finer;
+        if change <= TOLERANCE {
+            break;
+        }
+        if panels >= MOST_PANELS {
+            let what = "yaw and joint angles at the end of the approach, with panels halved each time,";
+            return Err(at(end)(Error::NotConverged { what, iterations: panels.ilog2(), change }));
+        }
+    }
+    let (joint_angles, rest) = found.split_at(joints);
+    let (joint_rates, turned) = rest.split_at(joints);
+    let yaw = yaw + turned[0];
+    let JointMotion { mut prescribed, .. } = motion;
+    let [_, mx, my] = prescribed.first_moment(model, &[yaw, 0.0, 0.0], joint_angles).map_err(at(end))?;
+    let base_pose = [yaw, start[0] + (px * end - mx) / mass, start[1] + (py * end - my) / mass];
+    let momentum = [momentum.angular_momentum, px, py];
+    let base_twist =
+        prescribed.base_twist(model, momentum, (&base_pose, joint_angles, joint_rates)).map_err(at(end))?;
+    let (joint_angles, joint_rates) = (joint_angles.to_vec(), joint_rates.to_vec());
+    of_state(model, RobotState { base_pose, base_twist, joint_angles, joint_rates }, end).map_err(at(end))
+}
+
+/// Joints that have a trajectory's accelerations, and the turn of the base that follows.
+struct JointMotion<'a, R> {
+    model: &'a dyn Model<f64>,
+    trajectory: R,
+    prescribed: PrescribedJoints<'a, f64>,
+    /// Angular momentum about the center of mass, N m s.
+    spin: f64,
+    collocation: Collocation,
+}
+
+impl<R: Trajectory<f64>> JointMotion<'_, R> {
+    /// Joint angles, joint rates and the turn of the base at the last knot, with so many panels up to each.
+    fn integrate(&mut self, initial: &RobotState, knots: &[f64], panels: u32) -> Result<Vec<f64>, PhaseError> {
+        let (mut angles, mut rates) = (initial.joint_angles.clone(), initial.joint_rates.clone());
+        let (mut turned, mut from) = (0.0, 0.0);
         for to in knots {
-            let step = (to - from) / f64::from(steps);
-            for i in 0..steps {
-                let time = from + f64::from(i) * step;
-                let derivative = |t: f64, x: &[f64], rate: &mut [f64]| motion.derivative(model, t, x, rate);
-                method.step(time, step, &mut x, derivative).map_err(at(time))?;
+            let length = (to - from) / f64::from(panels);
+            for panel in 0..panels {
+                let start = from + f64::from(panel) * length;
+                turned += self
+                    .add_panel(start, length, &mut angles, &mut rates)
+                    .map_err(|source| PhaseError { time: start, source })?;
             }
             from = *to;
         }
-        Ok(x)
-    };
-    let mut steps = FIRST_STEPS;
-    let mut x = integrate(steps)?;
-    loop {
-        steps *= 2;
-        let finer = integrate(steps)?;
-        let changes = x.iter().zip(&finer).map(|(x, y)| (x - y).abs() / y.abs().max(1.0));
-        let change = changes.fold(0.0, |most: f64, change| Real::maximum(most, change));
-        if change <= TOLERANCE {
-            x = x.iter().zip(&finer).map(|(x, y)| y + (y - x) / 15.0).collect();
-            break;
-        }
-        if steps >= MOST_STEPS {
-            let what = "positions and rates at the end of the approach, with its steps halved each time,";
-            return Err(at(end)(Error::NotConverged { what, iterations: (steps / FIRST_STEPS).ilog2(), change }));
-        }
-        x = finer;
+        angles.append(&mut rates);
+        angles.push(turned);
+        Ok(angles)
     }
-    let (base_pose, moved) = x.split_first_chunk().expect("a vector begins with the base pose");
-    let (joint_angles, joint_rates) = moved.split_at(joints);
-    let base_twist = motion.base_twist(model, base_pose, joint_angles, joint_rates).map_err(at(end))?;
-    let state = RobotState {
-        base_pose: *base_pose,
-        base_twist,
-        joint_angles: joint_angles.to_vec(),
-        joint_rates: joint_rates.to_vec(),
-    };
-    of_state(model, state, end).map_err(at(end))
+
+    /// Adds the motion of a panel to joint angles and rates; the result is the turn of the base.
+    fn add_panel(&mut self, start: f64, length: f64, angles: &mut [f64], rates: &mut [f64]) -> Result<f64, Error> {
+        let Collocation { points, weights, partial_weights } = &self.collocation;
+        let joints = angles.len();
+        let sum = |weights: &[f64; POINTS], values: &[f64; POINTS]| -> f64 {
+            length * weights.iter().zip(values).map(|(weight, value)| weight * value).sum::<f64>()
+        };
+        let mut inner = vec![[[0.0; POINTS]; 2]; joints];
+        for (joint, (angle, rate)) in angles.iter_mut().zip(rates).enumerate() {
+            let mut accelerations = [0.0; POINTS];
+            for (acceleration, point) in accelerations.iter_mut().zip(points) {
+                let wanted = self.trajectory.joint(joint, start + point * length);
+                let none = Error::Index { what: "joint of the trajectory", index: joint, count: joints };
+                *acceleration = wanted.ok_or(none)?.acceleration;
+            }
+            let inner_rates = partial_weights.each_ref().map(|weights| *rate + sum(weights, &accelerations));
+            inner[joint] = [partial_weights.each_ref().map(|weights| *angle + sum(weights, &inner_rates)), inner_rates];
+            *angle += sum(weights, &inner_rates);
+            *rate += sum(weights, &accelerations);
+        }
+        let mut yaw_rates = [0.0; POINTS];
+        for (i, yaw_rate) in yaw_rates.iter_mut().enumerate() {
+            let [angles, rates] = [0, 1].map(|k| inner.iter().map(|joint| joint[k][i]).collect::<Vec<_>>());
+            // from the center of mass there is no linear momentum, and no yaw is another one's
+            let twist = self.prescribed.base_twist(self.model, [self.spin, 0.0, 0.0], (&[0.0; 3], &angles, &rates))?;
+            *yaw_rate = twist[0];
+        }
+        Ok(sum(weights, &yaw_rates))
+    }
 }
 
 fn of_state(model: &dyn Model<f64>, state: RobotState, time: f64) -> Result<ApproachEnd, Error> {

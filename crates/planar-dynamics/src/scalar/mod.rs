@@ -15,3 +15,27 @@ pub(crate) mod sine_lanes;
 pub use number::Scalar;
 pub use real::Real;
 pub use sine::{sin_cos_f32, sin_cos_f64};
+
+#[cfg(all(test, any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod tests {
+    use super::{accelerated, portable};
+
+    /// Square roots have the same bits on every target: roots of all magnitudes, of squares, and next to a tie.
+    #[test]
+    fn square_roots_have_the_bits_of_the_processor() {
+        let special = [0.0, -0.0, 1.0, 4.0, -1.0, 5e-324, f64::MIN_POSITIVE, f64::MAX, f64::INFINITY, f64::NAN];
+        let near = |bits: u64| [bits - 1, bits, bits + 1].map(f64::from_bits);
+        let ties = (0..2000_u64).flat_map(|i| near((4.0_f64 - f64::EPSILON * 4.0).to_bits() - i));
+        // even steps through all bits by the golden ratio
+        let spread = (1..200_000_u64).flat_map(|i| {
+            let x = f64::from_bits(i.wrapping_mul(0x9e37_79b9_7f4a_7c15) % (2047 << 52));
+            let square = near(((x % 1e150) * (x % 1e150)).max(1e-300).to_bits());
+            [x, square[0], square[1], square[2]]
+        });
+        for value in special.into_iter().chain(spread).chain(ties) {
+            let (own, processor) = (portable::sqrt(value), accelerated::sqrt(value));
+            assert!(own.to_bits() == processor.to_bits() || (own.is_nan() && processor.is_nan()), "{value:e}");
+            assert!(processor.to_bits() == value.sqrt().to_bits() || processor.is_nan(), "{value:e}");
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Quadrature of functions of time at Gauss–Legendre points, from the start of an interval up to each point.
+
+/// Points of one interval.
+pub(crate) const POINTS: usize = 8;
+
+/// Positive zeros of the Legendre polynomial of degree 8.
+const ZEROS: [f64; POINTS / 2] =
+    [0.183_434_642_495_649_8, 0.525_532_409_916_329, 0.796_666_477_413_626_7, 0.960_289_856_497_536_2];
+
+/// Weights of the points of an interval from 0 to 1, and of those up to each point.
+pub(crate) struct Collocation {
+    /// In order.
+    pub(crate) points: [f64; POINTS],
+    /// ∫₀¹ of the polynomial through values at the points is their sum with these; exact up to degree 15.
+    pub(crate) weights: [f64; POINTS],
+    /// Up to each point; exact up to degree 7.
+    pub(crate) partial_weights: [[f64; POINTS]; POINTS],
+}
+
+impl Collocation {
+    /// With the Lagrange polynomial of point j as a sum of Legendre polynomials on −1…1,
+    /// `l_j = w_j Σ_k (k + ½) P_k(x_j) P_k`, and `(2k + 1) ∫ P_k = P_{k+1} − P_{k−1}`.
+    pub(crate) fn new() -> Self {
+        let half = POINTS / 2;
+        let zeros: [f64; POINTS] =
+            std::array::from_fn(|i| if i < half { -ZEROS[half - 1 - i] } else { ZEROS[i - half] });
+        let polynomials = zeros.map(legendre);
+        let weights = polynomials.map(|p| {
+            let sum: f64 = (0..POINTS).zip(p).map(|(k, p)| (odd(k)) * p * p).sum();
+            1.0 / sum
+        });
+        let integral = |i: usize, k: usize| {
+            let below = if k == 0 { -1.0 } else { polynomials[i][k - 1] };
+            polynomials[i][k + 1] - below
+        };
+        let partial_weights = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let sum: f64 = (0..POINTS).map(|k| integral(i, k) * polynomials[j][k]).sum();
+                0.5 * weights[j] * sum
+            })
+        });
+        Self { points: zeros.map(|x| 0.5 * (1.0 + x)), weights, partial_weights }
+    }
+}
+
+/// 2k + 1.
+fn odd(k: usize) -> f64 {
+    f64::from(u32::try_from(2 * k + 1).expect("a degree"))
+}
+
+/// P_0 … P_8.
+fn legendre(x: f64) -> [f64; POINTS + 1] {
+    let mut p = [1.0; POINTS + 1];
+    p[1] = x;
+    for k in 1..POINTS {
+        p[k + 1] = (odd(k) * x * p[k] - (odd(k) - 1.0) / 2.0 * p[k - 1]) / ((odd(k) + 1.0) / 2.0);
+    }
+    p
+}
