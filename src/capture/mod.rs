@@ -49,6 +49,9 @@ pub const ENERGY_BOUND: f64 = 1e-6;
 /// Largest estimated error of a path that passes the audit, rad or m.
 pub const PATH_BOUND: f64 = 1e-4;
 
+/// Most overlaps of a case that the audit names one by one.
+const NAMED_OVERLAPS: usize = 10;
+
 /// Largest constraint error that passes the audit, rad or m, and its largest rate.
 pub const CONSTRAINT_BOUND: f64 = 1e-10;
 
@@ -355,7 +358,13 @@ impl Study {
             if let Some(own) = &case.approach {
                 found.extend(phase_failures(&format!("{}, approach", case.name), own));
             }
-            found.extend(case.clearance.failures().map(|overlap| format!("{}: {}", case.name, overlap.sentence())));
+            let mut overlaps = case.clearance.failures();
+            let named = overlaps.by_ref().take(NAMED_OVERLAPS);
+            found.extend(named.map(|overlap| format!("{}: {}", case.name, overlap.sentence())));
+            let more = overlaps.count();
+            if more > 0 {
+                found.push(format!("{}: {more} more overlaps, all in the summary", case.name));
+            }
             let depths = case.closest.iter().map(|pair| -pair.distance);
             let depths = depths.chain(case.capture.iter().map(|captured| captured.penetration));
             let depth = depths.fold(0.0, Real::maximum);

@@ -186,6 +186,9 @@ const SCENARIO_EDITS: &[Edit] = &[
     ),
     ("radius = 0.5", "radius = 0.5\nposition = [3e9, 0]", 17, &["`target[0].position` is [3e9, 0]", "nearer origin"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [1e60, 0, 0]", 5, &["`initial.base_twist[0]` is 1e60", "1e-100 to 1e9"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [0, 0, -3e8]", 5, &["`initial.base_twist[2]` is -3e8", "2.99792458e8"]),
+    ("[0.1, 0.2]", "[0.1, 0.2]\njoint_rates = [0, 2e9]", 5, &["`initial.joint_rates[1]` is 2e9", "1e-100 to 1e9"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\njoint_rate = [0, 0]", 5, &["unknown key `initial.joint_rate`", "`joint_rates`"]),
     ("duration = 20.0", "duration = 0", 6, &["`approach.duration` is 0", "a duration in s greater than 0"]),
     (

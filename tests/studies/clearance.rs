@@ -142,7 +142,13 @@ fn rules_of_overlaps() {
         }
     }
     let failing = run(&read("on_overlap = \"fail\""));
-    assert!(!failing.audit_failures().is_empty());
+    let failures = failing.audit_failures();
+    for case in &failing.cases {
+        let (all, of_case) = (case.clearance.failures().count(), format!("{}: ", case.name));
+        let (named, more) = (failures.iter().filter(|failure| failure.contains(" overlap from ")), all - 10);
+        assert_eq!(named.filter(|failure| failure.starts_with(&of_case)).count(), 10, "of {all}");
+        assert!(failures.contains(&format!("{of_case}{more} more overlaps, all in the summary")), "{failures:?}");
+    }
     let ignored = run(&read("ignore = [[\"targets/target2\", \"targets/target1\"]]"));
     let is_of_targets = |result: &Study| {
         let overlaps = &result.cases[2].clearance.overlaps;
@@ -199,4 +205,21 @@ fn the_most_distances_are_for_a_time() {
     let message = error.to_string();
     assert!(message.contains("`targets/rod`") && message.contains("was not computed to the end"), "{message}");
     assert_eq!(error.key(&too_few).path, "target[0].twist");
+}
+
+/// Where the path is wrong, its step is the reason for too many distances.
+#[test]
+fn a_rough_path_is_shown_at_its_step() {
+    let key = |step: f64| {
+        let mut scenario = scenario("raina_shah_2017");
+        scenario.clearance.max_distances = 10;
+        scenario.approach.step = step;
+        let model = registry::generated(&scenario.layout).expect("generated code");
+        let error = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect_err("ten distances");
+        (error.key(&scenario).path, error.to_string())
+    };
+    let (path, text) = key(0.14);
+    assert!(path == "approach.step" && text.contains("the path is wrong by"), "{path} {text}");
+    let (path, text) = key(0.005);
+    assert!(path != "approach.step" && text.contains("the clearance was not computed"), "{path} {text}");
 }

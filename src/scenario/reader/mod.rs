@@ -33,11 +33,18 @@ const STEP: NumberRule = NumberRule::positive("a time step", "s");
 /// Two turns; a larger angle is taken for one in degrees.
 const LARGEST_ANGLE: f64 = 4.0 * PI;
 const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(LARGEST_ANGLE);
-const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s");
+/// rad/s; a faster body turns more often in a second than its angle has digits to show.
+const LARGEST_RATE: f64 = 1e9;
+/// That of light, m/s: no body of mechanics is faster.
+const LARGEST_VELOCITY: f64 = 299_792_458.0;
+const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s").at_most(LARGEST_RATE);
 const POSITION: [NumberRule; 2] = [NumberRule::any("x", "m"), NumberRule::any("y", "m")];
 const POSE: [NumberRule; 3] = [NumberRule::any("yaw", "rad"), NumberRule::any("x", "m"), NumberRule::any("y", "m")];
-const TWIST: [NumberRule; 3] =
-    [NumberRule::any("ω", "rad/s"), NumberRule::any("vx", "m/s"), NumberRule::any("vy", "m/s")];
+const TWIST: [NumberRule; 3] = [
+    NumberRule::any("ω", "rad/s").at_most(LARGEST_RATE),
+    NumberRule::any("vx", "m/s").at_most(LARGEST_VELOCITY),
+    NumberRule::any("vy", "m/s").at_most(LARGEST_VELOCITY),
+];
 
 const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
 const LAYOUT: &str = "a shipped layout's name or the path of a layout file";

@@ -23,6 +23,7 @@ portable!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32);
 portable!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64);
 
 /// Square root by Newton's iteration, correctly rounded; NaN for a negative value.
+#[allow(dead_code, reason = "for targets that have none of their own")]
 pub(super) fn sqrt(value: f64) -> f64 {
     const IMPLICIT: u64 = 1 << 52;
 

@@ -15,6 +15,7 @@ pub struct NumberRule {
     what: &'static str,
     unit: &'static str,
     minimum: Minimum,
+    largest: f64,
     wrong_unit: Option<WrongUnit>,
 }
 
@@ -37,7 +38,7 @@ impl NumberRule {
     /// Any finite number; `what` is the name with its article, "a mass", and `unit` empty for a number without one.
     #[must_use]
     pub const fn any(what: &'static str, unit: &'static str) -> Self {
-        Self { what, unit, minimum: Minimum::None, wrong_unit: None }
+        Self { what, unit, minimum: Minimum::None, largest: LARGEST, wrong_unit: None }
     }
 
     /// A finite number greater than zero.
@@ -64,6 +65,12 @@ impl NumberRule {
         self.reject_unit(metres, "millimetres", 1e-3)
     }
 
+    /// Rejects magnitudes above a limit.
+    #[must_use]
+    pub const fn at_most(self, largest: f64) -> Self {
+        Self { largest, ..self }
+    }
+
     const fn reject_unit(self, limit: f64, unit: &'static str, factor: f64) -> Self {
         Self { wrong_unit: Some(WrongUnit { limit, unit, factor }), ..self }
     }
@@ -73,8 +80,9 @@ impl NumberRule {
         if !number.is_finite() {
             return Err(Some("the number must be finite and fit in 64 bits".to_owned()));
         }
-        if number != 0.0 && !(SMALLEST..=LARGEST).contains(&number.abs()) {
-            return Err(Some(format!("the number must be 0 or of a magnitude from {SMALLEST:e} to {LARGEST:e}")));
+        if number != 0.0 && !(SMALLEST..=self.largest).contains(&number.abs()) {
+            let largest = self.largest;
+            return Err(Some(format!("the number must be 0 or of a magnitude from {SMALLEST:e} to {largest:e}")));
         }
         let too_small = match self.minimum {
             Minimum::None => false,
