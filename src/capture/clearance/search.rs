@@ -25,6 +25,8 @@ pub(super) struct PartDistance {
     pub(super) parts: [usize; 2],
     /// Lower bound of the distance at the end of the last interval, m.
     pub(super) lower: f64,
+    /// The end of the last interval that was looked at, in the time of the phase.
+    pub(super) last: Option<Instant>,
     /// The overlap that has not ended.
     pub(super) open: Option<usize>,
 }
@@ -106,7 +108,9 @@ impl IntervalSearch<'_> {
     pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
         let known = (part.pair, pair);
         let [first, last] = self.interval.span;
-        let (mut left, end) = (self.record_at(first, known, found)?, self.record_at(last, known, found)?);
+        let before = part.last.filter(|instant| instant.time.to_bits() == first.to_bits());
+        let mut left = before.map_or_else(|| self.record_at(first, known, found), Ok)?;
+        let end = self.record_at(last, known, found)?;
         let mut instants = vec![left];
         // the instants to the right, the nearest last
         let mut rights = vec![end];
@@ -125,7 +129,7 @@ impl IntervalSearch<'_> {
                 rights.push(self.record_at(left.time + half, known, found)?);
             }
         }
-        part.lower = end.distance;
+        (part.lower, part.last) = (end.distance, Some(end));
         let mut begins = 0;
         for (i, now) in instants.iter().enumerate() {
             let before = i.saturating_sub(1);

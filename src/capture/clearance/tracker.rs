@@ -45,7 +45,7 @@ impl DistanceTracker {
         let of_pair = |(pair, BodyPair { bodies: [a, b], .. }): (usize, &BodyPair)| {
             let second = bodies[*b].parts.len();
             let indices = (0..bodies[*a].parts.len()).flat_map(|i| (0..second).map(move |j| [i, j]));
-            let part = |parts| PartDistance { pair, parts, lower: f64::NEG_INFINITY, open: None };
+            let part = |parts| PartDistance { pair, parts, lower: f64::NEG_INFINITY, last: None, open: None };
             PairDistance { circles: f64::NEG_INFINITY, is_far: false, parts: indices.map(part).collect() }
         };
         let distances = pairs.iter().enumerate().map(of_pair).collect();
@@ -77,6 +77,7 @@ impl DistanceTracker {
             pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
         };
         let mut end = start;
+        distances.iter_mut().flat_map(|known| &mut known.parts).for_each(|part| part.last = None);
         path.try_for_each(|interval| {
             let length = interval.span[1] - interval.span[0];
             end = start + interval.span[1];

@@ -141,7 +141,7 @@ fn larger(best: Separation, distance: f64, normal: [f64; 2]) -> Separation {
 fn for_each_axis(corners: &[[f64; 2]], mut call: impl FnMut([f64; 2])) {
     for ([ax, ay], [bx, by]) in edges(corners) {
         let (dx, dy) = (bx - ax, by - ay);
-        let length = dx.hypot(dy);
+        let length = (dx * dx + dy * dy).sqrt();
         if length > 0.0 {
             call([dy / length, -dx / length]);
             if corners.len() == 2 {
@@ -159,12 +159,11 @@ fn gap(a: &[[f64; 2]], b: &[[f64; 2]], [nx, ny]: [f64; 2]) -> f64 {
 
 /// The nearest points of two parts that do not overlap.
 fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
-    let mut best = Separation { distance: f64::INFINITY, normal: otherwise };
+    let (mut squared, mut shortest) = (f64::INFINITY, [0.0; 2]);
     let mut compare = |[dx, dy]: [f64; 2]| {
-        let distance = dx.hypot(dy);
-        if distance < best.distance {
-            let normal = if distance > 0.0 { [dx / distance, dy / distance] } else { otherwise };
-            best = Separation { distance, normal };
+        let other = dx * dx + dy * dy;
+        if other < squared {
+            (squared, shortest) = (other, [dx, dy]);
         }
     };
     let from_corners = |points: &[[f64; 2]], corners: &[[f64; 2]], compare: &mut dyn FnMut([f64; 2])| {
@@ -177,7 +176,8 @@ fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
     };
     from_corners(a, b, &mut compare);
     from_corners(b, a, &mut |[dx, dy]| compare([-dx, -dy]));
-    best
+    let distance = squared.sqrt();
+    Separation { distance, normal: if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise } }
 }
 
 #[cfg(test)]

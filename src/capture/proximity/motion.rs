@@ -2,7 +2,8 @@
 
 use crate::capture::assembly::TargetPlacement;
 use crate::capture::target_motion::TargetMotion;
-use crate::frames::{Frame, FrameMotion, point};
+use crate::frames::{Frame, FrameMotion};
+use crate::scalar::Scalar;
 use crate::simulate::path::PathInterval;
 use crate::simulate::system::Body;
 
@@ -16,12 +17,14 @@ pub(in crate::capture) struct FrameKinematics<'a> {
 }
 
 /// Pose and twist of the origin of a frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::capture) struct FrameState {
     /// [yaw, x, y] in rad, m.
     pub(in crate::capture) pose: [f64; 3],
     /// [ω, vx, vy] in rad/s, m/s.
     pub(in crate::capture) twist: [f64; 3],
+    /// Sine and cosine of the yaw.
+    direction: (f64, f64),
 }
 
 /// Bounds of the motion of a frame over an interval.
@@ -69,10 +72,20 @@ impl MotionBound {
 }
 
 impl FrameState {
+    pub(in crate::capture) fn new(pose: [f64; 3], twist: [f64; 3]) -> Self {
+        Self { pose, twist, direction: Scalar::sin_cos(pose[0]) }
+    }
+
+    /// A point of the frame from its origin, in inertial axes.
+    pub(in crate::capture) fn rotated(&self, [along, across]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.direction;
+        [cos * along - sin * across, sin * along + cos * across]
+    }
+
     fn carried(&self, [angle, x, y]: [f64; 3], rate: f64) -> Self {
         let ([yaw, ox, oy], [omega, vx, vy]) = (self.pose, self.twist);
-        let [px, py] = point(self.pose, [x, y]);
-        Self { pose: [yaw + angle, px, py], twist: [omega + rate, vx - omega * (py - oy), vy + omega * (px - ox)] }
+        let [dx, dy] = self.rotated([x, y]);
+        Self::new([yaw + angle, ox + dx, oy + dy], [omega + rate, vx - omega * dy, vy + omega * dx])
     }
 }
 
@@ -87,14 +100,12 @@ impl FrameKinematics<'_> {
     ) {
         let [positions, rates] = coordinates;
         interval.at(time, positions, rates);
-        let body = |i: usize| FrameState {
-            pose: [positions[i], positions[i + 1], positions[i + 2]],
-            twist: [rates[i], rates[i + 1], rates[i + 2]],
-        };
+        let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
+        let body = |i: usize| FrameState::new(three(positions, i), three(rates, i));
         states.clear();
         for (k, frame) in self.frames.iter().enumerate() {
             let [angle, x, y] = frame.pose;
-            let parent = frame.parent.map_or_else(FrameState::default, |parent| states[parent]);
+            let parent = frame.parent.map_or_else(|| FrameState::new([0.0; 3], [0.0; 3]), |parent| states[parent]);
             let state = match frame.motion {
                 FrameMotion::Base => body(0),
                 FrameMotion::Joint(joint) => parent.carried([angle + positions[3 + joint], x, y], rates[3 + joint]),
@@ -102,7 +113,7 @@ impl FrameKinematics<'_> {
                 FrameMotion::Target(target) => match self.targets {
                     TargetMotion::Free(bodies) => {
                         let Body { pose, twist, .. } = bodies[target].after(time);
-                        FrameState { pose, twist }
+                        FrameState::new(pose, twist)
                     }
                     TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
                         TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),

@@ -3,7 +3,6 @@
 use super::convex::{ConvexPart, separation};
 use super::motion::FrameState;
 use crate::error::Error;
-use crate::scalar::Scalar;
 
 /// Longest interval that need not be divided, s.
 pub(in crate::capture) const SHORTEST: f64 = 1e-9;
@@ -34,21 +33,33 @@ pub(in crate::capture) struct PartPair<'a> {
 }
 
 impl PartPair<'_> {
-    /// The separation at one instant.
-    pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2]) -> Instant {
-        let origin = states[0].pose;
-        let placed: [Vec<[f64; 2]>; 2] = std::array::from_fn(|i| self.corners(i, &states[i], origin).collect());
+    /// The separation at one instant; `placed` is working space.
+    pub(in crate::capture) fn at(
+        &self,
+        time: f64,
+        states: [FrameState; 2],
+        placed: &mut [Vec<[f64; 2]>; 2],
+    ) -> Instant {
+        for (i, corners) in placed.iter_mut().enumerate() {
+            corners.clear();
+            corners.extend(self.corners(i, &states[i], states[0].pose));
+        }
         let radii = self.parts[0].radius + self.parts[1].radius;
         let found = separation(&placed[0], &placed[1], radii);
         Instant { time, distance: found.distance, normal: found.normal, states }
     }
 
     /// The corners of a part in inertial axes from the position of a frame.
-    fn corners(&self, part: usize, state: &FrameState, [_, x, y]: [f64; 3]) -> impl Iterator<Item = [f64; 2]> {
-        let (sin, cos) = Scalar::sin_cos(state.pose[0]);
+    fn corners<'a>(
+        &'a self,
+        part: usize,
+        state: &'a FrameState,
+        [_, x, y]: [f64; 3],
+    ) -> impl Iterator<Item = [f64; 2]> + 'a {
         let [_, ox, oy] = state.pose;
-        let at = move |[along, across]: &[f64; 2]| {
-            [ox - x + (cos * along - sin * across), oy - y + (sin * along + cos * across)]
+        let at = move |corner: &[f64; 2]| {
+            let [dx, dy] = state.rotated(*corner);
+            [ox - x + dx, oy - y + dy]
         };
         self.parts[part].corners.iter().map(at)
     }

@@ -58,7 +58,7 @@ impl Motion<'_> {
     /// Velocity and acceleration of a point of a frame, by differences.
     fn point_motion(&self, frame: usize, at: [f64; 2], time: f64) -> [[f64; 2]; 2] {
         let [before, now, after] = [-HALF, 0.0, HALF].map(|step| {
-            let FrameState { pose, twist: [omega, vx, vy] } = self.states(time + step)[frame];
+            let FrameState { pose, twist: [omega, vx, vy], .. } = self.states(time + step)[frame];
             let [x, y] = point(pose, at);
             ([x, y], [vx - omega * (y - pose[2]), vy + omega * (x - pose[1])])
         });
@@ -254,9 +254,9 @@ impl<'a> FreePair<'a> {
     fn at(&self, time: f64) -> Instant {
         let state = |body: &Body| {
             let Body { pose, twist, .. } = body.after(time);
-            FrameState { pose, twist }
+            FrameState::new(pose, twist)
         };
-        self.pair.at(time, self.bodies.each_ref().map(state))
+        self.pair.at(time, self.bodies.each_ref().map(state), &mut [Vec::new(), Vec::new()])
     }
 }
 

@@ -4,12 +4,20 @@ use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use crate::simulate::path::PathInterval;
 
-/// Bounds over one interval, and states at one instant.
+/// Most instants whose states are kept: pairs of bodies are looked at one after the other, at the same times.
+const MOST_KEPT: usize = 64;
+
+/// Bounds over one interval, and states at instants within it.
 #[derive(Default)]
 pub(in crate::capture) struct PathWorkspace {
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
-    states: Vec<FrameState>,
+    /// Times and states of all frames, of which the first `kept` are of this interval.
+    states: Vec<(f64, Vec<FrameState>)>,
+    kept: usize,
+    /// Where the next ones take the place of others.
+    next: usize,
+    placed: [Vec<[f64; 2]>; 2],
 }
 
 impl PathWorkspace {
@@ -19,6 +27,23 @@ impl PathWorkspace {
             half.resize(interval.start[0].len(), 0.0);
         }
         motions.bounds(interval, &mut self.coordinates, &mut self.bounds);
+        (self.kept, self.next) = (0, 0);
+    }
+
+    /// Index of the states at a time within the interval whose bounds were computed.
+    fn states_at(&mut self, motions: FrameKinematics<'_>, interval: &PathInterval<'_>, time: f64) -> usize {
+        let known = self.states[..self.kept].iter().position(|(other, _)| other.to_bits() == time.to_bits());
+        known.unwrap_or_else(|| {
+            let place = self.next;
+            if place == self.states.len() {
+                self.states.push((time, Vec::new()));
+            }
+            let (at, states) = &mut self.states[place];
+            *at = time;
+            motions.at(interval, time, &mut self.coordinates, states);
+            (self.kept, self.next) = (self.kept.max(place + 1), (place + 1) % MOST_KEPT);
+            place
+        })
     }
 
     /// Bound of the relative speed of points up to these distances from the origins of two frames, m/s.
@@ -39,8 +64,8 @@ impl PathWorkspace {
         frames: [usize; 2],
         time: f64,
     ) -> f64 {
-        motions.at(interval, time, &mut self.coordinates, &mut self.states);
-        let [[_, ax, ay], [_, bx, by]] = frames.map(|frame| self.states[frame].pose);
+        let at = self.states_at(motions, interval, time);
+        let [[_, ax, ay], [_, bx, by]] = frames.map(|frame| self.states[at].1[frame].pose);
         (ax - bx).hypot(ay - by)
     }
 
@@ -52,7 +77,7 @@ impl PathWorkspace {
         (frames, pair): ([usize; 2], &PartPair<'_>),
         time: f64,
     ) -> Instant {
-        motions.at(interval, time, &mut self.coordinates, &mut self.states);
-        pair.at(time, frames.map(|frame| self.states[frame]))
+        let at = self.states_at(motions, interval, time);
+        pair.at(time, frames.map(|frame| self.states[at].1[frame]), &mut self.placed)
     }
 }
