@@ -59,7 +59,7 @@ pub(crate) fn momentum_sizes(bodies: &[Body]) -> [f64; 2] {
     let mut sizes = [0.0; 2];
     for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {
         sizes[0] += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
-        sizes[1] += mass * vx.hypot(*vy);
+        sizes[1] += mass * (vx * vx + vy * vy).sqrt();
     }
     sizes
 }
@@ -75,6 +75,12 @@ pub(crate) fn center_of_mass(bodies: &[Body]) -> ([f64; 2], f64) {
 pub(crate) fn inertia_about(bodies: &[Body], [x, y]: [f64; 2]) -> f64 {
     let about = |body: &Body| body.inertia + body.mass * ((body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
     bodies.iter().map(about).sum()
+}
+
+/// Momentum and energy of bodies together.
+pub(crate) fn total_momentum(bodies: &[Body]) -> Momentum<f64> {
+    let none = Momentum { linear_momentum: [0.0; 2], angular_momentum: 0.0, kinetic_energy: 0.0 };
+    with_bodies(none, bodies)
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.

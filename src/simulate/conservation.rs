@@ -3,7 +3,7 @@
 use crate::dynamics::{Model, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::simulate::bodies::{BodyList, center_of_mass, momentum_sizes, with_bodies};
+use crate::simulate::bodies::{BodyList, center_of_mass, momentum_sizes, total_momentum};
 use crate::simulate::system::Body;
 use crate::state::State;
 
@@ -81,9 +81,9 @@ impl<'a> ConservationAudit<'a> {
     /// # Errors
     /// Those of the model.
     pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
-        let start = with_bodies(model.momentum(state)?, beside);
         let mut bodies = BodyList::new(model)?;
-        let (center, _) = center_of_mass(bodies.at(model, state, beside)?);
+        let all = bodies.at(model, state, beside)?;
+        let (start, (center, _)) = (total_momentum(all), center_of_mass(all));
         let none = Ratio::default();
         let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
         audit.record(state, beside, &AccumulatedInput::default())?;
@@ -100,8 +100,8 @@ impl<'a> ConservationAudit<'a> {
         beside: &[Body],
         input: &AccumulatedInput,
     ) -> Result<Momentum<f64>, Error> {
-        let now = with_bodies(self.model.momentum(state)?, beside);
         let bodies = self.bodies.at(self.model, state, beside)?;
+        let now = total_momentum(bodies);
         let [angular, linear] = momentum_sizes(bodies);
         let [l, px, py] = input.impulse;
         let [x0, y0] = self.start.linear_momentum;
@@ -110,7 +110,8 @@ impl<'a> ConservationAudit<'a> {
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
         let ([x, y], mass) = center_of_mass(bodies);
-        let extent = bodies.iter().fold(0.0, |most: f64, body| most.max((body.pose[1] - x).hypot(body.pose[2] - y)));
+        let squares = bodies.iter().map(|body| (body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
+        let extent = squares.fold(0.0, f64::max).sqrt();
         let [from_x, from_y] = self.center;
         let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * input.time);
         self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);

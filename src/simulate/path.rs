@@ -105,42 +105,60 @@ impl<'a> PathInterval<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct PathRecorder {
     path: Path,
-    /// Times and states since the last knot.
-    window: Vec<(f64, Vec<f64>)>,
+    /// Times since the last knot.
+    times: Vec<f64>,
+    /// The states at these times, one after the other.
+    states: Vec<f64>,
+    /// Positions and rates of the interpolant.
+    found: [Vec<f64>; 2],
 }
 
 impl PathRecorder {
     /// For states whose positions and rates are `2 * size` numbers.
     pub(crate) fn new(size: usize) -> Self {
-        Self { path: Path { size, ..Path::default() }, window: Vec::new() }
+        let found = [vec![0.0; size], vec![0.0; size]];
+        Self { path: Path { size, ..Path::default() }, times: Vec::new(), states: Vec::new(), found }
     }
 
     /// Adds a state: positions, then rates.
     pub(crate) fn record(&mut self, time: f64, state: &[f64]) {
-        let Some((start, knot)) = self.path.last() else { return self.path.push(time, state) };
-        if self.window.len() >= MAX_WINDOW || !self.is_reproduced([start, time], knot, state) {
-            let (time, state) = self.window.pop().expect("a single state follows its knot");
-            self.path.push(time, &state);
-            self.window.clear();
+        if self.path.last().is_none() {
+            return self.path.push(time, state);
         }
-        self.window.push((time, state.to_vec()));
+        if self.times.len() >= MAX_WINDOW || !self.is_reproduced(time, state) {
+            self.push_last();
+        }
+        self.times.push(time);
+        self.states.extend_from_slice(state);
+    }
+
+    /// Makes the last state a knot.
+    fn push_last(&mut self) {
+        if let Some(time) = self.times.last() {
+            let (_, state) = self.states.split_at(self.states.len() - 2 * self.path.size);
+            self.path.push(*time, state);
+        }
+        self.times.clear();
+        self.states.clear();
     }
 
     /// Whether the interpolant from the last knot to this state passes through the states between them.
-    fn is_reproduced(&self, span: [f64; 2], knot: &[f64], state: &[f64]) -> bool {
-        let Some((time, between)) = self.window.get(self.window.len() / 2) else { return true };
-        let size = self.path.size;
+    fn is_reproduced(&mut self, time: f64, state: &[f64]) -> bool {
+        let Self { path, times, states, found: [positions, rates] } = self;
+        let middle = times.len() / 2;
+        let (Some(at), Some((start, knot))) = (times.get(middle), path.last()) else { return true };
+        let size = path.size;
+        let span = [start, time];
         let interval = PathInterval { span, start: knot.split_at(size).into(), end: state.split_at(size).into() };
-        let (mut positions, mut rates) = (vec![0.0; size], vec![0.0; size]);
-        interval.at(*time, &mut positions, &mut rates);
-        positions.iter().zip(between).all(|(found, value)| (found - value).abs() <= TOLERANCE * value.abs().max(1.0))
+        interval.at(*at, positions, rates);
+        let between = states.iter().skip(2 * size * middle);
+        let mut pairs = positions.iter().zip(between);
+        pairs.all(|(found, value)| (found - value).abs() <= TOLERANCE * value.abs().max(1.0))
     }
 
     /// The path up to the last state.
     pub(crate) fn end(mut self) -> Path {
-        if let Some((time, state)) = self.window.pop() {
-            self.path.push(time, &state);
-        }
+        self.push_last();
         self.path
     }
 }

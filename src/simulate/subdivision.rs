@@ -25,6 +25,8 @@ pub(crate) struct Subdivision {
     /// Most bisections of an interval; 0 where the interpolant is not compared.
     divisions: u32,
     middle: Vec<f64>,
+    /// Memory of knots that are gone.
+    spare: Vec<Vec<f64>>,
     found: [Vec<f64>; 2],
 }
 
@@ -39,7 +41,7 @@ impl Subdivision {
             }
         }
         let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
-        Self { knots: Vec::new(), weights, divisions, middle: Vec::new(), found }
+        Self { knots: Vec::new(), weights, divisions, middle: Vec::new(), spare: Vec::new(), found }
     }
 
     /// Divides the part of a step from `start` to `end`, integrated vectors at the times of `span`.
@@ -51,20 +53,28 @@ impl Subdivision {
         state_at: &mut StateAt<'_>,
     ) -> Result<(), Error> {
         let before = self.knots.len().checked_sub(2).map(|i| self.knots.swap_remove(i));
-        self.knots.clear();
-        self.knots.push((span[0], start.to_vec()));
+        self.spare.extend(self.knots.drain(..).map(|(_, state)| state));
         let is_reproduced = match &before {
             // where the interpolant over this part and one before it is the motion, that over this part alone is
-            Some((time, state)) if span[0] - time >= 0.5 * (span[1] - span[0]) => {
+            Some((time, state)) if self.divisions > 0 && span[0] - time >= 0.5 * (span[1] - span[0]) => {
                 self.is_reproduced([*time, span[1]], [state, end], (span[0], start))?
             }
             _ => false,
         };
+        self.spare.extend(before.map(|(_, state)| state));
+        self.push(span[0], start);
         if self.divisions == 0 || is_reproduced {
-            self.knots.push((span[1], end.to_vec()));
+            self.push(span[1], end);
             return Ok(());
         }
         self.bisect(span, end, state_at)
+    }
+
+    fn push(&mut self, time: f64, state: &[f64]) {
+        let mut own = self.spare.pop().unwrap_or_default();
+        own.clear();
+        own.extend_from_slice(state);
+        self.knots.push((time, own));
     }
 
     /// The intervals of the part, in order.
