@@ -8,6 +8,7 @@ use std::path::Path;
 use planar_capture::diagnostic::{Report, nearest};
 use planar_capture::layout::Layout;
 use planar_capture::scenario::{FinalRates, Scenario, Tracking};
+use planar_capture::simulate::stepper::Integrator;
 use planar_capture::trajectory::TrajectoryKind;
 
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
@@ -385,8 +386,8 @@ const SCENARIO_EDITS: &[Edit] = &[
     ),
     (
         "\"quartic\"",
-        "\"quartic\"\ntolerance = 1e-9",
-        8,
+        "\"quartic\"\nintegrator = \"rk4\"\ntolerance = 1e-9",
+        9,
         &["`approach.tolerance` is 1e-9", "`integrator = \"adaptive\"`"],
     ),
     (
@@ -894,4 +895,23 @@ fn broken_contacts() {
         assert!(count == 1 && shown.contains(&place) && shown.contains(key), "{shown}");
         assert!(shown.contains("no outward normal"), "{shown}");
     }
+}
+
+/// Smooth motion is integrated adaptively; torques that are held or limited give it kinks.
+#[test]
+fn the_integrator_follows_from_the_torques() {
+    let of = |approach: &str, after: &str| {
+        let text = SCENARIO.replacen("\"quartic\"", &format!("\"quartic\"\n{approach}"), 1);
+        let text = text.replacen("duration = 50.0", &format!("duration = 50.0\n{after}"), 1);
+        let scenario = scenario(&text).unwrap_or_else(|e| panic!("{e}"));
+        let after = scenario.post_impact.expect("a motion after the impact").integration.integrator;
+        [scenario.approach.integration.integrator, after]
+    };
+    let adaptive = |tolerance: f64| Integrator::Adaptive { tolerance };
+    let fixed = Integrator::RungeKutta4;
+    assert_eq!(of("", ""), [adaptive(1e-10), adaptive(1e-10)]);
+    assert_eq!(of("tolerance = 1e-12", "integrator = \"rk4\""), [adaptive(1e-12), fixed]);
+    assert_eq!(of("torque_limits = 3.0", "control = \"hold\"\nsample_time = 0.1"), [fixed, fixed]);
+    assert_eq!(of("sample_time = 0.1", "control = \"stabilise\"\nbase_torque_limit = 1.0"), [fixed, fixed]);
+    assert_eq!(of("sample_time = 0.1\nintegrator = \"adaptive\"", ""), [adaptive(1e-10), adaptive(1e-10)]);
 }

@@ -316,7 +316,7 @@ fn integrators_say_what_they_cannot_do() {
     let (code, _, err, _) = run_text(&held);
     assert_eq!(code, 2, "{err}");
     assert!(err.contains("they are for a robot alone") && !err.contains("shorter step"), "{err}");
-    let stiff = paper().replacen("step = 0.005", "step = 0.5\nintegrator = \"gauss_legendre\"", 1);
+    let stiff = paper().replacen("step = 0.005", "step = 0.5", 1).replacen("\"rk4\"", "\"gauss_legendre\"", 1);
     let (code, _, err, _) = run_text(&stiff);
     assert_eq!(code, 1, "{err}");
     assert!(err.contains("do not converge") && err.contains("a shorter step, or smaller gains"), "{err}");

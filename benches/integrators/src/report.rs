@@ -21,10 +21,11 @@ solution, from which every phase estimates the error of its path: half as many a
 
 | for | `integrator` | reason |
 |---|---|---|
-| most studies | `\"rk4\"`, the default, at the default step of 5 ms | explicit, constant work per step; its error is far \
-below the audit's bounds for motions as fast as the paper's |
-| accuracy, long runs, references | `\"adaptive\"` | the fewest evaluations for errors below about 1e-8; energy and momentum \
-errors of about ten times its tolerance over 1,000 s |
+| most studies, accuracy, long runs, references | `\"adaptive\"`, the default for smooth motion | the fewest evaluations for \
+errors below about 1e-8; energy and momentum errors of about ten times its tolerance over 1,000 s; `step` is the spacing of \
+the audit and of rows |
+| torques that are limited or held, known work per step | `\"rk4\"`, the default there, at the default step of 5 ms | explicit; \
+its error is far below the audit's bounds for motions as fast as the paper's |
 | momentum to rounding in full coordinates at long fixed steps, also with free bodies | `\"gauss_legendre\"` | \
 symplectic: in regular motion the energy error does not grow; expensive per step, because it is implicit |
 | quick estimates | `\"semi_implicit_euler\"` | one evaluation per step, first order: the audit will object |

@@ -10,8 +10,18 @@ const TOLERANCE: NumberRule = NumberRule::positive("a tolerance", "parts of 1");
 /// Largest tolerance: beyond it an integrator of order 9 follows no motion.
 const LARGEST_TOLERANCE: f64 = 1e-3;
 
+/// Keys of torques that are held, or cut off at a limit: the motion has kinks, which adaptive steps would search for.
+const KINKS: [&str; 3] = ["sample_time", "torque_limits", "base_torque_limit"];
+
+/// Adaptive where no key is given and the motion is smooth.
 pub(super) fn integration(table: &Table<'_>) -> Option<Integration> {
-    let integrator = read_or(table, "integrator", Integrator::RungeKutta4, |value| {
+    let is_smooth = KINKS.iter().all(|key| table.get(key).is_none());
+    let default = if is_smooth {
+        Integrator::Adaptive { tolerance: Integrator::DEFAULT_TOLERANCE }
+    } else {
+        Integrator::RungeKutta4
+    };
+    let integrator = read_or(table, "integrator", default, |value| {
         value.choice(
             &Integrator::ALL.iter().map(|integrator| (integrator.properties().name, *integrator)).collect::<Vec<_>>(),
         )
