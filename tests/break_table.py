@@ -325,8 +325,8 @@ FAULTS = [
     Fault(
         "the end of an approach without the robot's momentum",
         "src/capture/approach/exact_end.rs",
-        "momentum: [momentum.angular_momentum, px, py],",
-        "momentum: [0.0 * momentum.angular_momentum, px, py],",
+        "let spin = momentum.angular_momentum - (start[0] * py - start[1] * px);",
+        "let spin = -(start[0] * py - start[1] * px);",
     ),
     Fault(
         "a minimum that drops what is not a number",

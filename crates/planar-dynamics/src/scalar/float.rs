@@ -2,7 +2,7 @@
 //!
 //! Arctangents are those of parameters, once per model: they are accurate rather than fast.
 
-use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sqrt};
+use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sqrt_f64};
 use super::number::Scalar;
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
@@ -66,7 +66,7 @@ macro_rules! scalar {
 
             #[inline]
             fn sqrt(self) -> Self {
-                sqrt(self as f64) as $float
+                sqrt_f64(self as f64) as $float
             }
 
             fn atan2(self, x: Self) -> Self {

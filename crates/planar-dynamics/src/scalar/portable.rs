@@ -23,8 +23,8 @@ portable!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32);
 portable!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64);
 
 /// Square root by Newton's iteration, correctly rounded; NaN for a negative value.
-#[allow(dead_code, reason = "for targets that have none of their own")]
-pub(super) fn sqrt(value: f64) -> f64 {
+#[must_use]
+pub fn sqrt_f64(value: f64) -> f64 {
     const IMPLICIT: u64 = 1 << 52;
 
     if value == 0.0 || value == f64::INFINITY {
@@ -35,7 +35,7 @@ pub(super) fn sqrt(value: f64) -> f64 {
     }
     if value < f64::MIN_POSITIVE {
         // 2¹⁰⁸ makes it normal
-        return sqrt(value * 324_518_553_658_426_726_783_156_020_576_256.0) / 18_014_398_509_481_984.0;
+        return sqrt_f64(value * 324_518_553_658_426_726_783_156_020_576_256.0) / 18_014_398_509_481_984.0;
     }
     // value = part · 2²ᵏ with 1 ≤ part < 4; half is k in the place of an exponent
     let half = (((value.to_bits() >> 52) + 1) >> 1).wrapping_sub(512) << 52;
