@@ -51,7 +51,7 @@
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as
 //! SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as
-//! scalars.
+//! scalars, `batch` many instances at once.
 //!
 //! # Example
 //! ```
@@ -73,6 +73,33 @@ extern crate self as planar_capture;
 pub mod generated;
 pub mod integrate;
 
+/// # Example
+/// ```
+/// use planar_capture::batch::{Accelerations, Batch, States, Status};
+/// use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+///
+/// const N: usize = 100;
+/// let robot = Model::<f64>::default();
+/// let states = States {
+///     base_poses: &[0.0; 3 * N], // all yaws, then all x, then all y
+///     joint_angles: &[0.5; JOINTS * N],
+///     base_twists: &[0.0; 3 * N],
+///     joint_rates: &[0.0; JOINTS * N],
+/// };
+/// let torques = [1.0; JOINTS * N];
+/// let (mut base, mut joints) = ([0.0; 3 * N], [0.0; JOINTS * N]);
+/// let mut statuses = [Status::Done; N];
+/// let mut accelerations = Accelerations { base: &mut base, joints: &mut joints };
+/// Batch::new(&robot).forward_dynamics(&states, &torques, &mut accelerations, &mut statuses)?;
+/// assert!(statuses.iter().all(|status| *status == Status::Done));
+/// assert!(joints[0] != 0.0 && joints[0] == joints[N - 1]);
+/// # Ok::<(), planar_capture::error::Error>(())
+/// ```
+#[cfg(feature = "batch")]
+pub use planar_dynamics::batch;
+#[cfg(feature = "batch")]
+#[doc(hidden)]
+pub use planar_dynamics::implement_batch;
 #[cfg(feature = "lanes")]
 pub use planar_dynamics::lanes;
 #[doc(hidden)]

@@ -3,6 +3,8 @@
 //! The program builds itself for several sets of compiler flags, lets the builds measure in turns, and writes medians and
 //! ratios to `docs/performance.md` and `target/performance.json`. With `measure ROUNDS` it is one of these builds.
 
+#[cfg(feature = "measure")]
+mod batch;
 mod builds;
 #[cfg(feature = "measure")]
 mod casadi;

@@ -1,6 +1,7 @@
 //! What one build measures: nanoseconds of processor time per evaluation.
 
 use crate::Problem;
+use crate::batch::Arrays;
 use crate::casadi::{self, Results};
 use crate::runge_kutta::{self, Vector, parts, torques};
 use crate::states::{State, states};
@@ -67,6 +68,9 @@ pub fn print() -> Result<(), Problem> {
     record("C, reduced impact", each(&few, |s| casadi::reduced_impact(s, &mut results)));
     record("C, full impact", each(&few, |s| casadi::full_impact(s, &mut results)));
     record("C, forward dynamics, many states", each(&many, |s| casadi::forward_dynamics(s, &mut results)));
+    record("C, reduced dynamics, many states", each(&many, |s| casadi::reduced_dynamics(s, &mut results)));
+    record("C, reduced impact, many states", each(&many, |s| casadi::reduced_impact(s, &mut results)));
+    record("C, full impact, many states", each(&many, |s| casadi::full_impact(s, &mut results)));
     record("C, step", steps(by_casadi));
     black_box(&results);
 
@@ -90,6 +94,21 @@ pub fn print() -> Result<(), Problem> {
     record("f64x8, forward dynamics", per_lane!(f64x8, f64, 8, few, f64x8::from));
     record("f32x8, forward dynamics", per_lane!(f32x8, f32, 8, few, f32x8::from));
     record("f32x16, forward dynamics", per_lane!(f32x16, f32, 16, few, f32x16::from));
+
+    for (states, suffix) in [(&few, ""), (&many, ", many states")] {
+        let mut arrays = Arrays::new(states);
+        arrays.compare(&model, states, AGREEMENT)?;
+        let mut of = |function: fn(&mut Arrays, &Model<f64>) -> Result<(), Error>| {
+            #[allow(clippy::cast_precision_loss, reason = "thousands")]
+            let count = states.len() as f64;
+            each(&[()], |()| consume(function(black_box(&mut arrays), &model))) / count
+        };
+        record(&format!("batch, forward dynamics{suffix}"), of(Arrays::forward_dynamics));
+        record(&format!("batch, reduced dynamics{suffix}"), of(Arrays::reduced_dynamics));
+        record(&format!("batch, reduced impact{suffix}"), of(Arrays::reduced_impact));
+        record(&format!("batch, full impact{suffix}"), of(Arrays::full_impact));
+        record(&format!("batch, step{suffix}"), of(Arrays::step));
+    }
 
     record("generic, forward dynamics", each(&few, |s| consume(of_generic(&generic, s))));
     record("generic, reduced dynamics", each(&few, |s| consume(reduced_of_generic(&generic, s))));

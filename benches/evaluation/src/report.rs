@@ -30,6 +30,29 @@ const COMPARED: [(&str, &str); 6] = [
 
 const LANES: [&str; 5] = ["f32", "f64x4", "f64x8", "f32x8", "f32x16"];
 
+const BATCHES: &str = "
+## Batches
+
+The feature `batch`: states as structures of arrays, in vectors of the instruction set that the program finds when it runs. Time
+per state, and the ratio to one state of CasADi's C, which takes one after the other: 64 states stay in the first-level cache,
+16,384 do not. The steps of a batch have constant torques, those of C PD control.
+
+| | C, ns |";
+
+/// Measurements of batches: title, name, name of the counterpart in C.
+const BATCHED: [(&str, &str, &str); 10] = [
+    ("forward dynamics, 64 states", "forward dynamics", "forward dynamics"),
+    ("forward dynamics, 16,384 states", "forward dynamics, many states", "forward dynamics, many states"),
+    ("GIM, generalized bias and GJM, 64 states", "reduced dynamics", "reduced dynamics"),
+    ("GIM, generalized bias and GJM, 16,384 states", "reduced dynamics, many states", "reduced dynamics, many states"),
+    ("impact, paper's equations, 64 states", "reduced impact", "reduced impact"),
+    ("impact, paper's equations, 16,384 states", "reduced impact, many states", "reduced impact, many states"),
+    ("impact, exact, 64 states", "full impact", "full impact"),
+    ("impact, exact, 16,384 states", "full impact, many states", "full impact, many states"),
+    ("Runge–Kutta step, 64 states", "step", "step"),
+    ("Runge–Kutta step, 16,384 states", "step, many states", "step"),
+];
+
 /// Writes `docs/performance.md`, and `performance.json` beside the builds.
 pub fn write(measured: &[Measured]) -> Result<(), Problem> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -84,6 +107,22 @@ fn markdown(measured: &[Measured]) -> Result<String, Problem> {
             write!(text, " {time:.1} ({:.2}) |", time / base)?;
         }
         text += "\n";
+    }
+    text += BATCHES;
+    for (build, ..) in BUILDS {
+        write!(text, " {build} |")?;
+    }
+    text += " spread |\n|---|---|---|---|---|---|---|\n";
+    for (title, name, c_name) in BATCHED {
+        let base = c(c_name)?;
+        write!(text, "| {title} | {base:.0} |")?;
+        let key = format!("batch, {name}");
+        for build in measured {
+            let time = build.median(&key).ok_or(format!("no time of {key}"))?;
+            write!(text, " **{:.3}** ({time:.1}) |", time / base)?;
+        }
+        let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
+        writeln!(text, " {:.0} % |", 100.0 * spread)?;
     }
     text += "\n## The generic implementation\n\nDense matrices of nalgebra, what one would write by hand: ratio to generated code of the same build.\n\n| |";
     for (build, ..) in BUILDS {

@@ -6,6 +6,10 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! implement_dynamics {
+    (3) => {
+        $crate::implement_dynamics!(2);
+        $crate::implement_batch!();
+    };
     (2) => {
         mod traits {
             use super::{ARMS, JOINTS, MANIFEST, Model, PARAMETERS, Parameters};
@@ -224,6 +228,14 @@ macro_rules! implement_dynamics {
     ($other:tt) => {
         compile_error!("this code was generated for another version of planar-capture: generate it again");
     };
+}
+
+/// Without the feature `batch` there is nothing to implement.
+#[cfg(not(feature = "batch"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! implement_batch {
+    () => {};
 }
 
 /// The traits of [`with_quantities!`](crate::with_quantities) for a rendered model.

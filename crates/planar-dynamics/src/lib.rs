@@ -4,10 +4,12 @@
 //! It never contains: std, an allocation, a panic, a computation for one number type alone, access to files, a parser.
 #![no_std]
 
-// `core` has no fused multiply-add
-#[cfg(feature = "fused")]
+// `core` has no fused multiply-add, and does not know the processor
+#[cfg(any(feature = "batch", feature = "fused"))]
 extern crate std;
 
+#[cfg(feature = "batch")]
+pub mod batch;
 pub mod body;
 pub mod contact;
 pub mod control;

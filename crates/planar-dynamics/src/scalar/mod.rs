@@ -3,6 +3,8 @@
 mod accelerated;
 mod far_angle;
 mod float;
+#[cfg(feature = "batch")]
+pub(crate) mod lane;
 mod number;
 mod portable;
 mod real;

@@ -1,6 +1,7 @@
 //! Generated and generic models: against each other, against independent numbers and derivations by hand, and the laws
 //! of mechanics.
 
+mod batch;
 mod capture;
 mod closed_form;
 mod control;
