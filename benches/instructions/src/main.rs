@@ -1,0 +1,104 @@
+//! Calls a function of the paper's robot as often as asked for: `instructions FUNCTION CALLS`.
+
+use planar_capture::batch::{Accelerations, Batch, States, Status};
+use planar_capture::error::Error;
+use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+use planar_capture::integrate::RungeKutta4;
+use planar_capture::state::{State, vector_length};
+use std::hint::black_box;
+use std::process::ExitCode;
+
+const POSE: [f64; 3] = [0.4, 1.0, -2.0];
+const ANGLES: [f64; JOINTS] = [0.3, -1.2, 0.7, 2.1, 1.4, -0.6];
+const TWIST: [f64; 3] = [0.2, -0.3, 0.1];
+const RATES: [f64; JOINTS] = [0.4, -0.2, 0.9, -0.5, 0.3, 0.8];
+const TORQUES: [f64; JOINTS] = [1.0, -2.0, 0.5, 3.0, -1.5, 0.7];
+/// Masses, inertias, contacts and twists of the targets.
+type Targets = ([f64; 2], [f64; 2], [[f64; 2]; 2], [[f64; 3]; 2]);
+const TARGETS: Targets = ([10.0, 20.0], [1.0, 2.0], [[0.3, 0.1], [-0.2, 0.2]], [[0.1, 0.2, -0.1], [0.0, 0.1, 0.3]]);
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [function, calls] = arguments.as_slice() else { return ExitCode::from(2) };
+    let Ok(calls) = calls.parse::<u32>() else { return ExitCode::from(2) };
+    match run(function, calls) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(function: &str, calls: u32) -> Result<(), Error> {
+    let model = black_box(Model::<f64>::default());
+    let (pose, angles, twist, rates, torques) = black_box((POSE, ANGLES, TWIST, RATES, TORQUES));
+    let (masses, inertias, contacts, twists) = black_box(TARGETS);
+    match function {
+        "forward_dynamics" => {
+            for _ in 0..calls {
+                black_box(model.forward_dynamics(&pose, &angles, &twist, &rates, &torques));
+            }
+        }
+        "reduced_dynamics" => {
+            for _ in 0..calls {
+                black_box(model.reduced_dynamics(&pose, &angles, &twist, &rates));
+            }
+        }
+        "reduced_impact" => {
+            for _ in 0..calls {
+                black_box(model.reduced_impact(&pose, &angles, &rates, &masses, &inertias, &contacts, &twists));
+            }
+        }
+        "full_impact" => {
+            for _ in 0..calls {
+                black_box(model.full_impact(&pose, &angles, &twist, &rates, &masses, &inertias, &contacts, &twists));
+            }
+        }
+        "runge_kutta_step" => steps(&model, calls)?,
+        "batch_of_64" => batches(&model, calls)?,
+        _ => eprintln!("there is no function {function}"),
+    }
+    Ok(())
+}
+
+/// Steps of the core's integrator under constant torques.
+fn steps(model: &Model<f64>, calls: u32) -> Result<(), Error> {
+    let mut vector = [0.0; vector_length(JOINTS)];
+    State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES }.write(&mut vector)?;
+    let mut workspace = [0.0; RungeKutta4::<f64>::WORKSPACE * vector_length(JOINTS)];
+    let mut integrator = RungeKutta4::new(&mut workspace)?;
+    for _ in 0..calls {
+        integrator.step(0.0, 1e-4, &mut vector, |_, x, slope| {
+            let state = State::from_vector(x, JOINTS)?;
+            let (Ok(angles), Ok(rates)) = (state.joint_angles.try_into(), state.joint_rates.try_into()) else {
+                return Err(Error::StateVector { found: x.len() });
+            };
+            let found = model.forward_dynamics(&state.base_pose, angles, &state.base_twist, rates, &TORQUES);
+            slope.fill(0.0);
+            let rates = State {
+                base_pose: state.base_twist,
+                joint_angles: state.joint_rates,
+                base_twist: found.base_acceleration,
+                joint_rates: &found.joint_accelerations,
+            };
+            rates.write(slope)
+        })?;
+    }
+    black_box(vector);
+    Ok(())
+}
+
+/// Forward dynamics of 64 states at once.
+fn batches(model: &Model<f64>, calls: u32) -> Result<(), Error> {
+    let rows = |numbers: &[f64]| numbers.iter().flat_map(|number| [*number; 64]).collect::<Vec<_>>();
+    let [poses, angles, twists, rates, torques] = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(rows);
+    let states = States { base_poses: &poses, joint_angles: &angles, base_twists: &twists, joint_rates: &rates };
+    let (mut base, mut joints) = ([0.0; 3 * 64], [0.0; JOINTS * 64]);
+    for _ in 0..calls {
+        let mut found = Accelerations { base: &mut base, joints: &mut joints };
+        Batch::new(model).forward_dynamics(&states, &torques, &mut found, black_box(&mut [Status::Done; 64]))?;
+        black_box(&mut base);
+    }
+    Ok(())
+}
