@@ -48,12 +48,40 @@ fn odd(k: usize) -> f64 {
     f64::from(u32::try_from(2 * k + 1).expect("a degree"))
 }
 
-/// P_0 … P_8.
+/// The polynomials of degrees 0 to 8, by `(k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}`.
 fn legendre(x: f64) -> [f64; POINTS + 1] {
     let mut p = [1.0; POINTS + 1];
     p[1] = x;
     for k in 1..POINTS {
-        p[k + 1] = (odd(k) * x * p[k] - (odd(k) - 1.0) / 2.0 * p[k - 1]) / ((odd(k) + 1.0) / 2.0);
+        let (twice, odd) = (odd(k) - 1.0, odd(k));
+        p[k + 1] = (2.0 * odd * x * p[k] - twice * p[k - 1]) / (twice + 2.0);
     }
     p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Collocation;
+
+    /// Powers of time up to the degree that is exact, from 0 to 1 and to each point; the next ones are not.
+    #[test]
+    fn powers_are_integrated() {
+        let Collocation { points, weights, partial_weights } = Collocation::new();
+        assert!(points.is_sorted() && points[0] > 0.0 && points[7] < 1.0);
+        let sum = |weights: &[f64], power: i32| -> f64 {
+            weights.iter().zip(points).map(|(weight, point)| weight * point.powi(power)).sum()
+        };
+        let error = |weights: &[f64], power: i32, to: f64| {
+            let exact = to.powi(power + 1) / f64::from(power + 1);
+            (sum(weights, power) - exact).abs()
+        };
+        for power in 0..16 {
+            assert!(error(&weights, power, 1.0) < 1e-15, "{power}");
+        }
+        assert!(error(&weights, 16, 1.0) > 1e-11);
+        for (weights, to) in partial_weights.iter().zip(points) {
+            assert!((0..8).all(|power| error(weights, power, to) < 1e-15), "{to}");
+            assert!(error(weights, 8, to) > 1e-9, "{to}");
+        }
+    }
 }
