@@ -151,3 +151,6 @@ fn of_state(model: &dyn Model<f64>, state: RobotState, time: f64) -> Result<Appr
     model.end_effector_twists(&state.view(), &mut twists)?;
     Ok(ApproachEnd { time, state, end_effector_poses: poses, end_effector_twists: twists })
 }
+
+#[cfg(test)]
+mod tests;

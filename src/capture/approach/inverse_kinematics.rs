@@ -241,3 +241,6 @@ fn check_reach(scenario: &Scenario, goals: &[EndEffectorGoal]) -> Result<(), Inv
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -149,3 +149,6 @@ pub(crate) fn rates_for(
     let margin = if largest > 0.0 { smallest / largest } else { 0.0 };
     Ok((rates.data.into(), margin))
 }
+
+#[cfg(test)]
+mod tests;
