@@ -128,3 +128,6 @@ impl Subdivision {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests;

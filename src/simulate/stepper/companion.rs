@@ -131,3 +131,6 @@ fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
     let differences = x.iter().zip(y).take(positions).map(|(x, y)| (x - y).abs());
     differences.fold(0.0, |most: f64, difference| Real::maximum(most, difference))
 }
+
+#[cfg(test)]
+mod tests;
