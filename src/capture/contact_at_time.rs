@@ -55,3 +55,6 @@ pub fn contact_at_time(
     }
     (bodies, contacts)
 }
+
+#[cfg(test)]
+mod tests;

@@ -69,3 +69,6 @@ pub fn response(
         impulse_ellipse: of_both.impulse_ellipse(),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -67,3 +67,6 @@ impl Origin {
         translate(pose, self.0.map(|value| -value));
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -63,3 +63,6 @@ impl ResidualMotion {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -141,3 +141,6 @@ fn contact_kind(scenario: &Scenario, case: &str) -> ScenarioKey {
         key(format!("case[{k}].kinds.{}", target.name), names)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -47,3 +47,6 @@ impl Display for TerminalError {
         self.yaw.map_or(Ok(()), |yaw| write!(f, ", {yaw:.2e} rad"))
     }
 }
+
+#[cfg(test)]
+mod tests;

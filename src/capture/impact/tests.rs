@@ -1,14 +1,16 @@
 //! When the paper's equations apply, and the momentum jump of velocities that do not conserve it.
 #![allow(clippy::float_cmp, reason = "exact zeros")]
 
-use super::{ImpactSolution, Velocities, balance, solve_impact};
+use super::{ContactResult, ImpactSolution, Velocities, balance, solve_impact};
 use crate::capture::assembly::{Assembly, Attachment};
 use crate::capture::contact_at_time::ImpactContact;
+use crate::capture::reduced_matrices::reduced_matrices;
 use crate::contact::{ContactKind, ContactLaw};
 use crate::owned::RobotState;
 use crate::registry;
 use crate::simulate::system::Body;
-use planar_proof::layout;
+use nalgebra::DVector;
+use planar_proof::{assert_close, layout, tolerance};
 
 const PLASTIC: ContactLaw<f64> = ContactLaw::Bounce { normal: [0.6, 0.8], restitution: 0.0 };
 
@@ -68,6 +70,24 @@ fn when_the_papers_equations_apply() {
     for kind in [ContactKind::Rigid, ContactKind::Pin] {
         let held = [Attachment { target: 0, arm: 0, kind }];
         assert!(impact(&held, &[(1, 1, rigid)]).paper.is_none(), "{kind:?}");
+    }
+}
+
+/// By the paper's equations each target moves with its own end effector, J_t t_t = J θ̇, whichever that is.
+#[test]
+fn the_papers_targets_move_with_their_end_effectors() {
+    let rigid = ContactLaw::Rigid;
+    let (_, jacobian) =
+        reduced_matrices(&*registry::generic(&layout("dual_arm_3r")), &state().view()).expect("a Jacobian");
+    for contacts in [&[(0, 0, rigid), (1, 1, rigid)][..], &[(1, 0, rigid), (0, 1, rigid)], &[(1, 1, rigid)]] {
+        let found = impact(&[], contacts);
+        let paper = found.paper.expect("rigid captures");
+        let end_effectors = &jacobian * DVector::from_column_slice(&paper.joint_rates_after);
+        for ContactResult { contact: ImpactContact { arm, offset: [rx, ry], .. }, .. } in found.contacts {
+            let [omega, vx, vy] = paper.target_twists_after[arm].expect("a capture");
+            let twist = [omega, vx - omega * ry, vy + omega * rx];
+            assert_close("twist", &twist, &end_effectors.as_slice()[3 * arm..3 * arm + 3], tolerance::SAME_IMPACT);
+        }
     }
 }
 

@@ -1,0 +1,59 @@
+//! A target that two arms hold where the approach ends: its place, what each arm misses, and the normals of bounces.
+
+use super::*;
+use crate::contact::ContactKind;
+use crate::registry;
+use planar_proof::{assert_close, file, tolerance};
+
+/// A box of 2 m by 1 m, turned by 0.3 rad, which both arms of a robot touch at the middles of two sides.
+fn scenario(kind: &str) -> (Scenario, [[f64; 2]; 2]) {
+    let side = |x: f64, y: f64| rotated([x, y], 0.3);
+    let points = [side(1.0, 0.0), side(0.0, -0.5)];
+    let [[ax, ay], [bx, by]] = points;
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.1, 0.1, 0.1, 0.1]\n[approach]\nduration = 1.0\n\
+         trajectory = \"cycloidal\"\nfinal_joint_angles = [0.2, 0.1, 0.1, 0.1]\ntracking = \"exact\"\n[[target]]\nname = \"box\"\n\
+         arm = [\"arm1\", \"arm2\"]\nkind = \"{kind}\"\nmass = 2.0\ninertia = 1.0\nyaw = 0.3\ntwist = [0.1, 0.2, 0.3]\n\
+         polygon = [[-1.0, -0.5], [1.0, -0.5], [1.0, 0.5], [-1.0, 0.5]]\n\
+         contact = [[{ax}, {ay}], [{bx}, {by}]]\n[post_impact]\nduration = 1.0\nstep = 0.1\n"
+    );
+    let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED);
+    (scenario.unwrap_or_else(|e| panic!("{e}")), points)
+}
+
+/// End effectors that are [0.2, −0.1] m too far apart: the target is in the middle, and each arm misses half of that.
+#[test]
+fn a_target_is_in_the_middle_of_its_end_effectors() {
+    let (scenario, points) = scenario("rigid");
+    let at = [3.0, -2.0];
+    let off = [[0.1, -0.05], [-0.1, 0.05]];
+    let end_effectors =
+        [0, 1].map(|i: usize| [9.0, at[0] + points[i][0] + off[i][0], at[1] + points[i][1] + off[i][1]]);
+    let (bodies, contacts) = contact_at_time(&scenario, &scenario.cases[0], &end_effectors);
+    let [Body { pose, twist, mass, .. }] = bodies[..] else { panic!("{bodies:?}") };
+    assert_close("pose", &pose, &[0.3, at[0], at[1]], tolerance::POLYNOMIAL);
+    assert_eq!((twist, mass.to_bits()), ([0.1, 0.2, 0.3], f64::to_bits(2.0)));
+    for (i, contact) in contacts.iter().enumerate() {
+        assert_eq!(
+            (contact.target, contact.arm, contact.law),
+            (0, i, ContactLaw::new(ContactKind::Rigid, || [0.0; 2], 0.0))
+        );
+        let offset = [points[i][0] + off[i][0], points[i][1] + off[i][1]];
+        assert_close("offset", &contact.offset, &offset, tolerance::POLYNOMIAL);
+        assert_close("miss", &[contact.miss], &[0.1_f64.hypot(0.05)], tolerance::POLYNOMIAL);
+    }
+    assert_eq!(contacts.len(), 2);
+}
+
+/// The normal of a bounce is that of the outline, turned with the target.
+#[test]
+fn normals_turn_with_the_target() {
+    let (scenario, points) = scenario("bounce");
+    let end_effectors = points.map(|[x, y]| [0.0, x, y]);
+    let (_, contacts) = contact_at_time(&scenario, &scenario.cases[0], &end_effectors);
+    for (contact, side) in contacts.iter().zip([[1.0, 0.0], [0.0, -1.0]]) {
+        let (normal, _) = contact.law.bounce().expect("a bounce");
+        assert_close("normal", &normal, &rotated(side, 0.3), tolerance::POLYNOMIAL);
+    }
+    assert_eq!(contacts.len(), 2);
+}

@@ -1,0 +1,42 @@
+//! The velocity of an end effector relative to its contact point, and the direction of the effective masses.
+
+use super::*;
+use crate::contact::ContactLaw;
+use crate::registry;
+use planar_proof::{assert_close, layout, tolerance};
+
+fn of(twist: [f64; 3], law: ContactLaw<f64>) -> (ContactResponse, [f64; 3]) {
+    let model = registry::generic(&layout("single_arm_2r"));
+    let state = RobotState {
+        base_pose: [0.2, -0.4, 0.7],
+        joint_angles: vec![0.4, -0.9],
+        base_twist: [0.3, 0.2, -0.1],
+        joint_rates: vec![-1.2, 2.5],
+    };
+    let mut end_effectors = [[0.0; 3]];
+    model.end_effector_twists(&state.view(), &mut end_effectors).expect("twists");
+    let target = Body { mass: 4.0, inertia: 0.5, pose: [0.3, 1.0, 2.0], twist };
+    let touch = ImpactContact { target: 0, arm: 0, law, offset: [0.3, -0.2], miss: 0.0 };
+    (response(&*model, &state, &target, &touch).expect("a response"), end_effectors[0])
+}
+
+/// A target that turns with ω has the velocity v + ω (−ry, rx) at r.
+#[test]
+fn velocities_are_of_the_contact_point() {
+    let (found, [omega, x, y]) = of([0.5, 1.0, 2.0], ContactLaw::Rigid);
+    let relative = [omega - 0.5, x - 1.1, y - 2.15];
+    assert_close("relative twist", &found.relative_twist, &relative, tolerance::POLYNOMIAL);
+    let speed = relative[1].hypot(relative[2]);
+    let direction = found.direction.expect("it moves");
+    assert_close("direction", &direction, &[relative[1] / speed, relative[2] / speed], tolerance::POLYNOMIAL);
+    let bounce = ContactLaw::Bounce { normal: [0.6, 0.8], restitution: 0.5 };
+    assert_eq!(of([0.5, 1.0, 2.0], bounce).0.direction, Some([0.6, 0.8]));
+}
+
+/// Without a relative velocity there is no direction, and nothing along it.
+#[test]
+fn a_contact_at_rest_has_no_direction() {
+    let (_, [_, x, y]) = of([0.0; 3], ContactLaw::Rigid);
+    let (found, _) = of([0.0, x, y], ContactLaw::Rigid);
+    assert_eq!((found.direction, found.effective_masses, found.impulse_index), (None, None, None));
+}

@@ -1,0 +1,65 @@
+//! The keys of errors that no scenario of the tests has.
+
+use super::*;
+use crate::registry;
+use planar_proof::file;
+
+fn scenario() -> Scenario {
+    let target = |name: &str, arm: &str, turn: f64| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nmass = 1.0\ninertia = 1.0\nradius = 0.5\nposition = [9.0, 9.0]\n\
+             twist = [{turn:?}, 0.0, 0.0]\n"
+        )
+    };
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.1, 0.1, 0.1, 0.1]\n[approach]\nduration = 1.0\n\
+         trajectory = \"cycloidal\"\nfinal_joint_angles = [0.2, 0.1, 0.1, 0.1]\ntracking = \"exact\"\n[contact]\n\
+         detection = \"event\"\n{}{}[post_impact]\nduration = 1.0\nstep = 0.25\n",
+        target("slow", "arm1", 0.5),
+        target("fast", "arm2", -2.0)
+    );
+    Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn path(error: &StudyError) -> String {
+    error.key(&scenario()).path
+}
+
+/// Coordinates that a phase cannot have, a tolerance that it does not reach, else its step; of the approach and after
+/// the impact.
+#[test]
+fn phases_that_stop() {
+    let tolerance = Error::Tolerance { tolerance: 1e-9, step: 1e-12 };
+    for (source, integrator, expected) in [
+        (Error::UnsupportedBodies { count: 1 }, Integrator::RungeKutta4, "coordinates"),
+        (tolerance, Integrator::Adaptive { tolerance: 1e-9 }, "tolerance"),
+        (Error::StateVector { found: 2 }, Integrator::Adaptive { tolerance: 1e-9 }, "step"),
+    ] {
+        let mut scenario = scenario();
+        scenario.approach.integration.integrator = integrator;
+        scenario.post_impact.as_mut().expect("a phase").integration.integrator = integrator;
+        let stopped = PhaseError { time: 0.5, source };
+        let key = StudyError::Approach(stopped).key(&scenario).path;
+        assert_eq!(key, format!("approach.{expected}"));
+        let after = StudyError::PostImpact { case: "it".to_owned(), source: stopped }.key(&scenario).path;
+        assert_eq!(after, format!("post_impact.{expected}"));
+    }
+}
+
+/// Of distances that are used up: the outline of many parts, whichever of the two it is, else the twist of the target
+/// that turns faster.
+#[test]
+fn distances_that_are_used_up() {
+    let key = |bodies: [&str; 2], parts: [usize; 2]| {
+        let bodies = bodies.map(str::to_owned);
+        let what = Box::new(Exhausted { time: 0.5, evaluations: 9, bodies, of_pair: 9, parts });
+        path(&StudyError::ClearanceExhausted { case: "it".to_owned(), what })
+    };
+    let both = ["targets/slow", "targets/fast"];
+    assert_eq!(key(both, [1, 1]), "target[1].twist");
+    assert_eq!(key(["base", "targets/slow"], [1, 1]), "target[0].twist");
+    assert_eq!(key(both, [MANY_PARTS, 1]), "target[0].polygon");
+    assert_eq!(key(both, [1, MANY_PARTS]), "target[1].polygon");
+    assert_eq!(key(["base", "targets/slow"], [MANY_PARTS, MANY_PARTS - 1]), "target[0].twist");
+    assert_eq!(key(["base", "arms/arm1/link2"], [MANY_PARTS, 1]), "approach");
+}
