@@ -230,3 +230,6 @@ impl IntervalSearch<'_> {
         inside
     }
 }
+
+#[cfg(test)]
+mod tests;

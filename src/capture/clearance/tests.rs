@@ -1,7 +1,7 @@
 //! Pairs of bodies by name; least distances and overlaps of moving bodies against dense samples.
 
 use super::bodies::{ClearanceBody, bodies, pairs};
-use super::{Clearance, ClearanceTracker, LeastDistance};
+use super::{Clearance, ClearanceError, ClearanceTracker, LeastDistance, Overlap, ineffective_ignores};
 use crate::capture::assembly::Attachment;
 use crate::capture::contact_pair::ContactPair;
 use crate::capture::proximity::convex::{ConvexPart, separation};
@@ -222,6 +222,158 @@ fn check_overlaps(motion: &Motion, clearance: &Clearance, names: &[String; 2], e
         // points move by some 6 m/s at most
         assert!(overlap.depth <= deepest + 6.0 * GRID, "{overlap:?} {deepest}");
         assert_eq!(overlap.is_default, names.iter().any(|name| !name.starts_with("targets")));
+    }
+}
+
+/// With `only_given`, a pair with a default outline is left out.
+#[test]
+fn pairs_of_given_outlines_alone() {
+    let mut it = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    it.clearance.only_given = true;
+    assert_eq!(named_pairs(&it), BTreeSet::from([("t1".to_owned(), "t2".to_owned(), false)]));
+    it.layout.arms[0].links[1].outline = Some(Outline::Disc { center: [0.1, 0.0], radius: 0.25 });
+    let found = named_pairs(&it).into_iter().map(|(a, b, _)| [a, b]).collect::<Vec<_>>();
+    assert_eq!(found, [["arm1/link2", "t1"], ["arm1/link2", "t2"], ["t1", "t2"]]);
+}
+
+/// Pairs to ignore that are not compared anyway: a body with itself, joined ones, and one that is there before.
+#[test]
+fn ignored_pairs_that_change_nothing() {
+    let mut it = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    let pairs = [
+        ["base", "targets/t1"],
+        ["base", "base"],
+        ["arms/arm1/link2", "arms/arm1/link1"],
+        ["targets/t1", "targets/t2"],
+        ["targets/t1", "base"],
+        ["targets/t1", "targets/t2"],
+        ["base", "targets/t2"],
+    ];
+    it.clearance.ignore = pairs.map(|pair| pair.map(str::to_owned)).to_vec();
+    let found = ineffective_ignores(&it);
+    assert_eq!(found.iter().map(|(i, _)| *i).collect::<Vec<_>>(), [1, 2, 4, 5]);
+    for ((_, why), expected) in found.iter().zip(["with itself", "common joint", "there before", "there before"]) {
+        assert!(why.contains(expected), "{why}");
+    }
+}
+
+/// The least distance besides those that are to meet, else of all; none without pairs.
+#[test]
+fn the_least_distance_that_is_shown() {
+    let at = |distance: f64| Some(LeastDistance { distance, time: 1.0, bodies: ["a", "b"].map(str::to_owned) });
+    let shown = |least, besides_contacts| {
+        let clearance = Clearance { least, besides_contacts, ..Clearance::default() };
+        clearance.least_shown().map(|least| least.distance.to_bits())
+    };
+    assert_eq!(shown(at(1.0), at(2.0)), Some(f64::to_bits(2.0)));
+    assert_eq!(shown(at(1.0), None), Some(f64::to_bits(1.0)));
+    assert_eq!(shown(None, None), None);
+}
+
+/// A robot at rest, and two targets of these outlines.
+fn resting(outlines: [Outline; 2], targets: [([f64; 3], [f64; 3]); 2]) -> Motion {
+    let mut scenario = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    for (target, outline) in scenario.targets.iter_mut().zip(outlines) {
+        target.outline = outline;
+    }
+    let frames = scenario.frames();
+    let bodies = bodies(&scenario, &frames);
+    let targets = targets.map(|(pose, twist)| Body { mass: 1.0, inertia: 1.0, pose, twist }).to_vec();
+    Motion { scenario, frames, bodies, targets, rates: [0.0; 3], intervals: 1 }
+}
+
+const NAMES: [&str; 2] = ["targets/t1", "targets/t2"];
+
+fn overlaps(clearance: &Clearance) -> Vec<&Overlap> {
+    clearance.overlaps.iter().filter(|overlap| overlap.bodies == NAMES).collect()
+}
+
+/// A disc of 0.25 m with an end effector 0.1 m beside its centre.
+#[test]
+fn an_end_effector_inside_a_target() {
+    let disc = || Outline::Disc { center: [0.0; 2], radius: 0.25 };
+    let mut motion = resting([disc(), disc()], [([0.0, 30.0, 0.0], [0.0; 3]), ([0.0, -30.0, 0.0], [0.0; 3])]);
+    let tip = poses(&motion.frames, &motion.robot(0.0).0, &[[0.0; 3]; 2]);
+    let frame = motion.frames.iter().position(|frame| frame.name == "arms/arm2/tip").expect("a frame");
+    let [x, y] = point(tip[frame], [0.0; 2]);
+    motion.targets[1].pose = [0.0, x, y + 0.1];
+    let (_, tracker) = motion.result();
+    assert!((tracker.penetration() - 0.15).abs() < 1e-12, "{}", tracker.penetration());
+    assert!((tracker.closest()[1].distance + 0.15).abs() < 1e-12, "{:?}", tracker.closest());
+}
+
+/// A bar that is inside a wall at the start, and again after a turn: an overlap ends and another begins, however small
+/// the depths at the ends of the interval are.
+#[test]
+fn a_gap_between_two_overlaps_is_found() {
+    let bar = Outline::polygon(vec![[0.0, -0.01], [1.0, 0.0], [0.0, 0.01]]).expect("a bar");
+    let wall = Outline::polygon(vec![[-2.0, 0.0], [2.0, 0.0], [2.0, 1.0], [-2.0, 1.0]]).expect("a wall");
+    let turn = std::f64::consts::PI;
+    // from straight up, 0.01 m inside
+    let motion = resting([wall, bar], [([0.0, 30.0, 0.99], [0.0; 3]), ([0.5 * turn, 30.0, 0.0], [turn, 0.0, 0.0])]);
+    let (clearance, _) = motion.result();
+    let found = overlaps(&clearance);
+    let out = f64::acos(0.99) / turn;
+    let expected = [[0.0, out], [2.0 - out, 2.0 + out]];
+    assert_eq!(found.len(), 2, "{found:?}");
+    for (overlap, span) in found.iter().zip(expected) {
+        assert!((0..2).all(|i| (overlap.span[i] - span[i]).abs() < 1e-6), "{overlap:?}, not {span:?}");
+        assert!((overlap.depth - 0.01).abs() < 2e-6, "{overlap:?}");
+    }
+}
+
+/// A tip that is half a micrometre outside a wall at the start dips into it by some.
+#[test]
+fn a_dip_from_a_near_touch_is_found() {
+    let bar = Outline::polygon(vec![[0.0, -0.01], [1.0, 0.0], [0.0, 0.01]]).expect("a bar");
+    let wall = Outline::polygon(vec![[-2.0, 0.0], [2.0, 0.0], [2.0, 1.0], [-2.0, 1.0]]).expect("a wall");
+    let (before, after) = (5e-3, 8e-3);
+    let rate = (before + after) / DURATIONS[0];
+    let up = 0.5 * std::f64::consts::PI;
+    let height = f64::cos(before) + 5e-7;
+    let motion = resting([wall, bar], [([0.0, 30.0, height], [0.0; 3]), ([up - before, 30.0, 0.0], [rate, 0.0, 0.0])]);
+    let (clearance, _) = motion.result();
+    let found = overlaps(&clearance);
+    let [overlap] = found[..] else { panic!("{found:?}") };
+    let half = f64::acos(height) / rate;
+    let expected = [before / rate - half, before / rate + half];
+    assert!((0..2).all(|i| (overlap.span[i] - expected[i]).abs() < 1e-6), "{overlap:?}, not {expected:?}");
+    assert!((overlap.depth - (1.0 - height)).abs() < 1.1e-6, "{overlap:?}");
+}
+
+/// Distances are counted and timed from the start of the approach: of a phase from 100 s to 200 s twice as many are
+/// allowed at its end as at its start.
+#[test]
+fn distances_are_used_up_at_their_time() {
+    let bar = || Outline::polygon(vec![[-1.0, -0.01], [1.0, -0.01], [1.0, 0.01], [-1.0, 0.01]]).expect("a bar");
+    let mut motion = resting([bar(), bar()], [([0.0, 30.0, 0.0], [0.0; 3]), ([0.5, 30.0, 0.5], [3.0, 0.0, 0.0])]);
+    motion.scenario.clearance.only_given = true;
+    motion.intervals = 2;
+    let run = |most: u64| {
+        let mut scenario = motion.scenario.clone();
+        scenario.clearance.max_distances = most;
+        let mut tracker = ClearanceTracker::new(&scenario, &[]);
+        let end = tracker.add_phase(&motion.path(100.0, 100.0), 100.0, TargetMotion::Free(&motion.targets), &[]);
+        (
+            end.map_err(|error| match error {
+                ClearanceError::Exhausted(what) => what,
+                ClearanceError::Path(error) => panic!("{error}"),
+            }),
+            tracker.result().evaluations,
+        )
+    };
+    let (end, all) = run(u64::MAX);
+    assert!(end.is_ok() && all > 1000, "{all}");
+    // the second half, from 150 s, has the second half of them
+    assert!(run(all * 3 / 4).0.is_ok());
+    for most in [all / 4, all / 3] {
+        let (end, count) = run(most);
+        let what = end.expect_err("too many");
+        assert_eq!((what.evaluations, what.of_pair, what.parts), (count, count, [1, 1]));
+        assert_eq!(what.bodies, NAMES);
+        assert!((100.0..=200.0).contains(&what.time), "{what:?}");
+        let said = what.to_string();
+        assert!(said.contains(&count.to_string()) && said.contains(NAMES[1]), "{said}");
     }
 }
 
