@@ -190,3 +190,6 @@ impl StepSearch<'_> {
         self.workspace.instant(self.motions, self.step, (frames, pair), time)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,13 +2,14 @@
 //! held, and terminal errors in words.
 
 use crate::capture::assembly::{Assembly, Attachment};
-use crate::capture::{Silent, Study, StudyError, study};
+use crate::capture::post_capture::wheels;
+use crate::capture::{CaseResult, Silent, Study, StudyError, study};
 use crate::contact::ContactKind;
 use crate::owned::RobotState;
 use crate::registry;
-use crate::scenario::Scenario;
+use crate::scenario::{OnOverlap, Scenario};
 use crate::simulate::system::Body;
-use planar_proof::{file, layout};
+use planar_proof::{assert_close, file, layout};
 
 const ANGLES: [f64; 6] = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047];
 const RADIUS: f64 = 0.2;
@@ -29,6 +30,14 @@ struct Coming {
 
 /// The robot at rest for 10 s, and 6 s after the first contact.
 fn meet(coming: &[Coming; 2], step: f64) -> Result<Study, StudyError> {
+    run(&meeting(coming, step))
+}
+
+fn run(scenario: &Scenario) -> Result<Study, StudyError> {
+    study(scenario, &|| registry::generic(&layout("dual_arm_3r")), 1.0, &mut Silent)
+}
+
+fn meeting(coming: &[Coming; 2], step: f64) -> Scenario {
     let poses = end_effectors();
     let target = |(i, Coming { arm, speed, time, aside }): (usize, &Coming)| {
         let [_, x, y] = poses[*arm];
@@ -46,9 +55,7 @@ fn meet(coming: &[Coming; 2], step: f64) -> Result<Study, StudyError> {
          step = {step}\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {ANGLES:?}\n\
          [contact]\ndetection = \"event\"\n{targets}[post_impact]\nduration = 6.0\nstep = {step}\n"
     );
-    let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED);
-    let model = || registry::generic(&layout("dual_arm_3r"));
-    study(&scenario.unwrap_or_else(|e| panic!("{e}")), &model, 1.0, &mut Silent)
+    Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Both targets are met: each at its time and by its arm, whatever the step, and the motion lasts as long as it should.
@@ -150,4 +157,100 @@ fn terminal_errors_in_words() {
     };
     assert_eq!(error.to_string(), "1.25e-3 m, 5.00e-1 rad");
     assert_eq!(crate::capture::terminal_error::TerminalError { yaw: None, ..error }.to_string(), "1.25e-3 m");
+}
+
+/// A target that one of its two arms meets leaves the other's closest approach.
+#[test]
+fn the_other_arm_of_a_target_has_a_closest_approach() {
+    let [[_, x, y], [_, other_x, other_y]] = end_effectors();
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {ANGLES:?}\n[approach]\nduration = 5.0\n\
+         step = 0.5\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {ANGLES:?}\n[contact]\n\
+         detection = \"event\"\n[[target]]\nname = \"t\"\narm = [\"arm1\", \"arm2\"]\nmass = 1e-9\ninertia = 1e-10\n\
+         radius = {RADIUS}\nposition = [{x}, {}]\ntwist = [0.0, 0.0, 1.0]\n[post_impact]\nduration = 1.0\nstep = 0.5\n",
+        y - RADIUS - 4.0
+    );
+    let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED);
+    let study = run(&scenario.unwrap_or_else(|e| panic!("{e}"))).expect("a study");
+    let [closest] = study.cases[0].closest.as_slice() else { panic!("{:?}", study.cases[0].closest) };
+    assert_eq!((closest.target, closest.arm), (0, 1));
+    // the target comes to rest below the first end effector
+    let rest = (other_x - x).hypot(other_y - (y - RADIUS)) - RADIUS;
+    assert!(closest.distance <= rest + 1e-6 && closest.distance > 0.0, "{closest:?} {rest}");
+}
+
+/// Bodies that meet after an impact end the case then, by their given outlines: a held disc and one that comes after it,
+/// after one impact and after two.
+#[test]
+fn an_overlap_after_impacts_ends_the_case() {
+    for (later, expected) in [(None, 8.0), (Some(7.0), 9.0)] {
+        let second = later.map_or(Coming { arm: 1, speed: 4.0, time: 90.0, aside: 9.0 }, |time| Coming {
+            arm: 1,
+            speed: 3.0,
+            time,
+            aside: 0.0,
+        });
+        let mut scenario = meeting(&[Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 }, second], 0.5);
+        scenario.clearance.on_overlap = OnOverlap::Stop;
+        // default outlines end no case
+        scenario.layout.base.outline = None;
+        scenario.layout.arms.iter_mut().flat_map(|arm| &mut arm.links).for_each(|link| link.outline = None);
+        // a third disc, which no arm is to meet, touches the first from the side
+        let mut third = scenario.targets[0].clone();
+        third.name = "t2".to_owned();
+        third.contacts.iter_mut().for_each(|contact| contact.kind = None);
+        let [[_, x, y], [_, other, _]] = end_effectors();
+        let side = (x - other).signum();
+        third.position = Some([x + side * (2.0 * RADIUS + 2.0 * expected), y - RADIUS]);
+        third.twist = [0.0, -2.0 * side, 0.0];
+        scenario.cases[0].target_twists.push(third.twist);
+        scenario.cases[0].kinds.push(vec![None]);
+        scenario.cases[0].restitutions.push(0.0);
+        scenario.cases[0].printed_impulses.push(None);
+        scenario.targets.push(third);
+        let study = run(&scenario).expect("a study");
+        let case = &study.cases[0];
+        let stopped = case.stopped.expect("an overlap");
+        assert!((stopped - expected).abs() < 1e-5, "{stopped}, not {expected}");
+        let capture = case.capture.as_ref().expect("a capture");
+        assert_eq!(capture.later_impacts.len(), usize::from(later.is_some()));
+        let first = case.approach.as_ref().expect("an approach").duration;
+        assert!((first + capture.post_impact.duration - stopped).abs() < 1e-9, "{}", capture.post_impact.duration);
+    }
+}
+
+/// Wheels are arms of one balanced link without a length that hold nothing.
+#[test]
+fn which_joints_turn_wheels() {
+    let mut robot = layout("dual_arm_2r");
+    robot.arms[1].links.truncate(1);
+    let hold = |arm: usize| Attachment { target: 0, arm, kind: ContactKind::Rigid };
+    assert_eq!(wheels(&robot, &[]), [false; 3]);
+    (robot.arms[1].links[0].length, robot.arms[1].links[0].com) = (0.0, [0.0; 2]);
+    assert_eq!(wheels(&robot, &[]), [false, false, true]);
+    assert_eq!(wheels(&robot, &[hold(0)]), [false, false, true]);
+    assert_eq!(wheels(&robot, &[hold(0), hold(1)]), [false; 3]);
+    robot.arms[1].links[0].com = [0.0, 0.1];
+    assert_eq!(wheels(&robot, &[]), [false; 3]);
+}
+
+/// Σ [I ω + x m vy − y m vx, m vx, m vy] and Σ ½ (I ω² + m v²).
+#[test]
+fn momentum_and_energy_of_the_targets() {
+    let body = |mass: f64, pose: [f64; 3], twist: [f64; 3]| Body { mass, inertia: 2.0, pose, twist };
+    let targets = vec![body(3.0, [0.1, 2.0, -1.0], [0.5, 1.0, 2.0]), body(1.0, [0.0, 0.0, 4.0], [-1.0, 3.0, 0.0])];
+    let (momentum, energy) = CaseResult { targets, ..CaseResult::default() }.targets_momentum();
+    let expected = [1.0 + 12.0 + 3.0 - 2.0 - 12.0, 6.0, 6.0, 0.25 + 7.5 + 1.0 + 4.5];
+    assert_close("sums", &[&momentum[..], &[energy]].concat(), &expected, 1e-12);
+}
+
+/// An end effector that was inside a target which it does not hold fails the audit; one beside it does not.
+#[test]
+fn depths_are_audited() {
+    let coming = |arm: usize, time: f64| Coming { arm, speed: 4.0, time, aside: 0.75 };
+    let mut study = meet(&[coming(0, 5.5), coming(1, 8.75)], 2.0).expect("a study");
+    let inside = |study: &Study| study.audit_failures().iter().filter(|line| line.contains("inside a target")).count();
+    assert_eq!((study.cases[0].closest.len(), inside(&study)), (2, 0));
+    study.cases[0].closest[1].distance = -1e-3;
+    assert_eq!(inside(&study), 1);
 }

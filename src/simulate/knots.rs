@@ -131,4 +131,29 @@ mod tests {
         visited.expect("a file");
         assert_eq!(seen, count - 1);
     }
+    /// Paths are the same where their numbers in memory are, and the file of the others.
+    #[test]
+    fn knots_are_equal_where_they_share_the_file() {
+        let short = |value: f64| {
+            let mut knots = Knots::default();
+            knots.push(0.0, &[value, 1.0]);
+            knots
+        };
+        assert_eq!(short(1.0), short(1.0));
+        assert_ne!(short(1.0), short(2.0));
+        let mut long = short(1.0);
+        for _ in 0..30_000 {
+            long.push(1.0, &[2.0, 3.0]);
+        }
+        assert!(long.file.is_some());
+        assert_eq!(long, long.clone());
+        let (mut other, mut without) = (long.clone(), long.clone());
+        other.file = Some(Arc::new(Mutex::new(temporary_file())));
+        without.file = None;
+        assert_ne!(long, other);
+        assert_ne!(long, without);
+        let mut more = long.clone();
+        more.push(2.0, &[3.0, 4.0]);
+        assert_ne!(long, more);
+    }
 }
