@@ -254,3 +254,33 @@ fn depths_are_audited() {
     study.cases[0].closest[1].distance = -1e-3;
     assert_eq!(inside(&study), 1);
 }
+
+/// A light box that bounces without loss between two end effectors does not stop: after a thousand more impacts than the
+/// first, the next one ends the study. It has too much inertia to turn.
+#[test]
+fn bounces_without_end() {
+    let [[_, x, y], [_, other_x, other_y]] = end_effectors();
+    let apart = (x - other_x).hypot(y - other_y);
+    let (yaw, gap) = (f64::atan2(y - other_y, x - other_x), apart - 0.4);
+    let speed = 500.0 * gap;
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {ANGLES:?}\n[approach]\nduration = 1.0\n\
+         step = 0.5\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {ANGLES:?}\n[contact]\n\
+         detection = \"event\"\n[[target]]\nname = \"t\"\narm = [\"arm1\", \"arm2\"]\nkind = \"bounce\"\n\
+         restitution = 1.0\nmass = 1e-9\ninertia = 1e3\nyaw = {yaw}\n\
+         polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, 0.1], [-0.2, 0.1]]\nposition = [{}, {}]\ntwist = [0.0, {}, {}]\n\
+         [post_impact]\nduration = 4.0\nstep = 4.0\n",
+        0.5 * (x + other_x),
+        0.5 * (y + other_y),
+        speed * yaw.cos(),
+        speed * yaw.sin()
+    );
+    let mut scenario =
+        Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+    scenario.clearance.only_given = true;
+    let error = run(&scenario).expect_err("bounces");
+    let StudyError::Chatter { impacts, time, target, .. } = error else { panic!("{error}") };
+    assert_eq!((impacts, target.as_str()), (1001, "t"));
+    // the box turns a little after all
+    assert!((time - 1001.0 / 500.0).abs() < 1e-3, "{time}");
+}

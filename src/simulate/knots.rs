@@ -111,19 +111,20 @@ pub(super) fn again(error: &io::Error) -> io::Error {
 mod tests {
     use super::*;
 
-    #[test]
-    fn knots_in_the_file_are_those_that_were_added() {
+    /// Whatever the number of numbers of a knot is.
+    fn check_stored<const N: usize>(count: u32) {
         let mut knots = Knots::default();
-        let knot = |i: u32| [f64::from(i), f64::from(i).sin(), -f64::from(i)];
-        let count = 50_000;
+        let knot = |i: u32| -> [f64; N] {
+            std::array::from_fn(|k| f64::from(i) + f64::from(i * 7).sin() * [0.0, 1.0, 2.0, 3.0, 4.0][k])
+        };
         for i in 0..count {
-            let [time, state @ ..] = knot(i);
-            knots.push(time, &state);
-            assert_eq!(knots.last(3), Some((time, &state[..])));
+            let numbers = knot(i);
+            knots.push(numbers[0], &numbers[1..]);
+            assert_eq!(knots.last(N), Some((numbers[0], &numbers[1..])));
         }
-        assert!(knots.in_memory.len() <= MOST_IN_MEMORY + 3 && knots.stored > 0);
+        assert!(knots.in_memory.len() <= MOST_IN_MEMORY + N && knots.stored > 0);
         let mut seen = 0;
-        let visited = knots.try_for_each_pair(3, |first, second| {
+        let visited = knots.try_for_each_pair(N, |first, second| {
             assert_eq!([first, second], [knot(seen), knot(seen + 1)]);
             seen += 1;
             io::Result::Ok(())
@@ -131,6 +132,13 @@ mod tests {
         visited.expect("a file");
         assert_eq!(seen, count - 1);
     }
+
+    #[test]
+    fn knots_in_the_file_are_those_that_were_added() {
+        check_stored::<3>(50_000);
+        check_stored::<5>(30_000);
+    }
+
     /// Paths are the same where their numbers in memory are, and the file of the others.
     #[test]
     fn knots_are_equal_where_they_share_the_file() {
