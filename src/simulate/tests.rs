@@ -245,3 +245,34 @@ fn samples_in_memory_are_evenly_spaced() {
         assert_eq!(file.map(|file| file.len()), (spacing > 1).then_some(count));
     }
 }
+
+/// The path within long adaptive steps is the motion, from knot to knot: that of the same tolerance at many samples.
+#[test]
+fn the_path_within_long_steps_is_the_motion() {
+    let (model, state) = robot();
+    let run = |step: f64, until: f64| {
+        let integration =
+            Integration { integrator: Integrator::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
+        let timing = Timing { duration: 8.0, step, sample: step, integration };
+        simulate(&System::alone(&*model), &mut ZeroTorque, &state, &timing, &mut EndTime(until), &mut || ())
+            .expect("a phase")
+    };
+    let samples = run(0.03125, 9.0).samples;
+    for (step, until) in [(8.0, 9.0), (2.0, 9.0), (8.0, 5.3), (2.0, 5.3)] {
+        let mut last = 0.0;
+        let visited = run(step, until).path.try_for_each(|interval| {
+            let [from, to] = interval.span;
+            assert!(from == last && to > from, "{step}: {from} to {to} after {last}");
+            last = to;
+            for sample in samples.iter().filter(|sample| (from..=to).contains(&sample.time)) {
+                let (mut positions, mut rates) = ([0.0; 5], [0.0; 5]);
+                interval.at(sample.time, &mut positions, &mut rates);
+                let expected = [&sample.state.base_pose[..], &sample.state.joint_angles].concat();
+                assert_close("path", &positions, &expected, 3e-8);
+            }
+            std::io::Result::Ok(())
+        });
+        visited.expect("a path");
+        assert!((last - until.min(8.0)).abs() < 1e-12, "{last}");
+    }
+}

@@ -8,6 +8,7 @@ use super::workspace::PathWorkspace;
 use crate::capture::assembly::{Assembly, Attachment};
 use crate::capture::target_motion::TargetMotion;
 use crate::contact::ContactKind;
+use crate::error::Error;
 use crate::frames::{Frame, FrameMotion, frames, point, poses};
 use crate::outline::Outline;
 use crate::owned::RobotState;
@@ -325,4 +326,15 @@ fn bounds_of_distances_are_attained_on_a_line() {
         let slower = PartPair { acceleration: 0.8, ..free.pair };
         assert!((slower.bound(&now, after) - (exact - 0.4 * after * after)).abs() < 1e-12);
     }
+}
+
+/// Where no bound excludes a contact the search ends after its most divisions, with how many that are.
+#[test]
+fn parts_without_a_bound_are_not_searched_for_ever() {
+    let parts = [ConvexPart::point(), ConvexPart::point()];
+    let still = |x: f64| Body { mass: 1.0, inertia: 1.0, pose: [0.0, x, 0.0], twist: [0.0; 3] };
+    let mut free = FreePair::new(parts.each_ref(), [still(0.0), still(1.0)]);
+    free.pair.acceleration = 1e30;
+    let found = free.pair.first_contact([0.0, 100.0], 1e-9, |_, time| free.at(time));
+    assert!(matches!(found, Err(Error::NotConverged { iterations: 1_000_000, .. })), "{found:?}");
 }
