@@ -135,6 +135,26 @@ fn saturation_up_to_an_event() {
     assert_close("saturated", &ended.saturation.joints, &[0.9; 2], 1e-12);
 }
 
+/// Joints that are at their limits for a part of the time are so for as long whatever is sampled.
+#[test]
+fn saturation_between_samples() {
+    let (model, state) = robot();
+    let saturated = |sample: f64| {
+        let law = ProportionalDerivative {
+            trajectory: ConstantSetpoint { angles: &[0.4, -0.9] },
+            proportional_gain: &[0.5; 2],
+            derivative_gain: &[0.1; 2],
+        };
+        let mut limited = TorqueLimiter { law, torque_limits: &[0.05; 2], saturated: &mut [false; 2] };
+        let timing = Timing { duration: 4.0, step: 0.0625, sample, ..Timing::default() };
+        let system = System::alone(&*model);
+        simulate(&system, &mut limited, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase").saturation.joints
+    };
+    let every = saturated(0.0625);
+    assert!(every.iter().any(|time| *time > 0.0 && *time < 4.0), "{every:?}");
+    assert_eq!(saturated(2.0), every);
+}
+
 struct Three;
 
 impl Events for Three {

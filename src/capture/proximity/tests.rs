@@ -1,7 +1,7 @@
 //! Motions and their bounds against differences of positions; bounds that are attained; first contacts against dense
 //! samples.
 
-use super::convex::ConvexPart;
+use super::convex::{ConvexPart, separation};
 use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use super::workspace::PathWorkspace;
@@ -337,4 +337,21 @@ fn parts_without_a_bound_are_not_searched_for_ever() {
     free.pair.acceleration = 1e30;
     let found = free.pair.first_contact([0.0, 100.0], 1e-9, |_, time| free.at(time));
     assert!(matches!(found, Err(Error::NotConverged { iterations: 1_000_000, .. })), "{found:?}");
+}
+
+/// Segments on one line, and a point on the line of one, are as far apart as their ends.
+#[test]
+fn parts_on_one_line() {
+    let segment = [[0.0, 0.0], [1.0, 0.0]];
+    for (other, radii, expected) in [
+        (&[[3.0, 0.0]][..], 0.0, 2.0),
+        (&[[-0.5, 0.0]], 0.2, 0.3),
+        (&[[1.5, 0.0], [4.0, 0.0]], 0.0, 0.5),
+        (&[[-1.0, 0.0], [-3.0, 0.0]], 0.25, 0.75),
+        (&[[0.5, 0.0]], 0.25, -0.25),
+    ] {
+        for found in [separation(&segment, other, radii), separation(other, &segment, radii)] {
+            assert!((found.distance - expected).abs() < 1e-15, "{other:?}: {}", found.distance);
+        }
+    }
 }
