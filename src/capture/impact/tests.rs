@@ -73,7 +73,7 @@ fn when_the_papers_equations_apply() {
     }
 }
 
-/// By the paper's equations each target moves with its own end effector, J_t t_t = J θ̇, whichever that is.
+/// By the paper's equations each target moves with its own end effector, `J_t t_t = J θ̇`, whichever that is.
 #[test]
 fn the_papers_targets_move_with_their_end_effectors() {
     let rigid = ContactLaw::Rigid;

@@ -1,4 +1,5 @@
 //! When there is another origin, and what it changes of an impact.
+#![allow(clippy::float_cmp, reason = "numbers that are copied")]
 
 use super::*;
 use crate::registry;

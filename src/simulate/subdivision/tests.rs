@@ -1,4 +1,5 @@
 //! Subdivisions of motions whose cubic interpolants have known errors: as many intervals as these need.
+#![allow(clippy::float_cmp, reason = "times that are copied or halved, and numbers of states")]
 
 use super::*;
 use crate::owned::CloneModel;

@@ -61,9 +61,9 @@ fn run(integrator: Integrator, law: &mut dyn Control<f64>, from: &RobotState, [d
 }
 
 /// The largest difference of the positions at each of some samples and the same of others.
-fn largest<'a>(these: impl Iterator<Item = &'a Sample>, those: impl Iterator<Item = &'a Sample>) -> f64 {
+fn largest<'a>(some: impl Iterator<Item = &'a Sample>, others: impl Iterator<Item = &'a Sample>) -> f64 {
     let positions = |sample: &Sample| [&sample.state.base_pose[..], &sample.state.joint_angles].concat();
-    let differences = these.zip(those).flat_map(|(a, b)| {
+    let differences = some.zip(others).flat_map(|(a, b)| {
         let pairs: Vec<_> = positions(a).into_iter().zip(positions(b)).collect();
         pairs.into_iter().map(|(a, b)| (a - b).abs())
     });
