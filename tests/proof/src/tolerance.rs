@@ -97,9 +97,9 @@ pub const ORDER_OF_DIFFERENCE: f64 = 0.5;
 pub const ADAPTIVE: f64 = 1.0;
 /// Rounding of a motion of two seconds, rad, m and per second.
 pub const ROUNDED_MOTION: f64 = 2e-13;
-/// The end of an approach by one set of Runge–Kutta steps against another, rad, m and per second: what is left of 3e-11
-/// by Richardson's extrapolation.
-pub const EXTRAPOLATED: f64 = 1e-12;
+/// The end of an approach by integrals over panels of one length and another, rad, m and per second: rounding of some
+/// hundred sums.
+pub const INTEGRALS: f64 = 1e-12;
 /// Samples between adaptive steps at 1e-10 against steps that end there, rad, m and per second.
 pub const DENSE: f64 = 1e-9;
 /// Momentum drift in reduced coordinates, relative: rounding of a 3 × 3 solve, 4e-16 measured.

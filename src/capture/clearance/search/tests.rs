@@ -26,10 +26,11 @@ fn distances_count_for_their_pairs() {
     let pairs = [pair(0), pair(1), pair(1)];
     let mut found = Findings::new(&pairs, 10);
     let point = ConvexPart::point();
-    let shapes = PartPair { parts: [&point, &point], acceleration: 0.0 };
+    let shapes = PartPair { parts: [&point, &point], speed: 0.0, acceleration: 0.0 };
     let mut record = |index: usize, distance: f64, time: f64| {
-        let at = |x: f64| FrameState { pose: [0.0, x, 0.0], twist: [0.0; 3] };
-        found.record((index, &pairs[index]), &shapes.at(time, [at(0.0), at(distance)]), 5.0);
+        let at = |x: f64| FrameState::new([0.0, x, 0.0], [0.0; 3]);
+        let instant = shapes.at(time, [at(0.0), at(distance)], &mut Default::default());
+        found.record((index, &pairs[index]), &instant, 5.0);
     };
     for (index, distance, time) in [(1, 3.0, 0.25), (2, 2.0, 0.5), (1, 2.5, 0.75), (0, 9.0, 1.0)] {
         record(index, distance, time);
