@@ -1,4 +1,4 @@
-//! Fixtures of the tests: random states, dual numbers, an independent reference for contacts, and comparison of
+//! Fixtures of the tests: random states, an independent reference for contacts, and comparison of
 //! numbers. [`tolerance`] has every bound of a comparison, with its reason.
 //!
 //! It never contains the product, which its own tests and those of the root package depend on.
@@ -9,7 +9,6 @@
     reason = "tests call it: a panic is a test that fails"
 )]
 
-pub mod dual;
 pub mod linear_time;
 pub mod maximal;
 pub mod sample;

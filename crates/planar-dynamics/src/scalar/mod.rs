@@ -1,6 +1,7 @@
 //! Scalars: the traits of the numbers that the core and generated code compute with, and their implementations.
 
 mod accelerated;
+mod dual;
 mod far_angle;
 mod float;
 #[cfg(feature = "batch")]
@@ -14,6 +15,7 @@ mod sine_batch;
 #[cfg(any(feature = "lanes", target_arch = "x86_64", target_arch = "aarch64"))]
 pub(crate) mod sine_lanes;
 
+pub use dual::Dual;
 pub use number::Scalar;
 pub use portable::sqrt_f64;
 pub use real::Real;

@@ -3,9 +3,9 @@
 use planar_capture::dynamics::{ForwardDynamics, Kinematics, MomentumAndEnergy, ReducedDynamics};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{MANIFEST, Model, Parameters};
+use planar_capture::scalar::Dual;
 use planar_capture::scalar::{self, Scalar};
 use planar_capture::state::{Forces, State};
-use planar_proof::dual::Dual;
 use planar_proof::{assert_close, tolerance};
 
 const POSE: [f64; 3] = [0.4, 1.0, -2.0];

@@ -1,10 +1,10 @@
 //! Trajectories satisfy their end conditions, and their rates are the derivatives of their angles.
 
 use planar_capture::integrate::RungeKutta4;
+use planar_capture::scalar::Dual;
 use planar_capture::trajectory::{
     Cycloidal, EndEffectorPath, PointToPoint, Quartic, QuarticAsPrinted, Quintic, Trajectory, quintic,
 };
-use planar_proof::dual::Dual;
 use planar_proof::{assert_close, tolerance};
 
 const FROM: [f64; 3] = [0.698, -1.5, 0.3];

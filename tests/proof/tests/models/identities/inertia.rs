@@ -3,7 +3,7 @@
 macro_rules! inertia {
     ($($layout:ident)*) => {$(
         mod $layout {
-            use planar_proof::dual::Dual;
+            use planar_capture::scalar::Dual;
             use planar_proof::sample::{config, sample};
             use planar_proof::tolerance;
             use crate::identities::{close, inputs, moving, velocity};

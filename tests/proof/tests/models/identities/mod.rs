@@ -2,8 +2,8 @@
 //!
 //! A state that fails is shrunk and printed as `planar-capture eval LAYOUT STATES.json` reads it.
 
+use planar_capture::scalar::Dual;
 use planar_capture::target::Target;
-use planar_proof::dual::Dual;
 use planar_proof::for_every_layout;
 use planar_proof::sample::RandomState;
 

@@ -37,7 +37,7 @@ macro_rules! motion {
     ($($layout:ident)*) => {$(
         mod $layout {
             use super::{integrate_to_contact, vector};
-            use planar_proof::dual::Dual;
+            use planar_capture::scalar::Dual;
             use planar_proof::sample::{config, sample};
             use planar_proof::tolerance;
             use crate::identities::{close, inputs, moving, velocity};
