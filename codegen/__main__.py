@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from . import environment  # all else is imported later: an old Python has to reach its error message
+from .derivatives import MATRICES
 
 ROOT = environment.HERE.parent
 INSIDE = "PLANAR_CAPTURE_CODEGEN_INSIDE"
@@ -25,10 +26,24 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--layout", type=Path, help="derive from this file alone; with --graph")
     parser.add_argument("--graph", type=Path, help="the file to write the graph of --layout to")
+    parser.add_argument(
+        "--derivatives",
+        nargs="?",
+        metavar="NAME,...",
+        const=",".join(MATRICES),
+        help=f"with --layout: matrices of derivatives, too; of {' and '.join(MATRICES)} by default",
+    )
+    parser.add_argument(
+        "--directional",
+        metavar="FUNCTION,...",
+        help="with --layout: directional derivatives of these, too; FUNCTION:parameters along parameters, too",
+    )
     parser.add_argument("--test", action="store_true", help="run the derivation's tests instead")
     options = parser.parse_args()
     if (options.layout is None) != (options.graph is None):
         parser.error("--layout and --graph go together")
+    if options.layout is None and (options.derivatives is not None or options.directional is not None):
+        parser.error("derivatives are for --layout: shipped graphs have none")
     return options
 
 
@@ -71,24 +86,32 @@ def wrong_arguments(options: argparse.Namespace) -> str | None:
 def derive(options: argparse.Namespace) -> int:
     """The exit code, with one line on stderr where the input is wrong."""
     from .cargo_features import FeatureError
+    from .derivatives import DerivativesError
     from .layout import LayoutError
 
     try:
-        return derive_shipped(options) if options.layout is None else derive_file(options.layout, options.graph)
-    except (LayoutError, FeatureError) as problem:
+        return derive_shipped(options) if options.layout is None else derive_file(options)
+    except (LayoutError, FeatureError, DerivativesError) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2
 
 
-def derive_file(layout_file: Path, graph_file: Path) -> int:
+def derive_file(options: argparse.Namespace) -> int:
     """Writes the graph of any layout file, for ``planar-capture generate``."""
+    from .derivatives import Derivatives
     from .derive import graph_text, write_atomically
     from .layout import read
 
-    layout = read(layout_file)
-    command = f"planar-capture generate {layout.name}.toml --out {layout.name}.json"
-    text = graph_text(layout, command, lambda family: environment.report(f"{layout.name}: {family}"))
-    write_atomically(graph_file, text)
+    layout = read(options.layout)
+    asked = [
+        tuple(dict.fromkeys(names.split(","))) if names else () for names in (options.derivatives, options.directional)
+    ]
+    derivatives = Derivatives(*asked)
+    words = ["planar-capture generate", f"{layout.name}.toml --out {layout.name}.json", *derivatives.options()]
+    text = graph_text(
+        layout, " ".join(words), lambda family: environment.report(f"{layout.name}: {family}"), derivatives
+    )
+    write_atomically(options.graph, text)
     return 0
 
 

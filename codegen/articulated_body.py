@@ -168,9 +168,10 @@ class LeafBody:
         (x, y), (mx, my) = own.com, self.first_moment
         what = "articulated inertia at the joint"
         xx = own.mass if y.is_zero() else ratio * (own.inertia + mx * x)
+        xy = constant(f"{label}_articulated_inertia_xy", ratio * (mx * y), "kg", what)
         self.inertia = ArticulatedInertia(
             constant(f"{label}_articulated_inertia_xx", xx + added, "kg", what),
-            constant(f"{label}_articulated_inertia_xy", ratio * (mx * y), "kg", what),
+            xy,
             constant(f"{label}_articulated_inertia_yy", ratio * (own.inertia + my * y) + added, "kg", what),
             constant(
                 f"{label}_articulated_inertia_difference",
@@ -178,6 +179,7 @@ class LeafBody:
                 "kg",
                 "xx - yy of the articulated inertia at the joint",
             ),
+            twice_xy=constant(f"{label}_articulated_inertia_twice_xy", xy + xy, "kg", f"2 xy of the {what}"),
         )
         self.children = len(children)
         for child in children:

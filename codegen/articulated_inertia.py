@@ -12,9 +12,9 @@ from .symbols import Symbols
 class ArticulatedInertia:
     """A symmetric 2 x 2 articulated inertia, kg.
 
-    ``difference`` is xx - yy where it is a constant. Rotation by an angle changes a constant diagonal ``constant`` to
-    xx = constant[0] - change and yy = constant[1] + change: a constant term of a sum can be added to ``constant``
-    when the model is built.
+    ``difference`` is xx - yy and ``twice_xy`` is 2 xy, where these are constants. Rotation by an angle changes a
+    constant diagonal ``constant`` to xx = constant[0] - change and yy = constant[1] + change: a constant term of a sum
+    can be added to ``constant`` when the model is built.
     """
 
     xx: ca.SX
@@ -23,6 +23,7 @@ class ArticulatedInertia:
     difference: ca.SX | None = None
     constant: Vector | None = None
     change: ca.SX | None = None
+    twice_xy: ca.SX | None = None
 
     @property
     def elements(self) -> list[ca.SX]:
@@ -32,7 +33,8 @@ class ArticulatedInertia:
         """R A R^T in 10 operations, 5 where xy is zero; the trace is invariant."""
         c, s = rotation
         difference = self.xx - self.yy if self.difference is None else self.difference
-        v = c * (self.xy + self.xy) + s * difference
+        twice_xy = self.xy + self.xy if self.twice_xy is None else self.twice_xy
+        v = c * twice_xy + s * difference
         change = s * v
         constant = None if self.difference is None else (self.xx, self.yy)
         return ArticulatedInertia(self.xx - change, c * v - self.xy, self.yy + change, None, constant, change)

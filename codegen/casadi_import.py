@@ -4,12 +4,16 @@ CasADi's instructions reuse work slots and compute equal values again; nodes do 
 are replaced by the nodes of their expressions.
 """
 
+from collections.abc import Iterator
+from itertools import groupby
+
 import casadi as ca
 
 from .functions import Functions
 from .inputs import CONFIGURATION, element, input_shapes
 from .signatures import Section
 from .statements import NodeSection
+from .symbols import AuxiliaryVariable
 from .value_numbering import DerivationError, Stage, ValueNumbering
 
 BINARY = {
@@ -21,6 +25,17 @@ BINARY = {
     ca.OP_ATAN2: "atan2",
 }
 UNARY = {ca.OP_NEG: "neg", ca.OP_SIN: "sin", ca.OP_COS: "cos", ca.OP_SQRT: "sqrt"}
+
+
+def grouped(variables: list[AuxiliaryVariable]) -> Iterator[list[AuxiliaryVariable]]:
+    """Variables of one group together, others alone."""
+
+    def key(item: tuple[int, AuxiliaryVariable]) -> tuple[bool, int]:
+        place, variable = item
+        return (False, place) if variable.group is None else (True, variable.group)
+
+    for _, part in groupby(enumerate(variables), key):
+        yield [variable for _, variable in part]
 
 
 class CasadiImport:
@@ -38,14 +53,19 @@ class CasadiImport:
             symbol = getattr(functions.inputs, name)
             elements = [leaf("input", element(name, shape, k), stage) for k in range(symbol.numel())]
             self._symbols.append((symbol, elements))
-        for variable in symbols.auxiliary_variables:
-            (value,) = self.nodes_of([variable.expression])
-            if variable.name is not None:
-                if self.numbering[value].stage != Stage.PARAMETERS:
-                    raise DerivationError(f"constant {variable.name} depends on more than parameters")
-                self.constants[variable.name] = value
-                value = leaf("constant", variable.name, Stage.PARAMETERS)
-            self._symbols.append((variable.symbol, [value]))
+        for name, direction in functions.directions.items():
+            size = direction.symbol.numel()
+            elements = [leaf("input", element(name, direction.shape, k), Stage.CALL) for k in range(size)]
+            self._symbols.append((direction.symbol, elements))
+        for variables in grouped(symbols.auxiliary_variables):
+            values = self.nodes_of([variable.expression for variable in variables])
+            for variable, value in zip(variables, values, strict=True):
+                if variable.name is not None:
+                    if self.numbering[value].stage != Stage.PARAMETERS:
+                        raise DerivationError(f"constant {variable.name} depends on more than parameters")
+                    self.constants[variable.name] = value
+                    value = leaf("constant", variable.name, Stage.PARAMETERS)
+                self._symbols.append((variable.symbol, [value]))
 
     def nodes_of(self, expressions: list[ca.SX]) -> list[int]:
         """The nodes of scalar expressions."""

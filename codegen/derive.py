@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from . import graph
+from .derivatives import NO_DERIVATIVES, Derivatives
 from .environment import HERE
 from .functions import Functions
 from .json_text import dump
@@ -35,10 +36,13 @@ def derive_text(path: Path) -> str:
 
 
 def graph_text(
-    layout: Layout, command: str | None = None, progress: Callable[[str], None] = lambda family: None
+    layout: Layout,
+    command: str | None = None,
+    progress: Callable[[str], None] = lambda family: None,
+    derivatives: Derivatives = NO_DERIVATIVES,
 ) -> str:
     """The graph of a layout; `command` derives it again, `progress` gets the name of each family before its turn."""
-    return dump(graph.build(Functions(layout, progress), command)) + "\n"
+    return dump(graph.build(Functions(layout, progress, derivatives), command)) + "\n"
 
 
 def write_atomically(path: Path, text: str) -> None:

@@ -31,6 +31,7 @@ def build(functions: Functions, command: str | None = None) -> dict:
         "format": FORMAT,
         "command": command or f"python -m codegen {layout.name}",
         "casadi": ca.__version__,
+        **({"options": options} if (options := functions.derivatives.options()) else {}),
         "layout": {
             "name": layout.name,
             "sha256": content_hash(layout),
@@ -38,8 +39,14 @@ def build(functions: Functions, command: str | None = None) -> dict:
             "needs_distinct_mounts": functions.needs_distinct_mounts,
         },
         "inputs": [
-            {"name": name, "shape": shape, "unit": INPUTS[name][1], "description": INPUTS[name][2]}
-            for name, shape in input_shapes(len(symbols.arms), symbols.joints).items()
+            *(
+                {"name": name, "shape": shape, "unit": INPUTS[name][1], "description": INPUTS[name][2]}
+                for name, shape in input_shapes(len(symbols.arms), symbols.joints).items()
+            ),
+            *(
+                {"name": name, "shape": direction.shape, "unit": direction.unit, "description": direction.description}
+                for name, direction in functions.directions.items()
+            ),
         ],
         "parameters": [
             {
@@ -160,7 +167,8 @@ def function_graph(
     """Statements of one call, where values of the configuration are known."""
     call, reached = Statements(numbering, "t", known), numbering.reachable(results)
     for section, i in evaluation_order(numbering, sections):
-        if i in reached and numbering[i].stage == Stage.CALL and not numbering[i].is_leaf:
+        is_of_call = numbering[i].stage == Stage.CALL or is_parametric(numbering, i, call)
+        if i in reached and is_of_call and not numbering[i].is_leaf:
             call.assign(i, section)
     elements = iter(results)
     return {
@@ -178,11 +186,19 @@ def function_graph(
                 "unit": output.unit,
                 "description": output.description,
                 "elements": [call.operand(next(elements)) for _ in output.elements],
+                **({"derivative": vars(output.derivative)} if output.derivative else {}),
             }
             for output in function.outputs
         ],
-        "operations": count(numbering, (i for i in reached if numbering[i].stage > Stage.PARAMETERS)),
+        "operations": count(
+            numbering, (i for i in reached if numbering[i].stage > Stage.PARAMETERS or i in call.names)
+        ),
     }
+
+
+def is_parametric(numbering: ValueNumbering, i: int, call: Statements) -> bool:
+    """Whether a node depends on parameters alone and has no name yet: only derivatives by parameters have such."""
+    return numbering[i].stage == Stage.PARAMETERS and i not in call.names
 
 
 def operands(statements: Iterable[list], outputs: Iterable[dict] = ()) -> list[str]:

@@ -80,11 +80,11 @@ class Regrouping:
 
     def _next(self, queue: list[tuple[int, int, int, int]], a: int) -> tuple[int, int, int, int]:
         """Takes the earliest term that can be added to one; what depends on parameters alone is a constant with a name,
-        and two of them have no named sum."""
+        and two of them have no named sum, unless the whole sum depends on parameters alone."""
         passed = []
-        while self.numbering[a].stage == self.numbering[queue[0][2]].stage == Stage.PARAMETERS:
+        while queue and self.numbering[a].stage == self.numbering[queue[0][2]].stage == Stage.PARAMETERS:
             passed.append(heapq.heappop(queue))
-        found = heapq.heappop(queue)
+        found = heapq.heappop(queue) if queue else passed.pop(0)
         for term in passed:
             heapq.heappush(queue, term)
         return found

@@ -1,6 +1,6 @@
 """Records the signature of each function: its texts, inputs, outputs with shapes and units, and sections."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import casadi as ca
 
@@ -20,6 +20,20 @@ def scalars(values: Values) -> list[ca.SX]:
 
 
 @dataclass(frozen=True)
+class Derivative:
+    """What an output is the derivative of: ``outputs`` of ``function``, one after the other.
+
+    Its columns are the elements of the inputs ``by``; with ``along`` in their place it is the derivative along the
+    direction in each of these inputs; with neither it is a value of the outputs itself.
+    """
+
+    function: str
+    outputs: list[str]
+    by: list[str] = field(default_factory=list)
+    along: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
 class Output:
     """One result; its elements are in row-major order."""
 
@@ -28,6 +42,11 @@ class Output:
     unit: str
     description: str
     elements: list[ca.SX]
+    derivative: Derivative | None = None
+
+    def deriving(self, function: str, outputs: list[str], by: list[str]) -> "Output":
+        """The same output, which is the derivative of these."""
+        return replace(self, derivative=Derivative(function, outputs, by))
 
     @property
     def section(self) -> Section:

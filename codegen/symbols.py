@@ -5,7 +5,7 @@ substitutes a value that depends on parameters alone wherever it is used. An aux
 expressions contain its symbol alone, and `casadi_import.py` replaces the symbol by the expression again.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import casadi as ca
 
@@ -36,6 +36,8 @@ class AuxiliaryVariable:
     name: str | None = None
     unit: str = ""
     description: str = ""
+    reciprocal_of: ca.SX | None = None  # where the expression is 1 / this
+    group: int | None = None  # of variables whose expressions are imported at once
 
 
 @dataclass(frozen=True)
@@ -150,14 +152,28 @@ class Symbols:
 
     def reciprocal(self, expression: ca.SX) -> ca.SX:
         """``1 / expression``: one division, and a product wherever it is used."""
-        return self._auxiliary_variable(1 / expression)
+        return self._auxiliary_variable(1 / expression, reciprocal_of=expression)
 
     def reciprocal_constant(self, name: str, expression: ca.SX, unit: str, description: str) -> ca.SX:
         """``1 / expression`` of parameters alone, as a named constant."""
-        return self._auxiliary_variable(1 / ca.SX(expression), name, unit, description)
+        expression = ca.SX(expression)
+        return self._auxiliary_variable(1 / expression, name, unit, description, expression)
+
+    def variables(self, expressions: list[ca.SX]) -> list[ca.SX]:
+        """A symbol for each of some expressions, which do not depend on each other's; derivatives hold it constant."""
+        first = len(self.auxiliary_variables)
+        symbols = [self._auxiliary_variable(expression) for expression in expressions]
+        for k in range(first, len(self.auxiliary_variables)):
+            self.auxiliary_variables[k] = replace(self.auxiliary_variables[k], group=first)
+        return symbols
 
     def _auxiliary_variable(
-        self, expression: ca.SX, name: str | None = None, unit: str = "", description: str = ""
+        self,
+        expression: ca.SX,
+        name: str | None = None,
+        unit: str = "",
+        description: str = "",
+        reciprocal_of: ca.SX | None = None,
     ) -> ca.SX:
         """The symbol of a new auxiliary variable, or of the one that has this name already."""
         if name is not None:
@@ -165,5 +181,5 @@ class Symbols:
                 if variable.name == name:
                     return variable.symbol
         symbol = ca.SX.sym(name or f"auxiliary_{len(self.auxiliary_variables)}")
-        self.auxiliary_variables.append(AuxiliaryVariable(symbol, expression, name, unit, description))
+        self.auxiliary_variables.append(AuxiliaryVariable(symbol, expression, name, unit, description, reciprocal_of))
         return symbol

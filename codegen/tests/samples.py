@@ -133,6 +133,7 @@ SIZES = {  # of the numbers in a random state, lowest and highest
     "contacts": (-0.6, 0.6),
     "target_twists": (-0.7, 0.7),
 }
+DIRECTION = (-1.0, 1.0)
 
 
 def states(graph: dict, rng: np.random.Generator, number: int) -> list[dict[str, np.ndarray]]:
@@ -140,7 +141,7 @@ def states(graph: dict, rng: np.random.Generator, number: int) -> list[dict[str,
     shapes = {item["name"]: item["shape"] for item in graph["inputs"]}
     drawn = []
     for n in range(number):
-        state = {name: rng.uniform(*SIZES[name], size=shape) for name, shape in shapes.items()}
+        state = {name: rng.uniform(*SIZES.get(name, DIRECTION), size=shape) for name, shape in shapes.items()}
         if n > 0:
             null = (n - 1) % shapes["target_masses"][0]
             state["target_masses"][null] = state["target_inertias"][null] = 0.0
