@@ -65,7 +65,14 @@
 //! let at_rest = configuration.forward_dynamics(&[0.0; 3], &[0.0; JOINTS], &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
 //! assert!(at_rest.joint_accelerations[2] > 0.0);
 //! ```
+//!
+//! Derivatives: `docs/derivatives.md`; directional ones by [dual numbers](scalar::Dual).
 #![cfg_attr(not(feature = "std"), no_std)]
+
+/// The examples of the documents.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/derivatives.md")]
+pub struct Examples;
 
 // generated modules name this crate, from within it too
 extern crate self as planar_capture;

@@ -96,6 +96,12 @@ FAULTS = [
         "self.own_share = 1 - ratios.coupling * self.inverse",
     ),
     Fault(
+        "sign of a link's rate in the derivative by its angle",
+        "codegen/acceleration_derivatives.py",
+        "angle[row] = angle[row] + part.squares[k]",
+        "angle[row] = angle[row] - part.squares[k]",
+    ),
+    Fault(
         "mount angle forgotten in the kinematics",
         "codegen/kinematics.py",
         "angle = inputs.base_pose[0] + self.symbols.mount_angle",

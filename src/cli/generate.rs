@@ -29,10 +29,21 @@ pub struct Arguments {
     /// A module without dependencies, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
+    /// Matrices of derivatives, too: of forward dynamics by position, velocity and forces, and of impacts by position,
+    /// velocity, contacts and target twists; or of one of them, `=forward_dynamics` or `=impact`.
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', num_args = 0..=1, require_equals = true)]
+    #[arg(default_missing_value = "forward_dynamics,impact", value_parser = MATRICES)]
+    derivatives: Vec<String>,
+    /// Directional derivatives of these functions, too; of `FUNCTION:parameters` also along the parameters.
+    #[arg(long, value_name = "FUNCTION,...", value_delimiter = ',', value_parser = directional)]
+    directional: Vec<String>,
     /// Write nothing; exit code 1 if FILE is not up to date.
     #[arg(long)]
     check: bool,
 }
+
+/// What there are matrices of derivatives of.
+const MATRICES: [&str; 2] = ["forward_dynamics", "impact"];
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
@@ -40,6 +51,40 @@ fn output(text: &str) -> Result<PathBuf, String> {
         Ok(path)
     } else {
         Err("expected a file that ends in `.rs` (the module) or `.json` (the graph)".to_owned())
+    }
+}
+
+/// A name that can be one of a function; the derivation knows which there are.
+fn directional(text: &str) -> Result<String, String> {
+    let name = text.strip_suffix(":parameters").unwrap_or(text);
+    if Layout::is_name(name) {
+        Ok(text.to_owned())
+    } else {
+        Err("expected names of functions, such as `momentum` or `full_impact:parameters`".to_owned())
+    }
+}
+
+impl Arguments {
+    /// The options that ask for derivatives.
+    fn derivatives(&self) -> Vec<String> {
+        let mut options = Vec::new();
+        let named: Vec<&str> =
+            MATRICES.into_iter().filter(|name| self.derivatives.iter().any(|asked| asked == name)).collect();
+        match named.len() {
+            0 => {}
+            2 => options.push("--derivatives".to_owned()),
+            _ => options.push(format!("--derivatives={}", named.join(","))),
+        }
+        if !self.directional.is_empty() {
+            options.extend(["--directional".to_owned(), self.directional.join(",")]);
+        }
+        options
+    }
+
+    /// All that says what is generated.
+    fn options(&self) -> Vec<String> {
+        let standalone = self.standalone.then(|| "--standalone".to_owned());
+        standalone.into_iter().chain(self.derivatives()).collect()
     }
 }
 
@@ -66,8 +111,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         check_overwrite(path)?;
     }
     let progress = spinner("starting Python");
-    let graph_text = generate::derive(&layout, PYTHON_PACKAGE, &mut |line| show(&progress, line))
-        .map_err(file_error(&arguments.layout))?;
+    let graph_text =
+        generate::derive(&layout, &arguments.derivatives(), PYTHON_PACKAGE, &mut |line| show(&progress, line))
+            .map_err(file_error(&arguments.layout))?;
     progress.set_message("comparing with the generic implementation");
     let Proved { graph, text, proof } = generate::complete(&graph_text, &layout).map_err(|source| {
         let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
@@ -112,7 +158,7 @@ fn origin(arguments: &Arguments, layout: &Layout) -> (String, String) {
     } else {
         (format!("the layout {}", layout.name), layout.name.clone())
     };
-    (source, command(&argument, &name(&arguments.out), arguments.standalone))
+    (source, command(&argument, &name(&arguments.out), &arguments.options()))
 }
 
 /// Compares the file with what the layout gives.
@@ -123,7 +169,7 @@ fn check(text: &str, arguments: &Arguments) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let state = if path.exists() { "is not what the layout gives" } else { "does not exist" };
-    let mend = command(&arguments.layout, &shown.to_string(), arguments.standalone);
+    let mend = command(&arguments.layout, &shown.to_string(), &arguments.options());
     note(format_args!("{shown} {state}; to mend: {mend}"));
     ExitCode::from(1)
 }

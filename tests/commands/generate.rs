@@ -18,7 +18,7 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// Not shipped: three arms of one, three and two links, bent COMs, a wheel inside an arm.
-const LAYOUT: &str = r#"
+pub const LAYOUT: &str = r#"
 name = "held_out"
 [base]
 mass = 210.0
@@ -61,7 +61,7 @@ mass = 1.0
 inertia = 0.01
 "#;
 
-fn without_python() -> bool {
+pub fn without_python() -> bool {
     let without = std::env::var("PLANAR_CAPTURE_NO_PYTHON").is_ok_and(|value| value == "1");
     if without {
         // straight to the stream: what the macros print is shown for failing tests only
@@ -82,7 +82,7 @@ fn environments() -> String {
 }
 
 /// The command in a folder, with environments shared with the repository's own.
-fn generate(folder: &Path, arguments: &[&str]) -> Command {
+pub fn generate(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = command();
     command.arg("generate").args(arguments).current_dir(folder);
     command.env("PLANAR_CAPTURE_HOME", file("target/generate"));
@@ -90,13 +90,13 @@ fn generate(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-fn folder() -> TempDir {
+pub fn folder() -> TempDir {
     let folder = TempDir::new().expect("a folder");
     fs::write(folder.path().join("held_out.toml"), LAYOUT).expect("written");
     folder
 }
 
-fn outcome(mut command: Command) -> (i32, String, String) {
+pub fn outcome(mut command: Command) -> (i32, String, String) {
     said(command.output().expect("it runs"))
 }
 

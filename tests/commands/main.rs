@@ -7,6 +7,7 @@ mod check;
 mod closed_output;
 mod compare;
 mod derivation;
+mod derivatives;
 mod diagnostics;
 mod eval;
 mod generate;

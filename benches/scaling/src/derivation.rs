@@ -28,7 +28,7 @@ impl Derivation {
         let (mut seconds, mut text) = (f64::INFINITY, String::new());
         for _ in 0..REPEATS {
             let start = Instant::now();
-            text = derive(&layout, PYTHON_PACKAGE, &mut |_| {})?;
+            text = derive(&layout, &[], PYTHON_PACKAGE, &mut |_| {})?;
             seconds = seconds.min(start.elapsed().as_secs_f64());
         }
         let proved = complete(&text, &layout)?.graph;

@@ -51,6 +51,7 @@ fn measure() -> Result<(), Problem> {
     eprintln!("preparing the environment of the derivation");
     planar_capture::generate::derive(
         &Shape { arms: 1, links: 2 }.layout(),
+        &[],
         planar_capture::python_package::PYTHON_PACKAGE,
         &mut |_| {},
     )?;

@@ -1,10 +1,23 @@
 //! Command lines for messages and headers.
 
-/// The command line that generates a file from a layout.
+/// The command line that generates a file from a layout, with these options.
 #[must_use]
-pub fn command(layout: &str, out: &str, standalone: bool) -> String {
-    let option = if standalone { " --standalone" } else { "" };
-    format!("planar-capture generate {} --out {}{option}", quoted(layout), quoted(out))
+pub fn command<S: AsRef<str>>(layout: &str, out: &str, options: &[S]) -> String {
+    let generate = format!("planar-capture generate {} --out {}", quoted(layout), quoted(out));
+    std::iter::once(generate.as_str()).chain(options.iter().map(AsRef::as_ref)).collect::<Vec<_>>().join(" ")
+}
+
+/// The options of a command line that [`command`] has written.
+#[must_use]
+pub fn options(command: &str) -> Vec<&str> {
+    let words: Vec<&str> = command.split_whitespace().collect();
+    let is_option = |place: &usize| {
+        let after_list = *place > 0 && words[place - 1] == "--directional";
+        let word = words[*place];
+        let is_flag = ["--standalone", "--derivatives", "--directional"].contains(&word);
+        is_flag || word.starts_with("--derivatives=") || after_list
+    };
+    (0..words.len()).filter(is_option).map(|place| words[place]).collect()
 }
 
 /// A path as one word of a command line.

@@ -13,6 +13,9 @@ pub type Operations = HashMap<String, u64>;
 #[derive(Clone, Debug, Deserialize)]
 pub struct Graph {
     pub(crate) casadi: String,
+    /// Of the command that derives it again, besides layout and file.
+    #[serde(default)]
+    pub(crate) options: Vec<String>,
     pub(crate) layout: Source,
     pub(crate) inputs: Vec<Variable>,
     pub(crate) parameters: Vec<Parameter>,
@@ -47,6 +50,20 @@ pub struct Variable {
     pub description: String,
     #[serde(default, skip_serializing)]
     pub elements: Vec<Operand>,
+    #[serde(default, skip_serializing)]
+    pub derivative: Option<Derivative>,
+}
+
+/// What an output is the derivative of: outputs of a function, one after the other.
+///
+/// Its columns are the elements of the inputs `by`; with `along` in their place it is the derivative along the
+/// direction in each of these inputs, or `parameters`; with neither it is a value of the outputs itself.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Derivative {
+    pub function: String,
+    pub outputs: Vec<String>,
+    pub by: Vec<String>,
+    pub along: Vec<String>,
 }
 
 /// A run-time number of the model, of the base, an arm or a link.
@@ -156,10 +173,10 @@ pub struct Given {
 }
 
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct FunctionResult {
+pub struct FunctionResult<T = f64> {
     pub function: String,
     pub output: String,
-    pub values: Vec<f64>,
+    pub values: Vec<T>,
     /// The allowed error of each value in rounding units; empty for results of the graph itself.
     pub sizes: Vec<f64>,
 }

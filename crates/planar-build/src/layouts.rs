@@ -1,6 +1,6 @@
 //! Rust modules from committed graphs, for build scripts: needs no Python.
 
-use crate::command::command;
+use crate::command::{command, options};
 use crate::pipeline::{fresh, is_fused, names, write};
 use crate::renderer::Module;
 use planar_layout::layout::{Layout, sha256};
@@ -72,7 +72,10 @@ pub fn render_to(folder: impl AsRef<Path>, out: impl AsRef<Path>) -> Result<(), 
 fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
     let [layout_path, graph_path] = ["toml", "json"].map(|extension| folder.join(format!("{name}.{extension}")));
     let (from, shown) = (layout_path.display(), graph_path.display().to_string());
-    let command = command(&from.to_string(), &shown, false);
+    // a graph that cannot be read does not say which derivatives it has; its text does
+    let written = fs::read_to_string(&graph_path).unwrap_or_default();
+    let with = written.lines().find(|line| line.starts_with(" \"command\": ")).map(|line| line.trim_end_matches("\","));
+    let command = command(&from.to_string(), &shown, &options(with.unwrap_or_default()));
     let mend = format!("{command}{}", here());
     let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
     if layout.name != name {
@@ -98,8 +101,8 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
         println!("cargo::rerun-if-changed={}", path.display());
     }
     let (shown, from) = (module.display(), layout.display());
-    let mend = |standalone| command(&from.to_string(), &shown.to_string(), standalone) + &here();
-    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", mend(false)))?;
+    let mend = |options: &[&str]| command(&from.to_string(), &shown.to_string(), options) + &here();
+    let text = fs::read_to_string(module).map_err(|e| format!("{shown}: {e}; to make it: {}", mend(&[])))?;
     let text = text.replace("\r\n", "\n"); // as some checkouts have it
     let (header, body) = text.split_once("\n\n").unwrap_or_default();
     let said = |key: &str| Some(header.split_once(key)?.1.split([',', '\n']).next().unwrap_or_default().trim());
@@ -109,11 +112,11 @@ pub fn verify(module: impl AsRef<Path>, layout: impl AsRef<Path>) -> Result<(), 
         (Some(_), Some(hash)) if hash == sha256(body) => return Ok(()),
         (Some(_), Some(_)) => "was changed after it was generated".to_owned(),
         _ => {
-            let make = mend(false);
+            let make = mend(&[]);
             return Err(BuildError(format!("{shown} is not a generated module: move it away, then {make}")));
         }
     };
-    Err(BuildError(format!("{shown} {problem}; to mend: {}", mend(header.contains(" --standalone")))))
+    Err(BuildError(format!("{shown} {problem}; to mend: {}", mend(&options(header)))))
 }
 
 /// The folder in which a command of a message has to be run.

@@ -14,6 +14,6 @@ mod soundness;
 #[cfg(feature = "prove")]
 pub mod prove;
 
-pub use command::{command, quoted};
+pub use command::{command, options, quoted};
 pub use layouts::{BuildError, render, render_to, verify};
 pub use renderer::Module;

@@ -57,12 +57,17 @@ pub enum DerivationError {
     },
 }
 
-/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text).
-/// `say` receives the messages of the derivation, line by line.
+/// The graph of a layout as text, as it is to be kept, by the Python package `codegen`, (file, text) by (file, text);
+/// `options` are those that ask for derivatives. `say` receives the messages of the derivation, line by line.
 ///
 /// # Errors
 /// [`DerivationError`], with what to install where something is missing.
-pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&str)) -> Result<String, DerivationError> {
+pub fn derive(
+    layout: &Layout,
+    options: &[String],
+    package: &[(&str, &str)],
+    say: &mut dyn FnMut(&str),
+) -> Result<String, DerivationError> {
     let home = home()?;
     let package = unpack(&home, package)?;
     let python = python()?;
@@ -71,7 +76,8 @@ pub fn derive(layout: &Layout, package: &[(&str, &str)], say: &mut dyn FnMut(&st
     // the layout as it was read, not the user's file: one reader alone decides what a file means
     fs::write(&file, layout.to_toml()).map_err(|source| DerivationError::File { path: file.clone(), source })?;
     let mut command = Command::new(&python);
-    command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).current_dir(&package);
+    command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).args(options);
+    command.current_dir(&package);
     command.env("PYTHONDONTWRITEBYTECODE", "1");
     if env::var_os("PLANAR_CAPTURE_ENVIRONMENTS").is_none() {
         command.env("PLANAR_CAPTURE_ENVIRONMENTS", home.join("python"));

@@ -1,6 +1,6 @@
-//! Interprets a graph in `f64`: computes what the rendered code will compute, without compiling it.
+//! Interprets a graph: computes what the rendered code will compute, without compiling it.
 
-use crate::format::{FunctionResult, Given, Graph, Operand, Operation, Statement};
+use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, Statement};
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
@@ -10,7 +10,24 @@ use std::collections::HashMap;
 /// # Errors
 /// A name that is used before it has a value, or an input that is missing: which.
 pub fn interpret(graph: &Graph, inputs: &[Given]) -> Result<Vec<FunctionResult>, String> {
-    let mut known = Known::default();
+    interpret_some(graph, inputs, &|_, _, value: f64| value, &|_| true)
+}
+
+/// The parameters, as an input of [`interpret_some`].
+const PARAMETERS: &str = "parameters";
+
+/// As [`interpret`], for the functions that are wanted and in any scalar: `scalar` makes one of an input's name, the index
+/// of an element, and its value.
+///
+/// # Errors
+/// As [`interpret`].
+pub fn interpret_some<T: Scalar>(
+    graph: &Graph,
+    inputs: &[Given],
+    scalar: &dyn Fn(&str, usize, f64) -> T,
+    is_wanted: &dyn Fn(&Function) -> bool,
+) -> Result<Vec<FunctionResult<T>>, String> {
+    let mut known = Known { before: None, own: HashMap::new() };
     for input in &graph.inputs {
         let name = &input.name;
         let given =
@@ -18,16 +35,17 @@ pub fn interpret(graph: &Graph, inputs: &[Given]) -> Result<Vec<FunctionResult>,
         let columns = input.shape.get(1).copied();
         for (i, value) in given.values.iter().enumerate() {
             let place = columns.map_or_else(|| format!("[{i}]"), |n| format!("[{}][{}]", i / n, i % n));
-            known.own.insert(format!("{name}{place}"), *value);
+            known.own.insert(format!("{name}{place}"), scalar(name, i, *value));
         }
     }
-    known.own.extend(graph.parameters.iter().map(|parameter| (parameter.name.clone(), parameter.default)));
+    let parameters = graph.parameters.iter().enumerate();
+    known.own.extend(parameters.map(|(i, p)| (p.name.clone(), scalar(PARAMETERS, i, p.default))));
     known.run(&graph.constants.statements)?;
     let mut found = Vec::new();
-    for family in &graph.families {
+    for family in graph.families.iter().filter(|family| family.functions.iter().any(is_wanted)) {
         let mut configuration = known.next_stage();
         configuration.run(&family.configuration.statements)?;
-        for function in &family.functions {
+        for function in family.functions.iter().filter(|function| is_wanted(function)) {
             let mut call = configuration.next_stage();
             call.run(&function.statements)?;
             for output in &function.outputs {
@@ -41,24 +59,23 @@ pub fn interpret(graph: &Graph, inputs: &[Given]) -> Result<Vec<FunctionResult>,
 }
 
 /// Names that have a value, in a stage and in those before it.
-#[derive(Default)]
-struct Known<'a> {
-    before: Option<&'a Known<'a>>,
-    own: HashMap<String, f64>,
+struct Known<'a, T> {
+    before: Option<&'a Known<'a, T>>,
+    own: HashMap<String, T>,
 }
 
-impl Known<'_> {
-    fn next_stage(&self) -> Known<'_> {
+impl<T: Scalar> Known<'_, T> {
+    fn next_stage(&self) -> Known<'_, T> {
         Known { before: Some(self), own: HashMap::new() }
     }
 
-    fn find(&self, name: &str) -> Option<f64> {
+    fn find(&self, name: &str) -> Option<T> {
         self.own.get(name).copied().or_else(|| self.before?.find(name))
     }
 
-    fn get(&self, operand: &Operand) -> Result<f64, String> {
+    fn get(&self, operand: &Operand) -> Result<T, String> {
         match operand {
-            Operand::Number(number) => Ok(*number),
+            Operand::Number(number) => Ok(T::constant(*number)),
             Operand::Name(name) => self.find(name).ok_or_else(|| format!("`{name}` is used before it is known")),
         }
     }
@@ -69,14 +86,14 @@ impl Known<'_> {
             let values = match statement.operation {
                 Operation::Copy => vec![a],
                 Operation::Neg => vec![-a],
-                Operation::SinCos => <[f64; 2]>::from(Scalar::sin_cos(a)).into(),
-                Operation::Sqrt => vec![Scalar::sqrt(a)],
+                Operation::SinCos => <[T; 2]>::from(a.sin_cos()).into(),
+                Operation::Sqrt => vec![a.sqrt()],
                 Operation::Add => vec![a + b],
                 Operation::Sub => vec![a - b],
                 Operation::Mul => vec![a * b],
                 Operation::Div => vec![a / b],
-                Operation::Min => vec![Scalar::minimum(a, b)],
-                Operation::Atan2 => vec![Scalar::atan2(a, b)],
+                Operation::Min => vec![a.minimum(b)],
+                Operation::Atan2 => vec![a.atan2(b)],
             };
             let names = statement.targets.names().into_iter().map(str::to_owned);
             self.own.extend(names.zip(values));

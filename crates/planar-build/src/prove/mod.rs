@@ -1,8 +1,11 @@
 //! The proof of a graph: derived from a layout, interpreted, and compared with the generic implementation.
 
 mod derivation;
+mod derivatives;
 pub mod evaluation;
 pub mod generic;
+mod generic_results;
+mod impact_results;
 mod interpreter;
 pub mod owned;
 pub mod quantities;
@@ -14,11 +17,13 @@ pub use derivation::{DerivationError, derive};
 use crate::format::{FunctionResult, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
+use derivatives::with_derivatives;
+use impact_results::EXACT;
 use interpreter::interpret;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use serde_json::json;
-use vectors::reference_state;
+use vectors::{direction, reference_state};
 
 /// States of each regime that a graph is proved at.
 const SAMPLES: u64 = 3;
@@ -92,7 +97,7 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let states = (0..CARRIED).map(|index| {
-        let state = sample(layout, Regime::Moving, index)?;
+        let state = sample(layout, &graph, Regime::Moving, index)?;
         let found = interpret(&graph, &state.inputs).map_err(GraphError::Format)?;
         Ok(state.in_order_of(&found))
     });
@@ -107,7 +112,8 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
 }
 
 /// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every
-/// function at states of every regime that uses the layout's own numbers.
+/// function at states of every regime that uses the layout's own numbers. Derivatives are compared with dual numbers
+/// through the graph's own functions, which are compared themselves.
 ///
 /// # Errors
 /// [`GenerateError`], with the first result that differs by more than is allowed.
@@ -115,7 +121,7 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
         for index in 0..SAMPLES {
-            let state = sample(layout, regime, index)?;
+            let state = sample(layout, graph, regime, index)?;
             let mut found = interpret(graph, &state.inputs).map_err(GraphError::Format)?;
             found.retain(|found| found.output != "smallest_pivot");
             if found.len() != state.expected.len() {
@@ -137,7 +143,11 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     Ok(proof)
 }
 
-fn sample(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
+/// A state with the results of the generic implementation, and what derivatives of these the graph has.
+fn sample(layout: &Layout, graph: &Graph, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
-    reference_state(layout, regime, index).map_err(failed)
+    let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+    let has_impact_results = functions.any(|function| function.name == EXACT);
+    let reference = reference_state(layout, regime, index, has_impact_results).map_err(failed)?;
+    Ok(with_derivatives(graph, reference, &direction(layout, index)).map_err(GraphError::Format)?)
 }

@@ -1,28 +1,36 @@
 //! Reference vectors: results of the generic implementation at a state, for every output of every generated function.
 
 use crate::format::{FunctionResult, Given, ReferenceState};
-use crate::prove::evaluation::{EvaluationInput, evaluate_all};
-use crate::prove::generic::Generic;
-use crate::prove::quantities::{NaturalSize, natural_sizes, scaled_error};
-use crate::prove::sampling::{Regime, RegimeSample};
+use crate::prove::evaluation::EvaluationInput;
+use crate::prove::generic_results::{Expected, results};
+use crate::prove::impact_results::impact_results;
+use crate::prove::quantities::scaled_error;
+use crate::prove::sampling::Regime;
 use planar_dynamics::error::Error;
-use planar_dynamics::quantity::{Quantity, Rounding};
+use planar_dynamics::quantity::Quantity;
 use planar_dynamics::target::Target;
 use planar_layout::layout::Layout;
-use std::collections::HashMap;
-
-/// Rounding units that a result computed by sums and products may be off, in natural sizes.
-const ROUNDINGS: f64 = 64.0;
 
 /// Rounding units that a pivot relative to its scale may be off.
 const PIVOT_ROUNDINGS: f64 = 1024.0;
 
+/// Results at a state, and how many rounding units each of them may be off in natural sizes.
+pub struct Reference {
+    pub state: ReferenceState,
+    pub roundings: Vec<f64>,
+}
+
 /// The results at one random state of a regime that leaves the layout as it is, in the order of the table of
-/// quantities. Numbers of the state have four digits, so that they can be read; every machine makes the same.
+/// quantities; `has_impact_results` adds those of [`impact_results`]. Numbers of the state have four digits, so that they can be read; every machine makes the same.
 ///
 /// # Errors
 /// A state that the generic implementation has no answer for.
-pub fn reference_state(layout: &Layout, regime: Regime, index: u64) -> Result<ReferenceState, Error> {
+pub fn reference_state(
+    layout: &Layout,
+    regime: Regime,
+    index: u64,
+    has_impact_results: bool,
+) -> Result<Reference, Error> {
     let mut instant = readable(regime.sample(layout, 0, index).instant);
     instant.base_wrench.get_or_insert([0.0; 3]);
     instant.end_effector_wrenches.get_or_insert_with(|| vec![[0.0; 3]; layout.arms.len()]);
@@ -35,7 +43,7 @@ pub fn reference_state(layout: &Layout, regime: Regime, index: u64) -> Result<Re
     let torques_alone = EvaluationInput { base_wrench: None, ..base_wrench.clone() };
     let [torques_alone, base_wrench, all] = [&torques_alone, &base_wrench, &instant].map(|at| results(layout, at));
     let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
-    let mut expected = Vec::new();
+    let (mut expected, mut roundings) = (Vec::new(), Vec::new());
     for quantity in Quantity::ALL {
         for function in quantity.row().functions {
             let results = match *function {
@@ -43,13 +51,25 @@ pub fn reference_state(layout: &Layout, regime: Regime, index: u64) -> Result<Re
                 "forward_dynamics_with_base_wrench" => &base_wrench,
                 _ => &all,
             };
-            if let Some([values, sizes]) = results.get(quantity).cloned() {
+            if let Some(Expected { values, sizes, roundings: allowed }) = results.get(quantity).cloned() {
+                roundings.push(allowed);
                 let (function, output) = ((*function).to_owned(), quantity.row().output.to_owned());
                 expected.push(FunctionResult { function, output, values, sizes });
             }
         }
     }
-    Ok(ReferenceState { inputs: inputs(&instant), expected })
+    if has_impact_results {
+        for (result, allowed) in impact_results(layout, &instant)? {
+            expected.push(result);
+            roundings.push(allowed);
+        }
+    }
+    Ok(Reference { state: ReferenceState { inputs: inputs(&instant), expected }, roundings })
+}
+
+/// A direction in the inputs of all functions, by the inputs' names: differences of a moving state.
+pub fn direction(layout: &Layout, index: u64) -> Vec<Given> {
+    inputs(&readable(Regime::Moving.sample(layout, 1, index).instant))
 }
 
 impl FunctionResult {
@@ -98,24 +118,6 @@ fn inputs(instant: &EvaluationInput) -> Vec<Given> {
         ("target_twists", targets.iter().flat_map(|target| target.twist).collect()),
     ];
     inputs.map(|(name, values)| Given { name: name.to_owned(), values }).into()
-}
-
-/// Values and how many rounding units each may be off.
-type Results = HashMap<Quantity, [Vec<f64>; 2]>;
-
-/// Every quantity at one state by the generic implementation.
-fn results(layout: &Layout, instant: &EvaluationInput) -> Result<Results, Error> {
-    let sample = RegimeSample { layout: layout.clone(), instant: instant.clone() };
-    let values = evaluate_all(&Generic::new(layout), instant)?;
-    let sizes = natural_sizes(&sample, &values).into_iter();
-    let each = sizes.filter_map(|(quantity, NaturalSize { sizes, condition })| {
-        let roundings = match quantity.row().rounding {
-            Rounding::Polynomial => ROUNDINGS,
-            Rounding::Solved => ROUNDINGS.max(8.0 * condition),
-        };
-        Some((quantity, [values.get(quantity)?.to_vec(), sizes.iter().map(|size| size * roundings).collect()]))
-    });
-    Ok(each.collect())
 }
 
 /// A number with so many decimals in scientific notation.

@@ -4,11 +4,11 @@
 mod assignments;
 mod text;
 
-use crate::format::{Family, Function, Graph, Operations, Variable};
+use crate::format::{Derivative, Family, Function, Graph, Operations, Variable};
 use assignments::{Inputs, Known};
 use planar_layout::diagnostic::excerpt;
 use std::collections::{HashMap, HashSet};
-use text::{distinct, identifier, text, unit, version};
+use text::{distinct, identifier, options, text, unit, version};
 
 type Declared<'a> = HashMap<&'a str, &'a Variable>;
 
@@ -21,6 +21,7 @@ const MOST_OPERATIONS: u64 = 1 << 48;
 /// What is wrong with it, with the text as it can be shown.
 pub fn check(graph: &Graph) -> Result<(), String> {
     version(&graph.casadi)?;
+    options(&graph.options)?;
     for variable in graph.inputs.iter().chain(&graph.constants.values) {
         described(variable)?;
     }
@@ -46,7 +47,45 @@ pub fn check(graph: &Graph) -> Result<(), String> {
     distinct("function", functions().map(|function| function.name.as_str()))?;
     let before: HashSet<&str> = parameters.iter().copied().chain(values).collect();
     graph.families.iter().try_for_each(|family| check_family(&declared, family, &before))?;
+    functions().flat_map(|function| &function.outputs).try_for_each(|output| derivative(graph, output))?;
     self_test(graph)
+}
+
+/// What an output is the derivative of: results that there are, and as many of them as its shape has.
+fn derivative(graph: &Graph, output: &Variable) -> Result<(), String> {
+    let Some(Derivative { function, outputs, by, along }) = &output.derivative else { return Ok(()) };
+    let wrong = |what: &str| Err(format!("`{}` is the derivative of {what}", output.name));
+    let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+    let Some(function) = functions.find(|other| other.name == *function) else {
+        return wrong(&format!("`{}`, which is no function", excerpt(function)));
+    };
+    let mut rows: usize = 0;
+    for name in outputs {
+        let Some(found) = function.outputs.iter().find(|other| other.name == *name && other.derivative.is_none())
+        else {
+            return wrong(&format!("`{}`, which is no result", excerpt(name)));
+        };
+        rows = rows.saturating_add(found.elements.len());
+    }
+    let input = |name: &str| graph.inputs.iter().find(|input| input.name == name);
+    let mut columns: usize = 0;
+    for name in by {
+        let Some(input) = input(name) else { return wrong(&format!("something by `{}`, no input", excerpt(name))) };
+        columns = columns.saturating_add(size(input)?);
+    }
+    for name in along {
+        let wanted =
+            if name == "parameters" { Some(graph.parameters.len()) } else { input(name).map(size).transpose()? };
+        let found = input(&format!("{name}_direction")).map(size).transpose()?;
+        if found.is_none() || found != wanted {
+            return wrong(&format!("something along `{}`, no direction", excerpt(name)));
+        }
+    }
+    if size(output)? == rows.saturating_mul(columns.max(1)) && (by.is_empty() || along.is_empty()) {
+        Ok(())
+    } else {
+        wrong("another number of elements")
+    }
 }
 
 fn check_family<'a>(declared: &'a Declared<'a>, family: &'a Family, before: &HashSet<&'a str>) -> Result<(), String> {

@@ -44,3 +44,12 @@ pub fn distinct<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> Result<
     }
     Ok(found)
 }
+
+/// Options of the command that derived a graph, for a command line in a comment.
+pub fn options(options: &[String]) -> Result<(), String> {
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "-_,:=".contains(c);
+    match options.iter().find(|option| !option.chars().all(is_plain)) {
+        Some(option) => Err(format!("`{}` is no option of its command", excerpt(option))),
+        None => Ok(()),
+    }
+}
