@@ -1,6 +1,12 @@
-//! Compiles CasADi's C code as well as a compiler can: for this processor.
+//! Compiles CasADi's C code as well as a compiler can: for this processor. Renders the module with derivatives:
+//!
+//! ```text
+//! planar-capture generate dual_arm_3r --out layouts/dual_arm_3r.json --derivatives=forward_dynamics
+//! ```
 
 fn main() {
+    #[cfg(feature = "measure")]
+    planar_build::render("layouts").unwrap_or_else(|problem| panic!("{problem}"));
     println!("cargo::rerun-if-changed=casadi/dual_arm_3r.c");
     if std::env::var_os("CARGO_FEATURE_MEASURE").is_none() {
         return;

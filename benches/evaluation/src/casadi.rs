@@ -24,7 +24,10 @@ macro_rules! functions {
     };
 }
 
-functions!(casadi_forward_dynamics casadi_reduced_dynamics casadi_reduced_impact casadi_full_impact);
+functions!(
+    casadi_forward_dynamics casadi_forward_dynamics_derivatives casadi_reduced_dynamics casadi_reduced_impact
+    casadi_full_impact
+);
 
 /// Largest number of results, of elements of one result, and of elements of all.
 const RESULTS: usize = 6;
@@ -67,6 +70,19 @@ pub fn forward_dynamics(s: &State, results: &mut Results) {
         s.torques.as_ptr(),
     ];
     call(casadi_forward_dynamics, arguments, results);
+}
+
+/// Accelerations of base and joints, and their derivatives by position, velocity and forces.
+#[inline]
+pub fn derivatives(s: &State, results: &mut Results) {
+    let arguments = [
+        s.base_pose.as_ptr(),
+        s.joint_angles.as_ptr(),
+        s.base_twist.as_ptr(),
+        s.joint_rates.as_ptr(),
+        s.torques.as_ptr(),
+    ];
+    call(casadi_forward_dynamics_derivatives, arguments, results);
 }
 
 /// Generalized inertia, bias, Jacobian, smallest pivot.

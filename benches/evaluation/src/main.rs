@@ -9,6 +9,8 @@ mod builds;
 #[cfg(feature = "measure")]
 mod casadi;
 #[cfg(feature = "measure")]
+mod derivatives;
+#[cfg(feature = "measure")]
 mod measure;
 mod report;
 #[cfg(feature = "measure")]

@@ -3,6 +3,7 @@
 use crate::Problem;
 use crate::batch::Arrays;
 use crate::casadi::{self, Results};
+use crate::derivatives::{self, derivatives};
 use crate::runge_kutta::{self, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
@@ -64,6 +65,7 @@ pub fn print() -> Result<(), Problem> {
 
     let mut results = Results::default();
     record("C, forward dynamics", each(&few, |s| casadi::forward_dynamics(s, &mut results)));
+    record("C, derivatives", each(&few, |s| casadi::derivatives(s, &mut results)));
     record("C, reduced dynamics", each(&few, |s| casadi::reduced_dynamics(s, &mut results)));
     record("C, reduced impact", each(&few, |s| casadi::reduced_impact(s, &mut results)));
     record("C, full impact", each(&few, |s| casadi::full_impact(s, &mut results)));
@@ -79,6 +81,13 @@ pub fn print() -> Result<(), Problem> {
     };
     record("f64, forward dynamics", each(&few, forward));
     record("f64, forward dynamics, many states", each(&many, forward));
+    let with_derivatives = derivatives::Model::default();
+    record(
+        "f64, derivatives",
+        each(&few, |s| {
+            black_box(derivatives(&with_derivatives, s));
+        }),
+    );
     record(
         "f64, reduced dynamics",
         each(&few, |s| {
@@ -235,6 +244,13 @@ fn compare(model: &Model<f64>, states: &[State]) -> Result<(), Problem> {
         let found = model.forward_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates, &s.torques);
         check("base acceleration", &found.base_acceleration, results.of(0, 3))?;
         check("joint accelerations", &found.joint_accelerations, results.of(1, 6))?;
+        casadi::derivatives(s, &mut results);
+        let found = derivatives(&derivatives::Model::default(), s);
+        check("base acceleration with derivatives", &found.base_acceleration, results.of(0, 3))?;
+        check("joint accelerations with derivatives", &found.joint_accelerations, results.of(1, 6))?;
+        check("derivatives by position", found.by_position.as_flattened(), results.of(2, 81))?;
+        check("derivatives by velocity", found.by_velocity.as_flattened(), results.of(3, 81))?;
+        check("inverse mass matrix", found.inverse_mass_matrix.as_flattened(), results.of(4, 81))?;
         casadi::reduced_dynamics(s, &mut results);
         let found = model.reduced_dynamics(&s.base_pose, &s.joint_angles, &s.base_twist, &s.joint_rates);
         check("generalized inertia", found.generalized_inertia.as_flattened(), results.of(0, 36))?;

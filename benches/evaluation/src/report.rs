@@ -19,9 +19,10 @@ depend on the machine: compare ratios.
 ";
 
 /// Measurements with a counterpart in C: title, names without the implementation.
-const COMPARED: [(&str, &str); 6] = [
+const COMPARED: [(&str, &str); 7] = [
     ("forward dynamics", "forward dynamics"),
     ("forward dynamics, 16,384 states", "forward dynamics, many states"),
+    ("derivatives of forward dynamics", "derivatives"),
     ("GIM, generalized bias and GJM", "reduced dynamics"),
     ("impact, paper's equations", "reduced impact"),
     ("impact, exact", "full impact"),
@@ -129,7 +130,7 @@ fn markdown(measured: &[Measured]) -> Result<String, Problem> {
         write!(text, " {build} |")?;
     }
     text += "\n|---|---|---|---|---|\n";
-    for (title, name) in [COMPARED[0], COMPARED[2], COMPARED[4]] {
+    for (title, name) in [COMPARED[0], COMPARED[3], COMPARED[5]] {
         write!(text, "| {title} |")?;
         for build in measured {
             let times = ["generic", "f64"].map(|of| build.median(&format!("{of}, {name}")));
