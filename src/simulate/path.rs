@@ -213,6 +213,18 @@ mod tests {
         compared.expect("a path");
     }
 
+    /// Far from zero, and with another coordinate beside it, a motion has as few knots.
+    #[test]
+    fn knots_are_as_few_anywhere() {
+        let mut recorder = PathRecorder::new(2);
+        for i in 0..=4000 {
+            let (sin, cos) = (3.0 * f64::from(i) / 4000.0).sin_cos();
+            recorder.record(f64::from(i) / 4000.0, &[1e6 + sin, 2.0, 3.0 * cos, 0.0]);
+        }
+        let knots = times(&recorder.end()).len();
+        assert!((60..400).contains(&knots), "{knots} knots");
+    }
+
     #[test]
     fn a_kink_is_a_knot() {
         let path = record(|t| if t < 0.5 { [0.0, 0.0] } else { [2.0 * (t - 0.5), 2.0] }, 100);

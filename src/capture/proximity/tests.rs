@@ -355,3 +355,27 @@ fn parts_on_one_line() {
         }
     }
 }
+
+/// What is kept of some times is that of these times, asked in any order, for more of them than are kept, and of one
+/// interval.
+#[test]
+fn states_are_those_of_their_time() {
+    let frames = straight_arm();
+    let kinematics = FrameKinematics { frames: &frames, targets: TargetMotion::Free(&[]), joints: 2 };
+    let motion = |rate: f64| Motion {
+        kinematics,
+        span: [0.0, 200.0],
+        ends: [[vec![0.0; 5], vec![0.0; 5]], [vec![0.0, 0.0, 0.0, rate, -1.5], vec![0.1, 0.0, 0.0, 0.3, rate]]],
+    };
+    let mut workspace = PathWorkspace::default();
+    for motion in [motion(2.0), motion(0.5)] {
+        workspace.set_bounds(kinematics, &motion.interval());
+        let times = (0..200).chain([0, 199, 5, 198, 5, 130, 5]).map(f64::from);
+        for time in times {
+            let states = motion.states(time);
+            let [[_, ax, ay], [_, bx, by]] = [0, 3].map(|frame: usize| states[frame].pose);
+            let found = workspace.origin_distance(kinematics, &motion.interval(), [0, 3], time);
+            assert!((found - (ax - bx).hypot(ay - by)).abs() < 1e-15, "{time}");
+        }
+    }
+}

@@ -71,6 +71,24 @@ fn the_end_moves_with_the_robot() {
     assert_close("x", &[far.base_pose[1] - 1e9], &[near.base_pose[1]], 1e9 * tolerance::ROUNDED_MOTION);
 }
 
+/// Whole turns of a joint change nothing but its angle.
+#[test]
+fn the_end_does_not_count_turns() {
+    let model = model();
+    let turns = 1e6 * std::f64::consts::TAU;
+    let [few, many] = [0.0, turns].map(|more| {
+        let mut scenario = scenario(MOVING);
+        scenario.initial.joint_angles[1] += more;
+        scenario.approach.final_joint_angles[1] += more;
+        let mut end = ApproachTracking::new(&scenario, 4.0).exact_end(&*model, &[0.0; 2]).expect("an end");
+        end.state.joint_angles[1] -= more;
+        numbers(&end)
+    });
+    // of yaws of end effectors too
+    let off = few.iter().zip(&many).map(|(few, many)| (many - few) - turns * f64::round((many - few) / turns));
+    assert_close("end", &off.collect::<Vec<_>>(), &vec![0.0; few.len()], turns * tolerance::ROUNDED_MOTION);
+}
+
 /// Half a turn in a nanosecond has rates on the way to rest that are rounded by more than the end may change.
 #[test]
 fn an_end_that_does_not_settle() {
