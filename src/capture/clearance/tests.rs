@@ -341,6 +341,27 @@ fn a_dip_from_a_near_touch_is_found() {
     assert!((overlap.depth - (1.0 - height)).abs() < 1.1e-6, "{overlap:?}");
 }
 
+/// A long bar dips into a wall by little more than a micrometre, so slowly that an instant within that micrometre comes
+/// before the one that is deeper: the overlap begins where the two touch.
+#[test]
+fn a_slow_overlap_begins_at_its_touch() {
+    let bar = Outline::polygon(vec![[0.0, -1.0], [100.0, 0.0], [0.0, 1.0]]).expect("a bar");
+    let wall = Outline::polygon(vec![[-200.0, 0.0], [200.0, 0.0], [200.0, 1.0], [-200.0, 1.0]]).expect("a wall");
+    let (before, after) = (2.7e-4, 5e-5);
+    let rate = (before + after) / DURATIONS[0];
+    let up = 0.5 * std::f64::consts::PI;
+    let motion =
+        resting([wall, bar], [([0.0, 300.0, 100.0 - 1.2e-6], [0.0; 3]), ([up - before, 300.0, 0.0], [rate, 0.0, 0.0])]);
+    let (clearance, _) = motion.result();
+    let found = overlaps(&clearance);
+    let [overlap] = found[..] else { panic!("{found:?}") };
+    // 1 − cos φ = ½ φ², to 1e-9 of it
+    let half = f64::sqrt(2.0 * 1.2e-8);
+    let expected = [(before - half) / rate, (before + half) / rate];
+    assert!((0..2).all(|i| (overlap.span[i] - expected[i]).abs() < 1e-5), "{overlap:?}, not {expected:?}");
+    assert!((overlap.depth - 1.2e-6).abs() < 2e-7, "{overlap:?}");
+}
+
 /// Distances are counted and timed from the start of the approach: of a phase from 100 s to 200 s twice as many are
 /// allowed at its end as at its start.
 #[test]

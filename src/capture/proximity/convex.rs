@@ -126,7 +126,11 @@ pub(in crate::capture) fn separation(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64)
         deepest = larger(deepest, gap(a, b, normal), normal);
     });
     let cores = if deepest.distance > TOUCHING || (a.len() == 1 && b.len() == 1) {
-        nearest(a, b, deepest.normal)
+        let nearest = nearest(a, b, deepest.normal);
+        // a corner over an edge: the normal of the edge has all its digits, that of a short difference of large
+        // coordinates has few
+        let normal = if nearest.distance - deepest.distance <= TOUCHING { deepest.normal } else { nearest.normal };
+        Separation { normal, ..nearest }
     } else {
         deepest
     };
