@@ -362,6 +362,30 @@ fn a_slow_overlap_begins_at_its_touch() {
     assert!((overlap.depth - 1.2e-6).abs() < 2e-7, "{overlap:?}");
 }
 
+/// A bar that is farther away than what is nearest, though not by circles, meets another one in the next interval of
+/// 1.5 s.
+#[test]
+fn long_intervals_miss_no_overlap() {
+    let bar = || Outline::polygon(vec![[-0.25, -3.0], [0.25, -3.0], [0.25, 3.0], [-0.25, 3.0]]).expect("a bar");
+    let at = |x: f64, vx: f64| ([0.0, x, 30.0], [0.0, vx, 0.0]);
+    let (clearance, _) = resting([bar(), bar()], [at(0.0, 0.0), at(5.2, -1.5)]).result();
+    let found = overlaps(&clearance);
+    let [overlap] = found[..] else { panic!("{found:?}") };
+    assert!((overlap.span[0] - 4.7 / 1.5).abs() < 1e-6 && (overlap.depth - 0.5).abs() < 2e-6, "{overlap:?}");
+    // the bar is 1.7 m away after 2 s, and would be 0.7 m away if it moved by 1 m in the next interval
+    let scenario = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    let robot = Motion { scenario, ..resting([bar(), bar()], [at(0.0, 0.0), at(90.0, 0.0)]) };
+    assert!(robot.result().0.least.is_some_and(|least| least.distance < 0.7));
+
+    // joints that move make a knot every 2 s: the second interval is skipped for the bound of the first
+    let mut slower = resting([bar(), bar()], [at(0.0, 0.0), at(7.0, -1.0)]);
+    (slower.rates, slower.intervals) = ([1.0; 3], 4);
+    let mut tracker = ClearanceTracker::new(&slower.scenario, &[]);
+    tracker.add_phase(&slower.path(0.0, 8.0), 0.0, TargetMotion::Free(&slower.targets), &[]).expect("bounds");
+    let clearance = tracker.result();
+    assert!(matches!(overlaps(&clearance)[..], [one] if (one.span[0] - 6.5).abs() < 1e-6), "{:?}", clearance.overlaps);
+}
+
 /// Distances are counted and timed from the start of the approach: of a phase from 100 s to 200 s twice as many are
 /// allowed at its end as at its start.
 #[test]
@@ -369,7 +393,8 @@ fn distances_are_used_up_at_their_time() {
     let bar = || Outline::polygon(vec![[-1.0, -0.01], [1.0, -0.01], [1.0, 0.01], [-1.0, 0.01]]).expect("a bar");
     let mut motion = resting([bar(), bar()], [([0.0, 30.0, 0.0], [0.0; 3]), ([0.5, 30.0, 0.5], [3.0, 0.0, 0.0])]);
     motion.scenario.clearance.only_given = true;
-    motion.intervals = 2;
+    // joints that move make knots of the ends of intervals
+    (motion.rates, motion.intervals) = ([1.0; 3], 2);
     let run = |most: u64| {
         let mut scenario = motion.scenario.clone();
         scenario.clearance.max_distances = most;
