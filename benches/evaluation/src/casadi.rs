@@ -59,30 +59,22 @@ fn call<const N: usize>(function: Function, arguments: [*const f64; N], results:
     }
 }
 
+/// The arguments of forward dynamics and of its derivatives.
+#[inline]
+fn motion_and_torques(s: &State) -> [*const f64; 5] {
+    [s.base_pose.as_ptr(), s.joint_angles.as_ptr(), s.base_twist.as_ptr(), s.joint_rates.as_ptr(), s.torques.as_ptr()]
+}
+
 /// Accelerations of base and joints, smallest pivot.
 #[inline]
 pub fn forward_dynamics(s: &State, results: &mut Results) {
-    let arguments = [
-        s.base_pose.as_ptr(),
-        s.joint_angles.as_ptr(),
-        s.base_twist.as_ptr(),
-        s.joint_rates.as_ptr(),
-        s.torques.as_ptr(),
-    ];
-    call(casadi_forward_dynamics, arguments, results);
+    call(casadi_forward_dynamics, motion_and_torques(s), results);
 }
 
 /// Accelerations of base and joints, and their derivatives by position, velocity and forces.
 #[inline]
 pub fn derivatives(s: &State, results: &mut Results) {
-    let arguments = [
-        s.base_pose.as_ptr(),
-        s.joint_angles.as_ptr(),
-        s.base_twist.as_ptr(),
-        s.joint_rates.as_ptr(),
-        s.torques.as_ptr(),
-    ];
-    call(casadi_forward_dynamics_derivatives, arguments, results);
+    call(casadi_forward_dynamics_derivatives, motion_and_torques(s), results);
 }
 
 /// Generalized inertia, bias, Jacobian, smallest pivot.

@@ -7,6 +7,9 @@ pub(crate) const POINTS: usize = 8;
 const ZEROS: [f64; POINTS / 2] =
     [0.183_434_642_495_649_8, 0.525_532_409_916_329, 0.796_666_477_413_626_7, 0.960_289_856_497_536_2];
 
+/// 2k + 1.
+const ODD: [f64; POINTS] = [1.0, 3.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0];
+
 /// Weights of the points of an interval from 0 to 1, and of those up to each point.
 pub(crate) struct Collocation {
     /// In order.
@@ -26,7 +29,7 @@ impl Collocation {
             std::array::from_fn(|i| if i < half { -ZEROS[half - 1 - i] } else { ZEROS[i - half] });
         let polynomials = zeros.map(legendre);
         let weights = polynomials.map(|p| {
-            let sum: f64 = (0..POINTS).zip(p).map(|(k, p)| (odd(k)) * p * p).sum();
+            let sum: f64 = ODD.iter().zip(p).map(|(odd, p)| odd * p * p).sum();
             1.0 / sum
         });
         let integral = |i: usize, k: usize| {
@@ -43,17 +46,12 @@ impl Collocation {
     }
 }
 
-/// 2k + 1.
-fn odd(k: usize) -> f64 {
-    f64::from(u32::try_from(2 * k + 1).expect("a degree"))
-}
-
 /// The polynomials of degrees 0 to 8, by `(k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}`.
 fn legendre(x: f64) -> [f64; POINTS + 1] {
     let mut p = [1.0; POINTS + 1];
     p[1] = x;
     for k in 1..POINTS {
-        let (twice, odd) = (odd(k) - 1.0, odd(k));
+        let (twice, odd) = (ODD[k] - 1.0, ODD[k]);
         p[k + 1] = (2.0 * odd * x * p[k] - twice * p[k - 1]) / (twice + 2.0);
     }
     p

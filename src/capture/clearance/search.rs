@@ -119,7 +119,7 @@ impl IntervalSearch<'_> {
             let is_known = if left.distance.min(right.distance) < -RESOLUTION {
                 0.5 * (left.distance + right.distance) + self.shapes.speed * half <= GAP
             } else {
-                self.lowest(&left, right) >= found.goal(pair)
+                self.shapes.lowest(&left, right) >= found.goal(pair)
             };
             if is_known || self.shapes.is_shortest([left.time, right.time]) {
                 left = *right;
@@ -169,7 +169,8 @@ impl IntervalSearch<'_> {
             let (mut left, mut rights) = (ends[0], vec![ends[1]]);
             while let Some(right) = rights.last() {
                 let half = 0.5 * (right.time - left.time);
-                if self.lowest(&left, right) >= -depth - RESOLUTION || self.shapes.is_shortest([left.time, right.time])
+                if self.shapes.lowest(&left, right) >= -depth - RESOLUTION
+                    || self.shapes.is_shortest([left.time, right.time])
                 {
                     left = *right;
                     rights.pop();
@@ -182,12 +183,6 @@ impl IntervalSearch<'_> {
         }
         found.overlaps[overlap].depth = depth;
         Ok(())
-    }
-
-    /// A lower bound of the distance between two instants, at which it may be lower.
-    fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
-        let half = 0.5 * (right.time - left.time);
-        self.shapes.bound(left, half).min(self.shapes.bound(right, -half))
     }
 
     fn record_at(&mut self, time: f64, pair: (usize, &BodyPair), found: &mut Findings) -> Result<Instant, f64> {

@@ -92,6 +92,12 @@ impl PartPair<'_> {
         start - end - 0.5 * self.acceleration * after * after
     }
 
+    /// A lower bound of the distance between two instants, at which it may be lower.
+    pub(in crate::capture) fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
+        let half = 0.5 * (right.time - left.time);
+        self.bound(left, half).min(self.bound(right, -half))
+    }
+
     /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;
     /// `None` where it does not, as the bounds of the motion show. The distance is above `-depth` at the start.
     ///
@@ -109,8 +115,7 @@ impl PartPair<'_> {
         let mut rights = vec![instant_at(self, end)];
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
-            let lowest = self.bound(&left, half).min(self.bound(right, -half));
-            if lowest < -depth && !self.is_shortest([left.time, right.time]) {
+            if self.lowest(&left, right) < -depth && !self.is_shortest([left.time, right.time]) {
                 if divisions == MAX_DIVISIONS {
                     let (what, change) = ("bounds of the distance between an end effector and its target", half);
                     return Err(Error::NotConverged { what, iterations: divisions, change });
