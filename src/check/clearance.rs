@@ -28,6 +28,12 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     ineffective.chain(overlaps(scenario)).collect()
 }
 
+/// That the search has ended early, at a time in s.
+fn unfinished(time: f64, reason: &str) -> Warning {
+    let why = format!("overlaps along the planned path were looked for only until {} s: {reason}", short(time));
+    warning("approach", why, "`run` looks at all of it")
+}
+
 fn overlaps(scenario: &Scenario) -> Vec<Warning> {
     let mut planned = scenario.clone();
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
@@ -65,10 +71,9 @@ fn overlaps(scenario: &Scenario) -> Vec<Warning> {
     let make = || registry::generated(layout).unwrap_or_else(|_| registry::generic(layout));
     let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
         Ok(result) => result,
-        Err(StudyError::ClearanceExhausted { what, .. }) => {
-            let why =
-                format!("overlaps along the planned path were looked for only until {} s: {what}", short(what.time));
-            return vec![warning("approach", why, "`run` looks at all of it")];
+        Err(StudyError::ClearanceExhausted { what, .. }) => return vec![unfinished(what.time, &what.to_string())],
+        Err(StudyError::RoughPath { time, path_error, .. }) => {
+            return vec![unfinished(time, &format!("the path is known to {path_error:.1e} rad or m alone"))];
         }
         // what stops a run is reported by the run
         Err(_) => return Vec::new(),
