@@ -3,7 +3,7 @@
 
 use crate::capture::contact_at_time::ImpactContact;
 use crate::contact::{ImpulseEllipse, InverseInertia};
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::system::Body;
@@ -32,7 +32,7 @@ pub struct ContactResponse {
 /// # Errors
 /// Those of the model.
 pub fn response(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     before: &RobotState,
     target: &Body,
     touch: &ImpactContact,

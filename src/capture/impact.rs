@@ -4,7 +4,7 @@ use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
 use crate::contact::{self, Contact, ContactPartner, DelassusMatrix, workspace_length};
-use crate::dynamics::{Model, Momentum};
+use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use crate::owned::RobotState;
@@ -122,7 +122,7 @@ fn rigid_by_arm(assembly: &Assembly, targets: &[Body], contacts: &[ImpactContact
 
 /// The rigid capture by the paper's reduced equations, (10) to (17).
 fn by_equations_of_the_paper(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     before: &RobotState,
     targets: &[Body],
     contacts: &[ImpactContact],

@@ -1,13 +1,13 @@
 //! Generalized inertia and generalized Jacobian of the reduced form, eq. (2), as matrices.
 
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::state::State;
 use nalgebra::DMatrix;
 
 /// The generalized inertia (joints × joints) and the generalized Jacobian (3 arms × joints).
 pub(crate) fn reduced_matrices(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     state: &State<'_, f64>,
 ) -> Result<(DMatrix<f64>, DMatrix<f64>), Error> {
     let (joints, rows) = (model.joints(), 3 * model.arms());

@@ -1,6 +1,6 @@
 //! The residual motion of robot and captured targets at the end of the post-impact phase.
 
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scalar::Real;
@@ -35,7 +35,7 @@ impl ResidualMotion {
     /// # Errors
     /// Those of the model.
     pub fn of(
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         held: &[Body],
         control: &PostCaptureControl,
         state: &RobotState,

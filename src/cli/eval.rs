@@ -2,7 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::{CommandError, file_error, layout};
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::AnyModel;
 use planar_capture::eval::{StateError, States, result_to_json};
 use planar_capture::evaluation::evaluate;
 use std::fs::File;
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 }
 
 fn evaluate_all(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     input: Box<dyn BufRead>,
     name: &str,
     out: &mut impl Write,

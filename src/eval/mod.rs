@@ -9,7 +9,7 @@ mod reader;
 mod result;
 mod write;
 
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::evaluation::EvaluationInput;
 use elements::Elements;
 pub use result::result_to_json;
@@ -51,7 +51,7 @@ pub struct States<R> {
 
 impl<R: BufRead> States<R> {
     /// States of a robot, read from `input`.
-    pub fn new(input: R, model: &dyn Model<f64>) -> Self {
+    pub fn new(input: R, model: &AnyModel<f64>) -> Self {
         Self { elements: Elements::new(input), joints: model.joints(), arms: model.arms() }
     }
 

@@ -1,6 +1,6 @@
 //! Rigid bodies of a robot and beside it: momentum, centre of mass and inertia of all together.
 
-use crate::dynamics::{Model, Momentum};
+use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::simulate::system::Body;
 use crate::state::State;
@@ -17,7 +17,7 @@ pub(crate) struct BodyList {
 
 impl BodyList {
     /// Of a robot, whose inertias are read once.
-    pub(crate) fn new(model: &dyn Model<f64>) -> Result<Self, Error> {
+    pub(crate) fn new(model: &AnyModel<f64>) -> Result<Self, Error> {
         let count = model.joints() + 1;
         let mut inertias = vec![[0.0; 2]; count];
         model.body_inertias(&mut inertias)?;
@@ -27,7 +27,7 @@ impl BodyList {
     /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
     pub(crate) fn at(
         &mut self,
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         state: &State<'_, f64>,
         beside: &[Body],
     ) -> Result<&[Body], Error> {
@@ -48,7 +48,7 @@ impl BodyList {
 }
 
 /// [`BodyList::at`], once.
-pub(crate) fn bodies(model: &dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
+pub(crate) fn bodies(model: &AnyModel<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
     let mut list = BodyList::new(model)?;
     list.at(model, state, beside)?;
     Ok(list.bodies)

@@ -1,6 +1,6 @@
 //! Errors of the conservation laws of momentum, energy and centre of mass, checked in every run.
 
-use crate::dynamics::{Model, Momentum};
+use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::simulate::bodies::{BodyList, center_of_mass, momentum_sizes, total_momentum};
@@ -47,7 +47,7 @@ pub struct AccumulatedInput {
 
 /// The conservation errors of a phase so far.
 pub struct ConservationAudit<'a> {
-    model: &'a dyn Model<f64>,
+    model: &'a AnyModel<f64>,
     bodies: BodyList,
     start: Momentum<f64>,
     center: [f64; 2],
@@ -80,7 +80,7 @@ impl<'a> ConservationAudit<'a> {
     ///
     /// # Errors
     /// Those of the model.
-    pub fn new(model: &'a dyn Model<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
+    pub fn new(model: &'a AnyModel<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let mut bodies = BodyList::new(model)?;
         let all = bodies.at(model, state, beside)?;
         let (start, (center, _)) = (total_momentum(all), center_of_mass(all));

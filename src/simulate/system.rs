@@ -2,7 +2,7 @@
 
 use crate::contact::{ConstraintSolver, ConstraintWorkspace, Contact, LoopConstraint};
 use crate::control::Control;
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::formulation::derivative;
 use crate::simulate::limits::JointLimits;
@@ -15,7 +15,7 @@ pub type Body = crate::body::Body<f64>;
 #[derive(Clone, Copy)]
 pub struct System<'a> {
     /// The robot.
-    pub model: &'a dyn Model<f64>,
+    pub model: &'a AnyModel<f64>,
     /// The bodies beside it, free but for the constraints.
     pub bodies: &'a [Body],
     /// Constraints between end effectors and bodies, or between two end effectors.
@@ -30,7 +30,7 @@ pub struct System<'a> {
 impl<'a> System<'a> {
     /// A robot alone, of a reach of 1 m.
     #[must_use]
-    pub fn alone(model: &'a dyn Model<f64>) -> Self {
+    pub fn alone(model: &'a AnyModel<f64>) -> Self {
         Self { model, bodies: &[], constraints: &[], joint_limits: &[], reach: 1.0 }
     }
 
@@ -98,7 +98,7 @@ impl<'a> System<'a> {
     /// Runs the solver in its working space; the default where there are no constraints.
     fn with_constraints<R: Default>(
         &self,
-        run: impl FnOnce(&ConstraintSolver<'_, f64>, &mut ConstraintWorkspace<'_, f64>) -> Result<R, Error>,
+        run: impl FnOnce(&ConstraintSolver<'_, f64, AnyModel<f64>>, &mut ConstraintWorkspace<'_, f64>) -> Result<R, Error>,
     ) -> Result<R, Error> {
         if self.constraints.is_empty() {
             return Ok(R::default());

@@ -123,7 +123,7 @@ fn a_torque_at_its_limit_is_not_saturated() {
     let mut limited = TorqueLimiter { law, torque_limits: &[2.0, 1.5, 0.0], saturated: &mut [false; 3] };
     let mut torques = [0.0; 3];
     limited.joint_torques(0.0, &*model, &state, &mut torques).expect("torques");
-    assert_eq!((torques, limited.saturated()), ([-2.0, 1.5, 0.0], &[false, true, true][..]));
+    assert_eq!((torques, Control::<f64>::saturated(&limited)), ([-2.0, 1.5, 0.0], &[false, true, true][..]));
 }
 
 /// Sampled torques are those of the law at the sample, and constant until the next.

@@ -4,14 +4,18 @@ use crate::Problem;
 use crate::batch::Arrays;
 use crate::casadi::{self, Results};
 use crate::derivatives::{self, derivatives};
-use crate::runge_kutta::{self, Vector, parts, torques};
+use crate::runge_kutta::{self, GAINS, Vector, parts, torques};
 use crate::states::{State, states};
 use planar_build::prove::generic::Generic;
+use planar_capture::control::ProportionalDerivative;
 use planar_capture::dynamics::{ForwardDynamics, Impact, ReducedDynamics};
 use planar_capture::error::Error;
+use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
-use planar_capture::state::{Forces, State as View};
+use planar_capture::integrate::RungeKutta4;
+use planar_capture::state::{Forces, State as View, vector_length};
 use planar_capture::target::Target;
+use planar_capture::trajectory::ConstantSetpoint;
 use planar_layout::layout::Layout;
 use rustix::time::{ClockId, clock_gettime};
 use serde_json::{Map, Value};
@@ -97,6 +101,7 @@ pub fn print() -> Result<(), Problem> {
     record("f64, reduced impact", each(&few, |s| consume(reduced_impact(&model, s))));
     record("f64, full impact", each(&few, |s| consume(full_impact(&model, s))));
     record("f64, step", steps(|x| by_model(&model, x)));
+    record("library, step", library_steps(&model));
 
     record("f32, forward dynamics", per_lane!(f32, f32, 1, few, |[value]| value));
     record("f64x4, forward dynamics", per_lane!(f64x4, f64, 4, few, f64x4::from));
@@ -161,6 +166,31 @@ fn steps(accelerations: impl Fn(&Vector) -> [f64; 9]) -> f64 {
         }
         count += 1;
         runge_kutta::step(&accelerations, &mut x, 1e-3);
+    });
+    black_box(x);
+    time
+}
+
+/// As [`steps`], by integrator, law and equation of the library, which also integrate the work of the joints.
+fn library_steps(model: &Model<f64>) -> f64 {
+    let mut start = [0.0; vector_length(6)];
+    start[3..9].copy_from_slice(&[0.3, -0.4, 0.5, -0.3, 0.4, -0.5]);
+    let mut x = start;
+    let (mut workspace, mut torques) = ([0.0; 3 * vector_length(6)], [0.0; 6]);
+    let mut law = ProportionalDerivative {
+        trajectory: ConstantSetpoint { angles: &[0.0; 6] },
+        proportional_gain: &[GAINS[0]; 6],
+        derivative_gain: &[GAINS[1]; 6],
+    };
+    let mut integrator = RungeKutta4::new(&mut workspace).expect("three vectors");
+    let mut count = 0;
+    let time = each(&[()], |()| {
+        if count % 20_000 == 0 {
+            x = start;
+        }
+        count += 1;
+        let equation = |time, x: &[f64], rate: &mut [f64]| derivative(model, &mut law, time, x, rate, &mut torques);
+        integrator.step(0.0, 1e-3, &mut x, equation).expect("a regular state");
     });
     black_box(x);
     time

@@ -5,7 +5,7 @@
 pub type Vector = [f64; 18];
 
 /// Gains of all joints, N m/rad and N m s/rad.
-const GAINS: [f64; 2] = [50.0, 20.0];
+pub const GAINS: [f64; 2] = [50.0, 20.0];
 
 /// Torques that hold the joints at 0.
 pub fn torques(x: &Vector) -> [f64; 6] {

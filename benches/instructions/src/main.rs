@@ -1,10 +1,13 @@
 //! Calls a function of the paper's robot as often as asked for: `instructions FUNCTION CALLS`.
 
 use planar_capture::batch::{Accelerations, Batch, States, Status};
+use planar_capture::control::ProportionalDerivative;
 use planar_capture::error::Error;
+use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::state::{State, vector_length};
+use planar_capture::trajectory::ConstantSetpoint;
 use std::hint::black_box;
 use std::process::ExitCode;
 
@@ -32,27 +35,31 @@ fn main() -> ExitCode {
 
 fn run(function: &str, calls: u32) -> Result<(), Error> {
     let model = black_box(Model::<f64>::default());
-    let (pose, angles, twist, rates, torques) = black_box((POSE, ANGLES, TWIST, RATES, TORQUES));
-    let (masses, inertias, contacts, twists) = black_box(TARGETS);
+    let inputs = (POSE, ANGLES, TWIST, RATES, TORQUES, TARGETS);
     match function {
         "forward_dynamics" => {
             for _ in 0..calls {
-                black_box(model.forward_dynamics(&pose, &angles, &twist, &rates, &torques));
+                // every call could have other numbers: nothing is computed before the loop
+                let (pose, angles, twist, rates, torques, _) = black_box(&inputs);
+                black_box(model.forward_dynamics(pose, angles, twist, rates, torques));
             }
         }
         "reduced_dynamics" => {
             for _ in 0..calls {
-                black_box(model.reduced_dynamics(&pose, &angles, &twist, &rates));
+                let (pose, angles, twist, rates, ..) = black_box(&inputs);
+                black_box(model.reduced_dynamics(pose, angles, twist, rates));
             }
         }
         "reduced_impact" => {
             for _ in 0..calls {
-                black_box(model.reduced_impact(&pose, &angles, &rates, &masses, &inertias, &contacts, &twists));
+                let (pose, angles, _, rates, _, (masses, inertias, contacts, twists)) = black_box(&inputs);
+                black_box(model.reduced_impact(pose, angles, rates, masses, inertias, contacts, twists));
             }
         }
         "full_impact" => {
             for _ in 0..calls {
-                black_box(model.full_impact(&pose, &angles, &twist, &rates, &masses, &inertias, &contacts, &twists));
+                let (pose, angles, twist, rates, _, (masses, inertias, contacts, twists)) = black_box(&inputs);
+                black_box(model.full_impact(pose, angles, twist, rates, masses, inertias, contacts, twists));
             }
         }
         "runge_kutta_step" => steps(&model, calls)?,
@@ -62,28 +69,22 @@ fn run(function: &str, calls: u32) -> Result<(), Error> {
     Ok(())
 }
 
-/// Steps of the core's integrator under constant torques.
+/// Steps of the core's integrator under PD control.
 fn steps(model: &Model<f64>, calls: u32) -> Result<(), Error> {
     let mut vector = [0.0; vector_length(JOINTS)];
     State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES }.write(&mut vector)?;
     let mut workspace = [0.0; RungeKutta4::<f64>::WORKSPACE * vector_length(JOINTS)];
     let mut integrator = RungeKutta4::new(&mut workspace)?;
+    let mut law = ProportionalDerivative {
+        trajectory: ConstantSetpoint { angles: &[0.0; JOINTS] },
+        proportional_gain: &[49.0; JOINTS],
+        derivative_gain: &[14.0; JOINTS],
+    };
+    let mut torques = [0.0; JOINTS];
     for _ in 0..calls {
-        integrator.step(0.0, 1e-4, &mut vector, |_, x, slope| {
-            let state = State::from_vector(x, JOINTS)?;
-            let (Ok(angles), Ok(rates)) = (state.joint_angles.try_into(), state.joint_rates.try_into()) else {
-                return Err(Error::StateVector { found: x.len() });
-            };
-            let found = model.forward_dynamics(&state.base_pose, angles, &state.base_twist, rates, &TORQUES);
-            slope.fill(0.0);
-            let rates = State {
-                base_pose: state.base_twist,
-                joint_angles: state.joint_rates,
-                base_twist: found.base_acceleration,
-                joint_rates: &found.joint_accelerations,
-            };
-            rates.write(slope)
-        })?;
+        let equation =
+            |time, x: &[f64], rate: &mut [f64]| derivative(black_box(model), &mut law, time, x, rate, &mut torques);
+        integrator.step(0.0, 1e-4, &mut vector, equation)?;
     }
     black_box(vector);
     Ok(())

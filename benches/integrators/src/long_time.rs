@@ -3,7 +3,7 @@
 use crate::Problem;
 use crate::method::{Fineness, Method};
 use crate::motion::Problems;
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
 use planar_capture::owned::RobotState;
 use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
@@ -105,7 +105,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn of(model: &dyn Model<f64>, start: &RobotState) -> Result<Self, Error> {
+    fn of(model: &AnyModel<f64>, start: &RobotState) -> Result<Self, Error> {
         let bodies = model.joints() + 1;
         let (mut inertias, mut poses, mut twists) =
             (vec![[0.0; 2]; bodies], vec![[0.0; 3]; bodies], vec![[0.0; 3]; bodies]);

@@ -4,7 +4,7 @@ use crate::Problem;
 use planar_capture::capture::approach::ApproachTracking;
 use planar_capture::capture::approach::terminal_rates::terminal_rates;
 use planar_capture::control::{BaseTorque, Control, ProportionalDerivative, ZeroTorque};
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
@@ -37,7 +37,7 @@ impl Control<f64> for Counted<'_> {
     fn joint_torques(
         &mut self,
         time: f64,
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         state: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {

@@ -158,3 +158,6 @@ macro_rules! model {
 }
 
 model!(Robot Kinematics EquationsOfMotion ReducedDynamics ForwardDynamics MomentumAndEnergy Impact Merge);
+
+/// A model whose type is not known where it is used.
+pub type AnyModel<T> = dyn Model<T>;

@@ -27,8 +27,8 @@ pub struct RigidImpactOutput<'a, T> {
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
-pub fn exact<T: Real>(
-    model: &dyn Model<T>,
+pub fn exact<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
     state: &State<'_, T>,
     targets: &[Option<Target<T>>],
     after: &mut RigidImpactOutput<'_, T>,
@@ -61,8 +61,8 @@ pub struct PaperImpactWorkspace<'a, T> {
 ///
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`], [`Error::Singular`].
-pub fn paper<T: Real>(
-    model: &dyn Model<T>,
+pub fn paper<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
     state: &State<'_, T>,
     targets: &[Option<Target<T>>],
     workspace: &mut PaperImpactWorkspace<'_, T>,

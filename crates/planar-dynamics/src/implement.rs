@@ -22,8 +22,8 @@ macro_rules! implement_dynamics {
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
-                array, finite, finite_configuration, finite_forces, finite_target, joint_arrays, pivot, store,
-                store_rows,
+                all_finite, array, array_mut, finite, finite_configuration, finite_target, is_regular, joint_arrays,
+                no_accelerations, pivot, store, store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -72,15 +72,17 @@ macro_rules! implement_dynamics {
             }
 
             impl<T: Real> ForwardDynamics<T> for Model<T> {
+                #[inline]
                 fn forward_dynamics(
                     &self,
                     state: &State<'_, T>,
                     forces: &Forces<'_, T>,
                     joint_accelerations: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    let [angles, rates] = joint_arrays(state)?;
-                    finite_forces(forces)?;
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
+                    let joint_accelerations = array_mut("joint_accelerations", joint_accelerations)?;
                     let twist = &state.base_twist;
                     let pose = &state.base_pose;
                     let wrench = forces.base_wrench.unwrap_or([T::ZERO; 3]);
@@ -99,9 +101,11 @@ macro_rules! implement_dynamics {
                         let r = Model::forward_dynamics(self, pose, angles, twist, rates, torques);
                         (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
                     };
-                    pivot("the articulated mass of the base", smallest)?;
-                    finite("base_acceleration", &base)?;
-                    store("joint_accelerations", &joints, joint_accelerations)?;
+                    // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
+                    if !(is_regular(smallest) && all_finite([&pose[..], twist, &base, &joints])) {
+                        return Err(no_accelerations(state, forces, smallest, &base, &joints));
+                    }
+                    *joint_accelerations = joints;
                     Ok(base)
                 }
             }

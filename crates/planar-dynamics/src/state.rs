@@ -93,6 +93,7 @@ pub struct StateVector<H, W> {
 ///
 /// # Errors
 /// [`Error::StateVector`] unless the vector is two halves of the same length and three entries.
+#[inline]
 pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
     let wrong = Error::StateVector { found: vector.len() };
     let parts = vector.split_last_chunk::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
@@ -105,6 +106,7 @@ pub fn split<T>(vector: &[T]) -> Result<StateVector<&[T], &[T; 3]>, Error> {
 ///
 /// # Errors
 /// As [`split`].
+#[inline]
 pub fn split_mut<T>(vector: &mut [T]) -> Result<StateVector<&mut [T], &mut [T; 3]>, Error> {
     let wrong = Error::StateVector { found: vector.len() };
     let parts = vector.split_last_chunk_mut::<3>().filter(|(halves, _)| halves.len().is_multiple_of(2));
@@ -130,6 +132,7 @@ pub struct Coordinates<B, J, F> {
 /// # Errors
 /// [`Error::Length`] unless it has 3 + joints entries and three more per body.
 #[expect(clippy::type_complexity, reason = "the parts of a struct")]
+#[inline]
 pub fn coordinates<T>(half: &[T], joints: usize) -> Result<Coordinates<&[T; 3], &[T], &[[T; 3]]>, Error> {
     let wrong = Error::Length { quantity: "half of a state vector", expected: 3 + joints, found: half.len() };
     let (base, rest) = half.split_first_chunk::<3>().ok_or(wrong)?;
@@ -145,6 +148,7 @@ pub fn coordinates<T>(half: &[T], joints: usize) -> Result<Coordinates<&[T; 3], 
 /// # Errors
 /// As [`coordinates`].
 #[expect(clippy::type_complexity, reason = "the parts of a struct")]
+#[inline]
 pub fn coordinates_mut<T>(
     half: &mut [T],
     joints: usize,
@@ -190,6 +194,7 @@ impl<T: Scalar> ActuatorWork<T> {
     ///
     /// # Errors
     /// As [`split`].
+    #[inline]
     pub fn from_vector(vector: &[T]) -> Result<Self, Error> {
         let [joint_work, base_work, base_impulse] = *split(vector)?.work;
         Ok(Self { joint_work, base_work, base_impulse })
@@ -201,6 +206,7 @@ impl<'a, T: Copy> State<'a, T> {
     ///
     /// # Errors
     /// [`Error::StateVector`], [`Error::Length`] unless the vector is a state of a robot with so many joints.
+    #[inline]
     pub fn from_vector(vector: &'a [T], joints: usize) -> Result<Self, Error> {
         let StateVector { positions, rates, .. } = split(vector)?;
         let (positions, rates) = (coordinates(positions, joints)?, coordinates(rates, joints)?);

@@ -7,16 +7,26 @@ use crate::state::{Forces, RobotState, State};
 use crate::target::Target;
 
 /// A slice as an array, or [`Error::Length`].
+#[inline]
 pub fn array<'a, X, const N: usize>(quantity: &'static str, slice: &'a [X]) -> Result<&'a [X; N], Error> {
     slice.first_chunk().filter(|_| slice.len() == N).ok_or(Error::Length { quantity, expected: N, found: slice.len() })
 }
 
+/// As [`array()`], to be written.
+#[inline]
+pub fn array_mut<'a, X, const N: usize>(quantity: &'static str, slice: &'a mut [X]) -> Result<&'a mut [X; N], Error> {
+    let found = slice.len();
+    slice.first_chunk_mut().filter(|_| found == N).ok_or(Error::Length { quantity, expected: N, found })
+}
+
 /// [`Error::Length`] unless the numbers are equal.
+#[inline]
 pub fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {
     if found == expected { Ok(()) } else { Err(Error::Length { quantity, expected, found }) }
 }
 
 /// Copies a result whose length fits and whose numbers are finite.
+#[inline]
 pub fn store<T: Real>(quantity: &'static str, values: &[T], into: &mut [T]) -> Result<(), Error> {
     length(quantity, values.len(), into.len())?;
     finite(quantity, values)?;
@@ -35,13 +45,16 @@ pub fn store_rows<T: Real, const C: usize>(
 }
 
 /// [`Error::NotFinite`] with the first number that is NaN or infinite.
+#[inline]
 pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
-    if zeros(values) == T::ZERO { Ok(()) } else { first_not_finite(quantity, values) }
+    if all_finite([values]) { Ok(()) } else { first_not_finite(quantity, values) }
 }
 
-/// Σ 0·x: 0 where all numbers are finite, else NaN. One product and one sum per number and one comparison in all.
-fn zeros<T: Real>(values: &[T]) -> T {
-    values.iter().fold(T::ZERO, |sum, value| sum + *value * T::ZERO)
+/// Whether the numbers of all slices are finite: 0 x is 0 where x is, else NaN. There is no branch per number, and no sum,
+/// whose chain a processor waits for.
+#[inline]
+pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
+    slices.iter().fold(true, |all, values| values.iter().fold(all, |all, value| all & (*value * T::ZERO == T::ZERO)))
 }
 
 #[cold]
@@ -54,10 +67,14 @@ fn first_not_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(),
 }
 
 /// [`finite`] of all numbers of a state.
+#[inline]
 pub fn finite_state<T: Real>(state: &State<'_, T>) -> Result<(), Error> {
     let RobotState { base_pose, joint_angles, base_twist, joint_rates } = state;
-    let sum = zeros(base_pose) + zeros(joint_angles) + zeros(base_twist) + zeros(joint_rates);
-    if sum == T::ZERO { Ok(()) } else { first_not_finite_of_state(state) }
+    if all_finite([base_pose, joint_angles, base_twist, joint_rates]) {
+        Ok(())
+    } else {
+        first_not_finite_of_state(state)
+    }
 }
 
 #[cold]
@@ -89,6 +106,7 @@ pub fn finite_target<T: Real>(target: &Target<T>) -> Result<(), Error> {
 }
 
 /// Joint angles and rates as arrays, after [`finite_state`].
+#[inline]
 pub fn joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) -> Result<[&'a [T; N]; 2], Error> {
     // of a known number the sums of zeros have no loops
     let [angles, rates] = [array("joint_angles", state.joint_angles)?, array("joint_rates", state.joint_rates)?];
@@ -96,9 +114,42 @@ pub fn joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) -> Result
     Ok([angles, rates])
 }
 
+/// A pivot at or below this, relative to its scale, is that of a singular matrix.
+fn pivot_limit<T: Real>() -> T {
+    T::EPSILON * T::constant(8.0)
+}
+
+/// Whether the smallest relative pivot exceeds 8 ε.
+#[inline]
+pub fn is_regular<T: Real>(smallest: T) -> bool {
+    smallest > pivot_limit()
+}
+
 /// [`Error::Singular`] unless the smallest relative pivot exceeds 8 ε.
+#[inline]
 pub fn pivot<T: Real>(what: &'static str, smallest: T) -> Result<(), Error> {
-    let limit = T::EPSILON.to_f64() * 8.0;
-    let pivot = smallest.to_f64();
-    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
+    let limit = pivot_limit::<T>();
+    if smallest > limit {
+        Ok(())
+    } else {
+        Err(Error::Singular { what, pivot: smallest.to_f64(), limit: limit.to_f64() })
+    }
+}
+
+/// Why forward dynamics has no result: the first input that is not finite, else the pivot, else a result.
+#[cold]
+#[inline(never)]
+pub fn no_accelerations<T: Real>(
+    state: &State<'_, T>,
+    forces: &Forces<'_, T>,
+    smallest_pivot: T,
+    base: &[T; 3],
+    joints: &[T],
+) -> Error {
+    let in_order = finite_state(state)
+        .and_then(|()| finite_forces(forces))
+        .and_then(|()| pivot("the articulated mass of the base", smallest_pivot))
+        .and_then(|()| finite("base_acceleration", base))
+        .and_then(|()| finite("joint_accelerations", joints));
+    in_order.err().unwrap_or(Error::NotFinite { quantity: "base_acceleration", index: 0, value: f64::NAN })
 }

@@ -91,7 +91,12 @@ fn debris_momentum([_, end_effector_x, end_effector_y]: [f64; 3]) -> f64 {
     inertia * twist[0] + mass * (x * twist[2] - y * twist[1])
 }
 
-fn run(robot: &Model<f64>, law: &mut dyn Control<f64>, duration: f64, x: &mut [f64; LENGTH]) -> Result<(), Error> {
+fn run(
+    robot: &Model<f64>,
+    law: &mut impl Control<f64, Model<f64>>,
+    duration: f64,
+    x: &mut [f64; LENGTH],
+) -> Result<(), Error> {
     let (mut workspace, mut torques) = ([0.0; 3 * LENGTH], [0.0; JOINTS]);
     let mut integrator = RungeKutta4::new(&mut workspace)?;
     let mut time = 0.0;

@@ -1,7 +1,7 @@
 //! Resolved motion rate control of an approach: end effector paths from a scenario, and the law's working space.
 
 use crate::control::{EndEffectorWorkspace, ResolvedMotionRate};
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
 use crate::simulate::PhaseError;
 use crate::trajectory::EndEffectorPath;
@@ -39,7 +39,7 @@ impl EndEffectorFeedback {
     ///
     /// # Errors
     /// Those of the model at the initial state.
-    pub fn new(model: &dyn Model<f64>, scenario: &Scenario) -> Result<Self, PhaseError> {
+    pub fn new(model: &AnyModel<f64>, scenario: &Scenario) -> Result<Self, PhaseError> {
         let (arms, joints) = (model.arms(), model.joints());
         let start = scenario.initial.view();
         let (mut initial_poses, mut initial_twists) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);

@@ -1,7 +1,7 @@
 //! The end of an approach that is tracked exactly, from kinematics alone.
 
 use crate::capture::approach::collocation::{Collocation, POINTS};
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::formulation::PrescribedJoints;
 use crate::owned::RobotState;
@@ -36,7 +36,7 @@ pub struct ApproachEnd {
 /// # Errors
 /// Time and reason of a singular base inertia; [`Error::NotConverged`] for integrals that do not settle.
 pub(crate) fn exact_end(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     trajectory: impl Trajectory<f64>,
     initial: &RobotState,
     knots: &[f64],
@@ -85,7 +85,7 @@ pub(crate) fn exact_end(
 
 /// Joints that have a trajectory's accelerations, and the turn of the base that follows.
 struct JointMotion<'a, R> {
-    model: &'a dyn Model<f64>,
+    model: &'a AnyModel<f64>,
     trajectory: R,
     prescribed: PrescribedJoints<'a, f64>,
     /// Angular momentum about the center of mass, N m s.
@@ -144,7 +144,7 @@ impl<R: Trajectory<f64>> JointMotion<'_, R> {
     }
 }
 
-fn of_state(model: &dyn Model<f64>, state: RobotState, time: f64) -> Result<ApproachEnd, Error> {
+fn of_state(model: &AnyModel<f64>, state: RobotState, time: f64) -> Result<ApproachEnd, Error> {
     let State { base_pose, joint_angles, .. } = state.view();
     let [mut poses, mut twists] = [(); 2].map(|()| vec![[0.0; 3]; model.arms()]);
     model.end_effector_poses(&base_pose, joint_angles, &mut poses)?;

@@ -5,7 +5,7 @@ use crate::capture::approach::exact_end::ApproachEnd;
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, rates_for};
 use crate::capture::reach::Reach;
 use crate::capture::reduced_matrices::reduced_matrices;
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::scenario::{EndEffectorGoal, FinalRates, Scenario};
 use crate::simulate::PhaseError;
 use nalgebra::{DMatrix, DVector};
@@ -97,7 +97,7 @@ fn shortened(residuals: &[f64]) -> String {
 /// # Errors
 /// [`InverseKinematicsError`].
 pub fn inverse_kinematics(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     scenario: &Scenario,
     goals: &[EndEffectorGoal],
     sample: f64,
@@ -168,7 +168,7 @@ impl Trial {
     /// Tracks one approach, then takes the terminal rates for the next one from its end.
     fn track(
         &mut self,
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         goals: &[EndEffectorGoal],
         sample: f64,
         tick: &mut dyn FnMut(),
@@ -185,7 +185,7 @@ impl Trial {
         Ok(step)
     }
 
-    fn step(&self, model: &dyn Model<f64>, goals: &[EndEffectorGoal], end: &ApproachEnd) -> Result<Step, PhaseError> {
+    fn step(&self, model: &AnyModel<f64>, goals: &[EndEffectorGoal], end: &ApproachEnd) -> Result<Step, PhaseError> {
         let (_, jacobian) =
             reduced_matrices(model, &end.state.view()).map_err(|source| PhaseError { time: end.time, source })?;
         let mut rows = Vec::new();

@@ -9,7 +9,7 @@ pub mod terminal_rates;
 use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::capture::approach::exact_end::{ApproachEnd, exact_end};
 use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::owned::RobotState;
 use crate::scenario::{self, Scenario, Tracking};
 use crate::simulate::actuators::drive;
@@ -46,7 +46,7 @@ impl<'a> ApproachTracking<'a> {
     /// When and why it stopped.
     pub fn track(
         &self,
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         rates: &[f64],
         events: &mut dyn Events,
         tick: &mut dyn FnMut(),
@@ -84,7 +84,7 @@ impl<'a> ApproachTracking<'a> {
     ///
     /// # Errors
     /// When and why it has none.
-    pub(crate) fn exact_end(&self, model: &dyn Model<f64>, rates: &[f64]) -> Result<ApproachEnd, PhaseError> {
+    pub(crate) fn exact_end(&self, model: &AnyModel<f64>, rates: &[f64]) -> Result<ApproachEnd, PhaseError> {
         let approach = &self.scenario.approach;
         let mut knots = vec![approach.trajectory_time().min(approach.duration), approach.duration];
         knots.dedup();
@@ -103,7 +103,7 @@ impl<'a> ApproachTracking<'a> {
     /// Simulates it with torques from inverse dynamics.
     fn by_inverse_dynamics(
         &self,
-        model: &dyn Model<f64>,
+        model: &AnyModel<f64>,
         rates: &[f64],
         events: &mut dyn Events,
         tick: &mut dyn FnMut(),
@@ -118,7 +118,7 @@ impl<'a> ApproachTracking<'a> {
         simulate(&self.system(model), &mut law, &self.start(), &self.timing, events, tick)
     }
 
-    fn system<'s>(&'s self, model: &'s dyn Model<f64>) -> System<'s> {
+    fn system<'s>(&'s self, model: &'s AnyModel<f64>) -> System<'s> {
         System { joint_limits: &self.scenario.joint_limits, reach: self.scenario.reach(), ..System::alone(model) }
     }
 

@@ -3,7 +3,7 @@
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::exact_end::ApproachEnd;
 use crate::capture::reduced_matrices::reduced_matrices;
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::scenario::EndEffectorTwistGoal;
 use crate::simulate::PhaseError;
 use nalgebra::DVector;
@@ -88,7 +88,7 @@ pub struct TerminalRates {
 /// # Errors
 /// [`TerminalRatesError`].
 pub fn terminal_rates(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     approach: &ApproachTracking<'_>,
     goals: &[EndEffectorTwistGoal],
     tick: &mut dyn FnMut(),
@@ -125,7 +125,7 @@ pub fn terminal_rates(
 
 /// The joint rates that give the desired twists in a state, rad/s, and the singularity margin there.
 pub(crate) fn rates_for(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     ApproachEnd { state, end_effector_twists, time, .. }: &ApproachEnd,
     goals: &[EndEffectorTwistGoal],
 ) -> Result<(Vec<f64>, f64), TerminalRatesError> {

@@ -276,7 +276,12 @@ pub fn look(model: &Model<f32>, state: &State<'_, f32>, tips: &mut [[f32; 3]; AR
     MomentumAndEnergy::momentum(model, state)
 }
 
-fn step(model: &Model<f32>, law: &mut dyn Control<f32>, time: f32, x: &mut [f32; LENGTH]) -> Result<(), Error> {
+fn step(
+    model: &Model<f32>,
+    law: &mut impl Control<f32, Model<f32>>,
+    time: f32,
+    x: &mut [f32; LENGTH],
+) -> Result<(), Error> {
     let mut workspace = [0.0; 3 * LENGTH];
     let mut torques = [0.0; JOINTS];
     let mut integrator = RungeKutta4::new(&mut workspace)?;

@@ -16,9 +16,9 @@ const MAXIMUM_CORRECTIONS: usize = 4;
 
 /// A robot, free bodies and the constraints between them.
 #[derive(Clone, Copy)]
-pub struct ConstraintSolver<'a, T> {
+pub struct ConstraintSolver<'a, T, M: ?Sized> {
     /// The robot.
-    pub model: &'a dyn Model<T>,
+    pub model: &'a M,
     /// The free bodies; their masses and inertias are used, their states are in the integrated vector.
     pub bodies: &'a [Body<T>],
     /// The constraints.
@@ -40,7 +40,7 @@ pub struct ConstraintWorkspace<'a, T> {
     pub end_effectors: &'a mut [[T; 3]],
 }
 
-impl<T: Real> ConstraintSolver<'_, T> {
+impl<T: Real, M: Model<T> + ?Sized> ConstraintSolver<'_, T, M> {
     /// Number of rows: 3 for each rigid constraint, 2 for each pin.
     #[must_use]
     pub fn rows(&self) -> usize {

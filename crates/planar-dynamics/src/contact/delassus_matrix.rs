@@ -52,8 +52,8 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
     /// # Errors
     /// [`Error::Length`] for another workspace, [`Error::ContactRows`] for more than 64 rows, [`Error::Index`] for arms
     /// and bodies that do not exist, [`Error::NotFinite`], and those of the model.
-    pub fn new(
-        model: &dyn Model<T>,
+    pub fn new<M: Model<T> + ?Sized>(
+        model: &M,
         base_pose: &[T; 3],
         joint_angles: &[T],
         bodies: &[Body<T>],
@@ -101,9 +101,9 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
     }
 
     /// Computes each column of `M⁻¹ Aᵀ` and with it a row of W.
-    fn compute(
+    fn compute<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         base_pose: &[T; 3],
         joint_angles: &[T],
         bodies: &[Body<T>],

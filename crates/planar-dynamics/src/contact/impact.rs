@@ -39,8 +39,8 @@ pub struct ImpactOutput<'a, T> {
 /// # Errors
 /// [`Error::Length`], [`Error::NotFinite`]; [`Error::Singular`] for contacts that depend on each other, such as two
 /// rigid ones on arms with too few joints for a loop.
-pub fn impact<T: Real>(
-    model: &dyn Model<T>,
+pub fn impact<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
     state: &State<'_, T>,
     bodies: &[Body<T>],
     mut delassus: DelassusMatrix<'_, T>,

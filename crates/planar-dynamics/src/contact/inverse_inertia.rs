@@ -31,8 +31,8 @@ impl<T: Real> InverseInertia<T> {
     /// # Errors
     /// [`Error::Index`] for an arm that does not exist; [`Error::Length`] unless `wrenches` has one entry per arm and
     /// `workspace` two per joint; those of the model.
-    pub fn of_end_effector(
-        model: &dyn Model<T>,
+    pub fn of_end_effector<M: Model<T> + ?Sized>(
+        model: &M,
         base_pose: &[T; 3],
         joint_angles: &[T],
         arm: usize,

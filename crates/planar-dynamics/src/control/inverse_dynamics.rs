@@ -23,14 +23,8 @@ pub struct InverseDynamics<'a, T, R> {
     pub generalized_jacobian: &'a mut [T],
 }
 
-impl<T: Real, R: Trajectory<T>> Control<T> for InverseDynamics<'_, T, R> {
-    fn joint_torques(
-        &mut self,
-        time: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for InverseDynamics<'_, T, R> {
+    fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let joints = model.joints();
         length("joint_torques", joints, torques.len())?;
         model.reduced_dynamics(state, self.generalized_inertia, self.generalized_bias, self.generalized_jacobian)?;

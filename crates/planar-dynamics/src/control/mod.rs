@@ -16,7 +16,7 @@ pub use sampled_control::SampledControl;
 pub use stabilisation::Stabilisation;
 pub use torque_limiter::TorqueLimiter;
 
-use crate::dynamics::Model;
+use crate::dynamics::{AnyModel, Model};
 use crate::error::Error;
 use crate::linear::{add_scaled, copy};
 use crate::scalar::Real;
@@ -25,25 +25,19 @@ use crate::trajectory::{DesiredJoint, Trajectory};
 
 /// A law for the joint torques. It is evaluated at every stage of a step, and so acts continuously in time, unless it is a
 /// [`SampledControl`].
-pub trait Control<T: Real> {
+pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
     /// Fills the torques (N m) for a robot in `state` at `time` (s).
     ///
     /// # Errors
     /// Those of the model, and [`Error::Length`] for a law of another number of joints.
-    fn joint_torques(
-        &mut self,
-        time: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error>;
+    fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error>;
 
     /// Called once at the start of every step, before its torques are evaluated: a sampled law takes its sample here, a
     /// continuous law does nothing.
     ///
     /// # Errors
     /// As [`Control::joint_torques`].
-    fn begin_step(&mut self, _time: T, _model: &dyn Model<T>, _state: &State<'_, T>) -> Result<(), Error> {
+    fn begin_step(&mut self, _time: T, _model: &M, _state: &State<'_, T>) -> Result<(), Error> {
         Ok(())
     }
 
@@ -73,18 +67,12 @@ pub struct BaseTorque<T> {
     pub saturated: bool,
 }
 
-impl<T: Real, C: Control<T> + ?Sized> Control<T> for &mut C {
-    fn joint_torques(
-        &mut self,
-        time: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for &mut C {
+    fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         (**self).joint_torques(time, model, state, torques)
     }
 
-    fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
+    fn begin_step(&mut self, time: T, model: &M, state: &State<'_, T>) -> Result<(), Error> {
         (**self).begin_step(time, model, state)
     }
 
@@ -105,14 +93,15 @@ impl<T: Real, C: Control<T> + ?Sized> Control<T> for &mut C {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ZeroTorque;
 
-impl<T: Real> Control<T> for ZeroTorque {
-    fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ZeroTorque {
+    fn joint_torques(&mut self, _: T, _: &M, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         torques.fill(T::ZERO);
         Ok(())
     }
 }
 
 /// The desired motion of a joint, or [`Error::Length`] for a trajectory of fewer than `expected` joints.
+#[inline]
 pub(crate) fn desired<T: Real>(
     trajectory: &impl Trajectory<T>,
     joint: usize,

@@ -19,14 +19,9 @@ pub struct ProportionalDerivative<'a, T, R> {
     pub derivative_gain: &'a [T],
 }
 
-impl<T: Real, R: Trajectory<T>> Control<T> for ProportionalDerivative<'_, T, R> {
-    fn joint_torques(
-        &mut self,
-        time: T,
-        _: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for ProportionalDerivative<'_, T, R> {
+    #[inline]
+    fn joint_torques(&mut self, time: T, _: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let expected = torques.len();
         length("proportional_gain", expected, self.proportional_gain.len())?;
         length("derivative_gain", expected, self.derivative_gain.len())?;

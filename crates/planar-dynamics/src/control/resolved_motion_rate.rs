@@ -134,14 +134,8 @@ fn acceleration<T: Real>(jacobian: &[T], state: &State<'_, T>, base_acceleration
     acceleration
 }
 
-impl<T: Real> Control<T> for ResolvedMotionRate<'_, T> {
-    fn joint_torques(
-        &mut self,
-        time: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> {
+    fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let (joints, arms) = (model.joints(), model.arms());
         length("joint_torques", joints, torques.len())?;
         length("controlled", arms, self.controlled.len())?;

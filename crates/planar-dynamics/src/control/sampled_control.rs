@@ -19,7 +19,7 @@ pub struct SampledControl<'a, T, C> {
     held: &'a mut [T],
 }
 
-impl<'a, T: Real, C: Control<T>> SampledControl<'a, T, C> {
+impl<'a, T: Real, C> SampledControl<'a, T, C> {
     /// `held` (joints) stores the torques; they are zero until the first step begins. No step per sample counts as one.
     pub fn new(law: C, steps_per_sample: u32, held: &'a mut [T]) -> Self {
         held.fill(T::ZERO);
@@ -27,14 +27,14 @@ impl<'a, T: Real, C: Control<T>> SampledControl<'a, T, C> {
     }
 }
 
-impl<T: Real, C: Control<T>> Control<T> for SampledControl<'_, T, C> {
-    fn joint_torques(&mut self, _: T, _: &dyn Model<T>, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for SampledControl<'_, T, C> {
+    fn joint_torques(&mut self, _: T, _: &M, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         length("joint_torques", self.held.len(), torques.len())?;
         copy(self.held, torques);
         Ok(())
     }
 
-    fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
+    fn begin_step(&mut self, time: T, model: &M, state: &State<'_, T>) -> Result<(), Error> {
         self.law.begin_step(time, model, state)?;
         if self.steps_left == 0 {
             self.law.joint_torques(time, model, state, self.held)?;

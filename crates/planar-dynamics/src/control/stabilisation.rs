@@ -36,14 +36,8 @@ pub struct Stabilisation<'a, T> {
     pub bias: &'a mut [T],
 }
 
-impl<T: Real> Control<T> for Stabilisation<'_, T> {
-    fn joint_torques(
-        &mut self,
-        _: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for Stabilisation<'_, T> {
+    fn joint_torques(&mut self, _: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let joints = model.joints();
         length("joint_torques", joints, torques.len())?;
         length("joint_gain", joints, self.joint_gain.len())?;

@@ -18,14 +18,9 @@ pub struct TorqueLimiter<'a, T, C> {
     pub saturated: &'a mut [bool],
 }
 
-impl<T: Real, C: Control<T>> Control<T> for TorqueLimiter<'_, T, C> {
-    fn joint_torques(
-        &mut self,
-        time: T,
-        model: &dyn Model<T>,
-        state: &State<'_, T>,
-        torques: &mut [T],
-    ) -> Result<(), Error> {
+impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for TorqueLimiter<'_, T, C> {
+    #[inline]
+    fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         length("torque_limits", torques.len(), self.torque_limits.len())?;
         length("saturated", torques.len(), self.saturated.len())?;
         self.law.joint_torques(time, model, state, torques)?;
@@ -37,7 +32,7 @@ impl<T: Real, C: Control<T>> Control<T> for TorqueLimiter<'_, T, C> {
         Ok(())
     }
 
-    fn begin_step(&mut self, time: T, model: &dyn Model<T>, state: &State<'_, T>) -> Result<(), Error> {
+    fn begin_step(&mut self, time: T, model: &M, state: &State<'_, T>) -> Result<(), Error> {
         self.law.begin_step(time, model, state)
     }
 

@@ -50,7 +50,12 @@ impl<T: Real> CanonicalVariables<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`] where a slice has the wrong length, and those of the model.
-    pub fn measure(&mut self, model: &dyn Model<T>, base_pose: &[T; 3], joint_angles: &[T]) -> Result<(), Error> {
+    pub fn measure<M: Model<T> + ?Sized>(
+        &mut self,
+        model: &M,
+        base_pose: &[T; 3],
+        joint_angles: &[T],
+    ) -> Result<(), Error> {
         let joints = model.joints();
         for found in [self.offsets.len(), self.leaves.len(), self.rates.len()] {
             length("canonical working space", joints, found)?;
@@ -80,7 +85,12 @@ impl<T: Real> CanonicalVariables<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`], and those of the model.
-    pub fn momenta(&mut self, model: &dyn Model<T>, state: &State<'_, T>, momenta: &mut [T]) -> Result<(), Error> {
+    pub fn momenta<M: Model<T> + ?Sized>(
+        &mut self,
+        model: &M,
+        state: &State<'_, T>,
+        momenta: &mut [T],
+    ) -> Result<(), Error> {
         let Coordinates { base, joints, .. } = coordinates_mut(momenta, model.joints())?;
         let Outboard { angular, linear: [px, py] } =
             self.sweep(model, state, joints, |momentum, [x, y], _, Outboard { angular, linear: [px, py] }| {
@@ -94,9 +104,9 @@ impl<T: Real> CanonicalVariables<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`] unless there are 3 + joints momenta, and those of the model.
-    pub fn velocities(
+    pub fn velocities<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         base_pose: [T; 3],
         joint_angles: &[T],
         momenta: &[T],
@@ -113,9 +123,9 @@ impl<T: Real> CanonicalVariables<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`], and those of the model.
-    pub fn add_energy_gradient(
+    pub fn add_energy_gradient<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         state: &State<'_, T>,
         rates: &mut [T],
     ) -> Result<(), Error> {
@@ -130,9 +140,9 @@ impl<T: Real> CanonicalVariables<'_, T> {
 
     /// Calls `update` with each joint's entry of `values`, its position relative to the base COM, its velocity, and the
     /// momentum of its outboard bodies; returns the momentum of all bodies.
-    fn sweep(
+    fn sweep<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         state: &State<'_, T>,
         values: &mut [T],
         update: impl Fn(&mut T, [T; 2], [T; 2], Outboard<T>),

@@ -25,9 +25,10 @@ use crate::validate::length;
 /// # Errors
 /// [`Error::Length`], [`Error::StateVector`] unless `x` and `rate` are vectors of the robot and free bodies, and those of
 /// the model and the law.
-pub fn derivative<T: Real>(
-    model: &dyn Model<T>,
-    control: &mut dyn Control<T>,
+#[inline]
+pub fn derivative<T: Real, M: Model<T> + ?Sized>(
+    model: &M,
+    control: &mut (impl Control<T, M> + ?Sized),
     time: T,
     x: &[T],
     rate: &mut [T],

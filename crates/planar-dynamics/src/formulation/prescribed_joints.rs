@@ -22,9 +22,9 @@ impl<T: Real> PrescribedJoints<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`], and [`Error::Singular`] for a singular `I_b`.
-    pub fn base_twist(
+    pub fn base_twist<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         momentum: [T; 3],
         (base_pose, joint_angles, joint_rates): (&[T; 3], &[T], &[T]),
     ) -> Result<[T; 3], Error> {
@@ -39,9 +39,9 @@ impl<T: Real> PrescribedJoints<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`].
-    pub fn first_moment(
+    pub fn first_moment<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
+        model: &M,
         base_pose: &[T; 3],
         joint_angles: &[T],
     ) -> Result<[T; 3], Error> {

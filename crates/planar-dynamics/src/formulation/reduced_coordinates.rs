@@ -39,10 +39,10 @@ impl<T: Real> ReducedCoordinates<'_, T> {
     ///
     /// # Errors
     /// [`Error::Length`] unless `x` and `rate` have [`vector_length`] entries, and those of the model and the law.
-    pub fn derivative(
+    pub fn derivative<M: Model<T> + ?Sized>(
         &mut self,
-        model: &dyn Model<T>,
-        control: &mut dyn Control<T>,
+        model: &M,
+        control: &mut (impl Control<T, M> + ?Sized),
         time: T,
         x: &[T],
         rate: &mut [T],
@@ -77,7 +77,7 @@ impl<T: Real> ReducedCoordinates<'_, T> {
     ///
     /// # Errors
     /// As [`Self::derivative`].
-    pub fn recover(&mut self, model: &dyn Model<T>, x: &mut [T]) -> Result<(), Error> {
+    pub fn recover<M: Model<T> + ?Sized>(&mut self, model: &M, x: &mut [T]) -> Result<(), Error> {
         let base_twist = recovered(model, &self.momentum, self.mass_matrix, x)?.0.base_twist;
         *coordinates_mut(split_mut(x)?.rates, model.joints())?.base = base_twist;
         Ok(())
@@ -85,8 +85,8 @@ impl<T: Real> ReducedCoordinates<'_, T> {
 }
 
 /// The state with the base twist that follows from the momentum, and the equation it follows from.
-fn recovered<'x, 'm, T: Real>(
-    model: &dyn Model<T>,
+fn recovered<'x, 'm, T: Real, M: Model<T> + ?Sized>(
+    model: &M,
     [l, px, py]: &[T; 3],
     mass_matrix: &'m mut [T],
     x: &'x [T],

@@ -14,7 +14,7 @@ fn model() -> Box<dyn CloneModel> {
 }
 
 /// A state and its end effectors.
-fn end(model: &dyn Model<f64>, state: RobotState) -> ApproachEnd {
+fn end(model: &AnyModel<f64>, state: RobotState) -> ApproachEnd {
     let mut twists = vec![[0.0; 3]; model.arms()];
     model.end_effector_twists(&state.view(), &mut twists).expect("twists");
     ApproachEnd { time: 1.0, state, end_effector_poses: Vec::new(), end_effector_twists: twists }

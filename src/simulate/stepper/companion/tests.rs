@@ -1,7 +1,7 @@
 //! The estimated path error is what Richardson's extrapolation gives of two simulations, for every integrator.
 
 use crate::control::{Control, ZeroTorque};
-use crate::dynamics::Model;
+use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
@@ -22,7 +22,7 @@ impl Control<f64> for Held {
     fn joint_torques(
         &mut self,
         time: f64,
-        _: &dyn Model<f64>,
+        _: &AnyModel<f64>,
         _: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {

@@ -14,7 +14,7 @@ mod textbook;
 
 use nalgebra::Vector2;
 use planar_capture::control::Control;
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::AnyModel;
 use planar_capture::layout::Layout;
 use planar_capture::owned::RobotState;
 use planar_capture::simulate::event::NoEvents;
@@ -73,7 +73,7 @@ fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
 }
 
 /// State of the product's robot after `duration`, by Runge–Kutta steps of 1 ms.
-fn simulated(model: &dyn Model<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
+fn simulated(model: &AnyModel<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
     let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
     let robot = planar_capture::simulate::system::System::alone(model);
     let phase = simulate(&robot, control, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");

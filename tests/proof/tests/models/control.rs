@@ -113,7 +113,7 @@ fn stabilisation_of_a_robot_at_rest_saturates_nothing() {
     let mut torques = [f64::NAN; JOINTS];
     law.joint_torques(0.0, &DualArm::<f64>::default(), &AT_REST, &mut torques).expect("torques");
     assert_eq!(torques, [0.0; JOINTS]);
-    assert_eq!(law.base_torque(), Some(BaseTorque { torque: 0.0, saturated: false }));
+    assert_eq!(Control::<f64>::base_torque(&law), Some(BaseTorque { torque: 0.0, saturated: false }));
 }
 
 /// With no component controlled there is no Jacobian to be singular.

@@ -1,7 +1,7 @@
 //! Momenta for rates and back, the gradient of the energy, and rates from the momentum, for every shipped layout.
 
 use planar_capture::control::{Control, ZeroTorque};
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
 use planar_capture::formulation::{CanonicalVariables, ReducedCoordinates, derivative};
 use planar_capture::layout::Layout;
@@ -11,7 +11,7 @@ use planar_proof::sample::{RandomState, config, sample};
 use planar_proof::tolerance;
 use proptest::prelude::*;
 
-fn for_every_layout(check: impl Fn(&dyn Model<f64>, &RandomState)) {
+fn for_every_layout(check: impl Fn(&AnyModel<f64>, &RandomState)) {
     for (name, text) in registry::SHIPPED {
         let layout = Layout::parse(text, name).unwrap_or_else(|report| panic!("{report}"));
         let model = registry::generated(&layout).expect("generated code");
@@ -20,7 +20,7 @@ fn for_every_layout(check: impl Fn(&dyn Model<f64>, &RandomState)) {
 }
 
 /// `M v`, and what its largest terms are.
-fn mass_times(model: &dyn Model<f64>, pose: &[f64; 3], angles: &[f64], v: &[f64]) -> (Vec<f64>, f64) {
+fn mass_times(model: &AnyModel<f64>, pose: &[f64; 3], angles: &[f64], v: &[f64]) -> (Vec<f64>, f64) {
     let mut mass_matrix = vec![0.0; v.len() * v.len()];
     model.mass_matrix(pose, angles, &mut mass_matrix).expect("a mass matrix");
     let rows = || mass_matrix.chunks_exact(v.len());
@@ -73,7 +73,7 @@ fn canonical_momenta_are_mass_times_rates_and_give_them_back() {
 }
 
 fn with_canonical(
-    model: &dyn Model<f64>,
+    model: &AnyModel<f64>,
     s: &RandomState,
     work: impl FnOnce(&mut CanonicalVariables<'_, f64>) -> Result<(), Error>,
 ) {
@@ -99,7 +99,7 @@ impl Control<f64> for Given<'_> {
     fn joint_torques(
         &mut self,
         _: f64,
-        _: &dyn Model<f64>,
+        _: &AnyModel<f64>,
         _: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {
