@@ -108,6 +108,8 @@ pub(in crate::capture) struct Separation {
     /// The direction of that translation of the second part, unit length: for all directions n the first part ends
     /// before the second one begins by at most `distance`, and along this one by `distance`.
     pub(in crate::capture) normal: [f64; 2],
+    /// The part of which this is the normal of an edge.
+    pub(in crate::capture) edge_of: Option<usize>,
 }
 
 /// Distance below which the nearest points give no direction, m: the largest gap along a normal takes its place.
@@ -119,26 +121,25 @@ const TOUCHING: f64 = 1e-9;
 ///
 /// A library (parry2d 0.31) was tried: it finds no depth for overlapping polygons with a common corner or edge line.
 pub(in crate::capture) fn separation(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64) -> Separation {
-    let mut deepest = Separation { distance: f64::NEG_INFINITY, normal: [1.0, 0.0] };
-    for_each_axis(a, |normal| deepest = larger(deepest, gap(a, b, normal), normal));
-    for_each_axis(b, |normal| {
-        let normal = [-normal[0], -normal[1]];
-        deepest = larger(deepest, gap(a, b, normal), normal);
-    });
+    let mut deepest = Separation { distance: f64::NEG_INFINITY, normal: [1.0, 0.0], edge_of: None };
+    let mut compare = |normal, part| {
+        let distance = gap(a, b, normal);
+        if distance > deepest.distance {
+            deepest = Separation { distance, normal, edge_of: Some(part) };
+        }
+    };
+    for_each_axis(a, |normal| compare(normal, 0));
+    for_each_axis(b, |[nx, ny]| compare([-nx, -ny], 1));
     let cores = if deepest.distance > TOUCHING || (a.len() == 1 && b.len() == 1) {
         let nearest = nearest(a, b, deepest.normal);
         // a corner over an edge: the normal of the edge has all its digits, that of a short difference of large
         // coordinates has few
-        let normal = if nearest.distance - deepest.distance <= TOUCHING { deepest.normal } else { nearest.normal };
-        Separation { normal, ..nearest }
+        let is_over_edge = nearest.distance - deepest.distance <= TOUCHING;
+        if is_over_edge { Separation { distance: nearest.distance, ..deepest } } else { nearest }
     } else {
         deepest
     };
     Separation { distance: cores.distance - radii, ..cores }
-}
-
-fn larger(best: Separation, distance: f64, normal: [f64; 2]) -> Separation {
-    if distance > best.distance { Separation { distance, normal } } else { best }
 }
 
 /// Calls with the outward normals of the edges; for a segment also with its two directions.
@@ -181,7 +182,8 @@ fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
     from_corners(a, b, &mut compare);
     from_corners(b, a, &mut |[dx, dy]| compare([-dx, -dy]));
     let distance = squared.sqrt();
-    Separation { distance, normal: if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise } }
+    let normal = if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise };
+    Separation { distance, normal, edge_of: None }
 }
 
 #[cfg(test)]
@@ -231,7 +233,7 @@ mod tests {
         let mut overlaps = 0;
         for _ in 0..400 {
             let (a, b) = (random.part(), random.part());
-            let Separation { distance, normal } = separation(&a, &b, 0.0);
+            let Separation { distance, normal, .. } = separation(&a, &b, 0.0);
             let directions = (0..20_000).map(|k| (TAU * f64::from(k) / 20_000.0).sin_cos());
             let largest = directions.map(|(sin, cos)| gap(&a, &b, [cos, sin])).fold(f64::NEG_INFINITY, f64::max);
             assert!(

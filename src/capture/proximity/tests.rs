@@ -379,3 +379,29 @@ fn states_are_those_of_their_time() {
         }
     }
 }
+
+/// The bound of a point over the edge of a rod that turns: right in first order, below the distance in second order by
+/// what the motion needs, whether the point moves along the rod or is far from it.
+#[test]
+fn bounds_with_a_normal_that_turns() {
+    let rod = ConvexPart::of(&Outline::Capsule { ends: [[-0.2, 0.0], [0.2, 0.0]], radius: 0.0 }).remove(0);
+    let point = ConvexPart::point();
+    let body = |pose, twist| Body { mass: 1.0, inertia: 1.0, pose, twist };
+    for (distance, rate, speed) in [(0.01, 1.0, 10.0), (1.0, 1.0, 0.0), (0.5, -2.0, 1.0), (-0.05, 0.3, 0.1)] {
+        let turning = body([0.0; 3], [rate, 0.0, 0.0]);
+        let passing = body([0.0, 0.0, distance], [0.0, speed, 0.0]);
+        for swap in [false, true] {
+            let mut free = FreePair::new([&rod, &point], [turning, passing]);
+            if swap {
+                free = FreePair::new([&point, &rod], [passing, turning]);
+            }
+            let now = free.at(0.0);
+            for after in [-1e-2, -1e-3, 1e-3, 1e-2] {
+                let (bound, exact) = (free.pair.bound(&now, after), free.at(after).distance);
+                let curvature = (exact - bound) / (after * after);
+                let largest = 4.0 * (speed + rate.abs()) * rate.abs();
+                assert!(curvature > -1e-9 && curvature < largest, "{distance} {rate} {speed} {after}: {curvature}");
+            }
+        }
+    }
+}

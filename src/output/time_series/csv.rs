@@ -14,16 +14,25 @@ pub fn write_csv(scenario: &Scenario, study: &Study, case: &CaseResult, to: impl
     let mut csv = csv::Writer::from_writer(to);
     let names = ["time [s]".to_owned(), "phase".to_owned()];
     csv.write_record(names.into_iter().chain(columns.iter().map(Column::heading)))?;
-    // the shortest text that reads back exactly
-    let mut text = zmij::Buffer::new();
+    let mut to = csv.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    let mut line = Vec::new();
     for row in all_rows(study, case) {
         let row = row?;
-        csv.write_field(text.format(row.time))?;
-        csv.write_field(row.phase)?;
+        line.clear();
+        push(&mut line, row.time);
+        line.push(b',');
+        line.extend_from_slice(row.phase.as_bytes());
         for column in &columns {
-            csv.write_field(text.format(column.value(&row)))?;
+            line.push(b',');
+            push(&mut line, column.value(&row));
         }
-        csv.write_record(None::<&[u8]>)?;
+        line.push(b'\n');
+        to.write_all(&line)?;
     }
-    csv.flush()
+    to.flush()
+}
+
+/// Appends the shortest text that reads back exactly. No number needs quotation marks.
+fn push(line: &mut Vec<u8>, number: f64) {
+    line.extend_from_slice(zmij::Buffer::new().format(number).as_bytes());
 }
