@@ -4,7 +4,7 @@ use super::bodies::{ClearanceBody, bodies, pairs};
 use super::{Clearance, ClearanceError, ClearanceTracker, LeastDistance, Overlap, ineffective_ignores};
 use crate::capture::assembly::Attachment;
 use crate::capture::contact_pair::ContactPair;
-use crate::capture::proximity::convex::{ConvexPart, separation};
+use crate::capture::proximity::convex::{ConvexPart, separation_of};
 use crate::capture::target_motion::TargetMotion;
 use crate::contact::ContactKind;
 use crate::frames::{Frame, point, poses};
@@ -161,7 +161,7 @@ impl Motion {
         let mut least = f64::INFINITY;
         for (a, radius) in &parts[0] {
             for (b, other) in &parts[1] {
-                least = least.min(separation(a, b, radius + other).distance);
+                least = least.min(separation_of(a, b, radius + other).distance);
             }
         }
         least

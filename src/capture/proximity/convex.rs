@@ -12,6 +12,43 @@ pub(in crate::capture) struct ConvexPart {
     pub(in crate::capture) radius: f64,
     /// The largest distance of a corner from the origin of the frame, m.
     pub(in crate::capture) reach: f64,
+    axes: Vec<Axis>,
+}
+
+/// A direction on which the projections of two parts are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Axis {
+    /// The outward normal of an edge, or a direction of a segment.
+    normal: [f64; 2],
+    /// Index of a corner in which the part ends along the normal; an edge goes on from it.
+    corner: usize,
+    /// Of the edge, m; 0 for the direction of a segment.
+    length: f64,
+}
+
+/// Corners and axes of a part in another frame.
+#[derive(Default)]
+pub(in crate::capture) struct PlacedPart {
+    corners: Vec<[f64; 2]>,
+    axes: Vec<Axis>,
+}
+
+impl PlacedPart {
+    /// Places a part whose frame is turned and has its origin at [x, y].
+    pub(in crate::capture) fn place(
+        &mut self,
+        part: &ConvexPart,
+        [x, y]: [f64; 2],
+        rotated: impl Fn([f64; 2]) -> [f64; 2],
+    ) {
+        self.corners.clear();
+        self.corners.extend(part.corners.iter().map(|corner| {
+            let [dx, dy] = rotated(*corner);
+            [x + dx, y + dy]
+        }));
+        self.axes.clear();
+        self.axes.extend(part.axes.iter().map(|axis| Axis { normal: rotated(axis.normal), ..*axis }));
+    }
 }
 
 impl ConvexPart {
@@ -36,8 +73,8 @@ impl ConvexPart {
     }
 
     fn new(corners: Vec<[f64; 2]>, radius: f64) -> Self {
-        let reach = farthest(&corners);
-        Self { corners, radius, reach }
+        let (reach, axes) = (farthest(&corners), axes(&corners));
+        Self { corners, radius, reach, axes }
     }
 }
 
@@ -115,23 +152,34 @@ pub(in crate::capture) struct Separation {
 /// Distance below which the nearest points give no direction, m: the largest gap along a normal takes its place.
 const TOUCHING: f64 = 1e-9;
 
-/// The separation of two parts with corners in the same frame, by the theorem of the separating axis: the largest
-/// distance between their projections on the normals of their edges, or, where that is positive, the smallest distance
-/// of a corner from an edge.
+/// The separation of two parts in the same frame, by the theorem of the separating axis: the largest distance between
+/// their projections on the normals of their edges, or, where that is positive, the smallest distance of a corner from an
+/// edge.
 ///
 /// A library (parry2d 0.31) was tried: it finds no depth for overlapping polygons with a common corner or edge line.
-pub(in crate::capture) fn separation(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64) -> Separation {
+pub(in crate::capture) fn separation(a: &PlacedPart, b: &PlacedPart, radii: f64) -> Separation {
     let mut deepest = Separation { distance: f64::NEG_INFINITY, normal: [1.0, 0.0], edge_of: None };
-    let mut compare = |normal, part| {
-        let distance = gap(a, b, normal);
-        if distance > deepest.distance {
-            deepest = Separation { distance, normal, edge_of: Some(part) };
+    let mut is_over_edge = false;
+    for (part, own, other) in [(0, a, b), (1, b, a)] {
+        for Axis { normal: [nx, ny], corner, length } in &own.axes {
+            let from = own.corners[*corner];
+            let (mut distance, mut at) = (f64::INFINITY, from);
+            for corner in &other.corners {
+                let along = nx * (corner[0] - from[0]) + ny * (corner[1] - from[1]);
+                if along < distance {
+                    (distance, at) = (along, *corner);
+                }
+            }
+            if distance > deepest.distance {
+                let normal = if part == 0 { [*nx, *ny] } else { [-nx, -ny] };
+                deepest = Separation { distance, normal, edge_of: Some(part) };
+                is_over_edge = (0.0..=*length).contains(&(nx * (at[1] - from[1]) - ny * (at[0] - from[0])));
+            }
         }
-    };
-    for_each_axis(a, |normal| compare(normal, 0));
-    for_each_axis(b, |[nx, ny]| compare([-nx, -ny], 1));
-    let cores = if deepest.distance > TOUCHING || (a.len() == 1 && b.len() == 1) {
-        let nearest = nearest(a, b, deepest.normal);
+    }
+    let is_apart = deepest.distance > TOUCHING || (a.axes.is_empty() && b.axes.is_empty());
+    let cores = if is_apart && !is_over_edge {
+        let nearest = nearest(&a.corners, &b.corners, deepest.normal);
         // a corner over an edge: the normal of the edge has all its digits, that of a short difference of large
         // coordinates has few
         let is_over_edge = nearest.distance - deepest.distance <= TOUCHING;
@@ -142,24 +190,20 @@ pub(in crate::capture) fn separation(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64)
     Separation { distance: cores.distance - radii, ..cores }
 }
 
-/// Calls with the outward normals of the edges; for a segment also with its two directions.
-fn for_each_axis(corners: &[[f64; 2]], mut call: impl FnMut([f64; 2])) {
-    for ([ax, ay], [bx, by]) in edges(corners) {
+/// The outward normals of the edges, anticlockwise; for a segment also its two directions.
+fn axes(corners: &[[f64; 2]]) -> Vec<Axis> {
+    let mut axes = Vec::new();
+    for (corner, ([ax, ay], [bx, by])) in edges(corners).enumerate() {
         let (dx, dy) = (bx - ax, by - ay);
         let length = (dx * dx + dy * dy).sqrt();
         if length > 0.0 {
-            call([dy / length, -dx / length]);
+            axes.push(Axis { normal: [dy / length, -dx / length], corner, length });
             if corners.len() == 2 {
-                call([dx / length, dy / length]);
+                axes.push(Axis { normal: [dx / length, dy / length], corner: 1 - corner, length: 0.0 });
             }
         }
     }
-}
-
-fn gap(a: &[[f64; 2]], b: &[[f64; 2]], [nx, ny]: [f64; 2]) -> f64 {
-    let along = |[x, y]: &[f64; 2]| nx * x + ny * y;
-    let end = a.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-    b.iter().map(along).fold(f64::INFINITY, f64::min) - end
+    axes
 }
 
 /// The nearest points of two parts that do not overlap.
@@ -184,6 +228,17 @@ fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
     let distance = squared.sqrt();
     let normal = if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise };
     Separation { distance, normal, edge_of: None }
+}
+
+/// The separation of parts whose corners are given where they are.
+#[cfg(test)]
+pub(in crate::capture) fn separation_of(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64) -> Separation {
+    let [a, b] = [a, b].map(|corners| {
+        let mut placed = PlacedPart::default();
+        placed.place(&ConvexPart::new(corners.to_vec(), 0.0), [0.0; 2], |corner| corner);
+        placed
+    });
+    separation(&a, &b, radii)
 }
 
 #[cfg(test)]
@@ -226,6 +281,13 @@ mod tests {
         }
     }
 
+    /// The distance between the projections on a direction.
+    fn gap(a: &[[f64; 2]], b: &[[f64; 2]], [nx, ny]: [f64; 2]) -> f64 {
+        let along = |[x, y]: &[f64; 2]| nx * x + ny * y;
+        let end = a.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+        b.iter().map(along).fold(f64::INFINITY, f64::min) - end
+    }
+
     /// The signed distance is the largest gap over all directions: here over 20,000 of them, from below.
     #[test]
     fn signed_distances_against_all_directions() {
@@ -233,7 +295,7 @@ mod tests {
         let mut overlaps = 0;
         for _ in 0..400 {
             let (a, b) = (random.part(), random.part());
-            let Separation { distance, normal, .. } = separation(&a, &b, 0.0);
+            let Separation { distance, normal, .. } = separation_of(&a, &b, 0.0);
             let directions = (0..20_000).map(|k| (TAU * f64::from(k) / 20_000.0).sin_cos());
             let largest = directions.map(|(sin, cos)| gap(&a, &b, [cos, sin])).fold(f64::NEG_INFINITY, f64::max);
             assert!(
@@ -250,8 +312,8 @@ mod tests {
     fn rectangles_with_a_common_corner_overlap() {
         let a = [[-1.25, -1.25], [-0.5, -1.25], [-0.5, 0.25], [-1.25, 0.25]];
         let b = [[-2.25, -0.5], [-0.5, -0.5], [-0.5, 0.25], [-2.25, 0.25]];
-        assert_eq!(separation(&a, &b, 0.0).distance, -0.75);
-        assert_eq!(separation(&a, &[[0.5, 0.0]], 0.25).distance, 0.75);
+        assert_eq!(separation_of(&a, &b, 0.0).distance, -0.75);
+        assert_eq!(separation_of(&a, &[[0.5, 0.0]], 0.25).distance, 0.75);
     }
 
     /// The parts of a concave polygon cover it without overlapping.
@@ -287,7 +349,7 @@ mod tests {
             let mut random = Random(7);
             for _ in 0..500 {
                 let point = [6.0 * random.next() - 3.0, 6.0 * random.next() - 3.0];
-                let least = parts.iter().map(|part| separation(&[point], &part.corners, 0.0).distance);
+                let least = parts.iter().map(|part| separation_of(&[point], &part.corners, 0.0).distance);
                 let (least, expected) = (least.fold(f64::INFINITY, f64::min), outline.signed_distance(point).distance);
                 assert!(if expected > 0.0 { (least - expected).abs() < 1e-12 } else { least <= 1e-12 }, "{point:?}");
             }

@@ -1,6 +1,6 @@
 //! Two convex parts at one instant, a lower bound of their distance about it, and their first contact in an interval.
 
-use super::convex::{ConvexPart, Separation, separation};
+use super::convex::{ConvexPart, PlacedPart, Separation, separation};
 use super::motion::FrameState;
 use crate::error::Error;
 
@@ -36,15 +36,11 @@ pub(in crate::capture) struct PartPair<'a> {
 
 impl PartPair<'_> {
     /// The separation at one instant; `placed` is working space.
-    pub(in crate::capture) fn at(
-        &self,
-        time: f64,
-        states: [FrameState; 2],
-        placed: &mut [Vec<[f64; 2]>; 2],
-    ) -> Instant {
-        for (i, corners) in placed.iter_mut().enumerate() {
-            corners.clear();
-            corners.extend(self.corners(i, &states[i], states[0].pose));
+    pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2], placed: &mut [PlacedPart; 2]) -> Instant {
+        let [_, x, y] = states[0].pose;
+        for ((placed, part), state) in placed.iter_mut().zip(self.parts).zip(&states) {
+            let [_, ox, oy] = state.pose;
+            placed.place(part, [ox - x, oy - y], |vector| state.rotated(vector));
         }
         let radii = self.parts[0].radius + self.parts[1].radius;
         let Separation { distance, normal, edge_of } = separation(&placed[0], &placed[1], radii);

@@ -1,7 +1,7 @@
 //! Motions and their bounds against differences of positions; bounds that are attained; first contacts against dense
 //! samples.
 
-use super::convex::{ConvexPart, separation};
+use super::convex::{ConvexPart, separation_of};
 use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use super::workspace::PathWorkspace;
@@ -257,7 +257,7 @@ impl<'a> FreePair<'a> {
             let Body { pose, twist, .. } = body.after(time);
             FrameState::new(pose, twist)
         };
-        self.pair.at(time, self.bodies.each_ref().map(state), &mut [Vec::new(), Vec::new()])
+        self.pair.at(time, self.bodies.each_ref().map(state), &mut Default::default())
     }
 }
 
@@ -350,7 +350,7 @@ fn parts_on_one_line() {
         (&[[-1.0, 0.0], [-3.0, 0.0]], 0.25, 0.75),
         (&[[0.5, 0.0]], 0.25, -0.25),
     ] {
-        for found in [separation(&segment, other, radii), separation(other, &segment, radii)] {
+        for found in [separation_of(&segment, other, radii), separation_of(other, &segment, radii)] {
             assert!((found.distance - expected).abs() < 1e-15, "{other:?}: {}", found.distance);
         }
     }

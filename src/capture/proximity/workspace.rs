@@ -1,5 +1,6 @@
 //! Buffers for the states and bounds of all frames over intervals of a path.
 
+use super::convex::PlacedPart;
 use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use crate::simulate::path::PathInterval;
@@ -17,7 +18,7 @@ pub(in crate::capture) struct PathWorkspace {
     kept: usize,
     /// Where the next ones take the place of others.
     next: usize,
-    placed: [Vec<[f64; 2]>; 2],
+    placed: [PlacedPart; 2],
 }
 
 impl PathWorkspace {
