@@ -34,27 +34,27 @@ pub struct NotFinite {
 /// # Errors
 /// The first that is not.
 pub fn finite(value: Value) -> Result<Value, NotFinite> {
-    match first_null(&value, String::new()) {
-        Some(path) => Err(NotFinite { path }),
+    match first_null(&value) {
+        Some(path) => Err(NotFinite { path: path.trim_start_matches('.').to_owned() }),
         None => Ok(value),
     }
 }
 
 /// Path of the first `null` that stands for a number.
-fn first_null(value: &Value, path: String) -> Option<String> {
+fn first_null(value: &Value) -> Option<String> {
+    let in_list = |(i, item): (usize, &Value)| first_null(item).map(|path| format!("[{i}]{path}"));
     match value {
-        Value::Null => Some(path),
-        Value::Array(items) => items.iter().enumerate().find_map(|(i, item)| first_null(item, format!("{path}[{i}]"))),
+        Value::Null => Some(String::new()),
+        Value::Array(items) => items.iter().enumerate().find_map(in_list),
         Value::Object(entries) => entries.iter().find_map(|(key, item)| {
-            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            match item {
+            let path = match item {
                 Value::Null if ABSENT.contains(&key.as_str()) => None,
                 Value::Array(arms) if ABSENT_ARM.contains(&key.as_str()) => {
-                    let arms = arms.iter().enumerate().filter(|(_, arm)| !arm.is_null());
-                    arms.into_iter().find_map(|(i, arm)| first_null(arm, format!("{path}[{i}]")))
+                    arms.iter().enumerate().filter(|(_, arm)| !arm.is_null()).find_map(in_list)
                 }
-                item => first_null(item, path),
-            }
+                item => first_null(item),
+            };
+            path.map(|path| format!(".{key}{path}"))
         }),
         Value::Bool(_) | Value::Number(_) | Value::String(_) => None,
     }

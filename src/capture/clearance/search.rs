@@ -97,6 +97,8 @@ pub(super) struct IntervalSearch<'a> {
     /// Of the phase, s.
     pub(super) start: f64,
     pub(super) workspace: &'a mut PathWorkspace,
+    /// Memory for instants, and for those to the right of one, the nearest last.
+    pub(super) instants: &'a mut [Vec<Instant>; 2],
 }
 
 impl IntervalSearch<'_> {
@@ -111,9 +113,10 @@ impl IntervalSearch<'_> {
         let before = part.last.filter(|instant| instant.time.to_bits() == first.to_bits());
         let mut left = before.map_or_else(|| self.record_at(first, known, found), Ok)?;
         let end = self.record_at(last, known, found)?;
-        let mut instants = vec![left];
-        // the instants to the right, the nearest last
-        let mut rights = vec![end];
+        let [mut instants, mut rights] = std::mem::take(self.instants);
+        instants.clear();
+        instants.push(left);
+        rights.push(end);
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
             let is_known = if left.distance.min(right.distance) < -RESOLUTION {
@@ -152,6 +155,7 @@ impl IntervalSearch<'_> {
             self.deepen(open, known, found, &instants[begins..])?;
             found.overlaps[open].span[1] = self.start + last;
         }
+        *self.instants = [instants, rights];
         Ok(())
     }
 
@@ -165,8 +169,10 @@ impl IntervalSearch<'_> {
     ) -> Result<(), f64> {
         let least = |depth: f64, instant: &Instant| depth.max(-instant.distance);
         let mut depth = instants.iter().fold(found.overlaps[overlap].depth, least);
+        let mut rights = Vec::new();
         for ends in instants.windows(2) {
-            let (mut left, mut rights) = (ends[0], vec![ends[1]]);
+            let mut left = ends[0];
+            rights.push(ends[1]);
             while let Some(right) = rights.last() {
                 let half = 0.5 * (right.time - left.time);
                 if self.shapes.lowest(&left, right) >= -depth - RESOLUTION

@@ -72,7 +72,7 @@ impl DistanceTracker {
     ) -> Result<(), ClearanceError> {
         let Self { frames, bodies, pairs, distances, found, joints, .. } = self;
         let motions = FrameKinematics { frames, targets, joints: *joints };
-        let mut workspace = PathWorkspace::default();
+        let (mut workspace, mut instants) = (PathWorkspace::default(), Default::default());
         let holds = |pair: &BodyPair| {
             pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
         };
@@ -120,6 +120,7 @@ impl DistanceTracker {
                         interval,
                         start,
                         workspace: &mut workspace,
+                        instants: &mut instants,
                     };
                     search.run(part, pair, found).map_err(|time| exhausted(found, pairs, bodies, time))?;
                 }

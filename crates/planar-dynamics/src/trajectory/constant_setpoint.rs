@@ -11,6 +11,7 @@ pub struct ConstantSetpoint<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for ConstantSetpoint<'_, T> {
+    #[inline]
     fn joint(&self, joint: usize, _: T) -> Option<DesiredJoint<T>> {
         Some(DesiredJoint { angle: *self.angles.get(joint)?, rate: T::ZERO, acceleration: T::ZERO })
     }

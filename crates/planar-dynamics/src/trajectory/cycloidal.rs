@@ -11,6 +11,7 @@ pub struct Cycloidal<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
+    #[inline]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
         let ([from, to], duration) = (self.motion.angles(joint)?, self.motion.duration);
         let (change, tau) = (to - from, normalized_time(time, duration));

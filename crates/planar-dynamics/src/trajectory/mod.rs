@@ -69,17 +69,20 @@ pub struct PointToPoint<'a, T> {
 
 impl<T: Real> PointToPoint<'_, T> {
     /// Initial and final angle of a joint.
+    #[inline]
     fn angles(&self, joint: usize) -> Option<[T; 2]> {
         Some([*self.initial_angles.get(joint)?, *self.final_angles.get(joint)?])
     }
 
     /// [`quintic()`] of a joint with these initial and final rates.
+    #[inline]
     fn quintic(&self, joint: usize, rates: [T; 2], time: T) -> Option<DesiredJoint<T>> {
         Some(quintic(self.angles(joint)?, rates, self.duration, normalized_time(time, self.duration)))
     }
 }
 
 /// τ = t/T, limited to 0..=1.
+#[inline]
 fn normalized_time<T: Real>(time: T, duration: T) -> T {
     (time / duration).minimum(T::ONE).maximum(T::ZERO)
 }
@@ -125,6 +128,7 @@ macro_rules! kinds {
         }
 
         impl<T: Real> Trajectory<T> for AnyTrajectory<'_, T> {
+            #[inline]
             fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
                 match self {
                     $(Self::$kind(trajectory) => trajectory.joint(joint, time),)*

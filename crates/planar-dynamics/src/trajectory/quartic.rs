@@ -22,6 +22,7 @@ pub struct Quartic<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for Quartic<'_, T> {
+    #[inline]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
         self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)?], time)
     }
@@ -46,6 +47,7 @@ pub struct QuarticAsPrinted<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for QuarticAsPrinted<'_, T> {
+    #[inline]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
         self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration], time)
     }
