@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
 use crate::owned::RobotState;
 use crate::scalar::Real;
-use crate::simulate::bodies::{bodies, momentum_sizes, with_bodies};
+use crate::simulate::bodies::{BodySums, bodies, with_bodies};
 use crate::simulate::system::Body;
 use crate::state::State;
 use crate::target::Target;
@@ -227,11 +227,11 @@ fn balance(
     })
 }
 
-/// Momentum and energy of the robot with merged targets and the separate targets together, and [`momentum_sizes`].
+/// Momentum and energy of the robot with merged targets and the separate targets together, and its scales.
 fn total(assembly: &Assembly, state: &State<'_, f64>, targets: &[Body]) -> Result<(Momentum<f64>, [f64; 2]), Error> {
     let separate = assembly.separate(targets);
-    let sizes = momentum_sizes(&bodies(&*assembly.model, state, &separate)?);
-    Ok((with_bodies(assembly.model.momentum(state)?, &separate), sizes))
+    let sums = BodySums::new(bodies(&*assembly.model, state, &separate)?.into_iter());
+    Ok((with_bodies(assembly.model.momentum(state)?, &separate), sums.momentum_sizes))
 }
 
 #[cfg(test)]

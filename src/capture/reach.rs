@@ -3,7 +3,7 @@
 use crate::layout::Layout;
 use crate::registry;
 use crate::scenario::Scenario;
-use crate::simulate::bodies::{bodies, center_of_mass};
+use crate::simulate::bodies::{BodySums, bodies};
 
 /// The distance of a point from the robot's COM at the end of the approach, against the reach of an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +23,8 @@ impl Reach {
         let (layout, initial) = (&scenario.layout, &scenario.initial.view());
         let arm = Some(&layout.arms[arm]).filter(|arm| arm.reach() > 0.0)?;
         let model = registry::generic(layout);
-        let (start, mass) = center_of_mass(&bodies(&*model, initial, &[]).ok()?);
+        let sums = BodySums::new(bodies(&*model, initial, &[]).ok()?.into_iter());
+        let (start, mass) = (sums.center_of_mass(), sums.mass);
         let momentum = model.momentum(initial).ok()?.linear_momentum;
         let center_of_mass = [0, 1].map(|i: usize| start[i] + momentum[i] / mass * scenario.approach.duration);
         let distance = (x - center_of_mass[0]).hypot(y - center_of_mass[1]);

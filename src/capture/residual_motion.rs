@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scalar::Real;
 use crate::scenario::PostCaptureControl;
-use crate::simulate::bodies::{bodies, center_of_mass, inertia_about, with_bodies};
+use crate::simulate::bodies::{BodySums, bodies, inertia_about, with_bodies};
 use crate::simulate::system::Body;
 
 /// Momentum and rates of robot and captured targets together.
@@ -43,7 +43,8 @@ impl ResidualMotion {
     ) -> Result<Self, Error> {
         let bodies = bodies(model, &state.view(), held)?;
         let total = with_bodies(model.momentum(&state.view())?, held);
-        let (center, mass) = center_of_mass(&bodies);
+        let sums = BodySums::new(bodies.iter().copied());
+        let (center, mass) = (sums.center_of_mass(), sums.mass);
         let inertia = inertia_about(&bodies, center);
         let [px, py] = total.linear_momentum;
         let angular = total.angular_momentum - (center[0] * py - center[1] * px);

@@ -3,7 +3,7 @@
 use super::number::{point, short};
 use crate::layout::Layout;
 use crate::registry;
-use crate::simulate::bodies::{bodies, center_of_mass, inertia_about};
+use crate::simulate::bodies::{BodySums, bodies, inertia_about};
 use crate::state::State;
 use crate::structure::in_words;
 use std::fmt::{self, Write};
@@ -29,7 +29,7 @@ fn write(out: &mut String, layout: &Layout) -> fmt::Result {
     let zeros = vec![0.0; layout.joints()];
     let state = State { base_pose: [0.0; 3], joint_angles: &zeros, base_twist: [0.0; 3], joint_rates: &zeros };
     if let Ok(bodies) = bodies(&*registry::generic(layout), &state, &[]) {
-        let inertia = short(inertia_about(&bodies, center_of_mass(&bodies).0));
+        let inertia = short(inertia_about(&bodies, BodySums::new(bodies.iter().copied()).center_of_mass()));
         writeln!(out, "  inertia             {inertia} kg m² about the robot's COM, all joint angles 0")?;
     }
     writeln!(out, "  structure           {}", in_words(layout))?;

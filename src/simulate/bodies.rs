@@ -12,7 +12,6 @@ pub(crate) struct BodyList {
     inertias: Vec<[f64; 2]>,
     poses: Vec<[f64; 3]>,
     twists: Vec<[f64; 3]>,
-    bodies: Vec<Body>,
 }
 
 impl BodyList {
@@ -21,66 +20,86 @@ impl BodyList {
         let count = model.joints() + 1;
         let mut inertias = vec![[0.0; 2]; count];
         model.body_inertias(&mut inertias)?;
-        Ok(Self { inertias, poses: vec![[0.0; 3]; count], twists: vec![[0.0; 3]; count], bodies: Vec::new() })
+        Ok(Self { inertias, poses: vec![[0.0; 3]; count], twists: vec![[0.0; 3]; count] })
     }
 
     /// The base, the links arm by arm, then the bodies beside the robot, each with its pose and twist.
-    pub(crate) fn at(
-        &mut self,
+    pub(crate) fn at<'s>(
+        &'s mut self,
         model: &AnyModel<f64>,
         state: &State<'_, f64>,
-        beside: &[Body],
-    ) -> Result<&[Body], Error> {
-        let Self { inertias, poses, twists, bodies } = self;
+        beside: &'s [Body],
+    ) -> Result<impl Iterator<Item = Body> + Clone + 's, Error> {
+        let Self { inertias, poses, twists } = self;
         model.body_poses(&state.base_pose, state.joint_angles, poses)?;
         model.body_twists(state, twists)?;
-        let of_robot = inertias.iter().zip(poses).zip(twists);
+        let of_robot = inertias.iter().zip(&*poses).zip(&*twists);
         let of_robot = of_robot.map(|(([mass, inertia], pose), twist)| Body {
             mass: *mass,
             inertia: *inertia,
             pose: *pose,
             twist: *twist,
         });
-        bodies.clear();
-        bodies.extend(of_robot.chain(beside.iter().copied()));
-        Ok(bodies)
+        Ok(of_robot.chain(beside.iter().copied()))
     }
 }
 
-/// [`BodyList::at`], once.
+/// The bodies of a robot and those beside it.
 pub(crate) fn bodies(model: &AnyModel<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Vec<Body>, Error> {
-    let mut list = BodyList::new(model)?;
-    list.at(model, state, beside)?;
-    Ok(list.bodies)
+    Ok(BodyList::new(model)?.at(model, state, beside)?.collect())
 }
 
-/// Σ |I ω| + m |r × v| and Σ m |v|, the scales that changes of angular and linear momentum are compared with.
-pub(crate) fn momentum_sizes(bodies: &[Body]) -> [f64; 2] {
-    let mut sizes = [0.0; 2];
-    for Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } in bodies {
-        sizes[0] += (inertia * omega).abs() + mass * (x * vy - y * vx).abs();
-        sizes[1] += mass * (vx * vx + vy * vy).sqrt();
+/// Sums over bodies.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BodySums {
+    /// kg.
+    pub(crate) mass: f64,
+    /// Σ m [x, y], kg m.
+    first_moment: [f64; 2],
+    /// [l, px, py] about the inertial origin, N m s, N s.
+    momentum: [f64; 3],
+    /// J.
+    kinetic_energy: f64,
+    /// Σ |I ω| + m |r × v| and Σ m |v|, the scales that changes of angular and linear momentum are compared with.
+    pub(crate) momentum_sizes: [f64; 2],
+}
+
+impl BodySums {
+    /// Of these bodies.
+    pub(crate) fn new(bodies: impl Iterator<Item = Body>) -> Self {
+        bodies.fold(Self::default(), |sums, body| {
+            let Body { mass, inertia, pose: [_, x, y], twist: [omega, vx, vy] } = body;
+            let ([l, px, py], energy) = body.momentum();
+            let ([mx, my], momentum, sizes) = (sums.first_moment, sums.momentum, sums.momentum_sizes);
+            Self {
+                mass: sums.mass + mass,
+                first_moment: [mx + mass * x, my + mass * y],
+                momentum: [momentum[0] + l, momentum[1] + px, momentum[2] + py],
+                kinetic_energy: sums.kinetic_energy + energy,
+                momentum_sizes: [
+                    sizes[0] + ((inertia * omega).abs() + mass * (x * vy - y * vx).abs()),
+                    sizes[1] + mass * (vx * vx + vy * vy).sqrt(),
+                ],
+            }
+        })
     }
-    sizes
-}
 
-/// [x, y] of the centre of mass of bodies together, m, and their mass, kg.
-pub(crate) fn center_of_mass(bodies: &[Body]) -> ([f64; 2], f64) {
-    let mass: f64 = bodies.iter().map(|body| body.mass).sum();
-    let along = |axis: usize| bodies.iter().map(|body| body.mass * body.pose[axis]).sum::<f64>() / mass;
-    ([along(1), along(2)], mass)
+    /// [x, y] of the centre of mass, m.
+    pub(crate) fn center_of_mass(&self) -> [f64; 2] {
+        self.first_moment.map(|moment| moment / self.mass)
+    }
+
+    /// Momentum and energy.
+    pub(crate) fn momentum(&self) -> Momentum<f64> {
+        let [angular_momentum, px, py] = self.momentum;
+        Momentum { linear_momentum: [px, py], angular_momentum, kinetic_energy: self.kinetic_energy }
+    }
 }
 
 /// The moment of inertia of bodies together about a point [x, y], kg m².
 pub(crate) fn inertia_about(bodies: &[Body], [x, y]: [f64; 2]) -> f64 {
     let about = |body: &Body| body.inertia + body.mass * ((body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
     bodies.iter().map(about).sum()
-}
-
-/// Momentum and energy of bodies together.
-pub(crate) fn total_momentum(bodies: &[Body]) -> Momentum<f64> {
-    let none = Momentum { linear_momentum: [0.0; 2], angular_momentum: 0.0, kinetic_energy: 0.0 };
-    with_bodies(none, bodies)
 }
 
 /// A robot's momentum and energy with those of the bodies beside it.

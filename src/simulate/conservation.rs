@@ -3,7 +3,7 @@
 use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::scalar::Real;
-use crate::simulate::bodies::{BodyList, center_of_mass, momentum_sizes, total_momentum};
+use crate::simulate::bodies::{BodyList, BodySums};
 use crate::simulate::system::Body;
 use crate::state::State;
 
@@ -82,8 +82,8 @@ impl<'a> ConservationAudit<'a> {
     /// Those of the model.
     pub fn new(model: &'a AnyModel<f64>, state: &State<'_, f64>, beside: &[Body]) -> Result<Self, Error> {
         let mut bodies = BodyList::new(model)?;
-        let all = bodies.at(model, state, beside)?;
-        let (start, (center, _)) = (total_momentum(all), center_of_mass(all));
+        let sums = BodySums::new(bodies.at(model, state, beside)?);
+        let (start, center) = (sums.momentum(), sums.center_of_mass());
         let none = Ratio::default();
         let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
         audit.record(state, beside, &AccumulatedInput::default())?;
@@ -101,20 +101,21 @@ impl<'a> ConservationAudit<'a> {
         input: &AccumulatedInput,
     ) -> Result<Momentum<f64>, Error> {
         let bodies = self.bodies.at(self.model, state, beside)?;
-        let now = total_momentum(bodies);
-        let [angular, linear] = momentum_sizes(bodies);
+        let sums = BodySums::new(bodies.clone());
+        let now = sums.momentum();
+        let [angular, linear] = sums.momentum_sizes;
         let [l, px, py] = input.impulse;
         let [x0, y0] = self.start.linear_momentum;
         let [x1, y1] = now.linear_momentum;
-        self.linear.record((x1 - x0 - px).hypot(y1 - y0 - py), linear);
+        self.linear.record(length([x1 - x0 - px, y1 - y0 - py]), linear);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
-        let ([x, y], mass) = center_of_mass(bodies);
-        let squares = bodies.iter().map(|body| (body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
-        let extent = squares.fold(0.0, f64::max).sqrt();
+        let [x, y] = sums.center_of_mass();
+        let squares = bodies.map(|body| (body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
+        let extent = squares.fold(0.0, |most, square| if square > most { square } else { most }).sqrt();
         let [from_x, from_y] = self.center;
-        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / mass * input.time);
-        self.motion.record((x - from_x - along_x).hypot(y - from_y - along_y), extent);
+        let [along_x, along_y] = [x0, y0].map(|momentum| momentum / sums.mass * input.time);
+        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), extent);
         Ok(now)
     }
 
@@ -127,4 +128,9 @@ impl<'a> ConservationAudit<'a> {
             center_of_mass_drift: self.motion.value(),
         }
     }
+}
+
+/// Of a vector whose square is within the range of numbers.
+fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
 }

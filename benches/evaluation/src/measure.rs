@@ -13,6 +13,11 @@ use planar_capture::error::Error;
 use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
 use planar_capture::integrate::RungeKutta4;
+use planar_capture::owned::RobotState;
+use planar_capture::simulate::event::NoEvents;
+use planar_capture::simulate::stepper::Integration;
+use planar_capture::simulate::system::System;
+use planar_capture::simulate::{Timing, simulate};
 use planar_capture::state::{Forces, State as View, vector_length};
 use planar_capture::target::Target;
 use planar_capture::trajectory::ConstantSetpoint;
@@ -30,6 +35,11 @@ const MANY: usize = 16_384;
 const LEAST: f64 = 0.02;
 /// Largest difference from CasADi's results, relative to 1 or the value.
 const AGREEMENT: f64 = 1e-11;
+
+/// Joint angles at the start of a motion, rad; its step, s; and the number of steps until the robot is at rest.
+const ANGLES: [f64; 6] = [0.3, -0.4, 0.5, -0.3, 0.4, -0.5];
+const STEP: f64 = 1e-3;
+const STEPS: u32 = 20_000;
 
 /// Forward dynamics of as many states at once as there are lanes, per state.
 macro_rules! per_lane {
@@ -102,6 +112,7 @@ pub fn print() -> Result<(), Problem> {
     record("f64, full impact", each(&few, |s| consume(full_impact(&model, s))));
     record("f64, step", steps(|x| by_model(&model, x)));
     record("library, step", library_steps(&model));
+    record("simulation, step", simulated_steps(&model));
 
     record("f32, forward dynamics", per_lane!(f32, f32, 1, few, |[value]| value));
     record("f64x4, forward dynamics", per_lane!(f64x4, f64, 4, few, f64x4::from));
@@ -156,44 +167,62 @@ fn each<S>(states: &[S], mut evaluate: impl FnMut(&S)) -> f64 {
 /// Nanoseconds per Runge–Kutta step of a motion under control.
 fn steps(accelerations: impl Fn(&Vector) -> [f64; 9]) -> f64 {
     let mut start = [0.0; 18];
-    start[3..9].copy_from_slice(&[0.3, -0.4, 0.5, -0.3, 0.4, -0.5]);
+    start[3..9].copy_from_slice(&ANGLES);
     let mut x = start;
     let mut count = 0;
     let time = each(&[()], |()| {
-        // the robot comes to rest in 20 s
-        if count % 20_000 == 0 {
+        if count % STEPS == 0 {
             x = start;
         }
         count += 1;
-        runge_kutta::step(&accelerations, &mut x, 1e-3);
+        runge_kutta::step(&accelerations, &mut x, STEP);
     });
     black_box(x);
     time
 }
 
-/// As [`steps`], by integrator, law and equation of the library, which also integrate the work of the joints.
+/// A law that holds the joints at 0.
+const LAW: ProportionalDerivative<'static, f64, ConstantSetpoint<'static, f64>> = ProportionalDerivative {
+    trajectory: ConstantSetpoint { angles: &[0.0; 6] },
+    proportional_gain: &[GAINS[0]; 6],
+    derivative_gain: &[GAINS[1]; 6],
+};
+
+/// As [`steps`], by integrator, law and equation of the library.
 fn library_steps(model: &Model<f64>) -> f64 {
     let mut start = [0.0; vector_length(6)];
-    start[3..9].copy_from_slice(&[0.3, -0.4, 0.5, -0.3, 0.4, -0.5]);
+    start[3..9].copy_from_slice(&ANGLES);
     let mut x = start;
-    let (mut workspace, mut torques) = ([0.0; 3 * vector_length(6)], [0.0; 6]);
-    let mut law = ProportionalDerivative {
-        trajectory: ConstantSetpoint { angles: &[0.0; 6] },
-        proportional_gain: &[GAINS[0]; 6],
-        derivative_gain: &[GAINS[1]; 6],
-    };
+    let (mut workspace, mut torques, mut law) = ([0.0; 3 * vector_length(6)], [0.0; 6], LAW);
     let mut integrator = RungeKutta4::new(&mut workspace).expect("three vectors");
     let mut count = 0;
     let time = each(&[()], |()| {
-        if count % 20_000 == 0 {
+        if count % STEPS == 0 {
             x = start;
         }
         count += 1;
         let equation = |time, x: &[f64], rate: &mut [f64]| derivative(model, &mut law, time, x, rate, &mut torques);
-        integrator.step(0.0, 1e-3, &mut x, equation).expect("a regular state");
+        integrator.step(0.0, STEP, &mut x, equation).expect("a regular state");
     });
     black_box(x);
     time
+}
+
+/// As [`library_steps`], by a simulation that audits every step.
+fn simulated_steps(model: &Model<f64>) -> f64 {
+    let (start, mut law) = (
+        RobotState {
+            joint_angles: ANGLES.to_vec(),
+            joint_rates: vec![0.0; 6],
+            base_pose: [0.0; 3],
+            base_twist: [0.0; 3],
+        },
+        LAW,
+    );
+    let duration = STEP * f64::from(STEPS);
+    let timing = Timing { duration, step: STEP, sample: duration, integration: Integration::default() };
+    let mut run = |()| simulate(&System::alone(model), &mut law, &start, &timing, &mut NoEvents, &mut || ());
+    each(&[()], |()| consume(run(()))) / f64::from(STEPS)
 }
 
 #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]

@@ -53,6 +53,7 @@ pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error
 /// Whether the numbers of all slices are finite: 0 x is 0 where x is, else NaN. There is no branch per number, and no sum,
 /// whose chain a processor waits for.
 #[inline]
+#[allow(clippy::needless_bitwise_bool, reason = "a branch per number costs more than the comparison")]
 pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
     slices.iter().fold(true, |all, values| values.iter().fold(all, |all, value| all & (*value * T::ZERO == T::ZERO)))
 }
