@@ -203,8 +203,8 @@ FAULTS = [
     Fault(
         "weights of the Runge–Kutta stages",
         "crates/planar-dynamics/src/integrate/runge_kutta4.rs",
-        "[(half, two), (half, two), (step, T::ONE)]",
-        "[(half, two), (half, T::ONE), (step, two)]",
+        "(half, two, half), (half, two, step), (step, T::ONE, T::ZERO)",
+        "(half, two, half), (half, T::ONE, step), (step, two, T::ZERO)",
     ),
     Fault(
         "sign of the work in the audit",
