@@ -4,11 +4,19 @@ pub(super) use super::portable::sin_cos_all_f32;
 #[cfg(not(feature = "fused"))]
 pub(super) use super::portable::{mul_add_f32, mul_add_f64};
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
-pub(super) use super::portable::{sin_cos_all_f64, sqrt_f64};
+pub(super) use super::portable::{sin_cos_all_f64, sqrt_f32, sqrt_f64};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 pub(super) use super::sine_batch::sin_cos_all_f64;
 
 /// The processor's square root, correctly rounded; `core` has it for vectors alone.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[inline]
+pub(super) fn sqrt_f32(value: f32) -> f32 {
+    let [root, ..] = wide::f32x4::splat(value).sqrt().to_array();
+    root
+}
+
+/// As [`sqrt_f32`].
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 #[inline]
 pub(super) fn sqrt_f64(value: f64) -> f64 {

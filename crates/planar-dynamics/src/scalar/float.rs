@@ -2,37 +2,38 @@
 //!
 //! Arctangents are those of parameters, once per model: they are accurate rather than fast.
 
-use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sqrt_f64};
+use super::accelerated::{mul_add_f32, mul_add_f64, sin_cos_all_f32, sin_cos_all_f64, sqrt_f32, sqrt_f64};
 use super::number::Scalar;
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
-/// Angle of the vector (x, y) by three steps that add the tangent of the remaining angle; each leaves its cube.
-fn atan2(y: f64, x: f64) -> f64 {
-    let size = x.abs().max(y.abs());
-    if size == 0.0 {
-        return 0.0;
-    }
-    if !size.is_finite() {
-        return f64::NAN;
-    }
-    let (x, y) = (x / size, y / size);
-    let half = if y < 0.0 { -core::f64::consts::PI } else { core::f64::consts::PI };
-    // within 0.1 rad: linear between multiples of 45°
-    let quarter = 0.5 * half;
-    let mut angle = match (x.abs() < y.abs(), x < 0.0) {
-        (true, _) => quarter - x * half / 4.0,
-        (false, false) => y * core::f64::consts::FRAC_PI_4,
-        (false, true) => half - y * core::f64::consts::FRAC_PI_4,
-    };
-    for _ in 0..3 {
-        let (s, c) = sin_cos_f64(angle);
-        angle += (y * c - x * s) / (x * c + y * s);
-    }
-    angle
-}
-
 macro_rules! scalar {
-    ($float:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident) => {
+    ($float:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident, $atan2:ident) => {
+        /// Angle of the vector (x, y) by three steps that add the tangent of the remaining angle; each leaves its cube.
+        fn $atan2(y: $float, x: $float) -> $float {
+            use core::$float::consts::{FRAC_PI_4, PI};
+
+            let size = x.abs().max(y.abs());
+            if size == 0.0 {
+                return 0.0;
+            }
+            if !size.is_finite() {
+                return $float::NAN;
+            }
+            let (x, y) = (x / size, y / size);
+            let half = if y < 0.0 { -PI } else { PI };
+            // within 0.1 rad: linear between multiples of 45°
+            let mut angle = match (x.abs() < y.abs(), x < 0.0) {
+                (true, _) => 0.5 * half - x * half / 4.0,
+                (false, false) => y * FRAC_PI_4,
+                (false, true) => half - y * FRAC_PI_4,
+            };
+            for _ in 0..3 {
+                let (s, c) = $sin_cos(angle);
+                angle += (y * c - x * s) / (x * c + y * s);
+            }
+            angle
+        }
+
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_lossless,
@@ -66,11 +67,11 @@ macro_rules! scalar {
 
             #[inline]
             fn sqrt(self) -> Self {
-                sqrt_f64(self as f64) as $float
+                $sqrt(self)
             }
 
             fn atan2(self, x: Self) -> Self {
-                atan2(self as f64, x as f64) as $float
+                $atan2(self, x)
             }
 
             #[inline]
@@ -81,5 +82,5 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32);
-scalar!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64);
+scalar!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32, atan2_f32);
+scalar!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64, atan2_f64);

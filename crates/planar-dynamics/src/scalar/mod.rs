@@ -37,6 +37,13 @@ mod tests {
             let square = near(((x % 1e150) * (x % 1e150)).max(1e-300).to_bits());
             [x, square[0], square[1], square[2]]
         });
+        let single = [0.0, -0.0, 1.0, 4.0, -1.0, 1e-45, f32::MIN_POSITIVE, f32::MAX, f32::INFINITY, f32::NAN];
+        let ties_single = (0..2000_u32).flat_map(|i| [4.0_f32.to_bits() - i, 1.0_f32.to_bits() - i].map(f32::from_bits));
+        let spread_single = (1..400_000_u32).map(|i| f32::from_bits(i.wrapping_mul(0x9e37_79b9) % (255 << 23)));
+        for value in single.into_iter().chain(spread_single).chain(ties_single) {
+            let (own, processor) = (portable::sqrt_f32(value), accelerated::sqrt_f32(value));
+            assert!(own.to_bits() == processor.to_bits() || (own.is_nan() && processor.is_nan()), "{value:e}");
+        }
         for value in special.into_iter().chain(spread).chain(ties) {
             let (own, processor) = (portable::sqrt_f64(value), accelerated::sqrt_f64(value));
             assert!(own.to_bits() == processor.to_bits() || (own.is_nan() && processor.is_nan()), "{value:e}");

@@ -4,7 +4,7 @@
 use super::sine::{sin_cos_f32, sin_cos_f64};
 
 macro_rules! portable {
-    ($float:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident) => {
+    ($float:ident, $bits:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident) => {
         /// (sine, cosine) of each angle, rad.
         #[inline]
         pub(super) fn $sin_cos_all<const N: usize>(angles: [$float; N]) -> [($float, $float); N] {
@@ -16,44 +16,54 @@ macro_rules! portable {
         pub(super) fn $mul_add(a: $float, b: $float, c: $float) -> $float {
             a * b + c
         }
+
+        /// Square root, digit by digit in integers: correctly rounded; NaN for a negative value.
+        #[must_use]
+        #[allow(clippy::cast_precision_loss, reason = "the digits of the root are those of the scalar")]
+        pub fn $sqrt(value: $float) -> $float {
+            const DIGITS: u32 = $float::MANTISSA_DIGITS;
+            const IMPLICIT: $bits = 1 << (DIGITS - 1);
+            const BIAS: $bits = ($float::MAX_EXP - 1).unsigned_abs() as $bits;
+            // binary digits, in pairs, of an integer from 4ⁿ to 4ⁿ⁺¹ that has those of the scalar
+            const PAIRS: u32 = (DIGITS + 2) / 2;
+
+            if value == 0.0 || value == $float::INFINITY {
+                return value;
+            }
+            if value.is_nan() || value < 0.0 {
+                return $float::NAN;
+            }
+            if value < $float::MIN_POSITIVE {
+                // a power of four makes it normal
+                let power = |exponent: u32| $float::from_bits((BIAS + $bits::from(exponent)) << (DIGITS - 1));
+                return $sqrt(value * power(2 * DIGITS)) / power(DIGITS);
+            }
+            // value = integer · 2ⁿ, with n even
+            let exponent = value.to_bits() >> (DIGITS - 1);
+            let is_odd = (exponent ^ BIAS) & 1;
+            let integer = (value.to_bits() & (IMPLICIT - 1) | IMPLICIT) << (2 * PAIRS - 1 - DIGITS) << is_odd;
+            let mut left = integer << ($bits::BITS - 2 * PAIRS);
+            let (mut root, mut rest): ($bits, $bits) = (0, 0);
+            for _ in 0..DIGITS {
+                rest = rest << 2 | left >> ($bits::BITS - 2);
+                left <<= 2;
+                let trial = root << 2 | 1;
+                root <<= 1;
+                if rest >= trial {
+                    rest -= trial;
+                    root |= 1;
+                }
+            }
+            // (root + ½)² = root² + root + ¼
+            if rest > root {
+                root += 1;
+            }
+            let half = (exponent - is_odd).cast_signed().wrapping_sub(BIAS.cast_signed()) / 2;
+            let bits = (root as $float / IMPLICIT as $float).to_bits();
+            $float::from_bits(bits.wrapping_add(half.cast_unsigned() << (DIGITS - 1)))
+        }
     };
 }
 
-portable!(f32, sin_cos_f32, sin_cos_all_f32, mul_add_f32);
-portable!(f64, sin_cos_f64, sin_cos_all_f64, mul_add_f64);
-
-/// Square root by Newton's iteration, correctly rounded; NaN for a negative value.
-#[must_use]
-pub fn sqrt_f64(value: f64) -> f64 {
-    const IMPLICIT: u64 = 1 << 52;
-
-    if value == 0.0 || value == f64::INFINITY {
-        return value;
-    }
-    if value.is_nan() || value < 0.0 {
-        return f64::NAN;
-    }
-    if value < f64::MIN_POSITIVE {
-        // 2¹⁰⁸ makes it normal
-        return sqrt_f64(value * 324_518_553_658_426_726_783_156_020_576_256.0) / 18_014_398_509_481_984.0;
-    }
-    // value = part · 2²ᵏ with 1 ≤ part < 4; half is k in the place of an exponent
-    let half = (((value.to_bits() >> 52) + 1) >> 1).wrapping_sub(512) << 52;
-    let part = value.to_bits().wrapping_sub(half << 1);
-    let mut root = f64::from_bits((part >> 1) + (1023 << 51));
-    for _ in 0..4 {
-        root = 0.5 * (root + f64::from_bits(part) / root);
-    }
-    // the nearest integer to the root of an integer of 106 bits: (r ± ½)² = r² ± r + ¼
-    let mantissa = |bits: u64| u128::from(bits & (IMPLICIT - 1) | IMPLICIT);
-    let shift = if part >> 52 == 1023 { 52 } else { 53 };
-    let (square, mut digits) = (mantissa(part) << shift, mantissa(root.min(2.0 - f64::EPSILON).to_bits()));
-    if square > digits * digits + digits {
-        digits += 1;
-    } else if square + digits <= digits * digits {
-        digits -= 1;
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "53 bits")]
-    let digits = digits as u64;
-    f64::from_bits((digits & (IMPLICIT - 1) | 1023 << 52).wrapping_add(half))
-}
+portable!(f32, u32, sin_cos_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32);
+portable!(f64, u64, sin_cos_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64);
