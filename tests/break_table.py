@@ -111,14 +111,32 @@ FAULTS = [
     Fault(
         "operands of a difference exchanged",
         "crates/planar-build/src/renderer/statements.rs",
-        "infix(&a, '-', &b, Precedence::Sum)",
-        "infix(&b, '-', &a, Precedence::Sum)",
+        "infix(syntax, &a, '-', &b, Precedence::Sum)",
+        "infix(syntax, &b, '-', &a, Precedence::Sum)",
     ),
     Fault(
         "sine and cosine exchanged",
-        "crates/planar-build/src/renderer/statements.rs",
-        'format!("({})", targets.join(", "))',
-        'format!("({}, {})", targets[1], targets[0])',
+        "crates/planar-build/src/renderer/syntax.rs",
+        'format!("({s}, {c})")',
+        'format!("({c}, {s})")',
+    ),
+    Fault(
+        "order of a Runge–Kutta step's weights in C",
+        "crates/planar-build/templates/steps.c.tera",
+        "{(real)1.0, (real)2.0, (real)2.0, (real)1.0}",
+        "{(real)2.0, (real)1.0, (real)2.0, (real)1.0}",
+    ),
+    Fault(
+        "singular systems with status 0 in C",
+        "crates/planar-build/templates/module.c.tera",
+        "        status = SINGULAR;",
+        "        status = DONE;",
+    ),
+    Fault(
+        "contacts of the arms exchanged in a standalone module's merging",
+        "crates/planar-build/templates/steps.rs.tera",
+        "contact: contacts[{{ arm.index }}],",
+        "contact: contacts[ARMS - 1 - {{ arm.index }}],",
     ),
     Fault(
         "a nonzero dropped: [5][0] of 6 × 6 results",

@@ -1,11 +1,11 @@
-//! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module.
+//! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module, in Rust or C.
 
 use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use indicatif::ProgressBar;
 use planar_capture::build::graph::GraphError;
-use planar_capture::build::{Module, command};
+use planar_capture::build::{CModule, CText, Module, command};
 use planar_capture::generate::{self, GenerateError, Proved};
 use planar_capture::layout::Layout;
 use planar_capture::output::atomic_file::write_text;
@@ -15,7 +15,9 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Derive the equations of a layout and write them as a Rust module for your own crate or firmware.
+/// Derive the equations of a layout and write them as a module in Rust or C for your own program or firmware.
+///
+/// docs/c.md describes the modules in C.
 ///
 /// The first run makes a Python environment with CasADi in the user's cache folder (Python 3.11 or newer, network);
 /// later ones use it. The derived functions are compared with the generic implementation before a file is written.
@@ -23,9 +25,13 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
-    /// What to write: FILE.rs for the module, FILE.json for the expression graph that build scripts render.
+    /// What to write: FILE.rs for the module, FILE.c (with FILE.h beside it) for that in C, FILE.json for the expression
+    /// graph that build scripts render.
     #[arg(long, value_name = "FILE", value_parser = output)]
     out: PathBuf,
+    /// The language of the module.
+    #[arg(long, value_enum, default_value_t = Language::Rust)]
+    language: Language,
     /// A module without dependencies, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
@@ -42,15 +48,23 @@ pub struct Arguments {
     check: bool,
 }
 
+/// A language of modules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Language {
+    Rust,
+    /// C99, without dependencies.
+    C,
+}
+
 /// What there are matrices of derivatives of.
 const MATRICES: [&str; 2] = ["forward_dynamics", "impact"];
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    if has_extension(&path, "rs") || has_extension(&path, "json") {
+    if ["rs", "c", "json"].iter().any(|extension| has_extension(&path, extension)) {
         Ok(path)
     } else {
-        Err("expected a file that ends in `.rs` (the module) or `.json` (the graph)".to_owned())
+        Err("expected a file that ends in `.rs` or `.c` (the module) or `.json` (the graph)".to_owned())
     }
 }
 
@@ -81,10 +95,46 @@ impl Arguments {
         options
     }
 
+    /// The files: a module in C has a header.
+    fn paths(&self) -> Vec<PathBuf> {
+        let header = (self.language == Language::C).then(|| self.out.with_extension("h"));
+        [self.out.clone()].into_iter().chain(header).collect()
+    }
+
     /// All that says what is generated.
     fn options(&self) -> Vec<String> {
+        let language = (self.language == Language::C).then_some(["--language", "c"].map(str::to_owned));
         let standalone = self.standalone.then(|| "--standalone".to_owned());
-        standalone.into_iter().chain(self.derivatives()).collect()
+        language.into_iter().flatten().chain(standalone).chain(self.derivatives()).collect()
+    }
+
+    /// Options that do not go together.
+    fn check(&self, layout: &Layout) -> Result<(), CommandError> {
+        let usage = |message: String| Err(CommandError::Usage(message));
+        let path = self.out.display();
+        match (self.language, self.out.extension().and_then(|extension| extension.to_str())) {
+            (Language::C, Some("c")) if self.standalone => {
+                usage("--standalone is for a module in Rust: leave it out, one in C has no dependencies".to_owned())
+            }
+            (Language::C, Some("c")) => {
+                let header = self.out.with_extension("h");
+                CModule::check_header(&file_name(&header)).map_err(CommandError::Usage)
+            }
+            (Language::Rust, Some("c")) => usage(format!("{path}: write `--language c` too for a module in C")),
+            (Language::C, Some("rs" | "json")) => {
+                usage(format!("{path}: `--language c` wants a file that ends in `.c`; its header is written beside it"))
+            }
+            (_, Some("json")) if self.standalone => {
+                usage("--standalone is for a module: name FILE.rs, or leave it out for a graph".to_owned())
+            }
+            (_, Some("json")) if self.out.file_stem().is_none_or(|stem| stem != layout.name.as_str()) => {
+                let name = &layout.name;
+                usage(format!(
+                    "{path}: build scripts look for the graph of layout `{name}` in {name}.json: use that name"
+                ))
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -95,20 +145,10 @@ fn has_extension(path: &Path, extension: &str) -> bool {
 /// Derives the graph, proves it, and writes it or its module.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
-    let (path, is_graph) = (&arguments.out, has_extension(&arguments.out, "json"));
-    if is_graph && arguments.standalone {
-        let message = "--standalone is for a module: name FILE.rs, or leave it out for a graph";
-        return Err(CommandError::Usage(message.to_owned()));
-    }
-    if is_graph && path.file_stem().is_none_or(|stem| stem != layout.name.as_str()) {
-        return Err(CommandError::Usage(format!(
-            "{}: build scripts look for the graph of layout `{name}` in {name}.json: use that name",
-            path.display(),
-            name = layout.name
-        )));
-    }
+    arguments.check(&layout)?;
+    let paths = arguments.paths();
     if !arguments.check {
-        check_overwrite(path)?;
+        paths.iter().try_for_each(|path| check_overwrite(path))?;
     }
     let progress = spinner("starting Python");
     let graph_text =
@@ -119,23 +159,31 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
         CommandError::File { file: arguments.layout.clone(), source: source.into(), exit_code }
     })?;
-    let text = if is_graph {
-        text
-    } else {
-        progress.set_message("rendering");
-        let (source, command) = origin(arguments, &layout);
-        let module =
-            Module { standalone: arguments.standalone, item: false, fused: false, source: &source, command: &command };
-        module
-            .render(&graph)
-            .map_err(|problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem))))?
+    progress.set_message("rendering");
+    let (source, command) = origin(arguments, &layout);
+    let unrendered = |problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem)));
+    let texts = match (arguments.language, has_extension(&arguments.out, "json")) {
+        (_, true) => vec![text],
+        (Language::Rust, _) => {
+            let standalone = arguments.standalone;
+            let module = Module { standalone, item: false, fused: false, source: &source, command: &command };
+            vec![module.render(&graph).map_err(unrendered)?]
+        }
+        (Language::C, _) => {
+            let header = file_name(&arguments.out.with_extension("h"));
+            let module = CModule { header: &header, source: &source, command: &command };
+            let CText { source, header } = module.render(&graph).map_err(unrendered)?;
+            vec![source, header]
+        }
     };
     progress.finish_and_clear();
     if arguments.check {
-        return Ok(check(&text, arguments));
+        return Ok(check(&paths, &texts, arguments));
     }
-    write_text(path, &text)?;
-    let (lines, shown) = (text.lines().count(), path.display());
+    for (path, text) in paths.iter().zip(&texts) {
+        write_text(path, text)?;
+    }
+    let (lines, shown) = (texts.iter().map(|text| text.lines().count()).sum::<usize>(), names(&paths));
     print(&format!(
         "{shown}: {}, {} degrees of freedom, {lines} lines\n\
          {} results agree with the generic implementation at {} states (largest difference {:.0e} of the rounding bound)\n",
@@ -151,25 +199,34 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 /// Source and command for the header of the module: without folders, so that the same layout gives the same bytes
 /// everywhere.
 fn origin(arguments: &Arguments, layout: &Layout) -> (String, String) {
-    let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let (source, argument) = if Layout::is_path(&arguments.layout) {
-        let file = name(Path::new(&arguments.layout));
+        let file = file_name(Path::new(&arguments.layout));
         (file.clone(), file)
     } else {
         (format!("the layout {}", layout.name), layout.name.clone())
     };
-    (source, command(&argument, &name(&arguments.out), &arguments.options()))
+    (source, command(&argument, &file_name(&arguments.out), &arguments.options()))
 }
 
-/// Compares the file with what the layout gives.
-fn check(text: &str, arguments: &Arguments) -> ExitCode {
-    let (path, shown) = (&arguments.out, arguments.out.display());
-    if fs::read(path).is_ok_and(|found| found == text.as_bytes()) {
-        print(&format!("{shown}: fresh\n"));
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn names(paths: &[PathBuf]) -> String {
+    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// Compares the files with what the layout gives.
+fn check(paths: &[PathBuf], texts: &[String], arguments: &Arguments) -> ExitCode {
+    let mut different =
+        paths.iter().zip(texts).filter(|(path, text)| !fs::read(path).is_ok_and(|found| found == text.as_bytes()));
+    let Some((path, _)) = different.next() else {
+        print(&format!("{}: fresh\n", names(paths)));
         return ExitCode::SUCCESS;
-    }
+    };
+    let (shown, out) = (path.display(), arguments.out.display().to_string());
     let state = if path.exists() { "is not what the layout gives" } else { "does not exist" };
-    let mend = command(&arguments.layout, &shown.to_string(), &arguments.options());
+    let mend = command(&arguments.layout, &out, &arguments.options());
     note(format_args!("{shown} {state}; to mend: {mend}"));
     ExitCode::from(1)
 }

@@ -168,6 +168,76 @@ fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
     assert!(message.contains("another layout") && message.contains("planar-capture generate"), "{message}");
 }
 
+/// Source and header are written, named in messages, found stale, and not written over what was not generated.
+#[test]
+fn a_module_in_c_has_a_header() {
+    if without_python() {
+        return;
+    }
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    let run = |arguments: &[&str]| outcome(generate(folder.path(), arguments));
+    let options = ["--derivatives", "--directional", "momentum,full_impact:parameters"];
+    let arguments = [&["held_out.toml", "--language", "c", "--out", "held_out.c"][..], &options].concat();
+    let (code, out, err) = run(&arguments);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.starts_with("held_out.c, held_out.h: held_out, 9 degrees of freedom"), "{out}");
+    let [source, header] = ["held_out.c", "held_out.h"].map(|name| fs::read_to_string(at(name)).expect("a file"));
+    let command =
+        "//     planar-capture generate held_out.toml --out held_out.c --language c --derivatives --directional ";
+    assert!(source.contains(command) && header.contains(command), "{source:.400}");
+    assert!(source.contains("#include \"held_out.h\"") && header.contains("int held_out_exact_impact_derivatives("));
+    let check = [&arguments[..], &["--check"]].concat();
+    assert_eq!(run(&check), (0, "held_out.c, held_out.h: fresh\n".to_owned(), String::new()));
+    for name in ["held_out.c", "held_out.h"] {
+        assert_eq!(verify(at(name), at("held_out.toml")), Ok(()));
+    }
+
+    // it compiles, with its derivatives and a name in quotation marks, and passes its own test
+    if !crate::c::without("cc") {
+        let main = "#include \"held_out.h\"\nint main(void) { return held_out_self_test() == 0 ? 0 : 1; }\n";
+        fs::write(at("main.c"), main).expect("written");
+        for precision in ["-UNOTHING", "-DHELD_OUT_FLOAT"] {
+            let mut compile = Command::new("cc");
+            compile.args(["-std=c99", precision, "-o", "main", "main.c", "held_out.c"]).args(crate::c::WARNINGS);
+            let (code, _, err) = outcome({
+                compile.current_dir(folder.path());
+                compile
+            });
+            assert_eq!(code, 0, "{err}");
+            assert_eq!(outcome(Command::new(at("main"))).0, 0, "{precision}");
+        }
+    }
+
+    let hash = "// sha256 of the text below this header ";
+    fs::write(at("held_out.h"), header.replace("#define", "# define")).expect("written");
+    let (code, _, err) = run(&check);
+    assert!(code == 1 && err.starts_with("held_out.h is not what the layout gives; to mend: "), "{err}");
+    let problem = verify(at("held_out.h"), at("held_out.toml")).expect_err("changed").to_string();
+    assert!(
+        header.contains(hash) && problem.contains("--language c --derivatives --directional momentum"),
+        "{problem}"
+    );
+    fs::remove_file(at("held_out.h")).expect("removed");
+    let (code, _, err) = run(&check);
+    assert!(code == 1 && err.starts_with("held_out.h does not exist"), "{err}");
+    fs::write(at("held_out.h"), "int mine;\n").expect("written");
+    let (code, _, err) = run(&arguments);
+    assert!(code == 2 && err.contains("held_out.h already exists and was not generated"), "{err}");
+    for (arguments, message) in [
+        (&["held_out.toml", "--out", "robot.c"][..], "--language c"),
+        (&["held_out.toml", "--language", "c", "--out", "robot.rs"], "`.c`"),
+        (&["held_out.toml", "--language", "c", "--out", "robot.json"], "`.c`"),
+        (&["held_out.toml", "--language", "c", "--out", "robot.c", "--standalone"], "--standalone"),
+        (&["held_out.toml", "--language", "c", "--out", "my robot.c"], "cannot be included"),
+        (&["held_out.toml", "--language", "fortran", "--out", "robot.c"], "rust, c"),
+    ] {
+        let (code, out, err) = run(arguments);
+        assert!(code == 2 && out.is_empty() && err.contains(message), "{arguments:?}: {err}");
+    }
+    assert!(!at("robot.c").exists() && !at("my robot.c").exists());
+}
+
 #[test]
 fn a_user_graph_is_rendered_without_python() {
     if without_python() {

@@ -12,9 +12,9 @@ pub fn command<S: AsRef<str>>(layout: &str, out: &str, options: &[S]) -> String 
 pub fn options(command: &str) -> Vec<&str> {
     let words: Vec<&str> = command.split_whitespace().collect();
     let is_option = |place: &usize| {
-        let after_list = *place > 0 && words[place - 1] == "--directional";
+        let after_list = *place > 0 && ["--directional", "--language"].contains(&words[place - 1]);
         let word = words[*place];
-        let is_flag = ["--standalone", "--derivatives", "--directional"].contains(&word);
+        let is_flag = ["--language", "--standalone", "--derivatives", "--directional"].contains(&word);
         is_flag || word.starts_with("--derivatives=") || after_list
     };
     (0..words.len()).filter(is_option).map(|place| words[place]).collect()

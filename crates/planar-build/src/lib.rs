@@ -1,4 +1,4 @@
-//! From the expression graph of a layout to Rust text, and (feature `prove`) the proof of it by a generic
+//! From the expression graph of a layout to Rust or C text, and (feature `prove`) the proof of it by a generic
 //! implementation.
 //!
 //! It never contains: a scenario, a simulation, a command line, the text of the Python package.
@@ -16,4 +16,4 @@ pub mod prove;
 
 pub use command::{command, options, quoted};
 pub use layouts::{BuildError, render, render_to, verify};
-pub use renderer::Module;
+pub use renderer::{CModule, CText, Module};

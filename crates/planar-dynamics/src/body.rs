@@ -1,6 +1,6 @@
 //! A free rigid body: its momentum, energy and force-free motion.
 
-use crate::scalar::Scalar;
+use super::scalar::Scalar;
 
 /// A free rigid body, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

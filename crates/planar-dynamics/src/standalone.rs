@@ -1,11 +1,17 @@
-//! The source text of the core that standalone generated modules contain; for the renderer alone.
+//! What the core lends to generated modules that stand alone; for the renderer alone.
+
+pub use crate::scalar::far_angle::{DIGITS, DIGITS_SINGLE};
+pub use crate::scalar::sine::{Coefficients, DOUBLE, SINGLE};
 
 /// (module, text), each after those that it uses.
-pub const PARTS: [(&str, &str); 6] = [
+pub const PARTS: [(&str, &str); 9] = [
     ("number", include_str!("scalar/number.rs")),
     ("far_angle", include_str!("scalar/far_angle.rs")),
     ("sine", include_str!("scalar/sine.rs")),
     ("accelerated", include_str!("scalar/portable.rs")),
     ("float", include_str!("scalar/float.rs")),
+    ("real", include_str!("scalar/real.rs")),
+    ("body", include_str!("body.rs")),
+    ("target", include_str!("target.rs")),
     ("manifest", include_str!("manifest.rs")),
 ];

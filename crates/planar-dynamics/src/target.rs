@@ -1,7 +1,7 @@
 //! Eqs. (3) to (5), (12) and (14) of a captured object, and the link that it forms with the last link of an arm.
 
-use crate::body::Body;
-use crate::scalar::Scalar;
+use super::body::Body;
+use super::scalar::Scalar;
 
 /// A free-floating rigid body that an end effector captures at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]

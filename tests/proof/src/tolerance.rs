@@ -252,3 +252,6 @@ pub const SETTLED: f64 = 4e-13;
 pub const TEN_TIMES: f64 = 40.0;
 /// A time below which its ratio to another says nothing, s: that of a few interruptions.
 pub const SHORT_TIME: f64 = 0.01;
+/// A step and impulses by a module of its own against the library's, per number: sines of several angles at once round
+/// differently there.
+pub const IN_ANOTHER_MODULE: f64 = 1e-11;

@@ -16,9 +16,24 @@ pub fn function(function: &Function) -> Vec<String> {
 
 /// Description, shape and unit of an input or output.
 pub fn variable(variable: &Variable) -> String {
+    format!("{} {}", escaped(&variable.description), shape_and_unit(variable))
+}
+
+/// As [`variable`], for other tools than rustdoc.
+pub fn plain_variable(variable: &Variable) -> String {
+    format!("{} {}", variable.description, shape_and_unit(variable))
+}
+
+fn shape_and_unit(variable: &Variable) -> String {
     let shape: Vec<String> = variable.shape.iter().map(usize::to_string).collect();
     let shape = if shape.is_empty() { "scalar".to_owned() } else { shape.join(" × ") };
-    format!("{} ({shape}; {})", escaped(&variable.description), variable.unit)
+    format!("({shape}; {})", variable.unit)
+}
+
+/// Documentation of a function without its arguments, as lines of plain text.
+pub fn function_lines(function: &Function) -> Vec<String> {
+    let Function { description, equation, source, .. } = function;
+    vec![description.clone(), String::new(), format!("    {equation}"), String::new(), format!("{source}.")]
 }
 
 /// Text in which rustdoc sees no links, tags or code.

@@ -1,24 +1,38 @@
-//! Renders a graph as Rust text: decides names, types and operands; the templates hold the layout.
+//! Renders a graph as Rust text, or as C ([`CModule`]): decides names, types and operands; the templates hold the layout.
 
+mod c;
+mod composites;
 mod doc_text;
 mod fused;
+mod needed;
 mod statements;
+mod syntax;
 mod wrap;
 
+pub use c::{CModule, CText};
+
 use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
+use composites::{merged_links, steps};
 use planar_dynamics::standalone::PARTS;
 use planar_layout::diagnostic::printable;
 use planar_layout::layout::sha256;
 use serde_json::{Value, json};
 use statements::{Scope, bindings, nested};
+use syntax::Syntax;
 use tera::{Context, Tera};
 
 /// The templates, by the names under which they include each other.
-const TEMPLATES: [(&str, &str); 4] = [
-    ("header.rs", include_str!("../../templates/header.rs.tera")),
+const TEMPLATES: [(&str, &str); 10] = [
+    ("header", include_str!("../../templates/header.tera")),
     ("module.rs", include_str!("../../templates/module.rs.tera")),
     ("model.rs", include_str!("../../templates/model.rs.tera")),
+    ("steps.rs", include_str!("../../templates/steps.rs.tera")),
     ("self_test.rs", include_str!("../../templates/self_test.rs.tera")),
+    ("module.h", include_str!("../../templates/module.h.tera")),
+    ("module.c", include_str!("../../templates/module.c.tera")),
+    ("arithmetic.c", include_str!("../../templates/arithmetic.c.tera")),
+    ("steps.c", include_str!("../../templates/steps.c.tera")),
+    ("self_test.c", include_str!("../../templates/self_test.c.tera")),
 ];
 
 /// The form of the module that is rendered from a graph.
@@ -43,21 +57,31 @@ impl Module<'_> {
     /// # Errors
     /// A template that does not render: which and where.
     pub fn render(&self, graph: &Graph) -> Result<String, String> {
-        let mut tera = Tera::default();
-        let templates = TEMPLATES.map(|(name, text)| (name, without_lines_of_tags(text)));
-        tera.add_raw_templates(templates).map_err(|e| format!("{e:?}"))?;
+        let tera = templates()?;
         let mut context = Context::from_serialize(&context(graph, self)).map_err(|e| e.to_string())?;
-        let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?);
+        let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?, Syntax::Rust);
         if self.standalone {
             body.extend(PARTS.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(text, 4))));
         }
         if self.item {
             body = format!("pub mod {} {{\n{}}}\n", graph.layout.name, indented(&body, 4));
         }
-        context.insert("text_sha256", &sha256(&body));
-        let header = tera.render("header.rs", &context).map_err(|e| format!("{e:?}"))?;
-        Ok(format!("{}\n\n{body}", header.trim_end()))
+        headed(&tera, &mut context, &body)
     }
+}
+
+fn templates() -> Result<Tera, String> {
+    let mut tera = Tera::default();
+    let templates = TEMPLATES.map(|(name, text)| (name, without_lines_of_tags(text)));
+    tera.add_raw_templates(templates).map_err(|e| format!("{e:?}"))?;
+    Ok(tera)
+}
+
+/// A text below its header, which is of the same form in every language.
+fn headed(tera: &Tera, context: &mut Context, body: &str) -> Result<String, String> {
+    context.insert("text_sha256", &sha256(body));
+    let header = tera.render("header", context).map_err(|e| format!("{e:?}"))?;
+    Ok(format!("{}\n\n{body}", header.trim_end()))
 }
 
 /// A template in which a line that is a tag alone leaves no line.
@@ -91,7 +115,7 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
     let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
     let joints: usize = links.iter().sum();
     let constants: Vec<&str> = graph.constants.values.iter().map(|constant| constant.name.as_str()).collect();
-    let set_up = Scope::parameters(graph).lines(&[], &graph.constants.statements, &constants);
+    let set_up = Scope::parameters(graph, Syntax::Rust).lines(&[], &graph.constants.statements, &constants);
     json!({
         "source": printable(module.source),
         "command": printable(module.command),
@@ -109,6 +133,8 @@ fn context(graph: &Graph, module: &Module<'_>) -> Value {
         "parameter_names": graph.parameters.iter().map(|parameter| &parameter.name).collect::<Vec<_>>(),
         "parameters": graph.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "constants": {"statements": body(&set_up), "values": graph.constants.values, "names": constants},
+        "steps": steps(),
+        "merged": merged_links(graph),
         "families": graph.families.iter().map(|family| render_family(graph, family, module.fused)).collect::<Vec<_>>(),
     })
 }
@@ -121,7 +147,11 @@ fn body(lines: &[String]) -> String {
 fn render_family(graph: &Graph, family: &Family, is_fused: bool) -> Value {
     let Family { name, description, configuration, functions } = family;
     let values: Vec<&str> = configuration.values.iter().map(String::as_str).collect();
-    let lines = Scope::constants(graph, is_fused).lines(&configuration.sections, &configuration.statements, &values);
+    let lines = Scope::constants(graph, Syntax::Rust, is_fused).lines(
+        &configuration.sections,
+        &configuration.statements,
+        &values,
+    );
     let call = Scope::call(graph, &configuration.values, is_fused);
     let functions: Vec<Value> = functions.iter().map(|function| render_function(graph, function, &call)).collect();
     let needs_model = functions.iter().any(|function| function["needs_model"] == true);
@@ -129,7 +159,7 @@ fn render_family(graph: &Graph, family: &Family, is_fused: bool) -> Value {
         "name": name,
         "type": format!("{}Configuration", camel_case(name)),
         "description": description,
-        "statements": body(&[bindings(&lines, "self"), lines].concat()),
+        "statements": body(&[bindings(&lines, "self", Syntax::Rust), lines].concat()),
         "values": values,
         "needs_model": needs_model,
         "functions": functions,
@@ -149,7 +179,7 @@ fn render_function<'a>(graph: &'a Graph, function: &'a Function, scope: &Scope<'
         lines.extend(arrays.map(|(output, array)| format!("    {}: {array},", output.name)));
         lines.push("}".to_owned());
     }
-    let bindings = bindings(&lines, "self.model");
+    let bindings = bindings(&lines, "self.model", Syntax::Rust);
     let inputs: Vec<Value> = function.inputs.iter().map(|name| variable(input(graph, name))).collect();
     let of_call = |input: &&Value| input["name"] != "base_pose" && input["name"] != "joint_angles";
     let call_inputs: Vec<&Value> = inputs.iter().filter(of_call).collect();

@@ -1,6 +1,7 @@
-//! Statements of a graph as Rust: how a name is reached from the body of a function, and what is written as one line.
+//! Statements of a graph as text: how a name is reached from the body of a function, and what is written as one line.
 
 use super::fused::{MultiplyAdd, fuse};
+use super::syntax::{Place, Syntax};
 use crate::format::{Graph, Operand, Operation, Statement, Variable};
 use std::collections::{HashMap, HashSet};
 
@@ -14,6 +15,9 @@ const OPERAND: usize = 44;
 /// How names are reached in the body of a function.
 #[derive(Default)]
 pub struct Scope<'a> {
+    syntax: Syntax,
+    /// Shapes of the inputs.
+    inputs: HashMap<&'a str, &'a [usize]>,
     parameters: HashSet<&'a str>,
     /// Fields of the model; empty where they are computed.
     constants: HashSet<&'a str>,
@@ -49,20 +53,22 @@ struct Line<'a> {
 
 impl<'a> Scope<'a> {
     /// Of the constants.
-    pub fn parameters(graph: &'a Graph) -> Self {
-        Self { parameters: graph.parameters.iter().map(|p| p.name.as_str()).collect(), ..Self::default() }
+    pub fn parameters(graph: &'a Graph, syntax: Syntax) -> Self {
+        let inputs = graph.inputs.iter().map(|input| (input.name.as_str(), input.shape.as_slice())).collect();
+        let parameters = graph.parameters.iter().map(|p| p.name.as_str()).collect();
+        Self { syntax, inputs, parameters, ..Self::default() }
     }
 
-    /// Of a family's configuration.
-    pub fn constants(graph: &'a Graph, is_fused: bool) -> Self {
+    /// Of a family's configuration; in C, of a call with it.
+    pub fn constants(graph: &'a Graph, syntax: Syntax, is_fused: bool) -> Self {
         let constants = graph.constants.values.iter().map(|c| c.name.as_str()).collect();
-        Self { constants, is_fused, ..Self::parameters(graph) }
+        Self { constants, is_fused, ..Self::parameters(graph, syntax) }
     }
 
     /// Of a call, with the values that it reads of the configuration.
     pub fn call(graph: &'a Graph, configuration: &'a [String], is_fused: bool) -> Self {
         let configuration = configuration.iter().map(String::as_str).collect();
-        Self { configuration, ..Self::constants(graph, is_fused) }
+        Self { configuration, ..Self::constants(graph, Syntax::Rust, is_fused) }
     }
 
     /// A stage's lines, with the name of each section before it, in blocks of [`BLOCK`] statements where there are
@@ -76,8 +82,8 @@ impl<'a> Scope<'a> {
         results: &[&'a str],
     ) -> Vec<String> {
         let lines = self.statements(sections, statements, results);
-        if lines.len() <= BLOCK {
-            return texts(&lines);
+        if self.syntax != Syntax::Rust || lines.len() <= BLOCK {
+            return texts(self.syntax, &lines);
         }
         let mut later: HashSet<&str> = results.iter().copied().collect();
         let mut blocks = Vec::new();
@@ -86,7 +92,7 @@ impl<'a> Scope<'a> {
             let leaving: Vec<&str> =
                 block.iter().flat_map(|l| &l.targets).copied().filter(|n| later.contains(n)).collect();
             let leaving = leaving.join(", ");
-            let inside = texts(block).into_iter().map(|line| format!("    {line}"));
+            let inside = texts(self.syntax, block).into_iter().map(|line| format!("    {line}"));
             let first = format!("let [{leaving}] = {{");
             let last = [format!("    [{leaving}]"), "};".to_owned()];
             blocks.push([first].into_iter().chain(inside).chain(last).collect::<Vec<_>>());
@@ -127,11 +133,11 @@ impl<'a> Scope<'a> {
                 Some(None) => continue,
             };
             let (section, targets) = (section(index), statement.targets.names());
-            if statement.operation == Operation::SinCos {
-                angles.push((bound(targets), expression));
+            if let [sine, cosine] = *bound(targets.clone()) {
+                angles.push(([sine, cosine], expression));
                 let is_last = statements.get(index + 1).is_none_or(|next| next.operation != Operation::SinCos);
                 if is_last {
-                    lines.push(sines(section, std::mem::take(&mut angles)));
+                    lines.push(self.sines(section, std::mem::take(&mut angles)));
                 }
                 continue;
             }
@@ -145,7 +151,7 @@ impl<'a> Scope<'a> {
                 continue;
             }
             let targets = bound(targets);
-            let text = format!("let {} = {};", targets.concat(), expression.text);
+            let text = self.syntax.assignment(&targets.concat(), &expression.text);
             lines.push(Line { section, targets, names: expression.names, text });
         }
         lines
@@ -172,34 +178,56 @@ impl<'a> Scope<'a> {
 
     fn expression(&self, statement: &'a Statement, inlined: &mut HashMap<&'a str, Expression<'a>>) -> Expression<'a> {
         let (a, b) = (self.inline(&statement.a, inlined), self.inline(&statement.b, inlined));
+        let syntax = self.syntax;
+        let atom = |text: String| (text, Precedence::Atom);
         let (text, precedence) = match statement.operation {
             Operation::Neg => (format!("-{}", a.within(Precedence::Sign)), Precedence::Sign),
-            Operation::Sqrt => (format!("{}.sqrt()", a.within(Precedence::Atom)), Precedence::Atom),
+            Operation::Sqrt => atom(syntax.square_root(&a.within(Precedence::Atom), &a.text)),
             // the function is written by those who have its targets
             Operation::SinCos | Operation::Copy => (a.text, a.precedence),
-            Operation::Add => infix(&a, '+', &b, Precedence::Sum),
-            Operation::Sub => infix(&a, '-', &b, Precedence::Sum),
-            Operation::Mul => infix(&a, '*', &b, Precedence::Product),
-            Operation::Div => infix(&a, '/', &b, Precedence::Product),
-            // not as methods: a lint of clippy's follows the receiver of a method with an argument through all its
-            // assignments, again at every use, which takes hours for long functions
-            Operation::Min => (format!("T::minimum({}, {})", a.text, b.text), Precedence::Atom),
-            Operation::Atan2 => (format!("T::atan2({}, {})", a.text, b.text), Precedence::Atom),
+            Operation::Add => infix(syntax, &a, '+', &b, Precedence::Sum),
+            Operation::Sub => infix(syntax, &a, '-', &b, Precedence::Sum),
+            Operation::Mul => infix(syntax, &a, '*', &b, Precedence::Product),
+            Operation::Div => infix(syntax, &a, '/', &b, Precedence::Product),
+            Operation::Min => atom(syntax.minimum(&a.text, &b.text)),
+            Operation::Atan2 => atom(syntax.arctangent(&a.text, &b.text)),
         };
         Expression { text, precedence, names: [a.names, b.names].concat() }
     }
 
-    fn operand(&self, operand: &Operand) -> String {
+    pub fn operand(&self, operand: &Operand) -> String {
         let name = match operand {
-            Operand::Number(0.0) => return "T::ZERO".to_owned(),
-            Operand::Number(1.0) => return "T::ONE".to_owned(),
-            Operand::Number(number) => return format!("T::constant({number:?})"),
+            Operand::Number(number) => return self.syntax.number(*number),
             Operand::Name(name) => name.as_str(),
         };
-        let fields =
-            [(&self.parameters, "parameters."), (&self.constants, "constants."), (&self.configuration, "self.")];
-        let path = fields.iter().find(|(names, _)| names.contains(name)).map_or("", |(_, path)| path);
-        format!("{path}{name}")
+        let fields = [
+            (&self.parameters, Place::Parameters),
+            (&self.constants, Place::Constants),
+            (&self.configuration, Place::Configuration),
+        ];
+        match fields.iter().find(|(names, _)| names.contains(name)) {
+            Some((_, place)) => self.syntax.field(*place, name),
+            None => self.element(name).unwrap_or_else(|| name.to_owned()),
+        }
+    }
+
+    /// An element of an input, `contacts[1][0]`.
+    fn element(&self, name: &str) -> Option<String> {
+        let (input, places) = name.strip_suffix(']')?.split_once('[')?;
+        let places: Vec<usize> = places.split("][").filter_map(|place| place.parse().ok()).collect();
+        Some(self.syntax.element(input, &places, self.inputs.get(input)?))
+    }
+
+    /// The sines and cosines of some angles, none of which depends on another's, in one line.
+    fn sines(&self, section: &'a str, angles: Vec<([&'a str; 2], Expression<'a>)>) -> Line<'a> {
+        let texts: Vec<_> = angles
+            .iter()
+            .map(|(targets, angle)| (*targets, angle.within(Precedence::Atom), angle.text.clone()))
+            .collect();
+        let text = self.syntax.sines(&texts);
+        let (targets, expressions): (Vec<_>, Vec<_>) = angles.into_iter().unzip();
+        let names = expressions.into_iter().flat_map(|angle| angle.names).collect();
+        Line { section, targets: targets.concat(), names, text }
     }
 
     /// The elements of an output as an array of its shape, a matrix row by row.
@@ -216,36 +244,29 @@ impl Expression<'_> {
     }
 }
 
-/// A binary operation. The operators of a precedence are evaluated from the left: on the right they are in parentheses.
-fn infix(a: &Expression<'_>, operator: char, b: &Expression<'_>, precedence: Precedence) -> (String, Precedence) {
-    let tighter = if precedence == Precedence::Sum { Precedence::Product } else { Precedence::Sign };
-    (format!("{} {operator} {}", a.within(precedence), b.within(tighter)), precedence)
-}
-
-/// The sines and cosines of some angles, none of which depends on another's, in one line.
-fn sines<'a>(section: &'a str, angles: Vec<(Vec<&'a str>, Expression<'a>)>) -> Line<'a> {
-    let target = |targets: &[&str]| format!("({})", targets.join(", "));
-    let text = match angles.as_slice() {
-        [(targets, angle)] => format!("let {} = {}.sin_cos();", target(targets), angle.within(Precedence::Atom)),
-        all => {
-            let targets: Vec<String> = all.iter().map(|(targets, _)| target(targets)).collect();
-            let angles: Vec<&str> = all.iter().map(|(_, angle)| angle.text.as_str()).collect();
-            format!("let [{}] = T::sin_cos_all([{}]);", targets.join(", "), angles.join(", "))
-        }
-    };
-    let (targets, expressions): (Vec<_>, Vec<_>) = angles.into_iter().unzip();
-    let names = expressions.into_iter().flat_map(|angle| angle.names).collect();
-    Line { section, targets: targets.concat(), names, text }
+/// A binary operation. The operators of a precedence are evaluated from the left: on the right they are in parentheses;
+/// in C also a product in a sum, as its guidelines want it.
+fn infix(
+    syntax: Syntax,
+    a: &Expression<'_>,
+    operator: char,
+    b: &Expression<'_>,
+    precedence: Precedence,
+) -> (String, Precedence) {
+    let tighter =
+        if precedence == Precedence::Sum && syntax == Syntax::Rust { Precedence::Product } else { Precedence::Sign };
+    let left = if a.precedence == precedence { precedence } else { tighter };
+    (format!("{} {operator} {}", a.within(left), b.within(tighter)), precedence)
 }
 
 /// The lines of statements, with the name of each section before its first.
-fn texts(lines: &[Line<'_>]) -> Vec<String> {
+fn texts(syntax: Syntax, lines: &[Line<'_>]) -> Vec<String> {
     let mut section = "";
     let mut texts = Vec::new();
     for line in lines {
         if line.section != section {
             section = line.section;
-            texts.push(format!("// {section}"));
+            texts.push(format!("// {}", syntax.comment(section)));
         }
         texts.push(line.text.clone());
     }
@@ -270,8 +291,8 @@ pub fn nested(shape: &[usize], elements: &[String]) -> String {
 }
 
 /// References to the model's fields that lines use.
-pub fn bindings(lines: &[String], model: &str) -> Vec<String> {
-    let used = |field: &&&str| lines.iter().any(|line| line.contains(&format!("{field}.")));
-    let fields = ["parameters", "constants"];
-    fields.iter().filter(used).map(|field| format!("let {field} = &{model}.{field};")).collect()
+pub fn bindings(lines: &[String], model: &str, syntax: Syntax) -> Vec<String> {
+    let fields = [("parameters", Place::Parameters), ("constants", Place::Constants)];
+    let used = |(_, place): &(&str, Place)| lines.iter().any(|line| line.contains(&syntax.field(*place, "")));
+    fields.iter().filter(|field| used(field)).map(|(field, _)| syntax.reference(field, model)).collect()
 }

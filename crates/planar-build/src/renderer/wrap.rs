@@ -1,11 +1,13 @@
 //! Lines that are too long, broken at the commas of a list.
 
+use super::syntax::Syntax;
+
 /// Columns of a line.
 const WIDTH: usize = 120;
 
 /// The text with its long lists broken: one entry a line where an entry is a list itself, else as many as fit. A matrix
 /// is always broken into its rows. No blank line begins or ends a block.
-pub fn wrap(text: &str) -> String {
+pub fn wrap(text: &str, syntax: Syntax) -> String {
     let mut wrapped = String::with_capacity(text.len());
     for line in text.lines().map(str::trim_end) {
         if line.is_empty() && (wrapped.ends_with("{\n") || wrapped.ends_with("\n\n")) {
@@ -14,12 +16,12 @@ pub fn wrap(text: &str) -> String {
         if line.trim_start().starts_with('}') && wrapped.ends_with("\n\n") {
             wrapped.pop();
         }
-        push(&mut wrapped, line);
+        push(&mut wrapped, line, syntax);
     }
     wrapped
 }
 
-fn push(text: &mut String, line: &str) {
+fn push(text: &mut String, line: &str, syntax: Syntax) {
     let breaks = line.chars().count() > WIDTH || line.contains("], [");
     // a comment that is broken is no comment any more
     let list = if breaks && !line.contains("//") { longest_list(line) } else { None };
@@ -29,10 +31,12 @@ fn push(text: &mut String, line: &str) {
     };
     let outside = " ".repeat(line.len() - line.trim_start().len());
     let inside = format!("{outside}    ");
+    let ending = syntax.after_last(before);
     text.extend([before, "\n"]);
     if items.iter().any(|item| item.ends_with([']', '}'])) {
-        for item in items {
-            push(text, &format!("{inside}{item},"));
+        let count = items.len();
+        for (i, item) in items.into_iter().enumerate() {
+            push(text, &format!("{inside}{item}{}", if i + 1 == count { ending } else { "," }), syntax);
         }
     } else {
         let mut current = inside.clone();
@@ -43,7 +47,7 @@ fn push(text: &mut String, line: &str) {
             }
             current = format!("{current}{item}, ");
         }
-        text.extend([current.trim_end(), "\n"]);
+        text.extend([current.trim_end().trim_end_matches(','), ending, "\n"]);
     }
     text.extend([&outside, after, "\n"]);
 }
@@ -90,7 +94,11 @@ fn longest_list(line: &str) -> Option<List<'_>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{WIDTH, longest_list, wrap};
+    use super::{Syntax, WIDTH, longest_list};
+
+    fn wrap(text: &str) -> String {
+        super::wrap(text, Syntax::Rust)
+    }
 
     /// The items of the list that is broken, and what stands before and after it.
     fn list(line: &str) -> Option<(&str, Vec<&str>, &str)> {
@@ -144,6 +152,16 @@ mod tests {
         assert_eq!(wrap("m: [[a, b], [c, d]],"), "m: [\n    [a, b],\n    [c, d],\n],\n");
         let comment = format!("a: [b, c], // {}", "d, ".repeat(60).trim_end());
         assert_eq!(wrap(&comment), format!("{comment}\n"));
+    }
+
+    #[test]
+    fn calls_in_c_have_no_comma_after_the_last_argument() {
+        let call = format!("f(a, {});", "b".repeat(WIDTH));
+        assert_eq!(super::wrap(&call, Syntax::C), format!("f(\n    a,\n    {}\n);\n", "b".repeat(WIDTH)));
+        let list = format!("{{a, {}}}", "b".repeat(WIDTH));
+        assert!(super::wrap(&list, Syntax::C).ends_with(",\n}\n"));
+        let nested = format!("f({{a, b}}, {{c, {}}});", "d".repeat(WIDTH));
+        assert!(super::wrap(&nested, Syntax::C).ends_with("    }\n);\n"));
     }
 
     #[test]

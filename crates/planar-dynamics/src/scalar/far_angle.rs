@@ -8,7 +8,7 @@ use core::f32::consts as single;
 use core::f64::consts as double;
 
 /// The binary digits of 2/π, after 64 zeros; more than the largest angle needs.
-const DIGITS: [u64; 20] = [
+pub const DIGITS: [u64; 20] = [
     0,
     0xa2f9_836e_4e44_1529,
     0xfc27_57d1_f534_ddc0,
@@ -32,7 +32,7 @@ const DIGITS: [u64; 20] = [
 ];
 
 /// The same after 32 zeros, for single precision.
-const DIGITS_SINGLE: [u32; 8] =
+pub const DIGITS_SINGLE: [u32; 8] =
     [0, 0xa2f9_836e, 0x4e44_1529, 0xfc27_57d1, 0xf534_ddc0, 0xdb62_9599, 0x3c43_9041, 0xfe51_63ab];
 
 /// (remainder in rad, number of quarter turns modulo 4) of an angle of at least 2²⁰ rad; NaN for one that is not finite.

@@ -2,14 +2,14 @@
 
 mod accelerated;
 mod dual;
-mod far_angle;
+pub(crate) mod far_angle;
 mod float;
 #[cfg(feature = "batch")]
 pub(crate) mod lane;
 mod number;
 mod portable;
 mod real;
-mod sine;
+pub(crate) mod sine;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod sine_batch;
 #[cfg(any(feature = "lanes", target_arch = "x86_64", target_arch = "aarch64"))]
@@ -17,7 +17,7 @@ pub(crate) mod sine_lanes;
 
 pub use dual::Dual;
 pub use number::Scalar;
-pub use portable::sqrt_f64;
+pub use portable::{sqrt_f32, sqrt_f64};
 pub use real::Real;
 pub use sine::{sin_cos_f32, sin_cos_f64};
 
@@ -38,7 +38,8 @@ mod tests {
             [x, square[0], square[1], square[2]]
         });
         let single = [0.0, -0.0, 1.0, 4.0, -1.0, 1e-45, f32::MIN_POSITIVE, f32::MAX, f32::INFINITY, f32::NAN];
-        let ties_single = (0..2000_u32).flat_map(|i| [4.0_f32.to_bits() - i, 1.0_f32.to_bits() - i].map(f32::from_bits));
+        let ties_single =
+            (0..2000_u32).flat_map(|i| [4.0_f32.to_bits() - i, 1.0_f32.to_bits() - i].map(f32::from_bits));
         let spread_single = (1..400_000_u32).map(|i| f32::from_bits(i.wrapping_mul(0x9e37_79b9) % (255 << 23)));
         for value in single.into_iter().chain(spread_single).chain(ties_single) {
             let (own, processor) = (portable::sqrt_f32(value), accelerated::sqrt_f32(value));

@@ -9,21 +9,22 @@ use core::f32::consts as single;
 use core::f64::consts as double;
 
 /// What reduction and polynomials of a scalar consist of.
-pub(super) struct Coefficients<F, const S: usize, const C: usize> {
+#[derive(Debug)]
+pub struct Coefficients<F, const S: usize, const C: usize> {
     /// π/2 in three parts, the first two exact when multiplied by the quarter turns of the furthest angle.
-    pub(super) quarter_turn: [F; 3],
+    pub quarter_turn: [F; 3],
     /// The largest angle that is reduced in line, rad.
-    pub(super) furthest: F,
+    pub furthest: F,
     /// Adding it leaves the nearest integer in the last bits of the mantissa.
-    pub(super) round: F,
+    pub round: F,
     /// (sin x / x − 1) / x² as a polynomial in x².
-    pub(super) sine: [F; S],
+    pub sine: [F; S],
     /// (cos x − 1 + x²/2) / x⁴ as a polynomial in x².
-    pub(super) cosine: [F; C],
+    pub cosine: [F; C],
 }
 
 /// 33 bits up to 2²⁰; minimax on ±π/4, error below 2⁻⁵⁷; coefficients of Sun's FDLIBM (1993).
-pub(super) const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
+pub const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
     quarter_turn: [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21],
     furthest: 1_048_576.0 * 1.570_796_326_734_125_6,
     round: 6_755_399_441_055_744.0,
@@ -46,7 +47,7 @@ pub(super) const DOUBLE: Coefficients<f64, 6, 6> = Coefficients {
 };
 
 /// Up to 2¹²; minimax on ±π/4, error below 2⁻²⁶; coefficients of Moshier's Cephes (1992).
-pub(super) const SINGLE: Coefficients<f32, 3, 3> = Coefficients {
+pub const SINGLE: Coefficients<f32, 3, 3> = Coefficients {
     quarter_turn: [1.570_312_5, 4.837_513e-4, 7.549_79e-8],
     furthest: 4096.0 * 1.570_312_5,
     round: 12_582_912.0,

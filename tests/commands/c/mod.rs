@@ -1,0 +1,308 @@
+//! Modules in C: compiled without a warning, their own test, the bits of the module in Rust, and hostile numbers.
+//!
+//! Without a C compiler `cc` the tests say so and check nothing; `PLANAR_CAPTURE_NO_C=1` skips them too.
+
+mod driver;
+
+use planar_capture::build::graph;
+use planar_capture::build::{CModule, CText, Module};
+use planar_capture::generate::complete;
+use planar_capture::layout::Layout;
+use planar_proof::{file, said};
+use serde_json::Value;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// The paper's robot, one arm, three arms, and one with structural zeros and mounts beside the axes.
+const LAYOUTS: [&str; 4] = ["dual_arm_3r", "single_arm_2r", "triple_arm_3r", "asymmetric_wheel"];
+
+/// The warnings that are errors.
+pub const WARNINGS: [&str; 6] = ["-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-pedantic", "-Werror"];
+
+/// Whether a tool is missing, or is not wanted; it is said.
+pub fn without(tool: &str) -> bool {
+    let unwanted = std::env::var("PLANAR_CAPTURE_NO_C").is_ok_and(|value| value == "1");
+    let missing = unwanted || Command::new(tool).arg("--version").output().is_err();
+    if missing {
+        // straight to the stream: what the macros print is shown for failing tests only
+        let _ = writeln!(std::io::stderr(), "not checked, for there is no `{tool}`: modules in C");
+    }
+    missing
+}
+
+/// A layout's modules in C, `NAME.c` and `NAME.h`, and in Rust, `robot.rs`, in a folder of their own; and its graph.
+struct Modules {
+    name: String,
+    folder: TempDir,
+    graph: Value,
+}
+
+impl Modules {
+    fn new(name: &str) -> Self {
+        let layout = Layout::read(&file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
+        let text = fs::read_to_string(file(&format!("codegen/graphs/{name}.json"))).expect("a graph");
+        let proved = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
+        let header = format!("{name}.h");
+        let in_c = CModule { header: &header, source: "a", command: "b" };
+        let CText { source, header } = in_c.render(&proved.graph).unwrap_or_else(|e| panic!("{e}"));
+        let in_rust = Module { standalone: true, item: false, fused: false, source: "a", command: "b" };
+        let rust = in_rust.render(&proved.graph).unwrap_or_else(|e| panic!("{e}"));
+        let modules = Self {
+            name: name.to_owned(),
+            folder: TempDir::new().expect("a folder"),
+            graph: serde_json::from_str(&proved.text).expect("JSON"),
+        };
+        modules.write(&format!("{name}.c"), &source);
+        modules.write(&format!("{name}.h"), &header);
+        modules.write("robot.rs", &rust);
+        modules
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path().join(name), text).expect("written");
+    }
+
+    fn source(&self) -> String {
+        fs::read_to_string(self.path().join(format!("{}.c", self.name))).expect("a source")
+    }
+
+    /// The macro for single precision.
+    fn single(&self) -> String {
+        format!("-D{}_FLOAT", self.name.to_uppercase())
+    }
+
+    /// Exit code and error output of a command in the folder.
+    fn run(&self, command: &str, arguments: &[&str]) -> (i32, String, String) {
+        said(Command::new(command).args(arguments).current_dir(self.path()).output().expect("it runs"))
+    }
+
+    /// Compiles and links a program; it has to be free of warnings.
+    fn compile(&self, compiler: &str, arguments: &[&str]) {
+        let (code, out, err) = self.run(compiler, arguments);
+        assert_eq!(code, 0, "{}: {compiler} {arguments:?}\n{out}{err}", self.name);
+    }
+}
+
+#[test]
+fn modules_have_no_warning_in_c_and_cpp() {
+    let compilers = [("cc", "-std=c99"), ("c++", "-xc++"), ("clang", "-std=c99"), ("clang++", "-xc++")];
+    let compilers: Vec<_> = compilers.into_iter().filter(|(compiler, _)| !without(compiler)).collect();
+    for layout in LAYOUTS {
+        let modules = Modules::new(layout);
+        let (source, single) = (format!("{layout}.c"), modules.single());
+        for (compiler, language) in &compilers {
+            // some warnings need the optimizer; those of the first compiler are enough of them
+            let stage: &[&str] = if *compiler == "cc" { &["-O1", "-c", "-o", "object.o"] } else { &["-fsyntax-only"] };
+            for precision in ["-UNOTHING", &single] {
+                modules.compile(compiler, &[&[language, precision][..], stage, &WARNINGS, &[&source]].concat());
+            }
+        }
+        // no library, no heap, no state
+        let text = modules.source();
+        for forbidden in ["math.h", "malloc", "stdlib.h", "goto"] {
+            assert!(!text.contains(forbidden), "{layout}: {forbidden}");
+        }
+        if without("nm") || compilers.is_empty() {
+            continue;
+        }
+        modules.compile("cc", &["-std=c99", "-O1", "-c", "-o", "object.o", &source]);
+        let (_, symbols, _) = modules.run("nm", &["object.o"]);
+        for line in symbols.lines() {
+            let kind = line.split_whitespace().rev().nth(1).unwrap_or_default();
+            let is_code_or_constant = ["T", "t", "r"].contains(&kind);
+            let is_of_the_compiler = kind == "U"
+                && ["memcpy", "memset", "__stack_chk_fail", "_GLOBAL_OFFSET_TABLE_"]
+                    .iter()
+                    .any(|known| line.ends_with(known));
+            assert!(is_code_or_constant || is_of_the_compiler, "{layout}: {line}");
+        }
+    }
+}
+
+/// A program that exits with 1 where the module's own test fails.
+const SELF_TEST: &str = "int main(void) { return (NAME_self_test() == 0) ? 0 : 1; }\n";
+
+impl Modules {
+    /// Whether the module's own test holds for a source, in one precision.
+    fn holds(&self, source: &str, precision: &str) -> bool {
+        self.write("module.c", source);
+        let include = format!("#include \"{}.h\"\n", self.name);
+        self.write("main.c", &(include + &SELF_TEST.replace("NAME", &self.name)));
+        self.compile("cc", &["-std=c99", precision, "-o", "self_test", "main.c", "module.c"]);
+        self.run("./self_test", &[]).0 == 0
+    }
+}
+
+#[test]
+fn a_module_passes_its_own_test_in_both_precisions() {
+    if without("cc") {
+        return;
+    }
+    for layout in LAYOUTS {
+        let modules = Modules::new(layout);
+        for precision in ["-UNOTHING", &modules.single()] {
+            assert!(modules.holds(&modules.source(), precision), "{layout}, {precision}");
+        }
+    }
+}
+
+/// A constant that is changed by half a per cent fails the module's own test, wherever it stands: parameters,
+/// coefficients of the sine, weights of the Runge–Kutta method, literals of the equations. Every third is tried.
+#[test]
+fn a_changed_constant_fails_the_modules_own_test() {
+    if without("cc") {
+        return;
+    }
+    let modules = Modules::new("single_arm_2r");
+    let text = modules.source();
+    let is_harmless = |line: &str| HARMLESS.iter().any(|part| line.contains(part));
+    let (mut tried, mut is_in_single, mut is_in_code, mut from) = (0, false, false, 0);
+    for line in text.split_inclusive('\n') {
+        let start = from;
+        from += line.len();
+        if line.contains(" magnitude(") {
+            break; // its own test begins
+        }
+        is_in_code |= line.contains(" sin_cos(");
+        is_in_single = (is_in_single || line.starts_with("#ifdef")) && !line.starts_with("#else");
+        if !is_in_code || is_in_single || is_harmless(line) {
+            continue;
+        }
+        for (place, cast) in line.match_indices("(real)") {
+            let rest = &line[place + cast.len()..];
+            let length = rest.find(|c: char| !(c.is_ascii_digit() || "-+.e".contains(c))).unwrap_or(0);
+            let Ok(number) = rest[..length].parse::<f64>() else { continue };
+            tried += 1;
+            if tried % 3 == 0 {
+                let wrong = if number == 0.0 { 1e-3 } else { number * 1.005 };
+                let at = start + place + cast.len();
+                let changed = format!("{}{wrong:?}{}", &text[..at], &text[at + length..]);
+                assert!(!modules.holds(&changed, "-UNOTHING"), "{number} changed to {wrong} in {line}");
+            }
+        }
+    }
+    assert!(tried > 60, "{tried} constants");
+}
+
+/// Lines with constants of which nothing depends on the third digit: bounds between two ways to the same result, starts
+/// of an iteration, a part of π/2 below rounding, a difference that takes back its own rounding.
+const HARMLESS: [&str; 9] = [
+    "furthest = ",
+    "nearest = ",
+    "third = ",
+    "head = ",
+    "least = ",
+    "integer >= ",
+    "half = (along < zero)",
+    "angle = ",
+    "smallest_pivot = ",
+];
+
+/// Texts of a graph stay comments: their ends, trigraphs and continued lines.
+#[test]
+fn texts_of_a_graph_stay_in_comments() {
+    let layout = Layout::read(&file("codegen/layouts/single_arm_2r.toml")).expect("a layout");
+    let text = fs::read_to_string(file("codegen/graphs/single_arm_2r.json")).expect("a graph");
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    let render = |graph: &Value| {
+        let graph = graph::read(&graph.to_string(), &layout).unwrap_or_else(|e| panic!("{e}"));
+        CModule { header: "robot.h", source: HOSTILE, command: HOSTILE }.render(&graph)
+    };
+    let places = [
+        "/inputs/0/description",
+        "/inputs/0/unit",
+        "/parameters/0/description",
+        "/constants/values/0/description",
+        "/constants/values/0/unit",
+        "/families/0/description",
+        "/families/0/configuration/sections/0/0",
+        "/families/0/functions/0/description",
+        "/families/0/functions/0/equation",
+        "/families/0/functions/0/source",
+        "/families/0/functions/0/sections/0/0",
+        "/families/0/functions/0/outputs/0/description",
+    ];
+    let mut hostile = whole.clone();
+    for place in places {
+        let text = if place.ends_with("unit") { "*/ int stolen; /*" } else { HOSTILE };
+        *hostile.pointer_mut(place).unwrap_or_else(|| panic!("no {place}")) = text.into();
+    }
+    let CText { source, header } = render(&hostile).unwrap_or_else(|e| panic!("{e}"));
+    assert!(source.contains("stolen") && header.contains("stolen"));
+    if !without("cc") {
+        let folder = TempDir::new().expect("a folder");
+        fs::write(folder.path().join("robot.h"), header).expect("written");
+        fs::write(folder.path().join("robot.c"), source).expect("written");
+        let mut compile = Command::new("cc");
+        compile.args(["-std=c99", "-E", "robot.c"]).args(WARNINGS).current_dir(folder.path());
+        let (code, out, err) = said(compile.output().expect("it runs"));
+        assert!(code == 0 && !out.contains("stolen"), "{err}");
+    }
+    // names of C, and two things with one name
+    for (name, message) in [("double", "C, C++"), ("base_acceleration", "two things")] {
+        let statement = "/families/0/configuration/statements/0/0";
+        let before = whole.pointer(statement).expect("a target").as_str().expect("a name").to_owned();
+        let renamed = text.replace(&format!("\"{before}\""), &format!("\"{name}\""));
+        let problem = render(&serde_json::from_str(&renamed).expect("JSON")).expect_err("no name");
+        assert!(problem.contains(name) && problem.contains(message), "{problem}");
+    }
+    let graph = graph::read(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
+    let problem = CModule { header: "a\".h", source: "a", command: "b" }.render(&graph).expect_err("no file");
+    assert!(problem.contains("cannot be included"), "{problem}");
+}
+
+const HOSTILE: &str = "a */ int stolen; /* b // c ??/ d **/ int stolen; /*\\";
+
+/// MISRA C:2012 by cppcheck: only the rules that docs/c.md names, with the reasons.
+#[test]
+fn deviations_from_misra_are_those_of_the_document() {
+    if without("cppcheck") {
+        return;
+    }
+    let document = fs::read_to_string(file("docs/c.md")).expect("a document");
+    let modules = Modules::new("single_arm_2r");
+    let arguments = ["--addon=misra", "--std=c99", "--quiet", "--template={id} {file}:{line}", "single_arm_2r.c"];
+    let (code, out, err) = modules.run("cppcheck", &arguments);
+    assert_eq!(code, 0, "{out}{err}");
+    for line in err.lines().filter(|line| line.contains("misra-c2012-")) {
+        let rule = line.split_whitespace().next().unwrap_or_default().trim_start_matches("misra-c2012-");
+        assert!(document.contains(&format!("| {rule} |")), "{line}");
+    }
+}
+
+/// The listings of docs/c.md: the program runs, the others compile against declarations of what they use of their vendors'.
+#[test]
+fn listings_of_the_document_compile() {
+    if without("cc") {
+        return;
+    }
+    let document = fs::read_to_string(file("docs/c.md")).expect("a document");
+    let listings: Vec<&str> = document.split("```c\n").skip(1).filter_map(|part| part.split("```").next()).collect();
+    let modules = Modules::new("dual_arm_3r");
+    let stubs = format!("-I{}", file("tests/commands/c/stubs").display());
+    assert_eq!(listings.len(), 3);
+    for (i, listing) in listings.into_iter().enumerate() {
+        modules.write("listing.c", listing);
+        for precision in ["-UNOTHING", &modules.single()] {
+            // Simulink's signals are in double precision
+            if i == 0 || (i == 1 && precision != "-UNOTHING") {
+                continue;
+            }
+            let arguments = ["-std=c99", precision, &stubs, "-c", "-o", "listing.o", "listing.c"];
+            modules.compile("cc", &[&arguments[..], &WARNINGS].concat());
+        }
+        if i == 0 {
+            modules
+                .compile("cc", &["-std=c99", "-O1", "-Wall", "-Werror", "-o", "listing", "listing.c", "dual_arm_3r.c"]);
+            let (code, out, err) = modules.run("./listing", &[]);
+            assert!(code == 0 && out.starts_with("status 0, base yaw "), "{out}{err}");
+        }
+    }
+}

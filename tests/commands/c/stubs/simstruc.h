@@ -1,0 +1,20 @@
+/* What the listing in docs/c.md uses of Simulink's header. */
+typedef double real_T;
+typedef int int_T;
+typedef struct SimStruct SimStruct;
+void ssSetNumSFcnParams(SimStruct *S, int_T n);
+void ssSetNumDiscStates(SimStruct *S, int_T n);
+int_T ssSetNumInputPorts(SimStruct *S, int_T n);
+int_T ssSetNumOutputPorts(SimStruct *S, int_T n);
+void ssSetInputPortWidth(SimStruct *S, int_T port, int_T n);
+void ssSetInputPortRequiredContiguous(SimStruct *S, int_T port, int_T is_required);
+void ssSetOutputPortWidth(SimStruct *S, int_T port, int_T n);
+void ssSetNumSampleTimes(SimStruct *S, int_T n);
+void ssSetNumRWork(SimStruct *S, int_T n);
+void ssSetSampleTime(SimStruct *S, int_T index, real_T time);
+void ssSetOffsetTime(SimStruct *S, int_T index, real_T time);
+real_T *ssGetRWork(SimStruct *S);
+real_T *ssGetRealDiscStates(SimStruct *S);
+const real_T *ssGetInputPortRealSignal(SimStruct *S, int_T port);
+real_T *ssGetOutputPortRealSignal(SimStruct *S, int_T port);
+void ssSetErrorStatus(SimStruct *S, const char *message);
