@@ -7,7 +7,8 @@ use crate::capture::{CaseResult, Silent, Study, StudyError, study};
 use crate::contact::ContactKind;
 use crate::owned::RobotState;
 use crate::registry;
-use crate::scenario::{OnOverlap, Scenario};
+use crate::scenario::{OnOverlap, PostCaptureControl, Scenario};
+use crate::simulate::stepper::Integrator;
 use crate::simulate::system::Body;
 use planar_proof::{assert_close, file, layout};
 
@@ -87,6 +88,23 @@ fn two_targets_one_after_the_other() {
             assert!((target.pose[1] - pose[1]).hypot(target.pose[2] - pose[2]) < RADIUS + 1e-9, "{target:?} {pose:?}");
         }
     }
+}
+
+/// A damping law that its steps make unstable moves the robot so fast after the second impact that the phase stops, at
+/// the start of one of its steps. Its time counts from the first impact.
+#[test]
+fn a_phase_that_stops_after_a_later_impact() {
+    let coming =
+        [Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 }, Coming { arm: 1, speed: 3.0, time: 5.8, aside: 0.0 }];
+    let mut scenario = meeting(&coming, 0.25);
+    let after = scenario.post_impact.as_mut().expect("a phase");
+    after.integration.integrator = Integrator::RungeKutta4;
+    after.control = PostCaptureControl::Damping { derivative_gain: vec![200.0; 6] };
+    let error = run(&scenario).map(|_| ()).expect_err("no numbers");
+    let StudyError::PostImpact { source, .. } = error else { panic!("{error}") };
+    // the motion after the second impact, of 5.7 s, has 23 steps
+    let steps = (source.time - 0.3) / (5.7 / 23.0);
+    assert!(steps > 0.5 && (steps - steps.round()).abs() < 1e-3, "{steps}: {source}");
 }
 
 /// Targets that come at the same time are met in one impact.

@@ -147,3 +147,6 @@ fn exhausted(found: &Findings, pairs: &[BodyPair], bodies: &[ClearanceBody], tim
     };
     ClearanceError::Exhausted(Box::new(of_pair))
 }
+
+#[cfg(test)]
+mod tests;
