@@ -56,3 +56,6 @@ pub fn fuse<'a>(statements: &'a [Statement], results: &[&str]) -> HashMap<usize,
     }
     fused
 }
+
+#[cfg(test)]
+mod tests;
