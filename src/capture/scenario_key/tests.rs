@@ -12,7 +12,7 @@ fn scenario() -> Scenario {
         )
     };
     let text = format!(
-        "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.1, 0.1, 0.1, 0.1]\n[approach]\nduration = 1.0\n\
+        "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.1, 0.1, 0.1, 0.1]\n[approach]\nduration = 1.0\nstep = 0.125\n\
          trajectory = \"cycloidal\"\nfinal_joint_angles = [0.2, 0.1, 0.1, 0.1]\ntracking = \"exact\"\n[contact]\n\
          detection = \"event\"\n{}{}[post_impact]\nduration = 1.0\nstep = 0.25\n",
         target("slow", "arm1", 0.5),
@@ -44,6 +44,17 @@ fn phases_that_stop() {
         let after = StudyError::PostImpact { case: "it".to_owned(), source: stopped }.key(&scenario).path;
         assert_eq!(after, format!("post_impact.{expected}"));
     }
+}
+
+/// A rough path has the step of its own phase.
+#[test]
+fn rough_paths() {
+    let key = |table: &'static str| {
+        StudyError::RoughPath { case: "it".to_owned(), table, time: 0.5, path_error: 0.1 }.key(&scenario())
+    };
+    let found = ["approach", "post_impact"].map(key);
+    assert_eq!(found.each_ref().map(|key| key.path.as_str()), ["approach.step", "post_impact.step"]);
+    assert_eq!(found.each_ref().map(|key| key.value.as_str()), ["0.125", "0.25"]);
 }
 
 /// Of distances that are used up: the outline of many parts, whichever of the two it is, else the twist of the target
