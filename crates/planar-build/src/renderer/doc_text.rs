@@ -86,3 +86,6 @@ fn literal(text: &str) -> String {
 fn code(text: &str) -> String {
     format!("`{}`", text.replace('`', "'").replace('|', "\\|"))
 }
+
+#[cfg(test)]
+mod tests;
