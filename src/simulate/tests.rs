@@ -7,7 +7,7 @@
     reason = "small whole numbers, and numbers that are copied"
 )]
 
-use super::bodies::{bodies, inertia_about};
+use super::bodies::{BodySums, bodies, inertia_about};
 use super::conservation::{AccumulatedInput, ConservationAudit};
 use super::event::{EndTime, EventState, Events, NoEvents};
 use super::limits::{JointLimits, LimitViolation, LimitViolations};
@@ -220,6 +220,23 @@ fn inertia_is_twice_the_energy_of_a_rotation() {
         };
         let energy: f64 = all.iter().map(turned).sum();
         assert_close("inertia", &[inertia_about(&all, about)], &[2.0 * energy], 1e-12 * energy);
+    }
+}
+
+/// A moved phase is that of moved bodies: their positions, and their angular momentum about the origin.
+#[test]
+fn samples_about_another_origin() {
+    let (model, _) = robot();
+    let mut moved = phase(1.0);
+    moved.translate([10.0, -20.0]);
+    for (sample, before) in moved.samples.iter().zip(phase(1.0).samples) {
+        let [yaw, x, y] = before.state.base_pose;
+        assert_eq!(sample.state.base_pose, [yaw, x + 10.0, y - 20.0]);
+        let bodies = bodies(&*model, &sample.state.view(), &[]).expect("bodies");
+        let right = BodySums::new(bodies.into_iter()).momentum();
+        assert!(right.linear_momentum.iter().all(|momentum| momentum.abs() > 1.0));
+        assert_close("l", &[sample.momentum.angular_momentum], &[right.angular_momentum], 1e-10);
+        assert_close("p", &sample.momentum.linear_momentum, &right.linear_momentum, 1e-12);
     }
 }
 

@@ -68,6 +68,25 @@ fn what_is_out_of_reach_is_so_at_every_size() {
     }
 }
 
+/// Twists that rates give but for a ten-millionth of them are out of reach; rounding is not.
+#[test]
+fn a_small_miss_is_a_miss() {
+    let model = model();
+    let end = end(&*model, state([0.6, -1.2, 2.5, 1.2], [0.0; 3], [0.0; 4]));
+    let (_, jacobian) = reduced_matrices(&*model, &end.state.view()).expect("a Jacobian");
+    let projection = DMatrix::identity(6, 6) - &jacobian * jacobian.clone().pseudo_inverse(1e-12).expect("an inverse");
+    let (reached, beside) =
+        (&jacobian * DVector::from_element(4, 1.0), projection.column(0) / projection.column(0).amax());
+    let design = |miss: f64| {
+        let wanted = &reached + &beside * miss * reached.amax();
+        let goals: Vec<[_; 3]> =
+            wanted.as_slice().chunks(3).map(|goal| std::array::from_fn(|i| Some(goal[i]))).collect();
+        rates_for(&*model, &end, &goals)
+    };
+    assert_close("rates", &design(1e-13).expect("rounding").0, &[1.0; 4], tolerance::SOLVED_IDENTITY);
+    assert!(matches!(design(1e-7), Err(TerminalRatesError::Unreachable { .. })), "{:?}", design(1e-7));
+}
+
 /// Rest is a twist as any other, also for a wheel that moves no end effector.
 #[test]
 fn rest_at_the_end() {
