@@ -263,3 +263,6 @@ fn parameter(parameter: &Parameter) -> Value {
 fn array_type(shape: &[usize], scalar: &str) -> String {
     shape.iter().rev().fold(scalar.to_owned(), |inner, n| format!("[{inner}; {n}]"))
 }
+
+#[cfg(test)]
+mod tests;

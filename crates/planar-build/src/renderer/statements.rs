@@ -296,3 +296,6 @@ pub fn bindings(lines: &[String], model: &str, syntax: Syntax) -> Vec<String> {
     let used = |(_, place): &(&str, Place)| lines.iter().any(|line| line.contains(&syntax.field(*place, "")));
     fields.iter().filter(|field| used(field)).map(|(field, _)| syntax.reference(field, model)).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -120,6 +120,7 @@ mod tests {
         assert_eq!(list("f(a, b,);"), Some(("f(", vec!["a", "b"], ");")), "an empty item is none");
         assert_eq!(list("f(a) + [b];"), None, "a list has a comma");
         assert_eq!(list("a, b) + c"), None, "an unopened bracket is no list");
+        assert_eq!(list("a) + f(b, c);"), Some(("a) + f(", vec!["b", "c"], ");")), "and hides none");
     }
 
     #[test]

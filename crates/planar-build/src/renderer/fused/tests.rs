@@ -1,23 +1,8 @@
 //! What is fused, and what it is then, for statements of a few lines.
 
-use super::{MultiplyAdd, Operand, Statement, fuse};
-use serde_json::json;
+use super::{MultiplyAdd, Operand, fuse};
+use crate::renderer::tests::statements;
 use std::collections::HashMap;
-
-/// Statements from lines such as `p = mul a b`; `sine,cosine = sin_cos angle`.
-fn statements(lines: &[&str]) -> Vec<Statement> {
-    let statement = |line: &&str| {
-        let words: Vec<&str> = line.split(' ').collect();
-        let [targets, "=", operation, operands @ ..] = words.as_slice() else { panic!("{line}") };
-        let targets = match targets.split_once(',') {
-            Some(pair) => json!([pair.0, pair.1]),
-            None => json!(targets),
-        };
-        let list = [targets, json!(operation)].into_iter().chain(operands.iter().map(|operand| json!(operand)));
-        serde_json::from_value(list.collect()).expect("a statement")
-    };
-    lines.iter().map(statement).collect()
-}
 
 /// The indices of the fused sums and of the products in them.
 fn fused(lines: &[&str], results: &[&str]) -> [Vec<usize>; 2] {
@@ -25,8 +10,10 @@ fn fused(lines: &[&str], results: &[&str]) -> [Vec<usize>; 2] {
     for (index, sum) in fuse(&statements, results) {
         found[usize::from(sum.is_none())].push(index);
     }
-    found.iter_mut().for_each(|indices| indices.sort_unstable());
-    found
+    found.map(|mut indices| {
+        indices.sort_unstable();
+        indices
+    })
 }
 
 #[test]
