@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Folder for the worst states [default: results/compare/NAME, NAME the layout's].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace all that is in DIR, whatever it is.
+    /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
     #[arg(long)]
     force: bool,
 }

@@ -29,7 +29,7 @@ pub struct Arguments {
     /// Folder for summary.json and the CSV time series [default: results/NAME, NAME the scenario's].
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Replace all that is in DIR, whatever it is.
+    /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
     #[arg(long)]
     force: bool,
     /// The implementation of the dynamics.
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         note(format_args!("audit: {failure}"));
     }
     if failures.iter().any(|failure| failure.contains("over its bound")) {
-        note("a shorter `step`, or `integrator = \"adaptive\"`, makes drifts and errors smaller");
+        note("a smaller `tolerance`, or with a fixed integrator a shorter `step`, makes drifts and errors smaller");
     }
     Ok(code)
 }

@@ -15,7 +15,7 @@ pub enum ClaimError {
     NotAFolder(PathBuf),
     /// Its content is not what this run may replace.
     #[error(
-        "{path} {found}, and a folder holds one run: choose another folder, or replace all that is in it with --force",
+        "{path} {found}, and a folder holds one run: choose another folder, or replace the files in it with --force",
         path = path.display()
     )]
     Occupied {
@@ -29,7 +29,7 @@ pub enum ClaimError {
     Protected {
         /// The folder.
         path: PathBuf,
-        /// The working folder, or an input of the run.
+        /// The working folder, the user's own, an input of the run, or what no run writes.
         kept: PathBuf,
     },
     /// It cannot be read or written.
@@ -48,8 +48,9 @@ pub struct ResultFolder {
 pub type Objection<'a> = &'a dyn Fn(&Path, &[String]) -> Option<String>;
 
 impl ResultFolder {
-    /// Claims a folder that is absent or empty, or to whose content there is no `objection`; with `force` any folder that
-    /// contains neither the working folder nor one of the files in `keep`. Removes what killed runs left there.
+    /// Claims a folder that is absent or empty, or to whose content there is no `objection`; with `force` any folder of
+    /// files, and figures, that contains neither the working folder, nor the user's own, nor one of the files in `keep`.
+    /// Removes what killed runs left there.
     ///
     /// # Errors
     /// [`ClaimError`].
@@ -189,13 +190,31 @@ fn names(folder: &Path) -> Result<Vec<OsString>, OutputError> {
     Ok(names)
 }
 
-/// Refuses a folder that contains the working folder or one of the files.
+/// The folder in a folder of results; these have no other, and no name that begins with a point.
+const FIGURES: &str = "figures";
+
+/// Refuses a folder that is more than one of results: that contains the working folder, the user's own folder, one of the
+/// files, a folder other than that of figures, or a hidden file.
 fn protect(path: &Path, keep: &[&Path]) -> Result<(), ClaimError> {
+    let protected = |kept| ClaimError::Protected { path: path.to_owned(), kept };
     let absolute = |path: &Path| path.canonicalize().ok();
-    let Some(folder) = absolute(path) else { return Ok(()) };
-    let kept = std::iter::once(Path::new(".")).chain(keep.iter().copied()).filter_map(absolute);
-    match kept.into_iter().find(|kept| kept.starts_with(&folder)) {
-        Some(kept) => Err(ClaimError::Protected { path: path.to_owned(), kept }),
-        None => Ok(()),
+    // a folder whose place cannot be told is not emptied
+    let folder = absolute(path).ok_or_else(|| protected(path.to_owned()))?;
+    let home = std::env::home_dir();
+    let kept = [Some(Path::new(".")), home.as_deref()].into_iter().flatten().chain(keep.iter().copied());
+    if let Some(kept) = kept.filter_map(absolute).find(|kept| kept.starts_with(&folder)) {
+        return Err(protected(kept));
     }
+    for name in names(path)? {
+        let entry = path.join(&name);
+        let is_hidden = |name: &OsString| name.to_string_lossy().starts_with('.');
+        let inner = if name == FIGURES && !entry.is_symlink() && entry.is_dir() { names(&entry)? } else { Vec::new() };
+        if let Some(kept) = inner.iter().map(|name| entry.join(name)).find(|inner| inner.is_dir()) {
+            return Err(protected(kept));
+        }
+        if is_hidden(&name) || (entry.is_dir() && name != FIGURES) {
+            return Err(protected(entry));
+        }
+    }
+    Ok(())
 }

@@ -107,6 +107,34 @@ fn what_force_does_not_delete() {
     assert_eq!(names(&inner), ["notes.txt"]);
 }
 
+/// `--force` replaces files: not a folder with folders in it, or with hidden files, nor the user's own folder.
+#[test]
+fn force_is_for_folders_of_files() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    for (place, kept) in
+        [("project/src/main.rs", "src"), ("hidden/.profile", ".profile"), ("deep/figures/old/x", "old")]
+    {
+        let file = folder.path().join(place);
+        fs::create_dir_all(file.parent().expect("a folder")).expect("folders");
+        fs::write(&file, "mine").expect("written");
+        let top = folder.path().join(place.split('/').next().expect("a folder"));
+        let (code, err) = run(&one, &top, &["--force"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("would delete") && err.contains(kept), "{err}");
+        assert_eq!(fs::read(&file).expect("the file"), b"mine");
+    }
+    let home = folder.path().join("home");
+    fs::create_dir(&home).expect("a folder");
+    fs::write(home.join("notes.txt"), "mine").expect("written");
+    let output =
+        command().env("HOME", &home).args(["run", &one, "--force", "--out"]).arg(&home).output().expect("it runs");
+    let (code, _, err) = planar_proof::said(output);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("would delete"), "{err}");
+    assert_eq!(names(&home), ["notes.txt"]);
+}
+
 /// The study of this scenario fails: whatever is said instead was found before it was computed.
 #[test]
 fn what_is_no_folder_is_refused_before_anything_is_computed() {
