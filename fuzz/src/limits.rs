@@ -18,7 +18,7 @@ const GROWTH: usize = 8 << 20;
 
 /// Time after which an input hangs; of the processor's, where it can be told, for others may use the processor too. An arm
 /// that a scenario turns 3,000 times through its own base, in three cases, takes 100 s, for 12,000 overlaps of each.
-const HANG: Duration = Duration::from_secs(600);
+const HANG: Duration = Duration::from_mins(10);
 
 /// How much longer an input may take where it waits for the processor.
 const WAITING: u32 = 4;
