@@ -3,10 +3,13 @@
 use super::terminal::note;
 use indicatif::{ProgressBar, ProgressStyle};
 use planar_capture::capture::Observer;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-/// Steps between two looks at the clock.
-const STRIDE: u64 = 256;
+/// Steps between two positions of the bar.
+const STRIDE: u64 = 16;
 const TICK: Duration = Duration::from_millis(100);
 
 /// How a long command shows that it goes on.
@@ -28,37 +31,22 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Shows the running part of a study.
 pub struct Progress {
     bar: ProgressBar,
-    /// Between lines; `None` where there is a bar, or nothing is wanted.
-    interval: Option<Duration>,
-    part: String,
+    lines: Option<Lines>,
     steps: u64,
-    of: u64,
-    begin: Instant,
-    /// Of the last line, or the begin.
-    shown: Instant,
 }
 
 impl Progress {
     /// It appears with the first part.
     pub fn new(display: Display) -> Self {
         let bar = if display.quiet { ProgressBar::hidden() } else { ProgressBar::no_length() };
-        let interval = (bar.is_hidden() && !display.quiet).then_some(display.progress);
-        let begin = Instant::now();
-        Self { bar, interval, part: String::new(), steps: 0, of: 0, begin, shown: begin }
+        let lines = (bar.is_hidden() && !display.quiet).then(|| Lines::every(display.progress.max(TICK)));
+        Self { bar, lines, steps: 0 }
     }
 
     /// Removes the bar.
-    pub fn finish(&self) {
+    pub fn finish(&mut self) {
         self.bar.finish_and_clear();
-    }
-
-    fn line(&self) -> String {
-        let Self { part, steps, of, begin, .. } = self;
-        let elapsed = begin.elapsed().as_secs();
-        match of {
-            0 => format!("{part}: {steps} steps, {elapsed} s"),
-            of => format!("{part}: {} %, {elapsed} s", 100 * steps / of),
-        }
+        self.lines = None;
     }
 }
 
@@ -74,19 +62,76 @@ impl Observer for Progress {
             self.bar.unset_length();
         }
         self.bar.enable_steady_tick(TICK);
-        part.clone_into(&mut self.part);
-        (self.steps, self.of) = (0, steps);
+        self.steps = 0;
+        if let Some(lines) = &self.lines {
+            lines.set(|now| *now = Position { part: part.to_owned(), steps: 0, of: steps });
+        }
     }
 
     fn step(&mut self) {
         self.steps += 1;
-        if !self.steps.is_multiple_of(STRIDE) {
-            return;
+        if self.steps.is_multiple_of(STRIDE) {
+            self.bar.set_position(self.steps);
         }
-        self.bar.set_position(self.steps);
-        if self.interval.is_some_and(|interval| self.shown.elapsed() >= interval) {
-            note(self.line());
-            self.shown = Instant::now();
+        if let Some(lines) = &self.lines {
+            lines.set(|now| now.steps = self.steps);
+        }
+    }
+}
+
+/// Where a study is.
+#[derive(Default)]
+struct Position {
+    part: String,
+    steps: u64,
+    /// 0 where it is not known.
+    of: u64,
+}
+
+impl Position {
+    fn line(&self, elapsed: u64) -> String {
+        let Self { part, steps, of } = self;
+        match of {
+            0 => format!("{part}: {steps} steps, {elapsed} s"),
+            of => format!("{part}: {} %, {elapsed} s", 100 * steps / of),
+        }
+    }
+}
+
+/// Lines from a thread of their own: one step can take minutes.
+struct Lines {
+    position: Arc<Mutex<Position>>,
+    /// The thread ends where this is dropped.
+    thread: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Lines {
+    fn every(interval: Duration) -> Self {
+        let position = Arc::<Mutex<Position>>::default();
+        let (sender, receiver) = mpsc::channel();
+        let begin = Instant::now();
+        let shared = Arc::clone(&position);
+        let thread = thread::spawn(move || {
+            while receiver.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
+                let now = shared.lock().unwrap_or_else(PoisonError::into_inner);
+                if !now.part.is_empty() {
+                    note(now.line(begin.elapsed().as_secs()));
+                }
+            }
+        });
+        Self { position, thread: Some((sender, thread)) }
+    }
+
+    fn set(&self, change: impl FnOnce(&mut Position)) {
+        change(&mut self.position.lock().unwrap_or_else(PoisonError::into_inner));
+    }
+}
+
+impl Drop for Lines {
+    fn drop(&mut self) {
+        if let Some((sender, thread)) = self.thread.take() {
+            drop(sender);
+            let _ = thread.join();
         }
     }
 }

@@ -226,14 +226,17 @@ fn clearance(out: &mut String, study: &Study) -> fmt::Result {
     for CaseResult { name, clearance, stopped, .. } in &study.cases {
         match clearance.least_shown() {
             Some(LeastDistance { distance, time, bodies: [a, b] }) => {
-                writeln!(out, "  {name:<16} {distance:>12.6} {time:>10.3}  {a} and {b}")?;
+                let distance = if distance.abs() < 1e-5 { format!("{distance:.2e}") } else { format!("{distance:.6}") };
+                writeln!(out, "  {name:<16} {distance:>12} {time:>10.3}  {a} and {b}")?;
             }
             None => writeln!(out, "  {name:<16} all bodies are joined")?,
         }
         let shown = clearance.overlaps.iter().take(SHOWN_OVERLAPS);
         shown.map(Overlap::sentence).try_for_each(|sentence| writeln!(out, "    {sentence}"))?;
-        if clearance.overlaps.len() > SHOWN_OVERLAPS {
-            writeln!(out, "    and {} later overlaps, see summary.json", clearance.overlaps.len() - SHOWN_OVERLAPS)?;
+        match clearance.overlaps.len().saturating_sub(SHOWN_OVERLAPS) {
+            0 => {}
+            1 => writeln!(out, "    and a later overlap, see summary.json")?,
+            more => writeln!(out, "    and {more} later overlaps, see summary.json")?,
         }
         if let Some(time) = stopped {
             writeln!(out, "    the case ends with this overlap, at {time:.3} s (clearance.on_overlap)")?;

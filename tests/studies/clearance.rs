@@ -145,7 +145,7 @@ fn rules_of_overlaps() {
     let failures = failing.audit_failures();
     for case in &failing.cases {
         let (all, of_case) = (case.clearance.failures().count(), format!("{}: ", case.name));
-        let (named, more) = (failures.iter().filter(|failure| failure.contains(" overlap from ")), all - 10);
+        let (named, more) = (failures.iter().filter(|failure| failure.contains("` overlap ")), all - 10);
         assert_eq!(named.filter(|failure| failure.starts_with(&of_case)).count(), 10, "of {all}");
         assert!(failures.contains(&format!("{of_case}{more} more overlaps, all in the summary")), "{failures:?}");
     }

@@ -50,7 +50,12 @@ impl Overlap {
     pub fn sentence(&self) -> String {
         let Self { bodies: [a, b], span: [from, to], depth, is_default } = self;
         let outlines = if *is_default { " (default outlines)" } else { "" };
-        format!("`{a}` and `{b}` overlap from {from:.3} s to {to:.3} s by up to {depth:.2e} m{outlines}")
+        let when = match to - from {
+            0.0 => return format!("`{a}` and `{b}` begin to overlap at {from:.3} s{outlines}"),
+            short if short < 1e-3 => format!("at {from:.3} s for {short:.1e} s"),
+            _ => format!("from {from:.3} s to {to:.3} s"),
+        };
+        format!("`{a}` and `{b}` overlap {when} by up to {depth:.2e} m{outlines}")
     }
 }
 

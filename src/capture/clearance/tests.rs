@@ -518,3 +518,12 @@ proptest! {
         prop_assert!((tracker.penetration() - depth).abs() < 1.1e-6, "{} {}", tracker.penetration(), depth);
     }
 }
+
+#[test]
+fn an_overlap_in_words_says_when_however_short_it_is() {
+    let words =
+        |span, depth| Overlap { bodies: ["base".into(), "a".into()], span, depth, is_default: false }.sentence();
+    assert_eq!(words([1.0, 2.5], 0.25), "`base` and `a` overlap from 1.000 s to 2.500 s by up to 2.50e-1 m");
+    assert_eq!(words([1.0, 1.000_002], 3e-7), "`base` and `a` overlap at 1.000 s for 2.0e-6 s by up to 3.00e-7 m");
+    assert_eq!(words([1.0, 1.0], 0.0), "`base` and `a` begin to overlap at 1.000 s");
+}
