@@ -72,7 +72,8 @@ macro_rules! implement_dynamics {
             }
 
             impl<T: Real> ForwardDynamics<T> for Model<T> {
-                #[inline]
+                #[cfg_attr(target_arch = "arm", inline(always))]
+                #[cfg_attr(not(target_arch = "arm"), inline)]
                 fn forward_dynamics(
                     &self,
                     state: &State<'_, T>,
@@ -82,33 +83,29 @@ macro_rules! implement_dynamics {
                     let angles = array("joint_angles", state.joint_angles)?;
                     let rates = array("joint_rates", state.joint_rates)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
-                    let joint_accelerations = array_mut("joint_accelerations", joint_accelerations)?;
-                    let twist = &state.base_twist;
-                    let pose = &state.base_pose;
-                    let wrench = forces.base_wrench.unwrap_or([T::ZERO; 3]);
-                    let (base, joints, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
+                    let joints = array_mut("joint_accelerations", joint_accelerations)?;
+                    let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
+                    let zero = [T::ZERO; 3];
+                    let wrench = forces.base_wrench.as_ref().unwrap_or(&zero);
+                    let (is_done, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
                         let wrenches = array("end_effector_wrenches", wrenches)?;
-                        let r = Model::forward_dynamics_with_wrenches(
-                            self, pose, angles, twist, rates, torques, &wrench, wrenches,
-                        );
-                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                        under_wrenches(self, pose, angles, twist, rates, torques, wrench, wrenches, &mut base, joints)
                     } else if forces.base_wrench.is_some() {
-                        let r = Model::forward_dynamics_with_base_wrench(
-                            self, pose, angles, twist, rates, torques, &wrench,
-                        );
-                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                        under_a_base_wrench(self, pose, angles, twist, rates, torques, wrench, &mut base, joints)
                     } else {
-                        let r = Model::forward_dynamics(self, pose, angles, twist, rates, torques);
-                        (r.base_acceleration, r.joint_accelerations, r.smallest_pivot)
+                        under_torques(self, pose, angles, twist, rates, torques, &mut base, joints)
                     };
-                    // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
-                    if !(is_regular(smallest) && all_finite([&pose[..], twist, &base, &joints])) {
-                        return Err(no_accelerations(state, forces, smallest, &base, &joints));
-                    }
-                    *joint_accelerations = joints;
-                    Ok(base)
+                    if is_done { Ok(base) } else { Err(no_accelerations(state, forces, smallest, &base, joints)) }
                 }
             }
+
+            $crate::implement_dynamics!(@accelerations under_torques forward_dynamics());
+            $crate::implement_dynamics!(
+                @accelerations under_a_base_wrench forward_dynamics_with_base_wrench(base_wrench: &[T; 3])
+            );
+            $crate::implement_dynamics!(
+                @accelerations under_wrenches forward_dynamics_with_wrenches(base_wrench: &[T; 3], wrenches: &[[T; 3]; ARMS])
+            );
 
             impl<T: Real> MomentumAndEnergy<T> for Model<T> {
                 fn momentum(&self, state: &State<'_, T>) -> Result<Momentum<T>, Error> {
@@ -227,6 +224,30 @@ macro_rules! implement_dynamics {
                     targets.map(|target| target.twist),
                 ))
             }
+        }
+    };
+    (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty),*)) => {
+        /// Whether the accelerations are those of finite inputs and a regular matrix; the smallest pivot. A function of its
+        /// own where registers are few: the frame is that of the forces that there are.
+        #[cfg_attr(target_arch = "arm", inline(never))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
+        fn $name<T: Real>(
+            model: &Model<T>,
+            pose: &[T; 3],
+            angles: &[T; JOINTS],
+            twist: &[T; 3],
+            rates: &[T; JOINTS],
+            torques: &[T; JOINTS],
+            $($wrench: $type,)*
+            base: &mut [T; 3],
+            joints: &mut [T; JOINTS],
+        ) -> (bool, T) {
+            let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
+            (*base, *joints) = (result.base_acceleration, result.joint_accelerations);
+            // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
+            let is_done = is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, base, joints]);
+            (is_done, result.smallest_pivot)
         }
     };
     ($other:tt) => {

@@ -1,14 +1,22 @@
 //! What [`accelerated`](super::accelerated) does in a way of the target's own, with `core` alone: for other targets, and for
 //! standalone modules.
 
-use super::sine::{sin_cos_f32, sin_cos_f64};
+use super::sine::{sin_cos_f32, sin_cos_f64, sin_cos_pair_f32, sin_cos_pair_f64};
 
 macro_rules! portable {
-    ($float:ident, $bits:ident, $sin_cos:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident) => {
+    ($float:ident, $bits:ident, $sin_cos:ident, $sin_cos_pair:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident) => {
         /// (sine, cosine) of each angle, rad.
         #[inline]
         pub(super) fn $sin_cos_all<const N: usize>(angles: [$float; N]) -> [($float, $float); N] {
-            angles.map($sin_cos)
+            let mut results = [(0.0, 0.0); N];
+            for (angles, results) in angles.chunks(2).zip(results.chunks_mut(2)) {
+                match (angles, results) {
+                    (&[first, second], [a, b]) => [*a, *b] = $sin_cos_pair(first, second).into_tuples(),
+                    (&[angle], [pair]) => *pair = $sin_cos(angle),
+                    _ => {}
+                }
+            }
+            results
         }
 
         /// a · b + c.
@@ -65,5 +73,5 @@ macro_rules! portable {
     };
 }
 
-portable!(f32, u32, sin_cos_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32);
-portable!(f64, u64, sin_cos_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64);
+portable!(f32, u32, sin_cos_f32, sin_cos_pair_f32, sin_cos_all_f32, mul_add_f32, sqrt_f32);
+portable!(f64, u64, sin_cos_f64, sin_cos_pair_f64, sin_cos_all_f64, mul_add_f64, sqrt_f64);

@@ -2,11 +2,9 @@
 //!
 //! The angle is reduced to ±π/4 by subtracting a multiple of π/2 in three parts (Cody & Waite 1980), whose products with
 //! the multiple are exact, or far from 0 in integers; two polynomials follow. There is no branch but that for far angles,
-//! which is out of line, so that what follows is not prepared for it.
+//! which are out of line altogether, so that nothing is prepared for them.
 
 use super::far_angle::{reduce_f32, reduce_f64};
-use core::f32::consts as single;
-use core::f64::consts as double;
 
 /// What reduction and polynomials of a scalar consist of.
 #[derive(Debug)]
@@ -55,19 +53,10 @@ pub const SINGLE: Coefficients<f32, 3, 3> = Coefficients {
     cosine: [4.166_664_6e-2, -1.388_731_6e-3, 2.443_315_7e-5],
 };
 
-/// (sine, cosine) of an angle in rad with an error below 3·10⁻¹⁶. NaN for an angle that is not finite.
+/// Polynomials on ±π/4, and what the number of quarter turns makes of them.
 #[inline]
-#[must_use]
-pub fn sin_cos_f64(angle: f64) -> (f64, f64) {
+fn turned_f64(x: f64, quadrant: u64) -> (f64, f64) {
     const K: Coefficients<f64, 6, 6> = DOUBLE;
-    let (x, quadrant) = if angle.abs() > K.furthest {
-        reduce_f64(angle)
-    } else {
-        let shifted = angle * double::FRAC_2_PI + K.round;
-        let quarters = shifted - K.round;
-        let [a, b, c] = K.quarter_turn;
-        (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
-    };
     let z = x * x;
     let [s0, s1, s2, s3, s4, s5] = K.sine;
     let [c0, c1, c2, c3, c4, c5] = K.cosine;
@@ -86,25 +75,16 @@ pub fn sin_cos_f64(angle: f64) -> (f64, f64) {
     (f64::from_bits(sine), f64::from_bits(cosine))
 }
 
-/// (sine, cosine) of an angle in rad with an error below 1.5·10⁻⁷. NaN for an angle that is not finite. It uses `f32` only:
-/// a processor without double precision computes it in hardware.
+/// As [`turned_f64`]; with `f32` alone, a processor without double precision computes it in hardware.
 #[inline]
-#[must_use]
-pub fn sin_cos_f32(angle: f32) -> (f32, f32) {
+fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
     const K: Coefficients<f32, 3, 3> = SINGLE;
-    let (x, quadrant) = if angle.abs() > K.furthest {
-        reduce_f32(angle)
-    } else {
-        let shifted = angle * single::FRAC_2_PI + K.round;
-        let quarters = shifted - K.round;
-        let [a, b, c] = K.quarter_turn;
-        (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
-    };
     let z = x * x;
     let [s0, s1, s2] = K.sine;
     let [c0, c1, c2] = K.cosine;
     let sine = x + x * z * (s0 + z * (s1 + z * s2));
     let cosine = 1.0 - 0.5 * z + z * z * (c0 + z * (c1 + z * c2));
+    // exchanged in odd quadrants
     let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
     let exchange = (sine ^ cosine) & (quadrant & 1).wrapping_neg();
     let sign = |quadrant: u32| (quadrant & 2) << 30;
@@ -112,3 +92,99 @@ pub fn sin_cos_f32(angle: f32) -> (f32, f32) {
     let cosine = cosine ^ exchange ^ sign(quadrant.wrapping_add(1));
     (f32::from_bits(sine), f32::from_bits(cosine))
 }
+
+macro_rules! sines {
+    ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $near:ident, $reduce:ident, $far:ident, $far_pair:ident,
+     $sin_cos:ident, $sin_cos_pair:ident, $pair:ident, $error:literal) => {
+        /// Sines and cosines of two angles.
+        #[derive(Clone, Copy, Debug)]
+        #[repr(C)]
+        pub struct $pair {
+            first: [$float; 2],
+            second: [$float; 2],
+        }
+
+        impl $pair {
+            /// (sine, cosine) of each.
+            #[inline]
+            pub fn into_tuples(self) -> [($float, $float); 2] {
+                let Self { first: [a, b], second: [c, d] } = self;
+                [(a, b), (c, d)]
+            }
+        }
+
+        /// Of an angle that is not far from 0.
+        #[inline]
+        fn $near(angle: $float) -> ($float, $float) {
+            let shifted = angle * core::$float::consts::FRAC_2_PI + $coefficients.round;
+            let quarters = shifted - $coefficients.round;
+            let [a, b, c] = $coefficients.quarter_turn;
+            $turned(((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
+        }
+
+        #[cold]
+        #[inline(never)]
+        fn $far(angle: $float) -> ($float, $float) {
+            let (x, quadrant) = $reduce(angle);
+            $turned(x, quadrant)
+        }
+
+        #[doc = concat!("(sine, cosine) of an angle in rad with an error below ", $error, ". NaN for an angle that is not finite.")]
+        #[cfg_attr(target_arch = "arm", inline(never))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        #[must_use]
+        pub fn $sin_cos(angle: $float) -> ($float, $float) {
+            if angle.abs() <= $coefficients.furthest { $near(angle) } else { $far(angle) }
+        }
+
+        /// Of two angles: a call less, and one set of constants, where it is not inlined. Four numbers come back in registers
+        /// by the convention of C, not by that of Rust.
+        #[cfg_attr(target_arch = "arm", inline(never))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
+        #[must_use]
+        pub extern "C" fn $sin_cos_pair(first: $float, second: $float) -> $pair {
+            if first.abs() + second.abs() <= $coefficients.furthest {
+                let [first, second] = [first, second].map(|angle| $near(angle).into());
+                $pair { first, second }
+            } else {
+                $far_pair(first, second)
+            }
+        }
+
+        #[cold]
+        #[inline(never)]
+        extern "C" fn $far_pair(first: $float, second: $float) -> $pair {
+            let [first, second] = [first, second].map(|angle| $sin_cos(angle).into());
+            $pair { first, second }
+        }
+    };
+}
+
+sines!(
+    f64,
+    u64,
+    DOUBLE,
+    turned_f64,
+    near_f64,
+    reduce_f64,
+    far_f64,
+    far_pair_f64,
+    sin_cos_f64,
+    sin_cos_pair_f64,
+    PairF64,
+    "3·10⁻¹⁶"
+);
+sines!(
+    f32,
+    u32,
+    SINGLE,
+    turned_f32,
+    near_f32,
+    reduce_f32,
+    far_f32,
+    far_pair_f32,
+    sin_cos_f32,
+    sin_cos_pair_f32,
+    PairF32,
+    "1.5·10⁻⁷"
+);
