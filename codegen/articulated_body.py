@@ -200,6 +200,52 @@ class LeafBody:
         return angular_acceleration(self.alpha_0, self.angular_response, a), [a] * self.children
 
 
+class TipBody:
+    """The last link of an arm, with axes along and across the line from its joint to its COM, and |c| as unit of length.
+
+    What rotates its vectors to the frame of the parent then is [C, -S; S, C] with (C, S) the COM there: neither the
+    direction nor the distance of the COM has to be known, and nothing is undefined where it is at the joint. With
+    k = m^2 / I_P,
+
+        A = m 1 - k [S^2, -C S; -C S, C^2],  b = -m omega^2 (C, S) + n m / I_P (-S, C),
+        alpha = (n - m (C a_y - S a_x)) / I_P.
+
+    ``added`` is a point mass at the joint.
+    """
+
+    def __init__(self, symbols: Symbols, own: RigidBodyInertia, added: ca.SX) -> None:
+        label, constant = own.label, symbols.constant
+        self.mass = own.mass
+        self.inverse = symbols.reciprocal_constant(
+            f"{label}_inverse_joint_inertia", own.about_joint(symbols), "1/(kg m^2)", "1 / (I + m |c|^2)"
+        )
+        ratio = constant(f"{label}_mass_ratio", own.mass * self.inverse, "1/m^2", "m / (I + m |c|^2)")
+        self.angular_response = (ZERO, ratio)
+        what = "articulated inertia at the joint"
+        self.inertia = ArticulatedInertia(
+            constant(f"{label}_articulated_inertia_xx", own.mass + added, "kg", f"{what}, along c"),
+            ZERO,
+            constant(f"{label}_articulated_inertia_yy", ratio * own.inertia + added, "kg", f"{what}, across c"),
+            constant(
+                f"{label}_articulated_inertia_difference",
+                own.mass * ratio,
+                "kg/m^2",
+                "(xx - yy) / |c|^2 of the articulated inertia at the joint, m^2 / (I + m |c|^2)",
+            ),
+        )
+
+    @property
+    def configuration_values(self) -> list[ca.SX]:
+        return self.inertia.elements
+
+    def bias_force(self, angular_velocity_squared: ca.SX, moment: ca.SX, _: list[Vector]) -> Vector:
+        self.alpha_0 = moment * self.inverse  # for a = 0
+        return -angular_velocity_squared * self.mass, moment * self.angular_response[1]
+
+    def accelerations(self, a: Vector) -> tuple[ca.SX, list[Vector]]:
+        return angular_acceleration(self.alpha_0, self.angular_response, a), []
+
+
 class GeneralBody:
     """Any number of children anywhere: r = m z x c + sum A' (z x d), D = I_P + sum (z x d) . A' (z x d)."""
 
@@ -253,7 +299,7 @@ def angular_acceleration(alpha_0: ca.SX, angular_response: Vector, a: Vector) ->
     return alpha_0 - angular_response[0] * a[0] - angular_response[1] * a[1]
 
 
-ArticulatedBody = CollinearBody | LeafBody | GeneralBody
+ArticulatedBody = CollinearBody | LeafBody | TipBody | GeneralBody
 
 
 def articulated_body(

@@ -30,7 +30,10 @@ class ArticulatedInertia:
         return [self.xx, self.xy, self.yy]
 
     def rotate(self, rotation: Rotation) -> "ArticulatedInertia":
-        """R A R^T in 10 operations, 5 where xy is zero; the trace is invariant."""
+        """R A R^T in 10 operations, 5 where xy is zero; the trace is invariant.
+
+        ``rotation`` may be a multiple of one if ``difference`` is divided by its square and xy is zero.
+        """
         c, s = rotation
         difference = self.xx - self.yy if self.difference is None else self.difference
         twice_xy = self.xy + self.xy if self.twice_xy is None else self.twice_xy

@@ -17,7 +17,6 @@ import casadi as ca
 
 from .articulated_body import Child
 from .eliminated_body import EliminatedBody
-from .forward_dynamics import com_frame
 from .inputs import Inputs
 from .plane_vectors import ZERO, Rotation, Vector, add, dot, rotate, rotation, scale
 from .rigid_body_inertia import RigidBodyInertia
@@ -43,18 +42,17 @@ class EliminatedArm:
 
     def __init__(self, symbols: Symbols, arm: ArmSymbols, inputs: Inputs, base_rotation: Rotation) -> None:
         self.symbols, self.mount = arm, rotate(base_rotation, arm.mount)
-        com_angle, last_com, end_effector = com_frame(symbols, arm)
         angle, rotations = inputs.base_pose[0] + arm.mount_angle, []
         for k in range(self.links):
             angle = angle + inputs.joint_angles[arm.first_joint + k]
-            rotations.append(rotation(angle + com_angle if k == self.links - 1 else angle))
-        self.end_effector = rotate(rotations[-1], end_effector)  # from the last joint
+            rotations.append(rotation(angle))
+        self.end_effector = scale(arm.links[-1].length, rotations[-1])  # from the last joint
         self.bodies: list[EliminatedBody] = []
         child = None
         for k in reversed(range(self.links)):
-            link, is_last = arm.links[k], k == self.links - 1
-            own = RigidBodyInertia(link.label, link.mass, link.inertia, last_com if is_last else link.com)
-            if not is_last:
+            link = arm.links[k]
+            own = RigidBodyInertia(link.label, link.mass, link.inertia, link.com)
+            if k < self.links - 1:
                 child = Child(scale(link.length, rotations[k]), self.bodies[0].inertia)
             self.bodies.insert(0, EliminatedBody(symbols, own, rotations[k], child))
         self.inertia = self.bodies[0].inertia  # at the mount

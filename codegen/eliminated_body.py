@@ -12,7 +12,7 @@ body, its inertia I_P about the joint, and F' = A' (a + alpha z x d - omega^2 d)
 
 from dataclasses import replace
 
-from .articulated_body import Child, LeafBody
+from .articulated_body import Child, LeafBody, TipBody
 from .articulated_inertia import ArticulatedInertia
 from .plane_vectors import ZERO, ZERO_VECTOR, Rotation, add, dot, perpendicular, rotate, scale
 from .rigid_body_inertia import RigidBodyInertia
@@ -24,14 +24,18 @@ class EliminatedBody:
     ``inertia``, its articulated inertia m + A' - r r^T / D."""
 
     def __init__(self, symbols: Symbols, own: RigidBodyInertia, rotation: Rotation, child: Child | None) -> None:
-        self.first_moment = rotate(rotation, own.first_moment(symbols))
+        if child is None:
+            rotation = rotate(rotation, own.com)  # as that of a `TipBody`
+            self.first_moment = scale(own.mass, rotation)
+        else:
+            self.first_moment = rotate(rotation, own.first_moment(symbols))
         self.joint_inertia = own.about_joint(symbols)
         self.child = None if child is None else child.inertia
         self.to_child = self.lever = ZERO_VECTOR  # d, z x d
         if child is None or child.at_joint:
             # with constants of its own: forward dynamics may have added a part of the base's mass to those of its body
             alone = replace(own, label=f"{own.label}_alone")
-            leaf = LeafBody(symbols, alone, [], ZERO)
+            leaf = TipBody(symbols, alone, ZERO) if child is None else LeafBody(symbols, alone, [], ZERO)
             self.inverse, self.coupling = leaf.inverse, perpendicular(self.first_moment)
             self.centripetal, self.centripetal_moment = self.first_moment, ZERO
             self.response = scale(self.inverse, self.coupling)

@@ -15,6 +15,7 @@ from .articulated_body import (
     GeneralBody,
     LeafBody,
     LengthRatios,
+    TipBody,
     TwoMassBody,
     articulated_body,
     is_collinear,
@@ -44,32 +45,36 @@ from .symbols import ArmSymbols, Symbols
 class ArticulatedArm:
     """The articulated bodies of one arm, from the last link to the mount, at one configuration.
 
-    The frame of the last link has its x axis through the COM, which makes its articulated inertia diagonal. A point
-    mass ``added`` of the base is at the mount, which is at ``offset`` from that of the first arm.
+    The axes of the last link are along and across its COM, and its rotation is (C, S), the COM in the parent's frame;
+    its end effector is in the parent's frame too. A point mass ``added`` of the base is at the mount, which is at
+    ``offset`` from that of the first arm.
     """
 
     def __init__(
         self, symbols: Symbols, arm: ArmSymbols, inputs: Inputs, index: int, added: ca.SX, offset: Vector
     ) -> None:
         self.symbols, self.inputs, self.index = arm, inputs, index
-        com_angle, last_com, self.end_effector = com_frame(symbols, arm)
         self.bodies: list[ArticulatedBody] = []
         self.rotations: list[Rotation] = []
         children: list[Child] = []
         for k in reversed(range(self.links)):
-            link, is_last = arm.links[k], k == self.links - 1
-            own = RigidBodyInertia(link.label, link.mass, link.inertia, last_com if is_last else link.com)
-            self.bodies.insert(0, articulated_body(symbols, own, children, added if k == 0 else ZERO))
+            link = arm.links[k]
+            own = RigidBodyInertia(link.label, link.mass, link.inertia, link.com)
             angle = inputs.joint_angles[arm.first_joint + k]
-            if is_last:
-                angle = angle + com_angle
-            if k == 0:
-                angle = angle + arm.mount_angle
-            self.rotations.insert(0, rotation(angle))
+            to_parent = rotation(angle + arm.mount_angle if k == 0 else angle)
+            at_joint = added if k == 0 else ZERO
+            if k == self.links - 1:
+                body = TipBody(symbols, own, at_joint)
+                self.end_effector = scale(link.length, to_parent)
+                to_parent = rotate(to_parent, link.com)
+            else:
+                body = articulated_body(symbols, own, children, at_joint)
+            self.bodies.insert(0, body)
+            self.rotations.insert(0, to_parent)
             position = (arm.links[k - 1].length, ZERO) if k > 0 else offset
-            children = [Child(position, self.bodies[0].inertia.rotate(self.rotations[0]))]
+            children = [Child(position, body.inertia.rotate(to_parent))]
         self.child = children[0]  # of the base
-        values = [body.configuration_values for body in self.bodies]
+        values = [self.end_effector, *(body.configuration_values for body in self.bodies)]
         self.inertia_section = Section(f"{arm.title}, articulated inertia", values, self.child.inertia.elements)
 
     @property
@@ -86,7 +91,7 @@ class ArticulatedArm:
         if with_wrench:
             wrench = inputs.end_effector_wrenches[:, self.index]
             external = rotate_inverse(base_rotation, (wrench[1], wrench[2]))
-            for link_rotation in self.rotations:
+            for link_rotation in self.rotations[:-1]:
                 external = rotate_inverse(link_rotation, external)
             moment = moment + (wrench[0] + cross(self.end_effector, external))
         forces: list[Vector] = []
@@ -94,9 +99,10 @@ class ArticulatedArm:
             if k < self.links - 1:
                 moment = torques[k] - torques[k + 1]
             force = self.bodies[k].bias_force(velocities[k] * velocities[k], moment, forces)
+            force = rotate(self.rotations[k], force)
             if k == self.links - 1 and with_wrench:
                 force = subtract(force, external)
-            forces = [rotate(self.rotations[k], force)]
+            forces = [force]
         return forces[0]
 
     def accelerations(self, a: Vector, base_acceleration: ca.SX) -> list[ca.SX]:
@@ -109,31 +115,6 @@ class ArticulatedArm:
             if points:
                 a = points[0]
         return accelerations
-
-
-def com_frame(symbols: Symbols, arm: ArmSymbols) -> tuple[ca.SX, Vector, Vector]:
-    """(angle, COM, end effector) of the frame of the last link with its x axis through the COM."""
-    link = arm.links[-1]
-    com_x, com_y = link.com
-    angle = symbols.constant(
-        f"{arm.label}_com_angle", ca.atan2(com_y, com_x), "rad", "direction of the last link's COM in its frame"
-    )
-    distance = symbols.constant(
-        f"{arm.label}_com_distance", ca.sqrt(com_x * com_x + com_y * com_y), "m", "|c| of the last link"
-    )
-    x = symbols.constant(
-        f"{arm.label}_end_effector_x",
-        link.length * ca.cos(angle),
-        "m",
-        "end effector along the direction of the last link's COM",
-    )
-    y = symbols.constant(
-        f"{arm.label}_end_effector_y",
-        -link.length * ca.sin(angle),
-        "m",
-        "end effector across the direction of the last link's COM",
-    )
-    return angle, (distance, ZERO), (x, y)
 
 
 class ForwardDynamics:
