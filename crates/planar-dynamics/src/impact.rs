@@ -2,7 +2,7 @@
 
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::dot;
+use crate::linear::{dot, matrix_rows};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::State;
@@ -72,7 +72,7 @@ pub fn paper<T: Real, M: Model<T> + ?Sized>(
     model.reduced_impact(state, targets, workspace.impact_matrix, workspace.impact_momentum, after.joint_rates)?;
     // eq. (14): t_t = J_t⁻¹ J θ̇, with the generalized Jacobian
     model.reduced_dynamics(state, workspace.impact_matrix, workspace.impact_momentum, workspace.jacobian)?;
-    let rows = workspace.jacobian.chunks_exact(joints.max(1));
+    let rows = matrix_rows(workspace.jacobian, joints);
     for (value, row) in after.target_twists.as_flattened_mut().iter_mut().zip(rows) {
         *value = dot(row, &*after.joint_rates);
     }

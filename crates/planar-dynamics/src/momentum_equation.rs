@@ -1,7 +1,7 @@
 //! Eq. (17): the base twist from the momentum and the joint rates.
 
 use crate::error::Error;
-use crate::linear::{copy, dot, factor, substitute};
+use crate::linear::{copy, dot, factor, matrix_rows, matrix_rows_mut, substitute};
 use crate::scalar::Real;
 
 /// The base's rows `[I_b I_bm]` of a mass matrix, with `I_b` factored.
@@ -23,7 +23,7 @@ impl<'a, T: Real> MomentumEquation<'a, T> {
             Error::Length { quantity: "mass_matrix", expected: (3 + joints) * (3 + joints), found: mass_matrix.len() };
         let rows = mass_matrix.get(..3 * (3 + joints)).ok_or(wrong)?;
         let mut factors = [T::ZERO; 9];
-        for (place, row) in factors.chunks_exact_mut(3).zip(rows.chunks_exact(3 + joints)) {
+        for (place, row) in matrix_rows_mut(&mut factors, 3).zip(matrix_rows(rows, 3 + joints)) {
             copy(row, place);
         }
         factor("the base inertia I_b", &mut factors, 3)?;
@@ -38,7 +38,7 @@ impl<'a, T: Real> MomentumEquation<'a, T> {
 
     /// `I_b⁻¹ (right − I_bm joints)`, for rates or accelerations of the joints.
     pub(crate) fn solve_with_joints<I: Iterator<Item = T>>(&self, mut right: [T; 3], joints: impl Fn() -> I) -> [T; 3] {
-        for (right, row) in right.iter_mut().zip(self.rows.chunks_exact((self.rows.len() / 3).max(1))) {
+        for (right, row) in right.iter_mut().zip(matrix_rows(self.rows, self.rows.len() / 3)) {
             if let Some((_, row)) = row.split_first_chunk::<3>() {
                 *right -= dot(row, joints());
             }

@@ -2,7 +2,7 @@
 
 use super::constraint_row::{RowSet, contains};
 use crate::error::Error;
-use crate::linear::{dot, solve};
+use crate::linear::{dot, matrix_rows, matrix_rows_mut, solve};
 use crate::scalar::Real;
 
 /// A dozen rows take a few exchanges.
@@ -30,7 +30,7 @@ pub(super) fn solve_contacts<T: Real>(
             *impulse = -*velocity;
         }
         solve_rows(matrix, active, factors, impulses)?;
-        let rows = matrix.chunks_exact(n.max(1)).zip(velocities.iter().zip(&*impulses)).enumerate();
+        let rows = matrix_rows(matrix, n).zip(velocities.iter().zip(&*impulses)).enumerate();
         let violated = rows.filter(|(i, _)| !contains(bilateral, *i)).find(|(i, (row, (velocity, impulse)))| {
             if contains(active, *i) {
                 return **impulse < T::ZERO;
@@ -54,7 +54,7 @@ pub(super) fn solve_contacts<T: Real>(
 pub(super) fn solve_rows<T: Real>(matrix: &[T], set: RowSet, factors: &mut [T], b: &mut [T]) -> Result<(), Error> {
     let n = b.len().max(1);
     // rows and columns outside the set are those of the unit matrix
-    for (i, (factors, row)) in factors.chunks_exact_mut(n).zip(matrix.chunks_exact(n)).enumerate() {
+    for (i, (factors, row)) in matrix_rows_mut(factors, n).zip(matrix_rows(matrix, n)).enumerate() {
         for (j, (factor, entry)) in factors.iter_mut().zip(row).enumerate() {
             *factor = match contains(set, i) && contains(set, j) {
                 true => *entry,

@@ -7,6 +7,7 @@ use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::jacobian_rate::jacobian_rate_times_velocity;
+use crate::linear::matrix_rows;
 use crate::scalar::Real;
 use crate::state::{State, StateVector, coordinates, coordinates_mut, split, split_mut, vector_length};
 use crate::validate::length;
@@ -68,7 +69,7 @@ impl<T: Real, M: Model<T> + ?Sized> ConstraintSolver<'_, T, M> {
         let unconstrained = State { base_twist: *free.base, joint_rates: free.joints, ..state };
         self.model.end_effector_twists(&unconstrained, delassus.end_effectors)?;
         self.model.end_effector_jacobian(&state.base_pose, state.joint_angles, jacobian)?;
-        let jacobians = jacobian.chunks_exact((3 * (3 + state.joint_rates.len())).max(1));
+        let jacobians = matrix_rows(jacobian, 3 * (3 + state.joint_rates.len()));
         for ([_, ax, ay], jacobian) in delassus.end_effectors.iter_mut().zip(jacobians) {
             let [x, y] = jacobian_rate_times_velocity(jacobian, &state);
             (*ax, *ay) = (*ax + x, *ay + y);

@@ -6,7 +6,7 @@ use super::{Contact, ContactPartner, entry, entry_mut};
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::add_scaled;
+use crate::linear::{add_scaled, matrix_rows, matrix_rows_mut};
 use crate::scalar::Real;
 use crate::state::{Coordinates, Forces, State, coordinates_mut};
 use crate::validate::finite;
@@ -113,8 +113,8 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         let joints = zero_rates.len();
         let at_rest = State { base_pose: *base_pose, joint_angles, base_twist: [T::ZERO; 3], joint_rates: zero_rates };
         let size = 3 + joints + 3 * bodies.len();
-        let products = matrix.chunks_exact_mut(Self::count(contacts).max(1));
-        for (row, (response, products)) in rows.zip(responses.chunks_exact_mut(size.max(1)).zip(products)) {
+        let products = matrix_rows_mut(matrix, Self::count(contacts));
+        for (row, (response, products)) in rows.zip(matrix_rows_mut(responses, size).zip(products)) {
             let response = coordinates_mut(response, joints)?;
             response.bodies.fill([T::ZERO; 3]);
             wrenches.fill([T::ZERO; 3]);
@@ -152,7 +152,7 @@ impl<'a, T: Real> DelassusMatrix<'a, T> {
         Coordinates { base, joints, bodies }: Coordinates<&mut [T; 3], &mut [T], &mut [[T; 3]]>,
     ) {
         let size = 3 + joints.len() + 3 * bodies.len();
-        for (impulse, response) in impulses.iter().zip(self.responses.chunks_exact(size.max(1))) {
+        for (impulse, response) in impulses.iter().zip(matrix_rows(self.responses, size)) {
             let velocities = base.iter_mut().chain(&mut *joints).chain(bodies.as_flattened_mut());
             for (velocity, part) in velocities.zip(response) {
                 *velocity += *impulse * *part;

@@ -5,7 +5,7 @@ use super::delassus_matrix::DelassusMatrix;
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{add_scaled, copy, dot};
+use crate::linear::{add_scaled, copy, dot, matrix_rows};
 use crate::scalar::Real;
 use crate::state::{Coordinates, State};
 use crate::validate::{finite_state, length};
@@ -64,7 +64,7 @@ pub fn impact<T: Real, M: Model<T> + ?Sized>(
     for ((given, impulse), row) in given.iter_mut().zip(compression.iter()).zip(delassus.rows()) {
         *given = *impulse + row.restitution.map_or(T::ZERO, |e| e * *impulse);
     }
-    let products = delassus.matrix.chunks_exact(before.len().max(1));
+    let products = matrix_rows(delassus.matrix, before.len());
     for ((shifted, before), row) in shifted.iter_mut().zip(before.iter()).zip(products) {
         *shifted = *before + dot(row, &*given);
     }

@@ -18,7 +18,7 @@ pub use torque_limiter::TorqueLimiter;
 
 use crate::dynamics::{AnyModel, Model};
 use crate::error::Error;
-use crate::linear::{add_scaled, copy};
+use crate::linear::{add_scaled, copy, matrix_rows};
 use crate::scalar::Real;
 use crate::state::State;
 use crate::trajectory::{DesiredJoint, Trajectory};
@@ -120,7 +120,7 @@ fn inverse_dynamics<T: Real>(
 ) -> Result<(), Error> {
     copy(generalized_bias, torques);
     // I is symmetric: its rows are its columns
-    let columns = generalized_inertia.chunks_exact(torques.len().max(1));
+    let columns = matrix_rows(generalized_inertia, torques.len());
     for (acceleration, column) in joint_accelerations.zip(columns) {
         add_scaled(torques, acceleration?, column);
     }

@@ -4,7 +4,7 @@ use super::{Control, inverse_dynamics};
 use crate::dynamics::Model;
 use crate::error::Error;
 use crate::jacobian_rate::jacobian_rate_times_velocity;
-use crate::linear::{dot, least_squares};
+use crate::linear::{dot, least_squares, matrix_rows, matrix_rows_mut};
 use crate::scalar::Real;
 use crate::state::{Forces, State};
 use crate::trajectory::EndEffectorPath;
@@ -93,9 +93,9 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
     ) -> Result<usize, Error> {
         let w = &mut self.workspace;
         let arms = self.controlled.len();
-        let mut equations = w.rows.chunks_exact_mut(joints.max(1)).zip(w.right_hand_side.iter_mut());
-        let jacobians = w.generalized_jacobian.chunks_exact((3 * joints).max(1));
-        let full_jacobians = w.end_effector_jacobian.chunks_exact((3 * (3 + joints)).max(1));
+        let mut equations = matrix_rows_mut(w.rows, joints).zip(w.right_hand_side.iter_mut());
+        let jacobians = matrix_rows(w.generalized_jacobian, 3 * joints);
+        let full_jacobians = matrix_rows(w.end_effector_jacobian, 3 * (3 + joints));
         let measured = w.end_effector_poses.iter().zip(w.end_effector_twists.iter());
         let end_effectors = jacobians.zip(full_jacobians).zip(measured).zip(self.controlled.iter().zip(self.reach));
         let mut count = 0;
@@ -106,8 +106,7 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
             let targets = desired.pose.iter().zip(&desired.twist).zip(&desired.acceleration);
             let actual = pose.iter().zip(twist).zip(&acceleration);
             let units = [T::ONE, *reach, *reach];
-            let components =
-                jacobian.chunks_exact(joints.max(1)).zip(targets.zip(actual)).zip(controlled.iter().zip(&units));
+            let components = matrix_rows(jacobian, joints).zip(targets.zip(actual)).zip(controlled.iter().zip(&units));
             let controlled = components.filter(|(_, (on, _))| **on);
             for (((row, (((x_d, t_d), a_d), ((x, t), a))), (_, unit)), (place, right)) in controlled.zip(&mut equations)
             {
@@ -128,7 +127,7 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
 fn acceleration<T: Real>(jacobian: &[T], state: &State<'_, T>, base_acceleration: &[T; 3]) -> [T; 3] {
     let [x, y] = jacobian_rate_times_velocity(jacobian, state);
     let mut acceleration = [T::ZERO, x, y];
-    for (component, row) in acceleration.iter_mut().zip(jacobian.chunks_exact((jacobian.len() / 3).max(1))) {
+    for (component, row) in acceleration.iter_mut().zip(matrix_rows(jacobian, jacobian.len() / 3)) {
         *component += dot(row, base_acceleration);
     }
     acceleration

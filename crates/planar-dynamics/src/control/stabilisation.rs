@@ -3,7 +3,7 @@
 use super::{BaseTorque, Control};
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{add_scaled, dot};
+use crate::linear::{add_scaled, dot, matrix_rows};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::{State, coordinates};
@@ -68,7 +68,7 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for Stabilisation<'_, T> {
         let spin = if per_wheel[0] == T::ZERO { T::ZERO } else { (desired - base[0]) / per_wheel[0] };
         add_scaled(&mut base, spin, &per_wheel);
 
-        let rows = self.mass_matrix.chunks_exact((3 + joints).max(1)).skip(3).zip(bias.joints);
+        let rows = matrix_rows(self.mass_matrix, 3 + joints).skip(3).zip(bias.joints);
         for (torque, (row, bias)) in torques.iter_mut().zip(rows) {
             let of_joints = decelerations().zip(wheel()).map(|(deceleration, wheel)| deceleration + wheel * spin);
             *torque = *bias + dot(row, base.into_iter().chain(of_joints));

@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::dynamics::Model;
 use crate::error::Error;
-use crate::linear::{copy, dot, solve};
+use crate::linear::{copy, dot, matrix_rows, solve};
 use crate::momentum_equation::MomentumEquation;
 use crate::scalar::Real;
 use crate::state::{ActuatorWork, State, StateVector, coordinates_mut, split_mut, vector_length};
@@ -62,7 +62,7 @@ impl<T: Real> ReducedCoordinates<'_, T> {
         let accelerations = coordinates_mut(accelerations, torques.len())?;
         *accelerations.base = [T::ZERO; 3];
         let by_base = equation.solve([base_torque, T::ZERO, T::ZERO]);
-        let rows = mass_matrix.chunks_exact(3 + torques.len()).skip(3);
+        let rows = matrix_rows(mass_matrix, 3 + torques.len()).skip(3);
         let known = torques.iter().zip(generalized_bias.iter());
         for ((acceleration, row), (torque, bias)) in accelerations.joints.iter_mut().zip(rows).zip(known) {
             *acceleration = *torque - *bias - dot(row, by_base);

@@ -1,6 +1,6 @@
 //! Solves symmetric positive definite systems of equations by the factors `A = L D Lᵀ`.
 
-use super::{add_scaled, dot};
+use super::{add_scaled, dot, matrix_rows};
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -19,7 +19,7 @@ pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize)
     for i in 0..size {
         let Some((above, rest)) = matrix.split_at_mut_checked(i * size) else { continue };
         // row i of L D, then of L
-        for (j, factors) in above.chunks_exact(size).enumerate() {
+        for (j, factors) in matrix_rows(above, size).enumerate() {
             let Some((known, [place, ..])) = rest.split_at_mut_checked(j) else { continue };
             *place -= dot(known, factors);
         }
@@ -38,7 +38,7 @@ pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize)
 /// Solves `L D Lᵀ x = b` with the factors of [`factor`]; b becomes x.
 pub(crate) fn substitute<T: Real>(factors: &[T], right: &mut [T]) {
     let size = right.len();
-    for (i, row) in factors.chunks_exact(size.max(1)).enumerate().take(size) {
+    for (i, row) in matrix_rows(factors, size).enumerate().take(size) {
         if let Some((solved, [value, ..])) = right.split_at_mut_checked(i) {
             *value -= dot(solved, row);
         }

@@ -1,6 +1,6 @@
 //! Solves damped least-squares problems by one-sided Jacobi rotations.
 
-use super::{add_scaled, dot};
+use super::{add_scaled, dot, matrix_rows, matrix_rows_mut};
 use crate::scalar::{Real, Scalar};
 
 /// Orthogonalisation converges quadratically, in six to ten sweeps.
@@ -34,7 +34,7 @@ pub(crate) fn least_squares<T: Real>(
         }
     }
     let size = |row: &[T]| dot(row, row);
-    let sizes = || rows.chunks_exact(columns).map(size);
+    let sizes = || matrix_rows(rows, columns).map(size);
     let largest = sizes().fold(T::ZERO, T::maximum);
     let smallest = sizes().fold(largest, T::minimum);
     solution.fill(T::ZERO);
@@ -42,7 +42,7 @@ pub(crate) fn least_squares<T: Real>(
     if largest == T::ZERO {
         return T::ZERO;
     }
-    for (row, right) in rows.chunks_exact(columns).zip(right.iter()) {
+    for (row, right) in matrix_rows(rows, columns).zip(right.iter()) {
         let bounded = floor.maximum(size(row));
         if bounded > T::ZERO {
             add_scaled(solution, *right / bounded, row);
@@ -59,7 +59,7 @@ fn sweep<T: Real>(rows: &mut [T], right: &mut [T], columns: usize) -> bool {
         let Some((_, first)) = before.split_at_mut_checked(i * columns) else { return changed };
         let Some((b_before, b_rest)) = right.split_at_mut_checked(i + 1) else { return changed };
         let Some(b_first) = b_before.last_mut() else { return changed };
-        for (second, b_second) in rest.chunks_exact_mut(columns.max(1)).zip(b_rest) {
+        for (second, b_second) in matrix_rows_mut(rest, columns).zip(b_rest) {
             let (alpha, beta, gamma) = (dot(first, &*first), dot(second, &*second), dot(first, &*second));
             let oblique = gamma.abs() > T::EPSILON * Scalar::sqrt(alpha * beta);
             if !oblique {

@@ -16,6 +16,26 @@ pub(crate) fn dot<T: Real, B: Borrow<T>>(a: &[T], b: impl IntoIterator<Item = B>
     a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| sum + *a * *b.borrow())
 }
 
+/// The rows of a matrix with so many columns; none without columns.
+///
+/// `chunks_exact` would do, but it divides by a number that a build for size takes for a possible zero.
+pub(crate) fn matrix_rows<T>(mut entries: &[T], columns: usize) -> impl Iterator<Item = &[T]> {
+    core::iter::from_fn(move || {
+        let (row, rest) = entries.split_at_checked(columns).filter(|_| columns > 0)?;
+        entries = rest;
+        Some(row)
+    })
+}
+
+/// As [`matrix_rows`], with mutable rows.
+pub(crate) fn matrix_rows_mut<T>(mut entries: &mut [T], columns: usize) -> impl Iterator<Item = &mut [T]> {
+    core::iter::from_fn(move || {
+        let (row, rest) = core::mem::take(&mut entries).split_at_mut_checked(columns).filter(|_| columns > 0)?;
+        entries = rest;
+        Some(row)
+    })
+}
+
 /// `sum += factor · part`, over the length of the shorter one.
 pub(crate) fn add_scaled<T: Real>(sum: &mut [T], factor: T, part: &[T]) {
     for (sum, part) in sum.iter_mut().zip(part) {
