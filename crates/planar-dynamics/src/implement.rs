@@ -173,7 +173,7 @@ macro_rules! implement_dynamics {
                         Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
                     for (arm, ((target, end_effector), links)) in
-                        targets.iter().zip(&end_effectors).zip(MANIFEST.links).enumerate()
+                        (0..ARMS).zip(targets.iter().zip(&end_effectors).zip(MANIFEST.links))
                     {
                         let Some(target) = target else { continue };
                         let link = links.saturating_sub(1);

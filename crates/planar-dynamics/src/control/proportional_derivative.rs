@@ -27,7 +27,8 @@ impl<T: Real, M: Model<T> + ?Sized, R: Trajectory<T>> Control<T, M> for Proporti
         length("derivative_gain", expected, self.derivative_gain.len())?;
         let gains = self.proportional_gain.iter().zip(self.derivative_gain);
         let joints = state.joint_angles.iter().zip(state.joint_rates).zip(gains);
-        for (joint, (torque, ((angle, rate), (kp, kv)))) in torques.iter_mut().zip(joints).enumerate() {
+        // a counter of `enumerate` could overflow, as far as a compiler sees that checks it
+        for (joint, (torque, ((angle, rate), (kp, kv)))) in (0..expected).zip(torques.iter_mut().zip(joints)) {
             let desired = desired(&self.trajectory, joint, time, expected)?;
             *torque = *kp * (desired.angle - *angle) + *kv * (desired.rate - *rate);
         }

@@ -66,7 +66,7 @@ macro_rules! portable {
             if rest > root {
                 root += 1;
             }
-            let half = (exponent - is_odd).cast_signed().wrapping_sub(BIAS.cast_signed()) / 2;
+            let half = exponent.wrapping_sub(is_odd).cast_signed().wrapping_sub(BIAS.cast_signed()) / 2;
             let bits = (root as $float / IMPLICIT as $float).to_bits();
             $float::from_bits(bits.wrapping_add(half.cast_unsigned() << (DIGITS - 1)))
         }
