@@ -1,0 +1,11 @@
+//! The route `control::c` on the board; on another machine there is nothing to do.
+#![cfg_attr(target_os = "none", no_std, no_main)]
+
+#[cfg(target_os = "none")]
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    firmware::board::run::<control::c::C>()
+}
+
+#[cfg(not(target_os = "none"))]
+fn main() {}
