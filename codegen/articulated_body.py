@@ -201,7 +201,7 @@ class LeafBody:
 
 
 class TipBody:
-    """The last link of an arm, with axes along and across the line from its joint to its COM, and |c| as unit of length.
+    """The last link, with axes along and across the line from its joint to its COM, and |c| as unit of length.
 
     What rotates its vectors to the frame of the parent then is [C, -S; S, C] with (C, S) the COM there: neither the
     direction nor the distance of the COM has to be known, and nothing is undefined where it is at the joint. With

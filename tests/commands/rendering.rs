@@ -62,8 +62,8 @@ fn paper_robot_is_within_its_operation_targets() {
     let forward = staged("forward_dynamics");
     assert_eq!(pairs("forward_dynamics"), 7);
     for (function, most, least) in [
-        ("forward_dynamics", 331, 250),
-        ("forward_dynamics_with_base_wrench", 345, 260),
+        ("forward_dynamics", 341, 250),
+        ("forward_dynamics_with_base_wrench", 352, 260),
         ("forward_dynamics_with_wrenches", 410, 300),
     ] {
         let total = forward + call("ForwardDynamics", function);

@@ -22,8 +22,8 @@ macro_rules! implement_dynamics {
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
-                all_finite, array, array_mut, finite, finite_configuration, finite_target, is_regular, joint_arrays,
-                no_accelerations, pivot, store, store_rows,
+                all_finite, array, array_mut, finite, finite_configuration, finite_state, finite_target, is_regular,
+                joint_arrays, no_accelerations, pivot, rows_mut, store, store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -55,6 +55,7 @@ macro_rules! implement_dynamics {
             $crate::with_quantities!($crate::implement_functions);
 
             impl<T: Real> ReducedDynamics<T> for Model<T> {
+                #[cfg_attr(target_arch = "arm", inline(always))]
                 fn reduced_dynamics(
                     &self,
                     state: &State<'_, T>,
@@ -62,13 +63,44 @@ macro_rules! implement_dynamics {
                     generalized_bias: &mut [T],
                     generalized_jacobian: &mut [T],
                 ) -> Result<(), Error> {
-                    let [angles, rates] = joint_arrays(state)?;
-                    let result = Model::reduced_dynamics(self, &state.base_pose, angles, &state.base_twist, rates);
-                    pivot("the base inertia", result.smallest_pivot)?;
-                    store("generalized_inertia", result.generalized_inertia.as_flattened(), generalized_inertia)?;
-                    store("generalized_bias", &result.generalized_bias, generalized_bias)?;
-                    store("generalized_jacobian", result.generalized_jacobian.as_flattened(), generalized_jacobian)
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let inertia = rows_mut("generalized_inertia", generalized_inertia)?;
+                    let bias = array_mut("generalized_bias", generalized_bias)?;
+                    let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
+                    let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    let (is_done, smallest) = reduced(self, pose, angles, twist, rates, inertia, bias, jacobian);
+                    if is_done {
+                        return Ok(());
+                    }
+                    finite_state(state)?;
+                    pivot("the base inertia", smallest)?;
+                    finite("generalized_inertia", inertia.as_flattened())?;
+                    finite("generalized_bias", bias)?;
+                    finite("generalized_jacobian", jacobian.as_flattened())
                 }
+            }
+
+            /// Whether the results are those of finite inputs and a regular matrix; the smallest pivot.
+            #[cfg_attr(target_arch = "arm", inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
+            fn reduced<T: Real>(
+                model: &Model<T>,
+                pose: &[T; 3],
+                angles: &[T; JOINTS],
+                twist: &[T; 3],
+                rates: &[T; JOINTS],
+                inertia: &mut [[T; JOINTS]; JOINTS],
+                bias: &mut [T; JOINTS],
+                jacobian: &mut [[T; JOINTS]; 3 * ARMS],
+            ) -> (bool, T) {
+                let result = Model::reduced_dynamics(model, pose, angles, twist, rates);
+                (*inertia, *bias) = (result.generalized_inertia, result.generalized_bias);
+                *jacobian = result.generalized_jacobian;
+                let is_finite =
+                    all_finite([&pose[..], angles, twist, rates, inertia.as_flattened(), bias, jacobian.as_flattened()]);
+                (is_finite && is_regular(result.smallest_pivot), result.smallest_pivot)
             }
 
             impl<T: Real> ForwardDynamics<T> for Model<T> {
@@ -142,22 +174,50 @@ macro_rules! implement_dynamics {
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)
                 }
 
+                #[cfg_attr(target_arch = "arm", inline(always))]
                 fn full_impact(
                     &self,
                     state: &State<'_, T>,
                     targets: &[Option<Target<T>>],
                     joint_rates_after: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    let [angles, rates] = joint_arrays(state)?;
-                    let (masses, inertias, contacts, twists) = target_arrays(targets)?;
-                    let (pose, twist) = (&state.base_pose, &state.base_twist);
-                    let result =
-                        Model::full_impact(self, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
-                    pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
-                    finite("base_twist_after", &result.base_twist_after)?;
-                    store("joint_rates_after", &result.joint_rates_after, joint_rates_after)?;
-                    Ok(result.base_twist_after)
+                    let angles = array("joint_angles", state.joint_angles)?;
+                    let rates = array("joint_rates", state.joint_rates)?;
+                    let of_arms = array("targets", targets)?;
+                    let joints = array_mut("joint_rates_after", joint_rates_after)?;
+                    let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
+                    let (is_done, smallest) = full(self, pose, angles, twist, rates, of_arms, &mut base, joints);
+                    if !is_done {
+                        finite_state(state)?;
+                        of_arms.iter().flatten().try_for_each(finite_target)?;
+                        pivot("the impact matrix G in full coordinates", smallest)?;
+                        finite("base_twist_after", &base)?;
+                        finite("joint_rates_after", joints)?;
+                    }
+                    Ok(base)
                 }
+            }
+
+            /// Whether the velocities are those of finite inputs and a regular matrix; the smallest pivot.
+            #[cfg_attr(target_arch = "arm", inline(never))]
+            #[cfg_attr(not(target_arch = "arm"), inline)]
+            #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
+            fn full<T: Real>(
+                model: &Model<T>,
+                pose: &[T; 3],
+                angles: &[T; JOINTS],
+                twist: &[T; 3],
+                rates: &[T; JOINTS],
+                targets: &[Option<Target<T>>; ARMS],
+                base: &mut [T; 3],
+                joints: &mut [T; JOINTS],
+            ) -> (bool, T) {
+                let (masses, inertias, contacts, twists) = by_arm(targets);
+                let result = Model::full_impact(model, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
+                (*base, *joints) = (result.base_twist_after, result.joint_rates_after);
+                // the velocities depend on all numbers but the place of the base
+                let is_done = is_regular(result.smallest_pivot) && all_finite([&pose[..], base, joints]);
+                (is_done, result.smallest_pivot)
             }
 
             impl<T: Real> Merge<T> for Model<T> {
@@ -172,25 +232,24 @@ macro_rules! implement_dynamics {
                     let end_effectors =
                         Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
-                    for (arm, ((target, end_effector), links)) in
-                        (0..ARMS).zip(targets.iter().zip(&end_effectors).zip(MANIFEST.links))
+                    for (arm, ((target, end_effector), places)) in
+                        (0..ARMS).zip(targets.iter().zip(&end_effectors).zip(&LAST_LINKS))
                     {
                         let Some(target) = target else { continue };
-                        let link = links.saturating_sub(1);
-                        let mut value = |kind| parameter(&mut values, kind, arm, link).copied();
-                        let before = LinkInertia {
-                            mass: value(ParameterKind::LinkMass)?,
-                            inertia: value(ParameterKind::LinkInertia)?,
-                            com: [value(ParameterKind::LinkComX)?, value(ParameterKind::LinkComY)?],
+                        let value = |(kind, index): (ParameterKind, Option<usize>)| {
+                            let missing = Error::Parameter { kind, arm, link: MANIFEST.links.get(arm).map_or(0, |n| n.saturating_sub(1)) };
+                            index.and_then(|index| values.get(index)).copied().ok_or(missing)
                         };
-                        let after = target.merged_link(&before, value(ParameterKind::LinkLength)?, end_effector[0]);
-                        for (kind, number) in [
-                            (ParameterKind::LinkMass, after.mass),
-                            (ParameterKind::LinkInertia, after.inertia),
-                            (ParameterKind::LinkComX, after.com[0]),
-                            (ParameterKind::LinkComY, after.com[1]),
-                        ] {
-                            *parameter(&mut values, kind, arm, link)? = number;
+                        let [mass, inertia, x, y, length] = *places;
+                        let before = LinkInertia { mass: value(mass)?, inertia: value(inertia)?, com: [value(x)?, value(y)?] };
+                        let after = target.merged_link(&before, value(length)?, end_effector[0]);
+                        let [com_x, com_y] = after.com;
+                        for ((_, index), number) in
+                            [mass, inertia, x, y].into_iter().zip([after.mass, after.inertia, com_x, com_y])
+                        {
+                            if let Some(place) = index.and_then(|index| values.get_mut(index)) {
+                                *place = number;
+                            }
                         }
                     }
                     finite("merged parameters", &values)?;
@@ -198,6 +257,23 @@ macro_rules! implement_dynamics {
                     Ok(())
                 }
             }
+
+            /// Places of mass, inertia, COM and length of each arm's last link among the parameters: never structural zeros.
+            const LAST_LINKS: [[(ParameterKind, Option<usize>); 5]; ARMS] = {
+                use ParameterKind::{LinkComX, LinkComY, LinkInertia, LinkLength, LinkMass};
+                let kinds = [LinkMass, LinkInertia, LinkComX, LinkComY, LinkLength];
+                let mut places = [[(LinkMass, None); 5]; ARMS];
+                let mut arm = 0;
+                while arm < ARMS {
+                    let mut k = 0;
+                    while k < kinds.len() {
+                        places[arm][k] = (kinds[k], MANIFEST.position(kinds[k], arm, MANIFEST.links[arm].saturating_sub(1)));
+                        k += 1;
+                    }
+                    arm += 1;
+                }
+                places
+            };
 
             /// The value of a parameter that is never a structural zero: a mass, an inertia, or any of a last link.
             fn parameter<T>(
@@ -210,19 +286,28 @@ macro_rules! implement_dynamics {
                 index.and_then(|index| values.get_mut(index)).ok_or(Error::Parameter { kind, arm, link })
             }
 
-            /// Masses, inertias, contacts and twists, one per arm; those of a massless target for an arm without one.
-            fn target_arrays<T: Real>(
-                targets: &[Option<Target<T>>],
-            ) -> Result<([T; ARMS], [T; ARMS], [[T; 2]; ARMS], [[T; 3]; ARMS]), Error> {
+            type ByArm<T> = ([T; ARMS], [T; ARMS], [[T; 2]; ARMS], [[T; 3]; ARMS]);
+
+            /// As [`by_arm`], of a slice with finite numbers.
+            fn target_arrays<T: Real>(targets: &[Option<Target<T>>]) -> Result<ByArm<T>, Error> {
                 let targets: &[Option<Target<T>>; ARMS] = array("targets", targets)?;
-                let targets = targets.map(|target| target.unwrap_or_else(Target::massless));
-                targets.iter().try_for_each(finite_target)?;
-                Ok((
-                    targets.map(|target| target.mass),
-                    targets.map(|target| target.inertia),
-                    targets.map(|target| target.contact),
-                    targets.map(|target| target.twist),
-                ))
+                targets.iter().flatten().try_for_each(finite_target)?;
+                Ok(by_arm(targets))
+            }
+
+            /// Masses, inertias, contacts and twists, one per arm; those of a massless target for an arm without one.
+            #[inline]
+            fn by_arm<T: Real>(targets: &[Option<Target<T>>; ARMS]) -> ByArm<T> {
+                let zero = T::ZERO;
+                let (mut masses, mut inertias) = ([zero; ARMS], [zero; ARMS]);
+                let (mut contacts, mut twists) = ([[zero; 2]; ARMS], [[zero; 3]; ARMS]);
+                let places = masses.iter_mut().zip(&mut inertias).zip(contacts.iter_mut().zip(&mut twists));
+                for (target, ((mass, inertia), (contact, twist))) in targets.iter().zip(places) {
+                    if let Some(target) = target {
+                        (*mass, *inertia, *contact, *twist) = (target.mass, target.inertia, target.contact, target.twist);
+                    }
+                }
+                (masses, inertias, contacts, twists)
             }
         }
     };

@@ -98,8 +98,16 @@ pub struct Manifest {
 impl Manifest {
     /// Position of a parameter, `None` for a structural zero.
     #[must_use]
-    pub fn position(&self, kind: ParameterKind, arm: usize, link: usize) -> Option<usize> {
-        self.parameters.iter().position(|p| p.kind == kind && p.arm == arm && p.link == link)
+    pub const fn position(&self, kind: ParameterKind, arm: usize, link: usize) -> Option<usize> {
+        let mut index = 0;
+        while index < self.parameters.len() {
+            let p = &self.parameters[index];
+            if p.kind as u8 == kind as u8 && p.arm == arm && p.link == link {
+                return Some(index);
+            }
+            index += 1;
+        }
+        None
     }
 
     /// Number of links of all arms.

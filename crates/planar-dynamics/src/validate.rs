@@ -19,6 +19,17 @@ pub fn array_mut<'a, X, const N: usize>(quantity: &'static str, slice: &'a mut [
     slice.first_chunk_mut().filter(|_| found == N).ok_or(Error::Length { quantity, expected: N, found })
 }
 
+/// As [`array_mut`], row by row.
+#[inline]
+pub fn rows_mut<'a, X, const R: usize, const C: usize>(
+    quantity: &'static str,
+    slice: &'a mut [X],
+) -> Result<&'a mut [[X; C]; R], Error> {
+    let error = Error::Length { quantity, expected: R * C, found: slice.len() };
+    let (rows, rest) = slice.as_chunks_mut();
+    if rest.is_empty() && rows.len() == R { rows.first_chunk_mut().ok_or(error) } else { Err(error) }
+}
+
 /// [`Error::Length`] unless the numbers are equal.
 #[inline]
 pub fn length(quantity: &'static str, expected: usize, found: usize) -> Result<(), Error> {

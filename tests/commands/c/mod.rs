@@ -247,8 +247,9 @@ fn texts_of_a_graph_stay_in_comments() {
     }
     // names of C, and two things with one name
     for (name, message) in [("double", "C, C++"), ("base_acceleration", "two things")] {
-        let statement = "/families/0/configuration/statements/0/0";
-        let before = whole.pointer(statement).expect("a target").as_str().expect("a name").to_owned();
+        let statements = whole.pointer("/families/0/configuration/statements").and_then(|all| all.as_array());
+        let before =
+            statements.expect("statements").iter().find_map(|statement| statement[0].as_str()).expect("a name");
         let renamed = text.replace(&format!("\"{before}\""), &format!("\"{name}\""));
         let problem = render(&serde_json::from_str(&renamed).expect("JSON")).expect_err("no name");
         assert!(problem.contains(name) && problem.contains(message), "{problem}");
