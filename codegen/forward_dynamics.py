@@ -46,7 +46,7 @@ class ArticulatedArm:
     """The articulated bodies of one arm, from the last link to the mount, at one configuration.
 
     The axes of the last link are along and across its COM, and its rotation is (C, S), the COM in the parent's frame;
-    its end effector is in the parent's frame too. A point mass ``added`` of the base is at the mount, which is at
+    ``last_link`` is its direction there. A point mass ``added`` of the base is at the mount, which is at
     ``offset`` from that of the first arm.
     """
 
@@ -65,7 +65,7 @@ class ArticulatedArm:
             at_joint = added if k == 0 else ZERO
             if k == self.links - 1:
                 body = TipBody(symbols, own, at_joint)
-                self.end_effector = scale(link.length, to_parent)
+                self.last_link = to_parent
                 to_parent = rotate(to_parent, link.com)
             else:
                 body = articulated_body(symbols, own, children, at_joint)
@@ -74,7 +74,7 @@ class ArticulatedArm:
             position = (arm.links[k - 1].length, ZERO) if k > 0 else offset
             children = [Child(position, body.inertia.rotate(to_parent))]
         self.child = children[0]  # of the base
-        values = [self.end_effector, *(body.configuration_values for body in self.bodies)]
+        values = [body.configuration_values for body in self.bodies]
         self.inertia_section = Section(f"{arm.title}, articulated inertia", values, self.child.inertia.elements)
 
     @property
@@ -93,7 +93,8 @@ class ArticulatedArm:
             external = rotate_inverse(base_rotation, (wrench[1], wrench[2]))
             for link_rotation in self.rotations[:-1]:
                 external = rotate_inverse(link_rotation, external)
-            moment = moment + (wrench[0] + cross(self.end_effector, external))
+            lever = self.symbols.links[-1].length * cross(self.last_link, external)
+            moment = moment + (wrench[0] + lever)
         forces: list[Vector] = []
         for k in reversed(range(self.links)):
             if k < self.links - 1:
