@@ -111,6 +111,7 @@ impl Assembly {
             constraints: &self.constraints,
             joint_limits: &[],
             reach: 1.0,
+            start_error: [&[]; 2],
         }
     }
 

@@ -57,8 +57,8 @@ impl<'a> CaptureSequence<'a> {
         }
         let capture = match &self.scenario.post_impact {
             Some(after) => {
-                let first =
-                    FirstImpact { before: &end.state, time: approach.duration, targets: &targets, contacts: &contacts };
+                let before = (&end.state, &approach.end_error);
+                let first = FirstImpact { before, time: approach.duration, targets: &targets, contacts: &contacts };
                 Some(self.after_impact(after, first, &mut clearance, observer)?)
             }
             None => None,
@@ -89,7 +89,7 @@ impl<'a> CaptureSequence<'a> {
         let capture = match (phase.event, &self.scenario.post_impact) {
             (Some((event, _)), Some(after)) => {
                 let contacts = self.contacts_made(&pairs, event, &targets, &phase.end().end_effector_poses);
-                let before = &phase.end().state;
+                let before = (&phase.end().state, &phase.end_error);
                 let first = FirstImpact { before, time: phase.duration, targets: &targets, contacts: &contacts };
                 Some(self.after_impact(after, first, &mut clearance, observer)?)
             }
@@ -148,7 +148,7 @@ impl<'a> CaptureSequence<'a> {
     fn after_impact(
         self,
         after: &'a PostImpact,
-        FirstImpact { before, time: first, targets, contacts }: FirstImpact<'_>,
+        FirstImpact { before: (before, error), time: first, targets, contacts }: FirstImpact<'_>,
         clearance: &mut ClearanceTracker,
         observer: &mut dyn Observer,
     ) -> Result<CaptureResult, StudyError> {
@@ -160,6 +160,7 @@ impl<'a> CaptureSequence<'a> {
             after,
             first,
             state: before.clone(),
+            error: error.clone(),
             targets: targets.to_vec(),
             attachments: Vec::new(),
             assembly: free,
@@ -285,7 +286,8 @@ impl<'a> CaptureSequence<'a> {
 
 /// The state before the first impact of a case.
 struct FirstImpact<'a> {
-    before: &'a RobotState,
+    /// Also its estimated error.
+    before: (&'a RobotState, &'a [Vec<f64>; 2]),
     /// Since the start of the approach, s.
     time: f64,
     targets: &'a [Body],
@@ -304,6 +306,8 @@ struct SequenceState<'a> {
     /// Time of the first impact, s.
     first: f64,
     state: RobotState,
+    /// The estimated errors of its positions and rates.
+    error: [Vec<f64>; 2],
     targets: Vec<Body>,
     attachments: Vec<Attachment>,
     assembly: Assembly,
@@ -338,13 +342,14 @@ impl SequenceState<'_> {
         observer: &mut dyn Observer,
     ) -> Result<(Phase, Vec<Vec<Body>>), StudyError> {
         let sequence = self.sequence;
-        let Self { after, first, state, targets, attachments, assembly, .. } = self;
+        let Self { after, first, state, error, targets, attachments, assembly, .. } = self;
         let motion = TargetMotion::Assembled(assembly, targets);
         let mut detection = ContactDetection::new(sequence.scenario, motion, pairs.to_vec());
         let wheels = wheels(&sequence.scenario.layout, attachments);
         let timing = sequence.timing(after, after.duration - time);
         let Scenario { joint_limits, .. } = sequence.scenario;
-        let system = System { joint_limits, reach: sequence.scenario.reach(), ..assembly.system() };
+        let (reach, start_error) = (sequence.scenario.reach(), [&error[0][..], &error[1]]);
+        let system = System { joint_limits, reach, start_error, ..assembly.system() };
         let mut simulate = |events: &mut dyn Events| {
             let wanted = PostCaptureLaw { after, wheels: &wheels, angles: &self.angles };
             run_post_capture(&system, wanted, state, &timing, events, &mut || observer.step())
@@ -370,6 +375,7 @@ impl SequenceState<'_> {
         let path: Vec<Vec<Body>> = phase.samples.iter().map(at).collect();
         let phase = phase.with_targets(&at);
         state.clone_from(&phase.end().state);
+        error.clone_from(&phase.end_error);
         targets.clone_from(path.last().expect("a phase has samples"));
         Ok((phase, path))
     }

@@ -108,9 +108,11 @@ pub struct Phase {
     pub stored: Vec<StoredSamples>,
     /// The largest of all steps.
     pub drift: ConservationErrors,
-    /// The largest error of a yaw, joint angle (rad) or coordinate (m) by the integration of this phase, estimated by
-    /// steps of another length.
+    /// The largest error of a yaw, joint angle (rad) or coordinate (m) by the integration of this phase and by the error at
+    /// its start, estimated by steps of another length.
     pub path_error: f64,
+    /// The estimated errors of the robot's positions (rad, m) and rates at the end.
+    pub end_error: [Vec<f64>; 2],
     /// Of the actuators.
     pub saturation: Saturation,
     /// Largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate.
@@ -162,7 +164,8 @@ impl Phase {
             event: next.event.map(|(event, time)| (event, self.duration + time)),
             duration: self.duration + next.duration,
             drift: self.drift.worse(&next.drift),
-            path_error: self.path_error + next.path_error,
+            path_error: Real::maximum(self.path_error, next.path_error),
+            end_error: next.end_error,
             constraint_errors: std::array::from_fn(|i| {
                 Real::maximum(self.constraint_errors[i], next.constraint_errors[i])
             }),
@@ -252,7 +255,7 @@ pub fn simulate(
             if let Some((_, when)) = event {
                 recorder.add_saturation(when - time);
                 recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;
-                return Ok(recorder.end(when, event, stepper.path_error()));
+                return Ok(recorder.end(when, event, stepper.path_errors()));
             }
             from = to;
         }
@@ -260,7 +263,7 @@ pub fn simulate(
         tick();
     }
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
-    Ok(recorder.end(timing.duration, None, stepper.path_error()))
+    Ok(recorder.end(timing.duration, None, stepper.path_errors()))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::PathRecorder;
 use crate::simulate::sample_list::SampleList;
+use crate::simulate::stepper::PathErrors;
 use crate::simulate::stored_samples::StoredSamples;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, Sample, Saturation};
@@ -105,7 +106,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// The phase.
-    pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>, path_error: f64) -> Phase {
+    pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>, (path_error, end_error): PathErrors) -> Phase {
         let Self { system, samples, audit, saturation, constraint_errors, limit_violations, path, .. } = self;
         let (samples, file) = samples.end();
         let stored = file.map(|file| StoredSamples::new(file, samples.len()));
@@ -116,6 +117,7 @@ impl<'a> Recorder<'a> {
             stored: stored.into_iter().collect(),
             drift: audit.drift(),
             path_error,
+            end_error,
             saturation,
             constraint_errors,
             singularity_margin: None,

@@ -25,13 +25,16 @@ pub struct System<'a> {
     /// The largest distance of a point of a body from a joint that moves it or from its own COM, m: how exact angles on
     /// the path have to be.
     pub reach: f64,
+    /// The estimated error of the robot's positions (rad, m) and rates at the start: that of the motion before. Empty where
+    /// there is none.
+    pub start_error: [&'a [f64]; 2],
 }
 
 impl<'a> System<'a> {
     /// A robot alone, of a reach of 1 m.
     #[must_use]
     pub fn alone(model: &'a AnyModel<f64>) -> Self {
-        Self { model, bodies: &[], constraints: &[], joint_limits: &[], reach: 1.0 }
+        Self { model, bodies: &[], constraints: &[], joint_limits: &[], reach: 1.0, start_error: [&[]; 2] }
     }
 
     /// The integrated vector at the start, from the robot's state.

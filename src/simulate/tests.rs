@@ -64,7 +64,7 @@ fn a_phase_and_the_next() {
     let both = first_with_work.then(next.clone());
     assert_eq!(both.saturation, Saturation { joints: vec![0.75, 4.0], base: 1.75 });
     assert_eq!((both.duration, both.event, both.singularity_margin), (3.0, Some((1, 2.75)), Some(0.25)));
-    assert!((both.path_error - 3e-9).abs() < 1e-20);
+    assert_eq!(both.path_error.to_bits(), f64::to_bits(2e-9), "that of the later one has that of the earlier one");
     let times: Vec<f64> = both.samples.iter().map(|sample| sample.time).collect();
     let expected = first.samples.iter().map(|s| s.time).chain(next.samples.iter().map(|s| 2.0 + s.time));
     assert_eq!(times, expected.collect::<Vec<_>>());

@@ -4,19 +4,21 @@
 //! Steps of twice the length give a solution whose error is 2ᵖ times as large, p being the order: the error is the
 //! difference of the two over 2ᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
 //! leaves of it. To what it has after an even number of steps, a last step without a pair adds the difference of itself
-//! and two of half its length. A law whose torques are held decides at the first solution alone; the second then takes steps of half
-//! the length. Adaptive steps are followed with a larger tolerance.
+//! and two of half its length. Where torques are held, the second takes steps of half the length, and samples of its own, so that the law answers to its
+//! errors, too; a base torque is that of the first. Adaptive steps are followed with a larger tolerance.
+//!
+//! The second solution starts with the error that the motion before has left, and so has what this motion makes of it.
 
-use super::{Integrator, Steps};
+use super::{Integrator, PathErrors, Steps};
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::simulate::equation::Equation;
-use crate::state::split;
+use crate::state::{State, StateVector, split, split_mut};
 
 /// Tolerance of the second solution over that of the first.
 const LOOSER: f64 = 100.0;
 /// Error over the difference of the two: a tenth, where the error follows the tolerance a hundredth.
-const ADAPTIVE_SHARE: f64 = 0.1;
+const ADAPTIVE_SHARE: f64 = -0.1;
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
 const UNKNOWN: f64 = 1.0;
 
@@ -30,20 +32,51 @@ pub(super) struct Companion {
     pending: Option<[f64; 2]>,
     /// The order of the steps; `None` where they follow from a tolerance.
     order: Option<i32>,
+    /// The error over the difference of the first solution and this one.
+    share: f64,
+    /// Torques that the law holds for this solution, N m.
+    held: Vec<f64>,
     error: f64,
+    /// Differences of the robot's positions and rates, at the last time at which there are both.
+    difference: [Vec<f64>; 2],
     is_lost: bool,
 }
 
 impl Companion {
     /// Of a solution that starts at `x`, over a phase of `duration`, s.
-    pub(super) fn new(integrator: Integrator, duration: f64, x: &[f64]) -> Self {
+    pub(super) fn new(integrator: Integrator, duration: f64, x: &[f64], equation: &Equation<'_>) -> Self {
         let integrator = match integrator {
             Integrator::Adaptive { tolerance } => Integrator::Adaptive { tolerance: LOOSER * tolerance },
             fixed => fixed,
         };
         let (steps, order) = (integrator.steps(duration, x.len()), integrator.properties().order);
-        let last_step = [Vec::new(), Vec::new()];
-        Self { steps, x: x.to_vec(), last_step, pending: None, order, error: 0.0, is_lost: false }
+        let share = match order.map(|order| 2.0_f64.powi(order)) {
+            None => ADAPTIVE_SHARE,
+            Some(growth) if equation.control.held_steps().is_some() => growth / (growth - 1.0),
+            Some(growth) => -1.0 / (growth - 1.0),
+        };
+        let (last_step, held) = ([Vec::new(), Vec::new()], vec![0.0; equation.system.model.joints()]);
+        let (difference, error) = ([Vec::new(), Vec::new()], 0.0);
+        let mut x = x.to_vec();
+        if let Ok(StateVector { positions, rates, .. }) = split_mut(&mut x) {
+            for (half, errors) in [positions, rates].into_iter().zip(equation.system.start_error) {
+                half.iter_mut().zip(errors).for_each(|(x, error)| *x -= error / share);
+            }
+        }
+        Self { steps, x, last_step, pending: None, order, share, held, error, difference, is_lost: false }
+    }
+
+    /// Takes the sample of a law that holds its torques, before the first solution does.
+    pub(super) fn begin_step(&mut self, equation: &mut Equation<'_>, time: f64) {
+        if self.is_lost || equation.control.held_steps().is_none() {
+            return;
+        }
+        let model = equation.system.model;
+        let sample = State::from_vector(&self.x, model.joints())
+            .and_then(|state| equation.control.sample_beside(time, model, &state, &mut self.held));
+        if sample.is_err() {
+            self.lose();
+        }
     }
 
     /// Follows the first solution over a step, at whose end that is `x`.
@@ -52,8 +85,11 @@ impl Companion {
             return;
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
-            Ok(None) => {}
-            Ok(Some(share)) => self.error = Real::maximum(self.error, share * largest_difference(x, &self.x)),
+            Ok(false) => {}
+            Ok(true) => {
+                self.error = Real::maximum(self.error, self.share.abs() * largest_difference(x, &self.x));
+                self.difference = differences(x, &self.x, 3 + self.held.len());
+            }
             Err(_) => self.lose(),
         }
     }
@@ -74,7 +110,9 @@ impl Companion {
         run: impl FnOnce(&mut Self, &mut Equation<'_>) -> Result<R, Error>,
     ) -> Result<R, Error> {
         equation.exchange_last_step(&mut self.last_step);
+        equation.control.exchange_held(&mut self.held);
         let result = run(self, equation);
+        equation.control.exchange_held(&mut self.held);
         equation.exchange_last_step(&mut self.last_step);
         result
     }
@@ -83,23 +121,20 @@ impl Companion {
         (self.is_lost, self.error) = (true, Real::maximum(self.error, UNKNOWN));
     }
 
-    /// Advances it; returns the share of the difference that is the error, `None` where it is still behind.
-    fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<Option<f64>, Error> {
-        let Some(order) = self.order else {
-            return self.steps.advance_to_end(equation, span, &mut self.x).map(|()| Some(ADAPTIVE_SHARE));
-        };
-        let growth = 2.0_f64.powi(order);
+    /// Advances it; returns whether it is as far as the first.
+    fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<bool, Error> {
+        if self.order.is_none() {
+            return self.steps.advance_to_end(equation, span, &mut self.x).map(|()| true);
+        }
         if equation.control.held_steps().is_some() {
-            return self.halves(equation, span).map(|()| Some(growth / (growth - 1.0)));
+            return self.halves(equation, span).map(|()| true);
         }
         match self.pending.take() {
             None => {
                 self.pending = Some(span);
-                Ok(None)
+                Ok(false)
             }
-            Some([from, _]) => {
-                self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| Some(1.0 / (growth - 1.0)))
-            }
+            Some([from, _]) => self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true),
         }
     }
 
@@ -119,10 +154,19 @@ impl Companion {
         Ok(growth / (growth - 1.0) * largest_difference(&whole, &self.x))
     }
 
-    /// The largest error of a position so far, rad or m.
-    pub(super) fn error(&self) -> f64 {
-        self.error
+    /// The largest error of a position so far (rad, m), and those of positions and rates at the end.
+    pub(super) fn errors(&self) -> PathErrors {
+        (
+            self.error,
+            self.difference.clone().map(|half| half.iter().map(|difference| self.share * difference).collect()),
+        )
     }
+}
+
+/// Of the robot's positions and rates, `count` each, in two integrated vectors.
+fn differences(x: &[f64], y: &[f64], count: usize) -> [Vec<f64>; 2] {
+    let [x, y] = [x, y].map(|x| split(x).map_or([&[][..], &[]], |parts| [parts.positions, parts.rates]));
+    std::array::from_fn(|i| x[i].iter().zip(y[i]).take(count).map(|(x, y)| x - y).collect())
 }
 
 /// Of the positions of two integrated vectors.

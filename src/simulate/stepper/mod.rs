@@ -13,6 +13,9 @@ use crate::simulate::system::System;
 use crate::state::State;
 use companion::Companion;
 
+/// The largest error of a position (rad, m), and those of the robot's positions and rates at the end.
+pub(crate) type PathErrors = (f64, [Vec<f64>; 2]);
+
 /// By which integrator, in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Integration {
@@ -160,13 +163,14 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let equation = Equation::new(system, control, form);
-        let (steps, companion) =
-            (integration.integrator.steps(duration, x.len()), Companion::new(integration.integrator, duration, x));
+        let steps = integration.integrator.steps(duration, x.len());
+        let companion = Companion::new(integration.integrator, duration, x, &equation);
         Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()] })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
     pub(crate) fn begin_step(&mut self, time: f64, x: &[f64]) -> Result<(), Error> {
+        self.companion.begin_step(&mut self.equation, time);
         let Equation { system, control, .. } = &mut self.equation;
         control.begin_step(time, system.model, &State::from_vector(x, system.model.joints())?)
     }
@@ -186,10 +190,10 @@ impl<'a> Stepper<'a> {
         Ok(reached)
     }
 
-    /// The estimated largest error of a position at the end of a phase, rad or m.
-    pub(crate) fn path_error(&mut self) -> f64 {
+    /// The estimated errors at the end of a phase.
+    pub(crate) fn path_errors(&mut self) -> PathErrors {
         self.companion.end(&mut self.equation);
-        self.companion.error()
+        self.companion.errors()
     }
 
     /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.

@@ -47,6 +47,18 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         None
     }
 
+    /// Takes the sample of the step that [`Control::begin_step`] will begin, for another solution of the same motion: where
+    /// that step takes one, the torques in `state` are written to `held`. A continuous law does nothing.
+    ///
+    /// # Errors
+    /// As [`Control::joint_torques`].
+    fn sample_beside(&mut self, _time: T, _model: &M, _state: &State<'_, T>, _held: &mut [T]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Exchanges the torques that are held with those of the other solution.
+    fn exchange_held(&mut self, _held: &mut [T]) {}
+
     /// The base torque that belongs to the last joint torques; `None` without such an actuator.
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         None
@@ -78,6 +90,14 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for
 
     fn held_steps(&self) -> Option<u32> {
         (**self).held_steps()
+    }
+
+    fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
+        (**self).sample_beside(time, model, state, held)
+    }
+
+    fn exchange_held(&mut self, held: &mut [T]) {
+        (**self).exchange_held(held);
     }
 
     fn base_torque(&self) -> Option<BaseTorque<T>> {

@@ -48,6 +48,16 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for SampledC
         Some(self.steps_left.saturating_add(1))
     }
 
+    fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
+        if self.steps_left == 0 { self.law.joint_torques(time, model, state, held) } else { Ok(()) }
+    }
+
+    fn exchange_held(&mut self, held: &mut [T]) {
+        for (own, other) in self.held.iter_mut().zip(held) {
+            core::mem::swap(own, other);
+        }
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.law.base_torque()
     }

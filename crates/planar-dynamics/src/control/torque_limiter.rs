@@ -40,6 +40,14 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for TorqueLi
         self.law.held_steps()
     }
 
+    fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
+        self.law.sample_beside(time, model, state, held)
+    }
+
+    fn exchange_held(&mut self, held: &mut [T]) {
+        self.law.exchange_held(held);
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.law.base_torque()
     }

@@ -1,6 +1,6 @@
 //! The estimated path error is what Richardson's extrapolation gives of two simulations, for every integrator.
 
-use crate::control::{Control, ZeroTorque};
+use crate::control::{Control, ProportionalDerivative, SampledControl, ZeroTorque};
 use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
@@ -10,6 +10,7 @@ use crate::simulate::stepper::{Formulation, Integration, Integrator};
 use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, Sample, Timing, simulate};
 use crate::state::State;
+use crate::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, layout, tolerance};
 
 /// A constant torque, held for a step; refuses all times but multiples of `refuses`, s.
@@ -134,4 +135,48 @@ fn a_lost_companion_is_an_objection() {
         assert_eq!(lost.path_error.to_bits(), f64::to_bits(1.0), "{is_held} {steps}");
         assert!(kept.path_error < 0.5 && kept.samples == lost.samples, "{is_held} {steps}: {}", kept.path_error);
     }
+}
+
+/// A sampled loop that is not stable: what it makes of the errors of steps is seen, and found by four times as many steps.
+#[test]
+fn a_sampled_law_answers_to_the_errors_of_steps() {
+    let sampled = |steps_per_sample: u32| {
+        let step = 0.4 / f64::from(steps_per_sample);
+        let law = ProportionalDerivative {
+            trajectory: ConstantSetpoint { angles: &[0.4, -0.9] },
+            proportional_gain: &[0.0; 2],
+            derivative_gain: &[2.0, 0.9],
+        };
+        let mut held = [0.0; 2];
+        let mut law = SampledControl::new(law, steps_per_sample, &mut held);
+        run(Integrator::RungeKutta4, &mut law, &initial(), [20.0, step])
+    };
+    let (coarse, fine) = (sampled(2), sampled(8));
+    let every_fourth = fine.samples.iter().step_by(4);
+    let error = largest(coarse.samples.iter(), every_fourth);
+    let found = coarse.path_error / error;
+    assert!(error > 1e-3 && (0.3..3.0).contains(&found), "{error} rad, of which the estimate is {found}");
+}
+
+/// What the motion makes of an error at its start is in the estimate, and an error at the end is handed on.
+#[test]
+fn an_error_at_the_start_is_followed() {
+    let (model, start) = (model(), initial());
+    let timing = Timing { duration: 10.0, step: STEP / 64.0, sample: STEP, integration: Integration::default() };
+    let small = [1e-7, 0.0, 0.0, 3e-8, -1e-7];
+    let from = |state: &RobotState, start_error: [&[f64]; 2]| {
+        let system = System { start_error, ..System::alone(&*model) };
+        simulate(&system, &mut ZeroTorque, state, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+    };
+    let mut beside = start.clone();
+    beside.joint_rates[1] += small[4];
+    beside.joint_rates[0] += small[3];
+    beside.base_pose[0] += small[0];
+    let errors = [&small[..1], &[0.0, 0.0, 0.0, small[3], small[4]]];
+    let (given, alone, other) = (from(&start, errors), from(&start, [&[]; 2]), from(&beside, [&[]; 2]));
+    let grown = largest(other.samples.iter(), alone.samples.iter());
+    assert!(alone.path_error < 0.01 * grown && grown > 3e-7, "{} {grown}", alone.path_error);
+    assert!((given.path_error / grown - 1.0).abs() < 0.05, "{} {grown}", given.path_error);
+    let [end, other_end] = [&alone, &other].map(|phase| phase.end().state.joint_angles[1]);
+    assert!((given.end_error[0][4].abs() / (end - other_end).abs() - 1.0).abs() < 0.05, "{:?}", given.end_error);
 }
