@@ -9,7 +9,6 @@ pub mod html_report;
 pub mod impacts;
 #[cfg(feature = "mcap")]
 pub mod mcap;
-mod replacement;
 pub mod result_folder;
 pub mod run_folder;
 pub mod run_manifest;
