@@ -105,14 +105,7 @@ impl Assembly {
     /// The system of a phase, without joint limits, of a reach of 1 m.
     #[must_use]
     pub fn system(&self) -> System<'_> {
-        System {
-            model: &*self.model,
-            bodies: &self.bodies,
-            constraints: &self.constraints,
-            joint_limits: &[],
-            reach: 1.0,
-            start_error: [&[]; 2],
-        }
+        System { bodies: &self.bodies, constraints: &self.constraints, ..System::alone(&*self.model) }
     }
 
     /// Those of all targets that are not merged.

@@ -172,14 +172,7 @@ fn both_coordinates_take_a_base_torque() {
 fn free_bodies_are_integrated() {
     let model = model();
     let body = Body { mass: 3.0, inertia: 0.4, pose: [0.1, 2.0, 3.0], twist: [0.7, -0.2, 0.5] };
-    let system = System {
-        model: &*model,
-        bodies: &[body],
-        constraints: &[],
-        joint_limits: &[],
-        reach: 1.0,
-        start_error: [&[]; 2],
-    };
+    let system = System { bodies: &[body], ..System::alone(&*model) };
     let run = |integrator, coordinates| {
         let integration = Integration { integrator, coordinates };
         let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
@@ -215,14 +208,7 @@ fn a_closed_loop_by_every_scheme() {
         LoopConstraint::new(&contact, &poses[arm], &pose).expect("a constraint")
     };
     let constraints = [constraint(0, ContactLaw::Rigid), constraint(1, ContactLaw::Pin)];
-    let system = System {
-        model: &*model,
-        bodies: &[body],
-        constraints: &constraints,
-        joint_limits: &[],
-        reach: 1.0,
-        start_error: [&[]; 2],
-    };
+    let system = System { bodies: &[body], constraints: &constraints, ..System::alone(&*model) };
     let expected: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |integrator, step| {
         let timing =
@@ -260,14 +246,7 @@ fn adaptive_steps_start_on_the_constraints() {
     let constraints = [LoopConstraint::new(&contact, &poses[0], &pose).expect("a constraint")];
     // open by a millimetre, and at a rate, as the body is at rest
     let open = Body { pose: [0.4, pose[1] + 1e-3, pose[2]], ..body };
-    let system = System {
-        model: &*model,
-        bodies: &[open],
-        constraints: &constraints,
-        joint_limits: &[],
-        reach: 1.0,
-        start_error: [&[]; 2],
-    };
+    let system = System { bodies: &[open], constraints: &constraints, ..System::alone(&*model) };
     let mut x = system.vector(&start.view()).expect("a vector");
     system.restore(&mut x).expect("a closed state");
     let closed = RobotState::from_view(&State::from_vector(&x, 6).expect("a state"));

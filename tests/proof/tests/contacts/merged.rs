@@ -92,14 +92,7 @@ fn a_rigid_constraint_is_a_merged_link() {
     let start = RobotState { base_twist, joint_rates: rates.to_vec(), ..RobotState::from_view(&state) };
     let bodies = [Body { twist: twists[0], ..body }];
     let constraints = [LoopConstraint::new(&contact, &end_effector, &body.pose).expect("a constraint")];
-    let system = System {
-        model: &model,
-        bodies: &bodies,
-        constraints: &constraints,
-        joint_limits: &[],
-        reach: 1.0,
-        start_error: [&[]; 2],
-    };
+    let system = System { bodies: &bodies, constraints: &constraints, ..System::alone(&model) };
     let constrained = simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || {}).expect("a motion");
 
     let mut merged = model;
@@ -142,14 +135,7 @@ fn a_loop_stays_closed() {
         let bodies = [Body { twist: twists[0], ..body }];
         let constraint = |(contact, pose)| LoopConstraint::new(contact, pose, &body.pose).expect("a constraint");
         let constraints: Vec<_> = contacts.iter().zip(&both).map(constraint).collect();
-        let system = System {
-            model: &model,
-            bodies: &bodies,
-            constraints: &constraints,
-            joint_limits: &[],
-            reach: 1.0,
-            start_error: [&[]; 2],
-        };
+        let system = System { bodies: &bodies, constraints: &constraints, ..System::alone(&model) };
         let drift = |step: f64| {
             let timing = Timing { duration: 2.0, step, sample: 2.0, ..Timing::default() };
             let phase =
