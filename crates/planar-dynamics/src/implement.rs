@@ -22,8 +22,8 @@ macro_rules! implement_dynamics {
             use $crate::state::{Forces, State};
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
-                all_finite, array, array_mut, finite, finite_configuration, finite_state, finite_target, is_regular,
-                joint_arrays, no_accelerations, pivot, rows_mut, store, store_rows,
+                all_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_state,
+                finite_target, is_regular, joint_arrays, no_accelerations, pivot, rows_mut, store, store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -63,8 +63,7 @@ macro_rules! implement_dynamics {
                     generalized_bias: &mut [T],
                     generalized_jacobian: &mut [T],
                 ) -> Result<(), Error> {
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
                     let inertia = rows_mut("generalized_inertia", generalized_inertia)?;
                     let bias = array_mut("generalized_bias", generalized_bias)?;
                     let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
@@ -112,8 +111,7 @@ macro_rules! implement_dynamics {
                     forces: &Forces<'_, T>,
                     joint_accelerations: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
                     let joints = array_mut("joint_accelerations", joint_accelerations)?;
                     let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
@@ -141,7 +139,7 @@ macro_rules! implement_dynamics {
 
             impl<T: Real> MomentumAndEnergy<T> for Model<T> {
                 fn momentum(&self, state: &State<'_, T>) -> Result<Momentum<T>, Error> {
-                    let [angles, rates] = joint_arrays(state)?;
+                    let [angles, rates] = finite_joint_arrays(state)?;
                     let result = Model::momentum(self, &state.base_pose, angles, &state.base_twist, rates);
                     finite("linear_momentum", &result.linear_momentum)?;
                     finite("angular_momentum", &[result.angular_momentum])?;
@@ -163,8 +161,8 @@ macro_rules! implement_dynamics {
                     impact_momentum: &mut [T],
                     joint_rates_after: &mut [T],
                 ) -> Result<(), Error> {
-                    let [angles, rates] = joint_arrays(state)?;
-                    let (masses, inertias, contacts, twists) = target_arrays(targets)?;
+                    let [angles, rates] = finite_joint_arrays(state)?;
+                    let (masses, inertias, contacts, twists) = by_arm(finite_targets(targets)?);
                     let pose = &state.base_pose;
                     let result =
                         Model::reduced_impact(self, pose, angles, rates, &masses, &inertias, &contacts, &twists);
@@ -181,8 +179,7 @@ macro_rules! implement_dynamics {
                     targets: &[Option<Target<T>>],
                     joint_rates_after: &mut [T],
                 ) -> Result<[T; 3], Error> {
-                    let angles = array("joint_angles", state.joint_angles)?;
-                    let rates = array("joint_rates", state.joint_rates)?;
+                    let [angles, rates] = joint_arrays(state)?;
                     let of_arms = array("targets", targets)?;
                     let joints = array_mut("joint_rates_after", joint_rates_after)?;
                     let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
@@ -228,7 +225,7 @@ macro_rules! implement_dynamics {
                     targets: &[Option<Target<T>>],
                 ) -> Result<(), Error> {
                     finite_configuration(base_pose, joint_angles)?;
-                    target_arrays(targets)?;
+                    let targets = finite_targets(targets)?;
                     let end_effectors =
                         Model::end_effector_poses(self, base_pose, array("joint_angles", joint_angles)?);
                     let mut values = self.parameters().to_array();
@@ -237,8 +234,9 @@ macro_rules! implement_dynamics {
                     {
                         let Some(target) = target else { continue };
                         let value = |(kind, index): (ParameterKind, Option<usize>)| {
-                            let missing = Error::Parameter { kind, arm, link: MANIFEST.links.get(arm).map_or(0, |n| n.saturating_sub(1)) };
-                            index.and_then(|index| values.get(index)).copied().ok_or(missing)
+                            let link = MANIFEST.links.get(arm).map_or(0, |links| links.saturating_sub(1));
+                            let found = index.and_then(|index| values.get(index)).copied();
+                            found.ok_or(Error::Parameter { kind, arm, link })
                         };
                         let [mass, inertia, x, y, length] = *places;
                         let before = LinkInertia { mass: value(mass)?, inertia: value(inertia)?, com: [value(x)?, value(y)?] };
@@ -288,11 +286,11 @@ macro_rules! implement_dynamics {
 
             type ByArm<T> = ([T; ARMS], [T; ARMS], [[T; 2]; ARMS], [[T; 3]; ARMS]);
 
-            /// As [`by_arm`], of a slice with finite numbers.
-            fn target_arrays<T: Real>(targets: &[Option<Target<T>>]) -> Result<ByArm<T>, Error> {
+            /// Targets with finite numbers, one per arm.
+            fn finite_targets<T: Real>(targets: &[Option<Target<T>>]) -> Result<&[Option<Target<T>>; ARMS], Error> {
                 let targets: &[Option<Target<T>>; ARMS] = array("targets", targets)?;
                 targets.iter().flatten().try_for_each(finite_target)?;
-                Ok(by_arm(targets))
+                Ok(targets)
             }
 
             /// Masses, inertias, contacts and twists, one per arm; those of a massless target for an arm without one.
@@ -380,7 +378,7 @@ macro_rules! implement_functions {
             state: &State<'_, T>,
             into: &mut [$crate::element!($kind T)],
         ) -> Result<(), Error> {
-            let [angles, rates] = joint_arrays(state)?;
+            let [angles, rates] = finite_joint_arrays(state)?;
             let result = Model::$method(self, &state.base_pose, angles, &state.base_twist, rates);
             $crate::implement_functions!(@store $kind $method result into)
         }

@@ -4,13 +4,14 @@ pub use crate::scalar::far_angle::{DIGITS, DIGITS_SINGLE};
 pub use crate::scalar::sine::{Coefficients, DOUBLE, SINGLE};
 
 /// (module, text), each after those that it uses.
-pub const PARTS: [(&str, &str); 9] = [
+pub const PARTS: [(&str, &str); 10] = [
     ("number", include_str!("scalar/number.rs")),
     ("far_angle", include_str!("scalar/far_angle.rs")),
     ("sine", include_str!("scalar/sine.rs")),
     ("accelerated", include_str!("scalar/portable.rs")),
     ("float", include_str!("scalar/float.rs")),
     ("real", include_str!("scalar/real.rs")),
+    ("finite", include_str!("scalar/finite.rs")),
     ("body", include_str!("body.rs")),
     ("target", include_str!("target.rs")),
     ("manifest", include_str!("manifest.rs")),

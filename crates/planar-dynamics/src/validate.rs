@@ -1,5 +1,7 @@
 //! Checks of lengths and numbers between slices and straight-line code; public for generated code alone.
 
+pub use crate::scalar::finite::all_finite;
+
 use crate::error::Error;
 use crate::linear::copy;
 use crate::scalar::Real;
@@ -61,21 +63,6 @@ pub fn finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error
     if all_finite([values]) { Ok(()) } else { first_not_finite(quantity, values) }
 }
 
-/// Whether the numbers of all slices are finite. Their sum says so, an addition each, unless it overflows.
-#[inline]
-pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
-    let sums = slices.map(|values| values.iter().fold(T::ZERO, |sum, value| sum + *value));
-    let sum = sums.iter().fold(T::ZERO, |sum, value| sum + *value);
-    // 0 x is 0 where x is finite, else NaN
-    sum * T::ZERO == T::ZERO || is_each_finite(slices)
-}
-
-#[cold]
-#[inline(never)]
-fn is_each_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
-    slices.iter().all(|values| values.iter().all(|value| value.is_finite()))
-}
-
 #[cold]
 #[inline(never)]
 fn first_not_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
@@ -124,11 +111,17 @@ pub fn finite_target<T: Real>(target: &Target<T>) -> Result<(), Error> {
     finite("target twist", &target.twist)
 }
 
-/// Joint angles and rates as arrays, after [`finite_state`].
+/// Joint angles and rates as arrays.
 #[inline]
 pub fn joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) -> Result<[&'a [T; N]; 2], Error> {
+    Ok([array("joint_angles", state.joint_angles)?, array("joint_rates", state.joint_rates)?])
+}
+
+/// [`joint_arrays`] of a state with finite numbers.
+#[inline]
+pub fn finite_joint_arrays<'a, T: Real, const N: usize>(state: &State<'a, T>) -> Result<[&'a [T; N]; 2], Error> {
     // of a known number the sums of zeros have no loops
-    let [angles, rates] = [array("joint_angles", state.joint_angles)?, array("joint_rates", state.joint_rates)?];
+    let [angles, rates] = joint_arrays(state)?;
     finite_state(&State { joint_angles: angles, joint_rates: rates, ..*state })?;
     Ok([angles, rates])
 }

@@ -3,6 +3,7 @@
 mod accelerated;
 mod dual;
 pub(crate) mod far_angle;
+pub(crate) mod finite;
 mod float;
 #[cfg(feature = "batch")]
 pub(crate) mod lane;

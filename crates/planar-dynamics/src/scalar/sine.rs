@@ -94,7 +94,7 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
 }
 
 macro_rules! sines {
-    ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $near:ident, $reduce:ident, $far:ident, $far_pair:ident,
+    ($float:ident, $coefficients:expr, $turned:ident, $near:ident, $reduce:ident, $far:ident, $far_pair:ident,
      $sin_cos:ident, $sin_cos_pair:ident, $pair:ident, $error:literal) => {
         /// Sines and cosines of two angles.
         #[derive(Clone, Copy, Debug)]
@@ -162,7 +162,6 @@ macro_rules! sines {
 
 sines!(
     f64,
-    u64,
     DOUBLE,
     turned_f64,
     near_f64,
@@ -176,7 +175,6 @@ sines!(
 );
 sines!(
     f32,
-    u32,
     SINGLE,
     turned_f32,
     near_f32,
