@@ -131,7 +131,7 @@ impl Drop for Lines {
     fn drop(&mut self) {
         if let Some((sender, thread)) = self.thread.take() {
             drop(sender);
-            let _ = thread.join();
+            let _ = thread.join(); // it prints and waits: there is no result
         }
     }
 }

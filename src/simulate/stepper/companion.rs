@@ -37,8 +37,8 @@ pub(super) struct Companion {
     /// Torques that the law holds for this solution, N m.
     held: Vec<f64>,
     error: f64,
-    /// Differences of the robot's positions and rates, at the last time at which there are both.
-    difference: [Vec<f64>; 2],
+    /// The first solution where this one is, or was last.
+    first: Vec<f64>,
     is_lost: bool,
 }
 
@@ -56,14 +56,13 @@ impl Companion {
             Some(growth) => -1.0 / (growth - 1.0),
         };
         let (last_step, held) = ([Vec::new(), Vec::new()], vec![0.0; equation.system.model.joints()]);
-        let (difference, error) = ([Vec::new(), Vec::new()], 0.0);
-        let mut x = x.to_vec();
+        let (first, mut x) = (x.to_vec(), x.to_vec());
         if let Ok(StateVector { positions, rates, .. }) = split_mut(&mut x) {
             for (half, errors) in [positions, rates].into_iter().zip(equation.system.start_error) {
                 half.iter_mut().zip(errors).for_each(|(x, error)| *x -= error / share);
             }
         }
-        Self { steps, x, last_step, pending: None, order, share, held, error, difference, is_lost: false }
+        Self { steps, x, last_step, pending: None, order, share, held, error: 0.0, first, is_lost: false }
     }
 
     /// Takes the sample of a law that holds its torques, before the first solution does.
@@ -88,19 +87,28 @@ impl Companion {
             Ok(false) => {}
             Ok(true) => {
                 self.error = Real::maximum(self.error, self.share.abs() * largest_difference(x, &self.x));
-                self.difference = differences(x, &self.x, 3 + self.held.len());
+                self.first.copy_from_slice(x);
             }
             Err(_) => self.lose(),
         }
     }
 
-    /// Adds the error of a last step without a pair.
-    pub(super) fn end(&mut self, equation: &mut Equation<'_>) {
-        let Some(span) = self.pending.take().filter(|_| !self.is_lost) else { return };
-        match self.exchanged(equation, |own, equation| own.error_of_step(equation, span)) {
-            Ok(error) => self.error += error,
-            Err(_) => self.lose(),
+    /// The largest error of a position (rad, m), with that of a last step without a pair, and those of positions and rates
+    /// where there are both solutions last.
+    pub(super) fn errors(&mut self, equation: &mut Equation<'_>) -> PathErrors {
+        let count = 3 + self.held.len();
+        let halves = [&self.first, &self.x].map(|x| split(x).map_or([&[][..], &[]], |x| [x.positions, x.rates]));
+        let at_end = std::array::from_fn(|i| {
+            let pairs = halves[0][i].iter().zip(halves[1][i]).take(count);
+            pairs.map(|(first, second)| self.share * (first - second)).collect()
+        });
+        if let Some(span) = self.pending.take().filter(|_| !self.is_lost) {
+            match self.exchanged(equation, |own, equation| own.error_of_step(equation, span)) {
+                Ok(error) => self.error += error,
+                Err(_) => self.lose(),
+            }
         }
+        (self.error, at_end)
     }
 
     /// Runs with the vectors at the end of this solution's last step.
@@ -153,20 +161,6 @@ impl Companion {
         self.halves(equation, span)?;
         Ok(growth / (growth - 1.0) * largest_difference(&whole, &self.x))
     }
-
-    /// The largest error of a position so far (rad, m), and those of positions and rates at the end.
-    pub(super) fn errors(&self) -> PathErrors {
-        (
-            self.error,
-            self.difference.clone().map(|half| half.iter().map(|difference| self.share * difference).collect()),
-        )
-    }
-}
-
-/// Of the robot's positions and rates, `count` each, in two integrated vectors.
-fn differences(x: &[f64], y: &[f64], count: usize) -> [Vec<f64>; 2] {
-    let [x, y] = [x, y].map(|x| split(x).map_or([&[][..], &[]], |parts| [parts.positions, parts.rates]));
-    std::array::from_fn(|i| x[i].iter().zip(y[i]).take(count).map(|(x, y)| x - y).collect())
 }
 
 /// Of the positions of two integrated vectors.

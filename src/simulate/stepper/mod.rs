@@ -192,8 +192,7 @@ impl<'a> Stepper<'a> {
 
     /// The estimated errors at the end of a phase.
     pub(crate) fn path_errors(&mut self) -> PathErrors {
-        self.companion.end(&mut self.equation);
-        self.companion.errors()
+        self.companion.errors(&mut self.equation)
     }
 
     /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.
