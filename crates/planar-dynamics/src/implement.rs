@@ -55,7 +55,6 @@ macro_rules! implement_dynamics {
             $crate::with_quantities!($crate::implement_functions);
 
             impl<T: Real> ReducedDynamics<T> for Model<T> {
-                #[cfg_attr(target_arch = "arm", inline(always))]
                 fn reduced_dynamics(
                     &self,
                     state: &State<'_, T>,
@@ -68,38 +67,21 @@ macro_rules! implement_dynamics {
                     let bias = array_mut("generalized_bias", generalized_bias)?;
                     let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
                     let (pose, twist) = (&state.base_pose, &state.base_twist);
-                    let (is_done, smallest) = reduced(self, pose, angles, twist, rates, inertia, bias, jacobian);
-                    if is_done {
-                        return Ok(());
+                    let result = Model::reduced_dynamics(self, pose, angles, twist, rates);
+                    let (i, c) = (result.generalized_inertia.as_flattened(), &result.generalized_bias);
+                    let j = result.generalized_jacobian.as_flattened();
+                    let is_finite = all_finite([&pose[..], angles, twist, rates, i, c, j]);
+                    if !(is_finite && is_regular(result.smallest_pivot)) {
+                        finite_state(state)?;
+                        pivot("the base inertia", result.smallest_pivot)?;
+                        finite("generalized_inertia", i)?;
+                        finite("generalized_bias", c)?;
+                        finite("generalized_jacobian", j)?;
                     }
-                    finite_state(state)?;
-                    pivot("the base inertia", smallest)?;
-                    finite("generalized_inertia", inertia.as_flattened())?;
-                    finite("generalized_bias", bias)?;
-                    finite("generalized_jacobian", jacobian.as_flattened())
+                    (*inertia, *bias) = (result.generalized_inertia, result.generalized_bias);
+                    *jacobian = result.generalized_jacobian;
+                    Ok(())
                 }
-            }
-
-            /// Whether the results are those of finite inputs and a regular matrix; the smallest pivot.
-            #[cfg_attr(target_arch = "arm", inline(never))]
-            #[cfg_attr(not(target_arch = "arm"), inline)]
-            #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
-            fn reduced<T: Real>(
-                model: &Model<T>,
-                pose: &[T; 3],
-                angles: &[T; JOINTS],
-                twist: &[T; 3],
-                rates: &[T; JOINTS],
-                inertia: &mut [[T; JOINTS]; JOINTS],
-                bias: &mut [T; JOINTS],
-                jacobian: &mut [[T; JOINTS]; 3 * ARMS],
-            ) -> (bool, T) {
-                let result = Model::reduced_dynamics(model, pose, angles, twist, rates);
-                (*inertia, *bias) = (result.generalized_inertia, result.generalized_bias);
-                *jacobian = result.generalized_jacobian;
-                let is_finite =
-                    all_finite([&pose[..], angles, twist, rates, inertia.as_flattened(), bias, jacobian.as_flattened()]);
-                (is_finite && is_regular(result.smallest_pivot), result.smallest_pivot)
             }
 
             impl<T: Real> ForwardDynamics<T> for Model<T> {
@@ -114,18 +96,16 @@ macro_rules! implement_dynamics {
                     let [angles, rates] = joint_arrays(state)?;
                     let torques = array("joint_torques", forces.joint_torques)?;
                     let joints = array_mut("joint_accelerations", joint_accelerations)?;
-                    let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
                     let zero = [T::ZERO; 3];
                     let wrench = forces.base_wrench.as_ref().unwrap_or(&zero);
-                    let (is_done, smallest) = if let Some(wrenches) = forces.end_effector_wrenches {
+                    if let Some(wrenches) = forces.end_effector_wrenches {
                         let wrenches = array("end_effector_wrenches", wrenches)?;
-                        under_wrenches(self, pose, angles, twist, rates, torques, wrench, wrenches, &mut base, joints)
+                        under_wrenches(self, state, forces, angles, rates, torques, wrench, wrenches, joints)
                     } else if forces.base_wrench.is_some() {
-                        under_a_base_wrench(self, pose, angles, twist, rates, torques, wrench, &mut base, joints)
+                        under_a_base_wrench(self, state, forces, angles, rates, torques, wrench, joints)
                     } else {
-                        under_torques(self, pose, angles, twist, rates, torques, &mut base, joints)
-                    };
-                    if is_done { Ok(base) } else { Err(no_accelerations(state, forces, smallest, &base, joints)) }
+                        under_torques(self, state, forces, angles, rates, torques, joints)
+                    }
                 }
             }
 
@@ -172,7 +152,6 @@ macro_rules! implement_dynamics {
                     store("joint_rates_after", &result.joint_rates_after, joint_rates_after)
                 }
 
-                #[cfg_attr(target_arch = "arm", inline(always))]
                 fn full_impact(
                     &self,
                     state: &State<'_, T>,
@@ -182,39 +161,22 @@ macro_rules! implement_dynamics {
                     let [angles, rates] = joint_arrays(state)?;
                     let of_arms = array("targets", targets)?;
                     let joints = array_mut("joint_rates_after", joint_rates_after)?;
-                    let (pose, twist, mut base) = (&state.base_pose, &state.base_twist, [T::ZERO; 3]);
-                    let (is_done, smallest) = full(self, pose, angles, twist, rates, of_arms, &mut base, joints);
-                    if !is_done {
+                    let (pose, twist) = (&state.base_pose, &state.base_twist);
+                    let (masses, inertias, contacts, twists) = by_arm(of_arms);
+                    let result =
+                        Model::full_impact(self, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
+                    let (base, after) = (&result.base_twist_after, &result.joint_rates_after);
+                    // the velocities depend on all numbers but the place of the base
+                    if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], base, after])) {
                         finite_state(state)?;
                         of_arms.iter().flatten().try_for_each(finite_target)?;
-                        pivot("the impact matrix G in full coordinates", smallest)?;
-                        finite("base_twist_after", &base)?;
-                        finite("joint_rates_after", joints)?;
+                        pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
+                        finite("base_twist_after", base)?;
+                        finite("joint_rates_after", after)?;
                     }
-                    Ok(base)
+                    *joints = result.joint_rates_after;
+                    Ok(result.base_twist_after)
                 }
-            }
-
-            /// Whether the velocities are those of finite inputs and a regular matrix; the smallest pivot.
-            #[cfg_attr(target_arch = "arm", inline(never))]
-            #[cfg_attr(not(target_arch = "arm"), inline)]
-            #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
-            fn full<T: Real>(
-                model: &Model<T>,
-                pose: &[T; 3],
-                angles: &[T; JOINTS],
-                twist: &[T; 3],
-                rates: &[T; JOINTS],
-                targets: &[Option<Target<T>>; ARMS],
-                base: &mut [T; 3],
-                joints: &mut [T; JOINTS],
-            ) -> (bool, T) {
-                let (masses, inertias, contacts, twists) = by_arm(targets);
-                let result = Model::full_impact(model, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
-                (*base, *joints) = (result.base_twist_after, result.joint_rates_after);
-                // the velocities depend on all numbers but the place of the base
-                let is_done = is_regular(result.smallest_pivot) && all_finite([&pose[..], base, joints]);
-                (is_done, result.smallest_pivot)
             }
 
             impl<T: Real> Merge<T> for Model<T> {
@@ -310,27 +272,30 @@ macro_rules! implement_dynamics {
         }
     };
     (@accelerations $name:ident $function:ident($($wrench:ident: $type:ty),*)) => {
-        /// Whether the accelerations are those of finite inputs and a regular matrix; the smallest pivot. A function of its
-        /// own where registers are few: the frame is that of the forces that there are.
+        /// The accelerations, unless an input is not finite or the matrix singular. A function of its own where registers are
+        /// few: the frame is that of the forces that there are.
         #[cfg_attr(target_arch = "arm", inline(never))]
         #[cfg_attr(not(target_arch = "arm"), inline)]
-        #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the results")]
+        #[allow(clippy::too_many_arguments, reason = "those of the inherent function, and the result")]
         fn $name<T: Real>(
             model: &Model<T>,
-            pose: &[T; 3],
+            state: &State<'_, T>,
+            forces: &Forces<'_, T>,
             angles: &[T; JOINTS],
-            twist: &[T; 3],
             rates: &[T; JOINTS],
             torques: &[T; JOINTS],
             $($wrench: $type,)*
-            base: &mut [T; 3],
             joints: &mut [T; JOINTS],
-        ) -> (bool, T) {
+        ) -> Result<[T; 3], Error> {
+            let (pose, twist) = (&state.base_pose, &state.base_twist);
             let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
-            (*base, *joints) = (result.base_acceleration, result.joint_accelerations);
+            let (base, of_joints) = (&result.base_acceleration, &result.joint_accelerations);
             // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
-            let is_done = is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, base, joints]);
-            (is_done, result.smallest_pivot)
+            if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, base, of_joints])) {
+                return Err(no_accelerations(state, forces, result.smallest_pivot, base, of_joints));
+            }
+            *joints = result.joint_accelerations;
+            Ok(result.base_acceleration)
         }
     };
     ($other:tt) => {
