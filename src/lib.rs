@@ -119,7 +119,7 @@ pub use planar_dynamics::{
 #[cfg(feature = "build")]
 pub use planar_build as build;
 #[cfg(feature = "std")]
-pub use planar_build::prove::{self as generate, evaluation, generic, owned, quantities, sampling};
+pub use planar_build::prove::{self as generate, evaluation, generic, heavy_targets, owned, quantities, sampling};
 #[cfg(feature = "std")]
 pub use planar_layout::{diagnostic, layout, outline, structure};
 

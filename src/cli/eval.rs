@@ -5,6 +5,8 @@ use super::{CommandError, file_error, layout};
 use planar_capture::dynamics::AnyModel;
 use planar_capture::eval::{StateError, States, result_to_json};
 use planar_capture::evaluation::evaluate;
+use planar_capture::heavy_targets::resolve_capture;
+use planar_capture::layout::Layout;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::ExitCode;
@@ -37,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     };
     let mut out = io::stdout().lock();
     out.write_all(b"[")?;
-    let result = evaluate_all(&*model, input, name, &mut out);
+    let result = evaluate_all(&*model, &layout, input, name, &mut out);
     if matches!(result, Err(CommandError::Print(_))) {
         return result.map(|()| ExitCode::SUCCESS);
     }
@@ -50,15 +52,20 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 
 fn evaluate_all(
     model: &AnyModel<f64>,
+    layout: &Layout,
     input: Box<dyn BufRead>,
     name: &str,
     out: &mut impl Write,
 ) -> Result<(), CommandError> {
-    let mut states = States::new(input, model);
+    let mut states = States::new(input, layout);
     let mut line = Vec::new();
     let mut index = 0;
     while let Some(state) = states.next_state().map_err(file_error(name))? {
-        let values = evaluate(model, &state).map_err(file_error(&format!("{name}: state {index}")))?;
+        let values = evaluate(model, &state).and_then(|mut values| {
+            resolve_capture(model, &state, &mut values)?;
+            Ok(values)
+        });
+        let values = values.map_err(file_error(&format!("{name}: line {}: state {index}", states.line())))?;
         line.clear();
         line.extend_from_slice(if index == 0 { b"\n" } else { b",\n" });
         serde_json::to_writer(&mut line, &result_to_json(&values, &state.targets)).map_err(io::Error::from)?;

@@ -4,13 +4,14 @@
 //! targets?}, …]`; an optional entry may be `null`.
 
 mod elements;
+mod magnitude;
 mod places;
 mod reader;
 mod result;
 mod write;
 
-use crate::dynamics::AnyModel;
 use crate::evaluation::EvaluationInput;
+use crate::layout::Layout;
 use elements::Elements;
 pub use result::result_to_json;
 use std::io::{self, BufRead};
@@ -43,16 +44,22 @@ pub enum StateError {
 }
 
 /// The states of a JSON text; holds one state in memory at a time.
-pub struct States<R> {
+pub struct States<'a, R> {
     elements: Elements<R>,
-    joints: usize,
-    arms: usize,
+    layout: &'a Layout,
+    /// Of the last state.
+    line: usize,
 }
 
-impl<R: BufRead> States<R> {
+impl<'a, R: BufRead> States<'a, R> {
     /// States of a robot, read from `input`.
-    pub fn new(input: R, model: &AnyModel<f64>) -> Self {
-        Self { elements: Elements::new(input), joints: model.joints(), arms: model.arms() }
+    pub fn new(input: R, layout: &'a Layout) -> Self {
+        Self { elements: Elements::new(input), layout, line: 1 }
+    }
+
+    /// The line that the last state starts on, counted from 1.
+    pub fn line(&self) -> usize {
+        self.line
     }
 
     /// The next state; `None` after the last.
@@ -61,7 +68,8 @@ impl<R: BufRead> States<R> {
     /// [`StateError`]; the states after it cannot be read.
     pub fn next_state(&mut self) -> Result<Option<EvaluationInput>, StateError> {
         let Some(element) = self.elements.next_element()? else { return Ok(None) };
-        let read = reader::read(element.text, self.joints, self.arms);
+        self.line = element.line;
+        let read = reader::read(element.text, self.layout);
         read.map(Some).map_err(|(line, message)| StateError::State {
             line: element.line + line,
             index: element.index,

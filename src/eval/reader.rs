@@ -1,8 +1,10 @@
 //! Reads one state from its JSON text.
 
+use super::magnitude::{wrong_angle, wrong_mass};
 use super::places::Places;
 use crate::diagnostic::{NumberRule, excerpt, listing, nearest};
 use crate::evaluation::EvaluationInput;
+use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::target::Target;
 use serde_json::{Map, Value};
@@ -38,20 +40,21 @@ type Read<T> = Result<T, InvalidValue>;
 ///
 /// # Errors
 /// The number of lines before the invalid value, and a message with key, value and what is expected.
-pub fn read(text: &[u8], joints: usize, arms: usize) -> Result<EvaluationInput, (usize, String)> {
+pub fn read(text: &[u8], layout: &Layout) -> Result<EvaluationInput, (usize, String)> {
     let tree: Value = serde_json::from_slice(text).map_err(|error| not_json(text, &error))?;
     let places = Places::of(text);
     // the parsed tree has only the last value of a key
     if let Some((path, offset)) = places.repeated() {
         return Err((lines_before(text, offset), format!("`{}` is given twice, expected once", excerpt(&path))));
     }
-    instant(&tree, joints, arms).map_err(|error| {
+    instant(&tree, layout).map_err(|error| {
         let offset = places.offset(&error.path).unwrap_or(0);
         (lines_before(text, offset), error.message)
     })
 }
 
-fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
+fn instant(tree: &Value, layout: &Layout) -> Read<EvaluationInput> {
+    let (joints, arms) = (layout.joints(), layout.arms.len());
     let state = object(tree, "", "the state", &STATE)?;
     let required = |key: &str, wanted: &str| required(state, "", key, wanted);
     let optional = |key: &str| state.get(key).filter(|value| !value.is_null());
@@ -69,13 +72,13 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     let targets = optional("targets").map(|value| {
         let wanted = format!("{arms} targets, one per arm, `null` for an arm that captures nothing");
         items(value, "targets", arms, &wanted)?
-            .map(|(path, value)| if value.is_null() { Ok(None) } else { target(value, &path).map(Some) })
+            .map(|(path, value)| if value.is_null() { Ok(None) } else { target(value, &path, layout).map(Some) })
             .collect::<Read<Vec<_>>>()
     });
     Ok(EvaluationInput {
         state: RobotState {
-            base_pose: triple("base_pose", POSE)?,
-            joint_angles: list("joint_angles", "rad")?,
+            base_pose: angles(triple("base_pose", POSE)?, 1, state, "base_pose")?,
+            joint_angles: angles(list("joint_angles", "rad")?, joints, state, "joint_angles")?,
             base_twist: triple("base_twist", TWIST)?,
             joint_rates: list("joint_rates", "rad/s")?,
         },
@@ -86,13 +89,23 @@ fn instant(tree: &Value, joints: usize, arms: usize) -> Read<EvaluationInput> {
     })
 }
 
-fn target(value: &Value, path: &str) -> Read<Target<f64>> {
+/// The numbers, the first of which are angles.
+fn angles<T: AsRef<[f64]>>(numbers: T, count: usize, state: &Map<String, Value>, key: &str) -> Read<T> {
+    let mut angles = numbers.as_ref().iter().take(count).enumerate();
+    match angles.find_map(|(index, angle)| Some((index, wrong_angle(*angle)?))) {
+        Some((index, wanted)) => Err(expected(&format!("{key}[{index}]"), &state[key][index], &wanted)),
+        None => Ok(numbers),
+    }
+}
+
+fn target(value: &Value, path: &str, layout: &Layout) -> Read<Target<f64>> {
     let table = object(value, path, "a target", &TARGET)?;
     let amount = |key: &str, quantity: &NumberRule| {
         let wanted = quantity.to_string();
         let (value, path) = (required(table, path, key, &wanted)?, join(path, key));
         let number = number(value, &path, &wanted)?;
-        if number > 0.0 { Ok(number) } else { Err(expected(&path, value, &wanted)) }
+        let wanted = if number > 0.0 { wrong_mass(layout, key, number) } else { Some(wanted) };
+        wanted.map_or(Ok(number), |wanted| Err(expected(&path, value, &wanted)))
     };
     Ok(Target {
         mass: amount("mass", &MASS)?,

@@ -154,7 +154,17 @@ fn a_bad_state_is_named_with_key_value_and_what_would_be_right() {
         said(&|s| s["targets"][0]["spin"] = json!(1)),
         &["unknown key `targets[0].spin` (1)", "`contact` and `twist`"],
     );
-    holds(said(&|s| s["joint_rates"] = json!([1e200, 0, 0, 0, 0, 0])), &["= inf is not a finite number"]);
+    holds(
+        said(&|s| s["targets"][1]["mass"] = json!(1e14)),
+        &["`targets[1].mass` is 1", "expected at most 5.600e8 kg", "1e6 times that of the robot, 5.600e2"],
+    );
+    holds(said(&|s| s["targets"][1]["inertia"] = json!(1e14)), &["`targets[1].inertia` is 1", "kg m², 1e6 times"]);
+    holds(said(&|s| s["base_pose"][0] = json!(-2e6)), &["`base_pose[0]` is -2", "an angle of at most 1e6 rad"]);
+    holds(said(&|s| s["joint_angles"][5] = json!(1e50)), &["`joint_angles[5]` is 1", "an angle of at most 1e6 rad"]);
+    holds(
+        said(&|s| s["joint_rates"] = json!([1e200, 0, 0, 0, 0, 0])),
+        &["input: line 1: state 2: ", "= inf is not a finite number"],
+    );
 }
 
 #[test]
@@ -235,9 +245,9 @@ fn repeated_keys_are_found_however_they_are_written() {
 
 #[test]
 fn the_time_is_linear_in_the_size_of_a_state() {
-    let robot = planar_capture::registry::generated(&planar_proof::layout("single_arm_2r")).expect("generated code");
+    let robot = planar_proof::layout("single_arm_2r");
     let read = |text: &str| {
-        let problem = States::new(text.as_bytes(), &*robot).next_state().expect_err("no state").to_string();
+        let problem = States::new(text.as_bytes(), &robot).next_state().expect_err("no state").to_string();
         assert!(problem.len() < 1000, "{problem}");
     };
     let many = |count: usize, one: &dyn Fn(usize) -> String| (0..count).map(one).collect::<Vec<_>>().join(",");
@@ -252,4 +262,35 @@ fn the_time_is_linear_in_the_size_of_a_state() {
     });
     is_linear("a long key", &|count| format!("[{{\"{}\":1}}]", "base_pose".repeat(count)));
     is_linear("lines", &|count| format!("[{{{}\"joint_rates\":[\"x\"]}}]", "\n".repeat(count)));
+}
+
+/// The impulse on the robot is the change of its linear momentum, which is rows of its mass matrix times the change of its
+/// velocities, whatever the mass of the target.
+#[test]
+fn impulses_of_heavy_targets_change_the_robots_momentum() {
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().expect("a list").iter().map(|number| number.as_f64().expect("a number")).collect()
+    };
+    let (states, _) = reference();
+    for heavy in [1e3, 1e5, 1e7, 5e8] {
+        let mut state = states[2].clone();
+        state["targets"][0] =
+            json!({"mass": heavy, "inertia": heavy, "contact": [0.1, 0.5], "twist": [0.2, 0.1, -0.3]});
+        state["targets"][1] = Value::Null;
+        let before = [numbers(&state["base_twist"]), numbers(&state["joint_rates"])].concat();
+        for dynamics in ["generated", "generic"] {
+            let (code, results, problems) = eval("dual_arm_3r", &json!([state]).to_string(), dynamics);
+            assert_eq!((code, problems.as_str()), (0, ""));
+            let capture = &results[0]["capture"];
+            let after = [numbers(&capture["base_twist_after"]), numbers(&capture["joint_rates_after"])].concat();
+            let impulse = numbers(&capture["impulses"][0]);
+            let size = impulse.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+            for axis in [1, 2] {
+                let row = numbers(&results[0]["mass_matrix"][axis]);
+                let change: f64 = row.iter().zip(&after).zip(&before).map(|((m, after), b)| m * (after - b)).sum();
+                let error = (impulse[axis] - change).abs() / size;
+                assert!(error < 1e-10, "{dynamics}, {heavy:e} kg: off by {error:e}");
+            }
+        }
+    }
 }

@@ -19,13 +19,14 @@ pub fn target() -> Target {
 
 fn read(bytes: &[u8]) -> Result<bool, String> {
     thread_local! {
-        static MODEL: Box<dyn planar_capture::owned::CloneModel> = {
+        static MODEL: (Layout, Box<dyn planar_capture::owned::CloneModel>) = {
             let layout = Layout::parse(&file("codegen/layouts/dual_arm_3r.toml"), "layout").expect("a layout");
-            registry::generated(&layout).expect("generated code")
+            let model = registry::generated(&layout).expect("generated code");
+            (layout, model)
         };
     }
-    MODEL.with(|model| {
-        let mut states = States::new(bytes, &**model);
+    MODEL.with(|(layout, model)| {
+        let mut states = States::new(bytes, layout);
         loop {
             match states.next_state() {
                 Ok(None) => return Ok(true),

@@ -57,7 +57,7 @@ impl Values {
         quantity.row().shape.iter().map(|extent| extent.count(self.arms, self.joints)).collect()
     }
 
-    fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {
+    pub(super) fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {
         self.by_quantity[quantity as usize] = Some(value.into());
     }
 }

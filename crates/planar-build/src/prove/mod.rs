@@ -5,6 +5,7 @@ mod derivatives;
 pub mod evaluation;
 pub mod generic;
 mod generic_results;
+pub mod heavy_targets;
 mod impact_results;
 mod interpreter;
 pub mod owned;
