@@ -64,10 +64,9 @@ fn is_lost(instant: &EvaluationInput, values: &Values) -> bool {
     let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let twists = after.as_chunks::<3>().0;
     let momenta = instant.targets.iter().zip(twists).filter_map(|(target, after)| {
-        let (target, [spin_after, vx_after, vy_after]) = (target.as_ref()?, *after);
-        let [spin, vx, vy] = target.twist;
-        let (angular, linear) = (largest(&[spin, spin_after]), largest(&[vx, vy, vx_after, vy_after]));
-        Some((target.inertia * angular).max(target.mass * linear))
+        let target = target.as_ref()?;
+        let of = |[spin, vx, vy]: [f64; 3]| (target.inertia * spin.abs()).max(target.mass * largest(&[vx, vy]));
+        Some(of(target.twist).max(of(*after)))
     });
     momenta.fold(0.0, f64::max) > MOST_LOST * largest(impulses)
 }
