@@ -60,6 +60,25 @@ fn shipped() -> [(&'static str, &'static str); 2] {
     [("one_arm", LAYOUT), ("broken", "name = \"broken\"\n[base]\nmass = 1\ninertia = 0\n[[arm]]\n")]
 }
 
+/// A light body loses nothing: only those that are heavy beside all others are refused.
+#[test]
+fn light_bodies_are_accepted() {
+    for (from, to) in [
+        ("mass = 10.0", "mass = 1e-30"),
+        ("mass = 500.0", "mass = 1e-30"),
+        ("inertia = 83.61", "inertia = 1e-30"),
+        ("inertia = 1.05", "inertia = 1e-30"),
+        ("mass = 500.0", "mass = 1.9e10"),
+        ("mass = 10.0", "mass = 5e7"),
+        ("inertia = 83.61", "inertia = 1e12"),
+    ] {
+        let text = LAYOUT.replacen(from, to, 1);
+        assert_ne!(text, LAYOUT, "{from}");
+        let layout = Layout::parse(&text, "one_arm.toml");
+        assert!(layout.is_ok(), "{to}: {}", layout.expect_err("refused"));
+    }
+}
+
 fn scenario(text: &str) -> Result<Scenario, Report> {
     Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
 }
@@ -94,6 +113,29 @@ const LAYOUT_EDITS: &[Edit] = &[
         "length = 1e-200\n",
         13,
         &["`arm[0].link[1].length` is 1e-200", "0 or of a magnitude from 1e-100"],
+    ),
+    (
+        "mass = 500.0",
+        "mass = 1e15",
+        3,
+        &["`base.mass` is 1e15", "expected at most 2.000e10 kg, 1e9 times the mass of all arms"],
+    ),
+    (
+        "mass = 10.0",
+        "mass = 1e12",
+        10,
+        &[
+            "`arm[0].link[0].mass` is 1e12",
+            "expected at most about 5.",
+            "e7 kg: inertia + mass · reach² is 6.",
+            "1e5 times that of all other",
+        ],
+    ),
+    (
+        "mass = 10\ninertia = 1.05",
+        "mass = 10\ninertia = 1e12",
+        15,
+        &["`arm[0].link[1].inertia` is 1e12", "kg m²: inertia + mass · reach² is 1.000e12"],
     ),
     ("mass = 500.0", "mass = true", 3, &["`base.mass` is true", "a mass in kg"]),
     ("mass = 500.0", "mas = 500.0", 3, &["`base.mas` (500.0)", "did you mean `mass`?"]),

@@ -553,14 +553,19 @@ fn layouts() -> impl Strategy<Value = Layout> {
     let angle = prop_oneof![1 => Just(0.0), 1 => Just(PI), 4 => -TAU..TAU];
     let name = prop_oneof!["[ -~]{0,8}[!-~]", "[a-z_]{1,4}_joint1", "\\PC{1,6}"];
     let arm = (name, [number(), number()], angle, vec(link, 1..5));
-    (positive(), positive(), vec(arm, 1..5)).prop_map(|(mass, inertia, arms)| Layout {
+    let layouts = (positive(), positive(), vec(arm, 1..5)).prop_map(|(mass, inertia, arms)| Layout {
         name: "any".to_owned(),
         base: Base { mass, inertia, outline: None },
         arms: (1..)
             .zip(arms)
             .map(|(k, (name, mount, mount_angle, links))| Arm { name: format!("{name}{k}"), mount, mount_angle, links })
             .collect(),
-    })
+    });
+    let is_resolved = |layout: &Layout| {
+        let refused = Layout::parse(&layout.to_toml(), "layout.toml").err();
+        refused.is_none_or(|report| !report.to_string().contains("16 digits do not resolve"))
+    };
+    layouts.prop_filter("a body beside which the others are lost", is_resolved)
 }
 
 proptest! {

@@ -6,8 +6,9 @@ use std::path::Path;
 use planar_dynamics::manifest::ParameterKind;
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
+use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
+use crate::proportion::{Disproportion, Inertia, disproportion};
 
 const MASS: NumberRule = NumberRule::positive("a mass", "kg");
 const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
@@ -85,7 +86,7 @@ impl Layout {
     /// # Errors
     /// A report of everything wrong with the content.
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
-        read_document(text, file, &["name", "base", "arm"], |root| {
+        let layout = read_document(text, file, &["name", "base", "arm"], |root| {
             let name = root.require("name", MODULE_NAME).and_then(|value| module_name(&value));
             let base = root.table("base", &["mass", "inertia", "outline"]).and_then(|base| Base::from_table(&base));
             let arms = root.require("arm", "at least one `[[arm]]`").and_then(|value| {
@@ -97,7 +98,13 @@ impl Layout {
                 every(arms.iter().map(Arm::from_table))
             });
             Some(Self { name: name?, base: base?, arms: arms? })
-        })
+        })?;
+        match layout.disproportion() {
+            None => Ok(layout),
+            Some(Disproportion { kind, arm, link, value, why }) => {
+                Err(report_error(text, file, (&parameter_key(kind, arm, link), &value.to_string()), &why))
+            }
+        }
     }
 
     /// Whether a reference to a layout is a path, not the name of a shipped one: it ends in `.toml` or contains a `/`.
@@ -215,6 +222,19 @@ impl Layout {
             }
         }
         all
+    }
+
+    /// A body beside which the others are lost in rounding.
+    fn disproportion(&self) -> Option<Disproportion> {
+        let arms = self.arms.iter().enumerate();
+        let links: Vec<_> = arms
+            .flat_map(|(i, arm)| {
+                let links = arm.links.iter().enumerate();
+                links.map(move |(k, link)| ((i, k), Inertia { mass: link.mass, inertia: link.inertia }))
+            })
+            .collect();
+        let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
+        disproportion(base, &links, self.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max))
     }
 
     fn canonical_text(&self) -> String {

@@ -6,4 +6,5 @@
 pub mod diagnostic;
 pub mod layout;
 pub mod outline;
+mod proportion;
 pub mod structure;
