@@ -12,6 +12,9 @@ const WITH_QUATERNIONS: (u32, u32) = (1, 1);
 /// The version from which a limit that is not given is none; before it is 0.
 const WITHOUT_ZERO_LIMITS: (u32, u32) = (1, 2);
 
+/// As of the numbers of layouts: squares and products of three have a place in 64 bits. Infinity means no limit.
+const LARGEST: f64 = 1e100;
+
 /// The lines of the parts of a robot by kind and name, as in messages.
 #[derive(Debug, Default)]
 pub(super) struct PartLines(HashMap<String, usize>);
@@ -219,6 +222,11 @@ impl<'a> Part<'a> {
             })
         });
         let numbers: Vec<f64> = words.collect::<Result<_, _>>()?;
+        if let Some(number) = numbers.iter().find(|number| number.is_finite() && number.abs() > LARGEST) {
+            return Err(problem(format!(
+                "where {number:?} is too large, expected numbers of magnitude {LARGEST:e} or less"
+            )));
+        }
         let (count, noun) = (numbers.len(), if N == 1 { "number" } else { "numbers" });
         numbers.try_into().map_err(|_| problem(format!("which has {count} numbers, expected {N} {noun}")))
     }

@@ -382,6 +382,16 @@ fn refused_joints() -> Vec<Refused> {
             &["`elbow`", "0.785398 rad", "parallel"],
         ),
         (
+            "an axis whose square has no place in 64 bits",
+            changed("<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>", "<origin xyz=\"1 0 0\"/><axis xyz=\"1e300 0 0\"/>"),
+            &["line 6, joint `elbow`", "`xyz` of <axis> is \"1e300 0 0\", where 1e300 is too large", "1e100"],
+        ),
+        (
+            "a length whose square has no place in 64 bits",
+            changed("<origin xyz=\"1 0 0\"/><axis", "<origin xyz=\"1e200 1e200 0\"/><axis"),
+            &["line 6, joint `elbow`", "`xyz` of <origin> is \"1e200 1e200 0\", where 1e200 is too large"],
+        ),
+        (
             "no axis",
             changed("<origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/>", "<origin xyz=\"1 0 0\"/>"),
             &["`elbow`", "[1.0, 0.0, 0.0]", "missing <axis>"],
