@@ -22,6 +22,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Time between two rows where it is not given, s.
+const DEFAULT_SAMPLE: f64 = 0.05;
+
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The scenario file.
@@ -38,9 +41,9 @@ pub struct Arguments {
     /// Write report.html too: an animation with plots that opens in any browser, without a network.
     #[arg(long)]
     report: bool,
-    /// Time between two rows of the CSV time series, s.
-    #[arg(long, value_name = "SECONDS", default_value = "0.05", value_parser = positive)]
-    sample: f64,
+    /// Time between two rows of the CSV time series, s; at least one step of the scenario [default: 0.05].
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    sample: Option<f64>,
     #[command(flatten)]
     display: Display,
     #[command(flatten)]
@@ -62,8 +65,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let folder = ResultFolder::claim(&folder, arguments.force, &keep, &|folder, names| {
         objection(folder, names, &scenario.name)
     })?;
+    if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(&scenario, sample)?))) {
+        note(format_args!(
+            "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
+        ));
+    }
     let mut progress = Progress::new(arguments.display);
-    let result = study(&scenario, &|| model.clone_box(), arguments.sample, &mut progress);
+    let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
     progress.finish();
     let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
     let failures = study.audit_failures();
@@ -81,6 +89,13 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         note("a smaller `tolerance`, or with a fixed integrator a shorter `step`, makes drifts and errors smaller");
     }
     Ok(code)
+}
+
+/// The longest step of a phase that is longer than the interval of rows, s.
+fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
+    let steps = [Some(scenario.approach.step), scenario.post_impact.as_ref().map(|phase| phase.step)];
+    // the least that is not rounding
+    steps.into_iter().flatten().filter(|step| sample < step * (1.0 - 1e-6)).reduce(f64::max)
 }
 
 /// The error at its key in the scenario; exit code 1 where a valid simulation broke down.

@@ -341,6 +341,24 @@ fn usage_errors_are_exit_code_2() {
     }
 }
 
+#[test]
+fn rows_that_cannot_be_as_close_as_asked_are_noted() {
+    let text = paper().replace("duration = 20.0", "duration = 0.5").replace("duration = 50.0", "duration = 0.5");
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let noted = |sample: &str| {
+        let mut command = command();
+        command.arg("run").arg(&path).args(["--sample", sample]).arg("--out").arg(folder.path().join("results"));
+        said(command.output().expect("it runs"))
+    };
+    let (code, _, err) = noted("0.001");
+    assert!(err.contains("warning: --sample 0.001 s is shorter than the scenario's step of 0.005 s"), "{err}");
+    let (code_without, _, err) = noted("0.005");
+    assert!(!err.contains("--sample"), "{err}");
+    assert_eq!(code, code_without);
+}
+
 /// The page needs no other files; `report_browser.py` opens it in a browser.
 #[test]
 fn a_report_is_one_file_without_a_network() {
