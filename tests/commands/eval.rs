@@ -294,3 +294,14 @@ fn impulses_of_heavy_targets_change_the_robots_momentum() {
         }
     }
 }
+
+#[test]
+fn a_pivot_that_is_no_number_is_said_in_words() {
+    use planar_capture::error::Error;
+    let text = |pivot: f64| Error::Singular { what: "G", pivot, limit: 1e-15 }.to_string();
+    assert_eq!(
+        text(f64::NEG_INFINITY),
+        "G is singular: smallest relative pivot is not a finite number, wanted more than 1e-15"
+    );
+    assert!(text(1e-17).contains("pivot is 1e-17,"));
+}

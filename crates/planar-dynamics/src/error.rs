@@ -1,6 +1,16 @@
 //! The errors of the core's computations; every variant carries the numbers that caused it.
 
 use crate::manifest::ParameterKind;
+use core::fmt::{self, Display, Formatter};
+
+/// A pivot, in words where it is no number.
+struct PivotText(f64);
+
+impl Display for PivotText {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if self.0.is_finite() { write!(f, "{:e}", self.0) } else { f.write_str("not a finite number") }
+    }
+}
 
 /// Why a computation of the core has no result.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -60,7 +70,7 @@ pub enum Error {
         value: f64,
     },
     /// A pivot at or below its limit: the system of equations has no reliable solution.
-    #[error("{what} is singular: smallest relative pivot {pivot:e}, wanted more than {limit:e}")]
+    #[error("{what} is singular: smallest relative pivot is {}, wanted more than {limit:e}", PivotText(*pivot))]
     Singular {
         /// The matrix that was factored.
         what: &'static str,
