@@ -22,6 +22,15 @@ pub fn source(argument: &str) -> Result<(String, String), CommandError> {
     if let Some((name, text)) = SHIPPED.iter().find(|(name, _)| *name == argument) {
         return Ok(((*text).to_owned(), format!("{name}.toml (shipped)")));
     }
+    let path = Path::new(argument);
+    if path.exists() {
+        let what = if path.is_dir() {
+            "is a folder, expected a TOML file: name a file in it".to_owned()
+        } else {
+            format!("is not the name of a shipped layout: to read that file, write `./{argument}`")
+        };
+        return Err(CommandError::Usage(format!("`{argument}` {what}")));
+    }
     let meant = nearest(argument, names()).map_or_else(String::new, |name| format!("did you mean `{name}`? "));
     Err(CommandError::Usage(format!(
         "there is no shipped layout `{argument}`; {meant}shipped: {}; a path ends in `.toml` or contains a `/`",

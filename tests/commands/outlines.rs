@@ -83,6 +83,7 @@ fn broken_rules_of_overlaps() {
         ("on_overlap = \"warn\"", &["`clearance.on_overlap` is \"warn\"", "`report`", "`fail`", "`stop`"][..]),
         ("ignore = [[\"base\", \"arms/arm1/link9\"]]", &["`clearance.ignore[0][1]`", "did you mean `arms/arm1/link"]),
         ("ignore = [[\"base\"]]", &["found 1 bodies"]),
+        ("ignore = [[\"base\", \"base\"]]", &["`clearance.ignore[0]` is", "not compared with itself"]),
         ("ignores = []", &["did you mean `ignore`?"]),
     ];
     for (rule, wanted) in cases {

@@ -28,5 +28,10 @@ fn pair(value: &Value<'_>, names: &[String]) -> Option<[String; 2]> {
         Some(name.to_owned())
     };
     let pair = <[String; 2]>::try_from(every(items.iter().map(body))?);
-    pair.map_err(|names| value.reject(&format!("found {} bodies, expected {PAIRS}", names.len()))).ok()
+    let pair = pair.map_err(|names| value.reject(&format!("found {} bodies, expected {PAIRS}", names.len()))).ok()?;
+    if pair[0] == pair[1] {
+        value.reject("a body is not compared with itself, expected two bodies");
+        return None;
+    }
+    Some(pair)
 }

@@ -186,12 +186,6 @@ const SCENARIO_EDITS: &[Edit] = &[
     ),
     (
         "[post_impact]",
-        "[clearance]\nignore = [[\"base\", \"base\"]]\n[post_impact]",
-        25,
-        &["`clearance.ignore[0]` is", "with itself"],
-    ),
-    (
-        "[post_impact]",
         "[clearance]\nignore = [[\"base\", \"arms/left/link3\"], [\"arms/left/link3\", \"base\"]]\n[post_impact]",
         25,
         &["`clearance.ignore[1]` is", "there before"],
