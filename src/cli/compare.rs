@@ -39,8 +39,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
     let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
-    let folder =
-        ResultFolder::claim(&folder, arguments.force, keep, &|folder, names| objection(folder, names, &layout))?;
+    let objection = |folder: &Path, names: &[String]| objection(folder, names, &layout);
+    let folder = ResultFolder::claim(&folder, arguments.force, keep, &objection)?;
     let comparison = compare(&layout, arguments.samples, arguments.seed).map_err(file_error(&arguments.layout))?;
     let shown = folder.path().display().to_string();
     let staged = folder.stage()?;
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         staged.write(&format!("{name}.toml"), |to| to.write_all(sample.layout.to_toml().as_bytes()))?;
         staged.write(&format!("{name}.json"), |to| writeln!(to, "[{}]", to_json(&sample.instant)))?;
     }
-    staged.commit(&format!("{}.toml", file_name(Quantity::ALL[0])))?;
+    folder.commit(staged, &format!("{}.toml", file_name(Quantity::ALL[0])))?;
     let code = if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     print(&format!(
         "{}Worst states in {shown}; replay: planar-capture eval {shown}/QUANTITY.toml {shown}/QUANTITY.json\n",

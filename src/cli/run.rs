@@ -10,7 +10,7 @@ use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::diagnostic::report_error;
 use planar_capture::output::console::table;
 use planar_capture::output::html_report::write_report;
-use planar_capture::output::result_folder::{ResultFolder, StagedFolder};
+use planar_capture::output::result_folder::ResultFolder;
 use planar_capture::output::run_folder::{SUMMARY, objection};
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::output::summary::summary;
@@ -62,9 +62,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&source.scenario.file))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
     let keep = [&source.scenario.file, &source.layout.file].map(Path::new);
-    let folder = ResultFolder::claim(&folder, arguments.force, &keep, &|folder, names| {
-        objection(folder, names, &scenario.name)
-    })?;
+    let objection = |folder: &Path, names: &[String]| objection(folder, names, &scenario.name);
+    let folder = ResultFolder::claim(&folder, arguments.force, &keep, &objection)?;
     if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(&scenario, sample)?))) {
         note(format_args!(
             "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
@@ -80,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let manifest = RunManifest::new(&scenario, source, command());
     let summary = summary(&scenario, arguments.dynamics.name(), &study, &manifest)
         .map_err(|source| CommandError::Numbers { file: arguments.scenario.display().to_string(), source })?;
-    write_results(folder.stage()?, &scenario, arguments, &study, (&manifest, summary))?;
+    write_results(&folder, &scenario, arguments, &study, (&manifest, summary))?;
     print(&format!("{}\nResults in {shown}\n", table(&scenario, &study)));
     for failure in &failures {
         note(format_args!("audit: {failure}"));
@@ -111,28 +110,29 @@ fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> Comm
 
 /// Writes all files before the first gets its place, so that a full disk leaves no mixture of two runs.
 fn write_results(
-    folder: StagedFolder,
+    folder: &ResultFolder<'_>,
     scenario: &Scenario,
     arguments: &Arguments,
     study: &Study,
     (manifest, mut summary): (&RunManifest, Value),
 ) -> Result<(), CommandError> {
-    file_per_case(&folder, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
+    let staged = folder.stage()?;
+    file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
     if arguments.report {
-        folder.write("report.html", |to| write_report(scenario, study, manifest, to))?;
+        staged.write("report.html", |to| write_report(scenario, study, manifest, to))?;
     }
     for output in arguments.optional_outputs.requested() {
-        output.write(&folder, scenario, study, manifest)?;
+        output.write(&staged, scenario, study, manifest)?;
     }
-    let mut files = folder.files()?;
+    let mut files = staged.files()?;
     files.push(SUMMARY.to_owned());
     files.sort();
     summary["files"] = files.into();
-    folder.write(SUMMARY, |to| {
+    staged.write(SUMMARY, |to| {
         serde_json::to_writer_pretty(&mut *to, &summary)?;
         writeln!(to)
     })?;
-    Ok(folder.commit(SUMMARY)?)
+    Ok(folder.commit(staged, SUMMARY)?)
 }
 
 /// The command line, as it can be typed again.

@@ -3,6 +3,7 @@
 use super::atomic_file::{OutputError, create_folder, write_whole};
 use super::temporary::{self, TemporaryFolder};
 use std::ffi::OsString;
+use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -32,46 +33,76 @@ pub enum ClaimError {
         /// The working folder, the user's own, an input of the run, or what no run writes.
         kept: PathBuf,
     },
+    /// Another run has filled it since it was claimed.
+    #[error(
+        "{path} {found}: another run was there first; the results of this one are complete but not written: \
+         run it again into another folder",
+        path = path.display()
+    )]
+    Lost {
+        /// The folder.
+        path: PathBuf,
+        /// What is in it, as a predicate.
+        found: String,
+    },
     /// It cannot be read or written.
     #[error(transparent)]
     Unusable(#[from] OutputError),
 }
 
 /// A folder that a run may fill.
-#[derive(Clone, Debug)]
-pub struct ResultFolder {
+pub struct ResultFolder<'a> {
     path: PathBuf,
+    force: bool,
+    keep: Vec<PathBuf>,
+    objection: Objection<'a>,
 }
 
 /// Decides whether the content of a folder, its path and sorted names, may be replaced: what is wrong with it as a
 /// predicate ("holds …"), or `None`.
 pub type Objection<'a> = &'a dyn Fn(&Path, &[String]) -> Option<String>;
 
-impl ResultFolder {
+impl fmt::Debug for ResultFolder<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ResultFolder").field("path", &self.path).field("force", &self.force).finish_non_exhaustive()
+    }
+}
+
+impl<'a> ResultFolder<'a> {
     /// Claims a folder that is absent or empty, or to whose content there is no `objection`; with `force` any folder of
     /// files, and figures, that contains neither the working folder, nor the user's own, nor one of the files in `keep`.
     /// Removes what killed runs left there.
     ///
     /// # Errors
     /// [`ClaimError`].
-    pub fn claim(path: &Path, force: bool, keep: &[&Path], objection: Objection<'_>) -> Result<Self, ClaimError> {
+    pub fn claim(path: &Path, force: bool, keep: &[&Path], objection: Objection<'a>) -> Result<Self, ClaimError> {
+        let keep = keep.iter().copied().map(Path::to_owned).collect();
+        let claimed = Self { path: path.to_owned(), force, keep, objection };
         let existing = existing(path);
         if !existing.is_dir() {
             return Err(ClaimError::NotAFolder(existing.to_owned()));
         }
         if existing == path {
-            let names: Vec<_> = names(path)?.iter().map(|name| name.to_string_lossy().into_owned()).collect();
-            match if names.is_empty() { None } else { objection(path, &names) } {
-                Some(_) if force => protect(path, keep)?,
-                Some(found) => return Err(ClaimError::Occupied { path: path.to_owned(), found }),
-                None => {}
-            }
+            // not in the moment in which another run puts its files in their place
+            let _lock = temporary::lock(path);
+            claimed.permit()?;
         }
         // the folder that results are staged in: this one, or one above it until it is made
         temporary::sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
         // a file without a name: nothing is left even if the process is killed
         tempfile::tempfile_in(existing).map_err(|source| OutputError { path: path.to_owned(), source })?;
-        Ok(Self { path: path.to_owned() })
+        Ok(claimed)
+    }
+
+    /// Whether what is in the folder now may be replaced.
+    fn permit(&self) -> Result<(), ClaimError> {
+        let path = &self.path;
+        let names: Vec<_> = names(path)?.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+        match if names.is_empty() { None } else { (self.objection)(path, &names) } {
+            Some(_) if self.force => protect(path, &self.keep),
+            Some(found) => Err(ClaimError::Occupied { path: path.clone(), found }),
+            None => Ok(()),
+        }
     }
 
     /// The folder.
@@ -88,9 +119,54 @@ impl ResultFolder {
         let staged = temporary::folder_in(existing(&self.path)).map_err(OutputError::at(&self.path))?;
         Ok(StagedFolder { path: self.path.clone(), staged })
     }
+
+    /// Puts the results in their place. A new folder appears at once. In a folder that exists (which may be a mount
+    /// point, or where a terminal is) the file `last` of the old results is moved away first and that of the new ones
+    /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back.
+    ///
+    /// What may be replaced is decided again: another run may have filled the folder since it was claimed.
+    ///
+    /// # Errors
+    /// [`ClaimError`]; the folder is then as it was.
+    pub fn commit(&self, results: StagedFolder, last: &str) -> Result<(), ClaimError> {
+        let StagedFolder { path, staged } = results;
+        let failed = || OutputError::at(&path);
+        if !path.exists() {
+            path.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), create_folder)?;
+            match fs::rename(staged.folder.path(), &path) {
+                Ok(()) => return Ok(()),
+                // another run was faster
+                Err(_) if path.exists() => {}
+                Err(source) => return Err(OutputError { path, source }.into()),
+            }
+        }
+        // held until the end: two runs do not mix
+        let _lock = temporary::lock(&path);
+        self.permit().map_err(|error| match error {
+            ClaimError::Occupied { path, found } => ClaimError::Lost { path, found },
+            other => other,
+        })?;
+        let replaced = temporary::folder_in(&path).map_err(failed())?;
+        let (mut old, mut new) = (names(&path)?, names(staged.folder.path())?);
+        old.sort_by_key(|name| name != last);
+        new.sort_by_key(|name| name == last);
+        let away = old.iter().map(|name| (path.join(name), replaced.folder.path().join(name)));
+        let into = new.iter().map(|name| (staged.folder.path().join(name), path.join(name)));
+        let mut moved = Vec::new();
+        for (from, to) in away.chain(into) {
+            if let Err(source) = fs::rename(&from, &to) {
+                for (from, to) in moved.iter().rev() {
+                    let _ = fs::rename(to, from);
+                }
+                return Err(OutputError { path: from, source }.into());
+            }
+            moved.push((from, to));
+        }
+        Ok(())
+    }
 }
 
-/// Complete results in a temporary folder. [`commit`](Self::commit) puts them in their place; dropping deletes them.
+/// Complete results in a temporary folder. [`commit`](ResultFolder::commit) puts them in their place; dropping deletes them.
 #[derive(Debug)]
 pub struct StagedFolder {
     path: PathBuf,
@@ -134,45 +210,6 @@ impl StagedFolder {
         }
         Ok(files)
     }
-
-    /// Puts the results in their place. A new folder appears at once. In a folder that exists (which may be a mount
-    /// point, or where a terminal is) the file `last` of the old results is moved away first and that of the new ones
-    /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back.
-    ///
-    /// # Errors
-    /// [`OutputError`] with the reason; the folder is then as it was.
-    pub fn commit(self, last: &str) -> Result<(), OutputError> {
-        let Self { path, staged } = self;
-        let failed = || OutputError::at(&path);
-        if !path.exists() {
-            path.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), create_folder)?;
-            match fs::rename(staged.folder.path(), &path) {
-                Ok(()) => return Ok(()),
-                // another run was faster
-                Err(_) if path.exists() => {}
-                Err(source) => return Err(OutputError { path, source }),
-            }
-        }
-        // held until the end: two runs do not mix
-        let _lock = File::open(&path).ok().filter(|folder| folder.lock().is_ok());
-        let replaced = temporary::folder_in(&path).map_err(failed())?;
-        let (mut old, mut new) = (names(&path)?, names(staged.folder.path())?);
-        old.sort_by_key(|name| name != last);
-        new.sort_by_key(|name| name == last);
-        let away = old.iter().map(|name| (path.join(name), replaced.folder.path().join(name)));
-        let into = new.iter().map(|name| (staged.folder.path().join(name), path.join(name)));
-        let mut moved = Vec::new();
-        for (from, to) in away.chain(into) {
-            if let Err(source) = fs::rename(&from, &to) {
-                for (from, to) in moved.iter().rev() {
-                    let _ = fs::rename(to, from);
-                }
-                return Err(OutputError { path: from, source });
-            }
-            moved.push((from, to));
-        }
-        Ok(())
-    }
 }
 
 /// The path, or its nearest ancestor that exists.
@@ -195,13 +232,13 @@ const FIGURES: &str = "figures";
 
 /// Refuses a folder that is more than one of results: that contains the working folder, the user's own folder, one of the
 /// files, a folder other than that of figures, or a hidden file.
-fn protect(path: &Path, keep: &[&Path]) -> Result<(), ClaimError> {
+fn protect(path: &Path, keep: &[PathBuf]) -> Result<(), ClaimError> {
     let protected = |kept| ClaimError::Protected { path: path.to_owned(), kept };
     let absolute = |path: &Path| path.canonicalize().ok();
     // a folder whose place cannot be told is not emptied
     let folder = absolute(path).ok_or_else(|| protected(path.to_owned()))?;
     let home = std::env::home_dir();
-    let kept = [Some(Path::new(".")), home.as_deref()].into_iter().flatten().chain(keep.iter().copied());
+    let kept = [Some(Path::new(".")), home.as_deref()].into_iter().flatten().chain(keep.iter().map(PathBuf::as_path));
     if let Some(kept) = kept.filter_map(absolute).find(|kept| kept.starts_with(&folder)) {
         return Err(protected(kept));
     }

@@ -66,3 +66,8 @@ pub(super) fn sweep(folder: &Path) {
         let _ = if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
     }
 }
+
+/// Waits for the lock on a folder, of which there is no file; `None` where there are no locks.
+pub(super) fn lock(folder: &Path) -> Option<File> {
+    File::open(folder).ok().filter(|folder| folder.lock().is_ok())
+}

@@ -3,6 +3,7 @@
 use crate::{command, said};
 use planar_capture::capture::{Silent, study};
 use planar_capture::layout::sha256;
+use planar_capture::output::result_folder::ResultFolder;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::output::summary::summary;
 use planar_capture::registry;
@@ -11,6 +12,7 @@ use planar_proof::file;
 use serde_json::Value;
 use std::fs::{self, File};
 use std::path::Path;
+use std::process::Stdio;
 use tempfile::TempDir;
 
 /// The shortest study with a capture, under a name and with these cases.
@@ -218,6 +220,55 @@ fn temporary_files_of_killed_runs_are_swept() {
     assert_eq!(names(folder.path()), ["one.toml", "results", "robot.urdf"]);
 }
 
+/// Whichever ends first has the folder; the other is refused, at its start or when its files would take their places.
+#[test]
+fn of_two_scenarios_at_once_one_has_the_folder() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let shown = results.display().to_string();
+    let scenarios = [scenario("one", &["a"], folder.path()), scenario("other", &["z"], folder.path())];
+    for existing in [false, true] {
+        if existing {
+            fs::remove_dir_all(&results).expect("removed");
+            fs::create_dir(&results).expect("a folder");
+        }
+        let start = |scenario| {
+            let mut child = command();
+            child.args(["run", scenario, "--out", &shown]).stdout(Stdio::null()).stderr(Stdio::piped());
+            child.spawn().expect("it runs")
+        };
+        let children = scenarios.each_ref().map(|scenario| start(scenario));
+        let ends = children.map(|child| planar_proof::said(child.wait_with_output().expect("it ends")));
+        let first = ends.iter().position(|(code, ..)| *code == 0).expect("one succeeds");
+        let (code, _, err) = &ends[1 - first];
+        assert_eq!(*code, 2, "{err}");
+        assert!(err.contains(["the results of `one`", "the results of `other`"][first]), "{err}");
+        assert_eq!(names(&results), [["a.csv", "summary.json"], ["summary.json", "z.csv"]][first]);
+        assert_eq!(names(folder.path()), ["one.toml", "other.toml", "results"]);
+    }
+}
+
+/// What a folder holds is decided again when the results take their place.
+#[test]
+fn a_folder_that_another_run_has_filled_is_not_replaced() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let objection = |_: &Path, names: &[String]| Some(format!("has {}", names[0]));
+    let claimed = [false, false, true].map(|force| ResultFolder::claim(&results, force, &[], &objection).expect("ours"));
+    let commit = |folder: &ResultFolder<'_>, name: &str| {
+        let staged = folder.stage().expect("a place");
+        staged.write(name, |_| Ok(())).expect("written");
+        folder.commit(staged, name).map_err(|error| error.to_string())
+    };
+    let [first, second, forced] = &claimed;
+    assert_eq!(commit(first, "x"), Ok(()));
+    let error = commit(second, "y").expect_err("it is not ours");
+    assert!(error.contains("has x: another run was there first") && error.contains("not written"), "{error}");
+    assert_eq!(names(&results), ["x"]);
+    assert_eq!(commit(forced, "y"), Ok(()));
+    assert_eq!(names(&results), ["y"]);
+}
+
 /// A run that is killed at any time leaves the results that were there or its own, never a mixture.
 #[cfg(unix)]
 #[test]
@@ -229,7 +280,7 @@ fn a_killed_run_leaves_whole_results() {
     assert_eq!(run(&one, &results, &["--report"]).0, 0);
     for wait in (0..40).map(|i| 10 * i) {
         let mut child = command();
-        child.args(["run", &one, "--out", &shown, "--report"]).stdout(std::process::Stdio::null());
+        child.args(["run", &one, "--out", &shown, "--report"]).stdout(Stdio::null());
         let mut child = child.spawn().expect("it runs");
         std::thread::sleep(std::time::Duration::from_millis(wait));
         child.kill().expect("killed");
