@@ -9,6 +9,7 @@ pub mod html_report;
 pub mod impacts;
 #[cfg(feature = "mcap")]
 pub mod mcap;
+mod replacement;
 pub mod result_folder;
 pub mod run_folder;
 pub mod run_manifest;

@@ -1,7 +1,8 @@
 //! A folder of results, which holds those of one run: claimed before the run, and filled or replaced whole after it.
 
 use super::atomic_file::{OutputError, create_folder, write_whole};
-use super::temporary::{self, TemporaryFolder};
+use super::replacement::{NEW, is_settled, replace};
+use super::temporary::{self, TemporaryFolder, names};
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::{self, File};
@@ -71,7 +72,7 @@ impl fmt::Debug for ResultFolder<'_> {
 impl<'a> ResultFolder<'a> {
     /// Claims a folder that is absent or empty, or to whose content there is no `objection`; with `force` any folder of
     /// files, and figures, that contains neither the working folder, nor the user's own, nor one of the files in `keep`.
-    /// Removes what killed runs left there.
+    /// What killed runs left there is ended or undone, and removed, first.
     ///
     /// # Errors
     /// [`ClaimError`].
@@ -85,10 +86,12 @@ impl<'a> ResultFolder<'a> {
         if existing == path {
             // not in the moment in which another run puts its files in their place
             let _lock = temporary::lock(path);
+            temporary::sweep_locked(path);
             claimed.permit()?;
+        } else {
+            // a folder above it, in which results are staged until it is made
+            temporary::sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
         }
-        // the folder that results are staged in: this one, or one above it until it is made
-        temporary::sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
         // a file without a name: nothing is left even if the process is killed
         tempfile::tempfile_in(existing).map_err(|source| OutputError { path: path.to_owned(), source })?;
         Ok(claimed)
@@ -116,24 +119,28 @@ impl<'a> ResultFolder<'a> {
     /// # Errors
     /// [`OutputError`] with the reason.
     pub fn stage(&self) -> Result<StagedFolder, OutputError> {
-        let staged = temporary::folder_in(existing(&self.path)).map_err(OutputError::at(&self.path))?;
-        Ok(StagedFolder { path: self.path.clone(), staged })
+        let (path, existing) = (self.path.clone(), existing(&self.path));
+        let make = || {
+            let temporary = temporary::folder_in(existing)?;
+            let new = temporary.folder.path().join(NEW);
+            fs::create_dir(&new)?;
+            Ok(StagedFolder { path: path.clone(), new, inside: existing == path, temporary })
+        };
+        make().map_err(OutputError::at(&self.path))
     }
 
     /// Puts the results in their place. A new folder appears at once. In a folder that exists (which may be a mount
     /// point, or where a terminal is) the file `last` of the old results is moved away first and that of the new ones
-    /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back.
-    ///
-    /// What may be replaced is decided again: another run may have filled the folder since it was claimed.
+    /// comes last: while it is absent, the folder is not complete. If a file cannot be moved, all are moved back. What
+    /// may be replaced is decided again: another run may have filled the folder since it was claimed.
     ///
     /// # Errors
     /// [`ClaimError`]; the folder is then as it was.
     pub fn commit(&self, results: StagedFolder, last: &str) -> Result<(), ClaimError> {
-        let StagedFolder { path, staged } = results;
-        let failed = || OutputError::at(&path);
+        let StagedFolder { path, new, inside, mut temporary } = results;
         if !path.exists() {
             path.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), create_folder)?;
-            match fs::rename(staged.folder.path(), &path) {
+            match fs::rename(&new, &path) {
                 Ok(()) => return Ok(()),
                 // another run was faster
                 Err(_) if path.exists() => {}
@@ -142,27 +149,21 @@ impl<'a> ResultFolder<'a> {
         }
         // held until the end: two runs do not mix
         let _lock = temporary::lock(&path);
+        temporary::sweep_locked(&path);
         self.permit().map_err(|error| match error {
             ClaimError::Occupied { path, found } => ClaimError::Lost { path, found },
             other => other,
         })?;
-        let replaced = temporary::folder_in(&path).map_err(failed())?;
-        let (mut old, mut new) = (names(&path)?, names(staged.folder.path())?);
-        old.sort_by_key(|name| name != last);
-        new.sort_by_key(|name| name == last);
-        let away = old.iter().map(|name| (path.join(name), replaced.folder.path().join(name)));
-        let into = new.iter().map(|name| (staged.folder.path().join(name), path.join(name)));
-        let mut moved = Vec::new();
-        for (from, to) in away.chain(into) {
-            if let Err(source) = fs::rename(&from, &to) {
-                for (from, to) in moved.iter().rev() {
-                    let _ = fs::rename(to, from);
-                }
-                return Err(OutputError { path: from, source }.into());
-            }
-            moved.push((from, to));
+        if !inside {
+            // whoever comes after a killed process looks for what it left in the folder
+            let here = temporary::folder_in(&path).map_err(OutputError::at(&path))?;
+            fs::rename(&new, here.folder.path().join(NEW)).map_err(OutputError::at(&path))?;
+            temporary = here;
         }
-        Ok(())
+        let replaced = replace(&path, temporary.folder.path(), last, &mut |from, to| fs::rename(from, to));
+        // otherwise not all could be moved back: that is for a later run
+        temporary.folder.disable_cleanup(!is_settled(temporary.folder.path()));
+        Ok(replaced?)
     }
 }
 
@@ -170,7 +171,11 @@ impl<'a> ResultFolder<'a> {
 #[derive(Debug)]
 pub struct StagedFolder {
     path: PathBuf,
-    staged: TemporaryFolder,
+    /// Where they are.
+    new: PathBuf,
+    /// Whether that is in the folder that they are for.
+    inside: bool,
+    temporary: TemporaryFolder,
 }
 
 impl StagedFolder {
@@ -183,7 +188,7 @@ impl StagedFolder {
         name: &str,
         write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        let path = self.staged.folder.path().join(name);
+        let path = self.new.join(name);
         let attempt = || {
             path.parent().map_or(Ok(()), fs::create_dir_all)?;
             write_whole(&File::create(&path)?, write)
@@ -196,7 +201,7 @@ impl StagedFolder {
     /// # Errors
     /// [`OutputError`] with the reason.
     pub fn files(&self) -> Result<Vec<String>, OutputError> {
-        let root = self.staged.folder.path();
+        let root = &self.new;
         let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
         while let Some(folder) = folders.pop() {
             for name in names(&root.join(&folder))? {
@@ -216,15 +221,6 @@ impl StagedFolder {
 fn existing(path: &Path) -> &Path {
     let found = path.ancestors().find(|folder| folder.symlink_metadata().is_ok());
     found.unwrap_or(Path::new("."))
-}
-
-/// The sorted names in a folder, without temporary ones.
-fn names(folder: &Path) -> Result<Vec<OsString>, OutputError> {
-    let read = || fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>();
-    let mut names = read().map_err(OutputError::at(folder))?;
-    names.retain(|name| !name.to_str().is_some_and(temporary::is_temporary));
-    names.sort();
-    Ok(names)
 }
 
 /// The folder in a folder of results; these have no other, and no name that begins with a point.

@@ -10,17 +10,9 @@ pub const SUMMARY: &str = "summary.json";
 
 /// What stands against replacing the content of a folder with a run of this scenario, as a predicate: a file that is not
 /// in the list of its summary, or the results of another scenario.
-///
-/// A run that was killed while it put its results in their place leaves them without a summary: the old one and the new
-/// one are then in temporary folders.
 #[must_use]
 pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<String> {
-    let inner = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let inner = inner
-        .filter(|path| path.file_name().and_then(|name| name.to_str()).is_some_and(super::temporary::is_temporary));
-    let folders = std::iter::once(folder.to_owned()).chain(inner);
-    let summaries: Vec<_> = folders.filter_map(|folder| read(&folder.join(SUMMARY))).collect();
-    let Some(summary) = summaries.first() else {
+    let Some(summary) = read(&folder.join(SUMMARY)) else {
         let name = names.iter().find(|name| *name == SUMMARY).or(names.first())?;
         return Some(format!("has `{name}`, which is not from a run"));
     };
@@ -28,8 +20,7 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
     if found != scenario {
         return Some(format!("holds the results of `{found}`, not of `{scenario}`"));
     }
-    let lists = summaries.iter().filter_map(|summary| summary["files"].as_array());
-    let listed: BTreeSet<_> = lists.flatten().filter_map(Value::as_str).collect();
+    let listed: BTreeSet<_> = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
     let foreign = names.iter().find_map(|name| foreign(folder, Path::new(name), &listed))?;
     Some(format!("has `{}`, which is not from a run of `{scenario}`", foreign.display()))
 }

@@ -3,7 +3,10 @@
 //! A process holds a lock on each of its own while it lives, which the operating system releases when it dies. Where
 //! there are no such locks, nothing is removed.
 
-use std::fs::{self, File};
+use super::atomic_file::OutputError;
+use super::replacement::{is_settled, settle};
+use std::ffi::OsString;
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::Path;
 use tempfile::{NamedTempFile, TempDir};
@@ -26,10 +29,12 @@ pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
     builder.prefix(PREFIX).rand_bytes(RANDOM);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let file = builder.tempfile_in(folder)?;
-    // a file system without locks: it is only not removed by others
-    let _ = file.as_file().try_lock();
-    Ok(file)
+    loop {
+        let file = builder.tempfile_in(folder)?;
+        if hold(file.as_file(), file.path()) {
+            return Ok(file);
+        }
+    }
 }
 
 /// A temporary folder in a folder, with the permissions of an ordinary one (less the process's mask).
@@ -38,9 +43,29 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
     builder.prefix(PREFIX).rand_bytes(RANDOM);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
-    let folder = builder.tempdir_in(folder)?;
-    let lock = File::open(folder.path()).ok().filter(|file| file.try_lock().is_ok());
-    Ok(TemporaryFolder { folder, _lock: lock })
+    loop {
+        let folder = builder.tempdir_in(folder)?;
+        let lock = match File::open(folder.path()) {
+            Ok(lock) => Some(lock),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            // a system that opens no folders
+            Err(_) => None,
+        };
+        if lock.as_ref().is_none_or(|lock| hold(lock, folder.path())) {
+            return Ok(TemporaryFolder { folder, _lock: lock });
+        }
+    }
+}
+
+/// Locks a file that was just made; whether it is still there: another process may have taken it for a dead one's
+/// before it was locked.
+fn hold(file: &File, path: &Path) -> bool {
+    match file.try_lock() {
+        Ok(()) => path.exists(),
+        Err(TryLockError::WouldBlock) => false,
+        // a file system without locks: others remove nothing
+        Err(TryLockError::Error(_)) => true,
+    }
 }
 
 /// Whether a file of this name is one of them.
@@ -49,8 +74,26 @@ pub(super) fn is_temporary(name: &str) -> bool {
     random.is_some_and(|random| random.len() == RANDOM && random.chars().all(|c| c.is_ascii_alphanumeric()))
 }
 
-/// Removes the temporary files and folders in a folder that no living process holds.
+/// The sorted names in a folder, without temporary ones.
+pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, OutputError> {
+    let read = || fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name())).collect::<io::Result<Vec<_>>>();
+    let mut names = read().map_err(OutputError::at(folder))?;
+    names.retain(|name| !name.to_str().is_some_and(is_temporary));
+    names.sort();
+    Ok(names)
+}
+
+/// Settles and removes the temporary files and folders in a folder that no living process holds.
 pub(super) fn sweep(folder: &Path) {
+    let mut entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    if entries.any(|entry| entry.file_name().to_str().is_some_and(is_temporary)) {
+        let _lock = lock(folder);
+        sweep_locked(folder);
+    }
+}
+
+/// The same for a folder whose [`lock`] the process has.
+pub(super) fn sweep_locked(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         if !entry.file_name().to_str().is_some_and(is_temporary) {
             continue;
@@ -63,7 +106,11 @@ pub(super) fn sweep(folder: &Path) {
         }
         // held until it is gone: its owner, if it is just being made, cannot be mistaken for dead
         let Some(_lock) = File::open(&path).ok().filter(|file| file.try_lock().is_ok()) else { continue };
-        let _ = if kind.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+        if kind.is_file() {
+            let _ = fs::remove_file(&path);
+        } else if settle(folder, &path, &mut |from, to| fs::rename(from, to)).is_ok() && is_settled(&path) {
+            let _ = fs::remove_dir_all(&path);
+        }
     }
 }
 

@@ -207,12 +207,6 @@ fn temporary_files_of_killed_runs_are_swept() {
     drop(lock);
     assert_eq!(run(&one, &results, &[]), (0, String::new()));
     assert_eq!(names(&results), ["a.csv", "summary.json"]);
-    // killed while it put its results in their place: the old ones are away, not all of the new ones there
-    let away = results.join(temporary('d'));
-    fs::create_dir(&away).expect("a folder");
-    fs::rename(results.join("summary.json"), away.join("summary.json")).expect("moved");
-    assert_eq!(run(&one, &results, &[]), (0, String::new()));
-    assert_eq!(names(&results), ["a.csv", "summary.json"]);
     // so are those of files
     let module = folder.path().join("robot.urdf");
     fs::write(folder.path().join(temporary('e')), "half").expect("written");
@@ -254,7 +248,8 @@ fn a_folder_that_another_run_has_filled_is_not_replaced() {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results");
     let objection = |_: &Path, names: &[String]| Some(format!("has {}", names[0]));
-    let claimed = [false, false, true].map(|force| ResultFolder::claim(&results, force, &[], &objection).expect("ours"));
+    let claimed =
+        [false, false, true].map(|force| ResultFolder::claim(&results, force, &[], &objection).expect("ours"));
     let commit = |folder: &ResultFolder<'_>, name: &str| {
         let staged = folder.stage().expect("a place");
         staged.write(name, |_| Ok(())).expect("written");
@@ -267,6 +262,36 @@ fn a_folder_that_another_run_has_filled_is_not_replaced() {
     assert_eq!(names(&results), ["x"]);
     assert_eq!(commit(forced, "y"), Ok(()));
     assert_eq!(names(&results), ["y"]);
+}
+
+/// The folder of a run that was killed while its files took their places: what is in it and in its temporary folder
+/// after the old results began to go, and after the new ones began to come.
+#[test]
+fn results_of_a_killed_replacement_are_those_of_a_run() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let (one, other) = (scenario("one", &["a", "b"], folder.path()), scenario("other", &["z"], folder.path()));
+    for (away, waiting) in [("old", ["a.csv", "summary.json"]), ("new", ["b.csv", "summary.json"])] {
+        assert_eq!(run(&one, &results, &[]).0, 0);
+        let whole = fs::read(results.join("summary.json")).expect("a summary");
+        let left = results.join(temporary('a'));
+        fs::create_dir_all(left.join(away)).expect("folders");
+        if away == "new" {
+            fs::create_dir(left.join("replaced")).expect("a folder");
+            fs::write(left.join("replaced/c.csv"), "old").expect("written");
+        } else {
+            fs::create_dir(left.join("new")).expect("a folder");
+            fs::write(left.join("new/c.csv"), "new").expect("written");
+        }
+        for name in waiting {
+            fs::rename(results.join(name), left.join(away).join(name)).expect("moved");
+        }
+        let (code, err) = run(&other, &results, &[]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("the results of `one`, not of `other`"), "{err}");
+        assert_eq!(names(&results), ["a.csv", "b.csv", "summary.json"], "{away}");
+        assert_eq!(fs::read(results.join("summary.json")).expect("a summary"), whole);
+    }
 }
 
 /// A run that is killed at any time leaves the results that were there or its own, never a mixture.
