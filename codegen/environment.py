@@ -4,6 +4,7 @@
 """
 
 import argparse
+import contextlib
 import hashlib
 import importlib.util
 import os
@@ -12,7 +13,13 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # not on Windows
+    fcntl = None
 
 HERE = Path(__file__).resolve().parent
 OLDEST = (3, 11)
@@ -97,13 +104,21 @@ def made(locks: list[Path], size: int) -> Path:
             raise EnvironmentProblem(
                 f"{sys.executable} has no `{module}`: on Debian and Ubuntu, `apt install python3-venv`"
             )
-    report(f"making a Python environment with {locks[0].name} in {place} (once; some {size} MB on disk)")
     place.parent.mkdir(parents=True, exist_ok=True)
-    sweep(place.parent)
+    with alone_in(place.parent) as held:
+        if not interpreter(place).exists():  # else another process has made it meanwhile
+            make(place, locks, size, held)
+    return interpreter(place)
+
+
+def make(place: Path, locks: list[Path], size: int, held: list[int]) -> None:
+    """Makes an environment; the programs that do it keep the descriptors that are held."""
+    report(f"making a Python environment with {locks[0].name} in {place} (once; some {size} MB on disk)")
+    sweep(place.parent, everything=bool(held))
     building = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=place.parent))
     try:
-        run([sys.executable, "-m", "venv", str(building)])
-        run([str(interpreter(building)), *INSTALL, str(locks[0])])
+        run([sys.executable, "-m", "venv", str(building)], held)
+        run([str(interpreter(building)), *INSTALL, str(locks[0])], held)
         if locks[1:]:
             below = site_packages(home() / fingerprint(locks[1:]))
             (site_packages(building) / "below.pth").write_text(f"{below}\n", encoding="utf-8")
@@ -115,18 +130,41 @@ def made(locks: list[Path], size: int) -> Path:
     finally:
         shutil.rmtree(building, ignore_errors=True)
     report("environment ready")
-    return interpreter(place)
 
 
-def sweep(folder: Path) -> None:
-    """Removes what processes have left that were ended while they made an environment."""
+@contextlib.contextmanager
+def alone_in(folder: Path) -> Iterator[list[int]]:
+    """Waits for the lock on a folder, of which there is no file, and holds it by a descriptor, which is given; by none
+    where there are no locks.
+
+    Programs that inherit the descriptor hold the lock too: what they still write after the death of this process is not
+    taken for left over."""
+    with contextlib.ExitStack() as stack:
+        held = []
+        if fcntl is not None:
+            with contextlib.suppress(OSError):  # a file system without locks
+                descriptor = os.open(folder, os.O_RDONLY)
+                stack.callback(os.close, descriptor)
+                try:
+                    fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                except BlockingIOError:
+                    report(f"waiting for another process that makes a Python environment in {folder}")
+                    fcntl.flock(descriptor, fcntl.LOCK_EX)
+                held.append(descriptor)
+        yield held
+
+
+def sweep(folder: Path, everything: bool) -> None:
+    """Removes what processes have left that were ended while they made an environment: everything, or what is so old
+    that nobody can be at it."""
     for left in folder.glob(f"{UNFINISHED}*"):
-        if time.time() - left.stat().st_mtime > 24 * 3600:
+        if everything or time.time() - left.stat().st_mtime > 24 * 3600:
             shutil.rmtree(left, ignore_errors=True)
 
 
-def run(command: list[str]) -> None:
-    result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sys.stderr, check=False)
+def run(command: list[str], held: list[int]) -> None:
+    inherited = {"pass_fds": held} if held else {}
+    result = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=sys.stderr, check=False, **inherited)
     if result.returncode != 0:
         raise EnvironmentProblem(
             f"`{' '.join(command)}` failed ({result.returncode}): the packages that it names "

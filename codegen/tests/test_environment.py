@@ -1,9 +1,13 @@
 """The locked environment: errors where it cannot be made, and a new one when its contents change."""
 
+import errno
 import os
 import re
+import signal
 import subprocess
 import sys
+import threading
+import types
 
 import pytest
 
@@ -83,11 +87,12 @@ class Pip:
     """Stands for the programs that make an environment."""
 
     def __init__(self, monkeypatch):
-        self.commands = []
+        self.commands, self.options = [], []
         monkeypatch.setattr(environment.subprocess, "run", self.run)
 
-    def run(self, command, **_options):
+    def run(self, command, **options):
         self.commands.append(command)
+        self.options.append(options)
         if "venv" in command:
             place = environment.Path(command[-1])
             environment.site_packages(place).mkdir(parents=True)
@@ -121,14 +126,60 @@ def test_pip_asks_for_hashes_and_for_no_configuration(elsewhere, monkeypatch):
         assert {"--isolated", "--require-hashes", "--only-binary=:all:"} <= set(command)
 
 
-def test_what_was_left_unfinished_goes_after_a_day(elsewhere, monkeypatch):
+def test_what_was_left_unfinished_goes_at_once_where_there_are_locks(elsewhere, monkeypatch):
+    left = elsewhere / "making-left"
+    left.mkdir()
+    pip = Pip(monkeypatch)
+    environment.ensure()
+    assert left.exists() == (environment.fcntl is None)
+    # the programs that write there hold the lock too
+    assert all(bool(options.get("pass_fds")) == (environment.fcntl is not None) for options in pip.options)
+
+
+def without_locks(_descriptor, _operation):
+    raise OSError(errno.ENOLCK, "no locks")
+
+
+@pytest.mark.parametrize("system", [None, types.SimpleNamespace(flock=without_locks, LOCK_EX=2, LOCK_NB=4)])
+def test_without_locks_it_goes_after_a_day(elsewhere, monkeypatch, system):
     old, new = elsewhere / "making-old", elsewhere / "making-new"
     for left in (old, new):
         left.mkdir()
     os.utime(old, (0, 0))
+    monkeypatch.setattr(environment, "fcntl", system)
     Pip(monkeypatch)
     environment.ensure()
     assert not old.exists() and new.exists()
+
+
+# makes environments by a program that has no end
+ENDLESS = """
+import sys
+from codegen import environment
+run = environment.subprocess.run
+wait = "import sys, time; print('waiting', flush=True); time.sleep(600)"
+environment.subprocess.run = lambda command, **options: run([sys.executable, "-c", wait], **options | {"stdout": None})
+environment.ensure()
+"""
+
+
+@pytest.mark.skipif(environment.fcntl is None, reason="a system without locks")
+def test_what_a_killed_process_left_goes_once_its_programs_have_ended(elsewhere, monkeypatch):
+    killed = subprocess.Popen(
+        [sys.executable, "-c", ENDLESS], cwd=environment.HERE.parent, stdout=subprocess.PIPE, start_new_session=True
+    )
+    assert killed.stdout.readline() == b"waiting\n"
+    Pip(monkeypatch)
+    making = threading.Thread(target=environment.ensure, daemon=True)
+    killed.kill()
+    killed.wait()
+    making.start()
+    making.join(0.5)
+    assert making.is_alive() and len(list(elsewhere.glob("making-*"))) == 1, "its program is still there"
+    os.killpg(killed.pid, signal.SIGKILL)
+    making.join(60)
+    assert not making.is_alive()
+    assert [place.name.startswith("making-") for place in elsewhere.iterdir()] == [False]
 
 
 def test_everybody_makes_them_in_one_place(monkeypatch, tmp_path):
