@@ -21,7 +21,9 @@ pub mod target_motion;
 pub mod terminal_error;
 
 use crate::capture::approach::ApproachTracking;
-use crate::capture::approach::inverse_kinematics::{InverseKinematics, InverseKinematicsError, inverse_kinematics};
+use crate::capture::approach::inverse_kinematics::{
+    InverseKinematics, InverseKinematicsError, check_reach, inverse_kinematics,
+};
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
 use crate::capture::clearance::{Clearance, ClosestApproach, Exhausted};
 use crate::capture::impact::{ImpactResult, ImpactSolution};
@@ -48,6 +50,9 @@ pub const ENERGY_BOUND: f64 = 1e-6;
 
 /// Largest estimated error of a path that passes the audit, rad or m.
 pub const PATH_BOUND: f64 = 1e-4;
+
+/// Largest distance of a goal of resolved motion rate control from the robot's COM over what can be reached.
+const FARTHEST_GOAL: f64 = 1e3;
 
 /// Most overlaps of a case that the audit names one by one.
 const NAMED_OVERLAPS: usize = 10;
@@ -265,7 +270,12 @@ fn study_about_origin(
             observer.begin("designing final joint angles", 0);
             Some(inverse_kinematics(&*model, scenario, goals, sample, &mut || observer.step())?)
         }
-        _ => None,
+        // the arms stretch towards a goal out of reach, but not along a path that is all but endless
+        Some(goals) => {
+            check_reach(scenario, goals, FARTHEST_GOAL)?;
+            None
+        }
+        None => None,
     };
     let mut designed;
     let scenario = match &inverse_kinematics {

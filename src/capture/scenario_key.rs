@@ -5,7 +5,7 @@ use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
 use crate::capture::approach::terminal_rates::TerminalRatesError;
 use crate::capture::clearance::Exhausted;
 use crate::error::Error;
-use crate::scenario::{Approach, Case, PostImpact, Scenario, contact_name};
+use crate::scenario::{Approach, Case, PostCaptureControl, PostImpact, Scenario, Tracking, contact_name};
 use crate::simulate::PhaseError;
 use crate::simulate::stepper::{Integration, Integrator};
 
@@ -52,10 +52,8 @@ impl StudyError {
             Self::Chatter { case, target, .. } => restitution(scenario, case, target),
             Self::Impact { case, .. } => contact_kind(scenario, case),
             Self::PostImpact { source, .. } => {
-                let after = scenario.post_impact.as_ref();
-                let (step, integration) =
-                    after.map(|PostImpact { step, integration, .. }| (*step, *integration)).unwrap_or_default();
-                of_phase("post_impact", step, integration, source)
+                let after = scenario.post_impact.as_ref().expect("an error of the phase");
+                of_post_impact(after, source)
             }
         }
     }
@@ -91,16 +89,60 @@ fn terminal_rates(scenario: &Scenario, error: &TerminalRatesError) -> ScenarioKe
 
 fn of_approach(scenario: &Scenario, stopped: &PhaseError) -> ScenarioKey {
     let Approach { step, integration, .. } = scenario.approach;
-    of_phase("approach", step, integration, stopped)
+    let gain = match &scenario.approach.tracking {
+        Tracking::InverseDynamics => None,
+        Tracking::ProportionalDerivative { proportional_gain, derivative_gain }
+        | Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
+            stiffer(proportional_gain, derivative_gain)
+        }
+        Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } if rate_gain > pose_gain => {
+            Some(("rate_gain", *rate_gain))
+        }
+        Tracking::ResolvedMotionRate { pose_gain, .. } => Some(("pose_gain", *pose_gain)),
+    };
+    of_phase("approach", step, integration, gain, stopped)
 }
 
-/// What the hint of a phase that stopped names.
-fn of_phase(table: &str, step: f64, integration: Integration, stopped: &PhaseError) -> ScenarioKey {
+fn of_post_impact(after: &PostImpact, stopped: &PhaseError) -> ScenarioKey {
+    let gain = match &after.control {
+        PostCaptureControl::None => None,
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => stiffer(proportional_gain, derivative_gain),
+        PostCaptureControl::Damping { derivative_gain } => stiffer(&[], derivative_gain),
+        PostCaptureControl::Stabilise { derivative_gain, base_gain, .. } => {
+            stiffer(&[], derivative_gain).filter(|(_, gain)| gain >= base_gain).or(Some(("base_gain", *base_gain)))
+        }
+    };
+    of_phase("post_impact", after.step, after.integration, gain, stopped)
+}
+
+/// The key and the largest of those gains that make the shorter time constants of a unit inertia.
+fn stiffer(proportional: &[f64], derivative: &[f64]) -> Option<(&'static str, f64)> {
+    let [proportional, derivative] = [proportional, derivative].map(|gains| gains.iter().copied().reduce(f64::max));
+    let damping = derivative.map(|gain| ("derivative_gain", gain));
+    match proportional {
+        Some(gain) if gain.sqrt() > derivative.unwrap_or(0.0) => Some(("proportional_gain", gain)),
+        _ => damping,
+    }
+}
+
+/// What the hint of a phase that stopped names. The steps of an adaptive integrator are not those of the phase: what makes
+/// them short is the gain of a control.
+fn of_phase(
+    table: &str,
+    step: f64,
+    integration: Integration,
+    gain: Option<(&'static str, f64)>,
+    stopped: &PhaseError,
+) -> ScenarioKey {
     match (stopped.source, integration.integrator) {
         (Error::UnsupportedBodies { .. }, _) => key(format!("{table}.coordinates"), "full"),
         (Error::Tolerance { .. }, Integrator::Adaptive { tolerance }) => {
             key(format!("{table}.tolerance"), format!("{tolerance:e}"))
         }
+        (_, Integrator::Adaptive { tolerance }) => match gain {
+            Some((name, gain)) => key(format!("{table}.{name}"), format!("{gain:?}")),
+            None => key(format!("{table}.tolerance"), format!("{tolerance:e}")),
+        },
         _ => key(format!("{table}.step"), format!("{step:?}")),
     }
 }

@@ -36,7 +36,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// It appears with the first part.
+    /// The bar appears with the first part, lines from now on.
     pub fn new(display: Display) -> Self {
         let bar = if display.quiet { ProgressBar::hidden() } else { ProgressBar::no_length() };
         let lines = (bar.is_hidden() && !display.quiet).then(|| Lines::every(display.progress.max(TICK)));
@@ -92,6 +92,7 @@ impl Position {
     fn line(&self, elapsed: u64) -> String {
         let Self { part, steps, of } = self;
         match of {
+            _ if part.is_empty() => format!("before the first step: {elapsed} s"),
             0 => format!("{part}: {steps} steps, {elapsed} s"),
             of => format!("{part}: {} %, {elapsed} s", 100 * steps / of),
         }
@@ -114,9 +115,7 @@ impl Lines {
         let thread = thread::spawn(move || {
             while receiver.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
                 let now = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                if !now.part.is_empty() {
-                    note(now.line(begin.elapsed().as_secs()));
-                }
+                note(now.line(begin.elapsed().as_secs()));
             }
         });
         Self { position, thread: Some((sender, thread)) }
@@ -147,4 +146,17 @@ pub fn spinner(message: &'static str) -> ProgressBar {
 
 fn set_template(bar: &ProgressBar, template: &str) {
     bar.set_style(ProgressStyle::with_template(template).expect("a valid template"));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Position;
+
+    #[test]
+    fn a_line_says_where_a_study_is() {
+        let at = |part: &str, steps, of| Position { part: part.to_owned(), steps, of }.line(10);
+        assert_eq!(Position::default().line(10), "before the first step: 10 s");
+        assert_eq!(at("designing", 3, 0), "designing: 3 steps, 10 s");
+        assert_eq!(at("approach", 3, 4), "approach: 75 %, 10 s");
+    }
 }

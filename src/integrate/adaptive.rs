@@ -28,6 +28,8 @@ pub struct Adaptive {
     end: f64,
     /// Next step, s, before it is shortened to end at `end`.
     next_step: f64,
+    /// Steps taken or rejected so far.
+    attempts: u64,
 }
 
 impl fmt::Debug for Adaptive {
@@ -44,7 +46,7 @@ impl Adaptive {
     #[must_use]
     pub fn new(tolerance: f64) -> Self {
         let solver = Solver::rkv989e().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-        Self { solver: Box::new(solver), tolerance, end: 0.0, next_step: 0.0 }
+        Self { solver: Box::new(solver), tolerance, end: 0.0, next_step: 0.0, attempts: 0 }
     }
 
     /// Starts at `x`; f holds until `end`. Where it was started before, the last step's length is tried first.
@@ -105,6 +107,12 @@ impl Adaptive {
         Ok(())
     }
 
+    /// The number of steps taken or rejected so far.
+    #[must_use]
+    pub fn attempts(&self) -> u64 {
+        self.attempts
+    }
+
     /// One accepted step.
     fn step(&mut self, derivative: &mut Derivative<'_>) -> Result<(), Error> {
         let start = self.solver.t();
@@ -116,6 +124,7 @@ impl Adaptive {
                 self.solver.set_h(left);
             }
             let problem = Problem::new(derivative);
+            self.attempts += 1;
             let result = self.solver.step(&problem);
             problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))?;
             if self.solver.t() > start {

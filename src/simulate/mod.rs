@@ -185,7 +185,7 @@ impl Phase {
 
 /// Time and reason of a phase that stopped.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at t = {time} s: {source}{}", self.hint())]
+#[error("at t = {time:?} s: {source}{}", self.hint())]
 pub struct PhaseError {
     /// s, since the start of the phase.
     pub time: f64,
@@ -194,16 +194,17 @@ pub struct PhaseError {
 }
 
 impl PhaseError {
-    /// Whether the request is invalid for any numbers.
+    /// Whether it was refused, rather than broken down.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
-        matches!(self.source, Error::UnsupportedBodies { .. })
+        matches!(self.source, Error::UnsupportedBodies { .. } | Error::Steps { .. })
     }
 
     fn hint(&self) -> &'static str {
         match self.source {
             Error::UnsupportedBodies { .. } => ", expected `coordinates = \"full\"`",
             Error::Tolerance { .. } => " (a larger one may help)",
+            Error::Steps { .. } => " (smaller gains of a control, a shorter step, or a fixed integrator, may help)",
             _ => " (a shorter step, or smaller gains of a control, may help)",
         }
     }

@@ -71,6 +71,22 @@ const NO_RESULT: &[NoResult] = &[
         1,
     ),
     (
+        "a goal of the end effectors at the end of the world",
+        "large_target",
+        &[("[[1.5708, 0.7, 2.2],", "[[1.5708, 1e15, 2.2],")],
+        "approach.final_end_effector_poses[0]",
+        "[1.5708, 1e15, 2.2]",
+        2,
+    ),
+    (
+        "a law that is too stiff for adaptive steps",
+        "large_target",
+        &[("derivative_gain = 14.0", "derivative_gain = 1e100")],
+        "post_impact.derivative_gain",
+        "1e100",
+        2,
+    ),
+    (
         "coordinates without bodies",
         "large_target",
         &[("[post_impact]", "[post_impact]\ncoordinates = \"reduced\"")],
@@ -89,8 +105,9 @@ fn run(scenario: &str, changes: &[(&str, &str)], folder: &Path) -> (i32, String,
     }
     let path = folder.join("scenario.toml");
     fs::write(&path, &text).expect("written");
-    let (code, out, err) =
-        said(command().arg("run").arg(&path).arg("--out").arg(folder.join("results")).output().expect("it runs"));
+    let (code, out, err) = said(
+        command().args(["run", "-q"]).arg(&path).arg("--out").arg(folder.join("results")).output().expect("it runs"),
+    );
     assert_eq!(out, "", "{err}");
     assert!(!folder.join("results").exists(), "nothing is written: {err}");
     (code, err, text)

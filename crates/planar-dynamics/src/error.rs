@@ -105,6 +105,18 @@ pub enum Error {
         /// s.
         step: f64,
     },
+    /// An adaptive integrator whose steps are too short to come to the end.
+    #[error(
+        "steps have shrunk to some {step:.1e} s, so that the whole takes {needed:.1e} of them, expected at most {most:.0e}"
+    )]
+    Steps {
+        /// Mean of the last ones, s.
+        step: f64,
+        /// Those taken, and those to the end by this mean.
+        needed: f64,
+        /// How many there may be.
+        most: f64,
+    },
     /// Reduced coordinates of a system with more than the robot.
     #[error("reduced coordinates are for a robot alone, found {count} bodies or constraints beside it")]
     UnsupportedBodies {

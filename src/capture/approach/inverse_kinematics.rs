@@ -103,7 +103,7 @@ pub fn inverse_kinematics(
     sample: f64,
     tick: &mut dyn FnMut(),
 ) -> Result<InverseKinematics, InverseKinematicsError> {
-    check_reach(scenario, goals)?;
+    check_reach(scenario, goals, 1.0)?;
     let rates = match &scenario.approach.end {
         FinalRates::JointRates(rates) => rates.clone(),
         FinalRates::Rest | FinalRates::EndEffectorTwists(_) => vec![0.0; model.joints()],
@@ -232,9 +232,17 @@ fn damped_step(jacobian: DMatrix<f64>, errors: &DVector<f64>) -> (DVector<f64>, 
     (change, smallest / largest)
 }
 
-fn check_reach(scenario: &Scenario, goals: &[EndEffectorGoal]) -> Result<(), InverseKinematicsError> {
+/// Refuses goals that are further away than so many times what can be reached.
+pub(crate) fn check_reach(
+    scenario: &Scenario,
+    goals: &[EndEffectorGoal],
+    times: f64,
+) -> Result<(), InverseKinematicsError> {
     for (i, (goal, arm)) in goals.iter().zip(&scenario.layout.arms).enumerate() {
-        let reach = goal.position().and_then(|position| Reach::new(scenario, i, position)).filter(Reach::is_exceeded);
+        let reach = goal
+            .position()
+            .and_then(|position| Reach::new(scenario, i, position))
+            .filter(|reach| reach.distance > times * reach.limit);
         if let Some(Reach { distance, limit, .. }) = reach {
             return Err(InverseKinematicsError::OutOfReach { arm: arm.name.clone(), distance, limit });
         }

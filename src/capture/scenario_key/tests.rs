@@ -25,7 +25,8 @@ fn path(error: &StudyError) -> String {
     error.key(&scenario()).path
 }
 
-/// Coordinates that a phase cannot have, a tolerance that it does not reach, else its step; of the approach and after
+/// Coordinates that a phase cannot have, a tolerance that it does not reach, with adaptive steps the gain that makes them
+/// short, else the tolerance, and with others their length; of the approach and after
 /// the impact.
 #[test]
 fn phases_that_stop() {
@@ -33,7 +34,8 @@ fn phases_that_stop() {
     for (source, integrator, expected) in [
         (Error::UnsupportedBodies { count: 1 }, Integrator::RungeKutta4, "coordinates"),
         (tolerance, Integrator::Adaptive { tolerance: 1e-9 }, "tolerance"),
-        (Error::StateVector { found: 2 }, Integrator::Adaptive { tolerance: 1e-9 }, "step"),
+        (Error::StateVector { found: 2 }, Integrator::RungeKutta4, "step"),
+        (Error::StateVector { found: 2 }, Integrator::Adaptive { tolerance: 1e-9 }, "tolerance"),
     ] {
         let mut scenario = scenario();
         scenario.approach.integration.integrator = integrator;
@@ -43,6 +45,40 @@ fn phases_that_stop() {
         assert_eq!(key, format!("approach.{expected}"));
         let after = StudyError::PostImpact { case: "it".to_owned(), source: stopped }.key(&scenario).path;
         assert_eq!(after, format!("post_impact.{expected}"));
+    }
+}
+
+/// The gain with the shorter time constants.
+#[test]
+fn gains_that_make_adaptive_steps_short() {
+    let mut scenario = scenario();
+    let integrator = Integrator::Adaptive { tolerance: 1e-9 };
+    scenario.approach.integration.integrator = integrator;
+    scenario.post_impact.as_mut().expect("a phase").integration.integrator = integrator;
+    let source = PhaseError { time: 0.5, source: Error::Steps { step: 1e-9, needed: 1e9, most: 1e7 } };
+    let gains = |value: f64| vec![value; 4];
+    for (proportional, derivative, expected) in [(49.0, 14.0, "derivative_gain"), (1e6, 14.0, "proportional_gain")] {
+        let (proportional_gain, derivative_gain) = (gains(proportional), gains(derivative));
+        let after = scenario.post_impact.as_mut().expect("a phase");
+        after.control = PostCaptureControl::Hold {
+            proportional_gain: proportional_gain.clone(),
+            derivative_gain: derivative_gain.clone(),
+        };
+        scenario.approach.tracking = Tracking::ProportionalDerivative { proportional_gain, derivative_gain };
+        let found = [StudyError::Approach(source), StudyError::PostImpact { case: "it".to_owned(), source }];
+        let found = found.map(|error| error.key(&scenario).path);
+        assert_eq!(found, [format!("approach.{expected}"), format!("post_impact.{expected}")]);
+    }
+    let law = |pose_gain, rate_gain| Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold: 0.1 };
+    for (tracking, expected) in [(law(1.0, 2.0), "approach.rate_gain"), (law(3.0, 2.0), "approach.pose_gain")] {
+        scenario.approach.tracking = tracking;
+        assert_eq!(StudyError::Approach(source).key(&scenario).path, expected);
+    }
+    for (base_gain, expected) in [(1.0, "post_impact.derivative_gain"), (9.0, "post_impact.base_gain")] {
+        scenario.post_impact.as_mut().expect("a phase").control =
+            PostCaptureControl::Stabilise { derivative_gain: gains(2.0), base_gain, base_torque_limit: None };
+        let error = StudyError::PostImpact { case: "it".to_owned(), source };
+        assert_eq!(error.key(&scenario).path, expected);
     }
 }
 
