@@ -16,8 +16,9 @@ mod terminal;
 
 use clap::{Parser, Subcommand};
 use planar_capture::diagnostic::Report;
-use planar_capture::output::atomic_file::{OutputError, write_text};
+use planar_capture::output::atomic_file::write_text;
 use planar_capture::output::finite::NotFinite;
+use planar_capture::output::output_error::OutputError;
 use planar_capture::output::result_folder::ClaimError;
 use std::error::Error;
 use std::io::{ErrorKind, IsTerminal, Write};

@@ -147,16 +147,3 @@ pub fn spinner(message: &'static str) -> ProgressBar {
 fn set_template(bar: &ProgressBar, template: &str) {
     bar.set_style(ProgressStyle::with_template(template).expect("a valid template"));
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Position;
-
-    #[test]
-    fn a_line_says_where_a_study_is() {
-        let at = |part: &str, steps, of| Position { part: part.to_owned(), steps, of }.line(10);
-        assert_eq!(Position::default().line(10), "before the first step: 10 s");
-        assert_eq!(at("designing", 3, 0), "designing: 3 steps, 10 s");
-        assert_eq!(at("approach", 3, 4), "approach: 75 %, 10 s");
-    }
-}

@@ -1,27 +1,11 @@
 //! Result files that are complete or absent: written under a temporary name in the same folder, then renamed.
 
+use super::output_error::OutputError;
+use super::sweep::sweep;
 use super::temporary;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-
-/// A result that could not be written.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write {path}: {source}; nothing half-written was left there", path = path.display())]
-pub struct OutputError {
-    /// The file or folder.
-    pub path: PathBuf,
-    /// The reason.
-    #[source]
-    pub source: io::Error,
-}
-
-impl OutputError {
-    /// For results of a function about `path`.
-    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
-        move |source| Self { path: path.to_owned(), source }
-    }
-}
 
 /// Creates a folder for results and its parents; removes what a killed process left in it.
 ///
@@ -29,7 +13,7 @@ impl OutputError {
 /// [`OutputError`] with the reason.
 pub fn create_folder(path: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(path).map_err(OutputError::at(path))?;
-    temporary::sweep(path);
+    sweep(path);
     Ok(())
 }
 
@@ -87,6 +71,6 @@ fn folder_of(path: &Path) -> &Path {
 /// # Errors
 /// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
 pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
-    temporary::sweep(folder_of(path));
+    sweep(folder_of(path));
     StagedFile::new(path, |to| to.write_all(text.as_bytes()))?.commit()
 }

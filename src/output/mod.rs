@@ -9,11 +9,13 @@ pub mod html_report;
 pub mod impacts;
 #[cfg(feature = "mcap")]
 pub mod mcap;
+pub mod output_error;
 mod replacement;
 pub mod result_folder;
 pub mod run_folder;
 pub mod run_manifest;
 pub mod scene;
 pub mod summary;
+mod sweep;
 mod temporary;
 pub mod time_series;

@@ -23,7 +23,7 @@
 //! Without locks a dead process cannot be told from a living one, and nothing is settled: the content that is not in the
 //! folder then stays in the temporary folder.
 
-use super::atomic_file::OutputError;
+use super::output_error::OutputError;
 use super::run_folder::SUMMARY;
 use super::temporary::names;
 use std::fs;

@@ -1,7 +1,9 @@
 //! A folder of results, which holds those of one run: claimed before the run, and filled or replaced whole after it.
 
-use super::atomic_file::{OutputError, create_folder, write_whole};
+use super::atomic_file::{create_folder, write_whole};
+use super::output_error::OutputError;
 use super::replacement::{NEW, is_settled, replace};
+use super::sweep::{sweep, sweep_locked};
 use super::temporary::{self, TemporaryFolder, names};
 use std::ffi::OsString;
 use std::fmt;
@@ -86,11 +88,11 @@ impl<'a> ResultFolder<'a> {
         if existing == path {
             // not in the moment in which another run puts its files in their place
             let _lock = temporary::lock(path);
-            temporary::sweep_locked(path);
+            sweep_locked(path);
             claimed.permit()?;
         } else {
             // a folder above it, in which results are staged until it is made
-            temporary::sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
+            sweep(if existing.as_os_str().is_empty() { Path::new(".") } else { existing });
         }
         // a file without a name: nothing is left even if the process is killed
         tempfile::tempfile_in(existing).map_err(|source| OutputError { path: path.to_owned(), source })?;
@@ -149,7 +151,7 @@ impl<'a> ResultFolder<'a> {
         }
         // held until the end: two runs do not mix
         let _lock = temporary::lock(&path);
-        temporary::sweep_locked(&path);
+        sweep_locked(&path);
         self.permit().map_err(|error| match error {
             ClaimError::Occupied { path, found } => ClaimError::Lost { path, found },
             other => other,

@@ -1,10 +1,7 @@
-//! Temporary files and folders, and the removal of those that killed processes left behind.
-//!
-//! A process holds a lock on each of its own while it lives, which the operating system releases when it dies. Where
-//! there are no such locks, nothing is removed.
+//! Temporary files and folders. A process holds a lock on each of its own while it lives, which the operating system
+//! releases when it dies.
 
-use super::atomic_file::OutputError;
-use super::replacement::{is_settled, settle};
+use super::output_error::OutputError;
 use std::ffi::OsString;
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -81,37 +78,6 @@ pub(super) fn names(folder: &Path) -> Result<Vec<OsString>, OutputError> {
     names.retain(|name| !name.to_str().is_some_and(is_temporary));
     names.sort();
     Ok(names)
-}
-
-/// Settles and removes the temporary files and folders in a folder that no living process holds.
-pub(super) fn sweep(folder: &Path) {
-    let mut entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    if entries.any(|entry| entry.file_name().to_str().is_some_and(is_temporary)) {
-        let _lock = lock(folder);
-        sweep_locked(folder);
-    }
-}
-
-/// The same for a folder whose [`lock`] the process has.
-pub(super) fn sweep_locked(folder: &Path) {
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        if !entry.file_name().to_str().is_some_and(is_temporary) {
-            continue;
-        }
-        let path = entry.path();
-        let Ok(kind) = entry.file_type() else { continue };
-        // a device or a pipe of this name is not opened
-        if !kind.is_file() && !kind.is_dir() {
-            continue;
-        }
-        // held until it is gone: its owner, if it is just being made, cannot be mistaken for dead
-        let Some(_lock) = File::open(&path).ok().filter(|file| file.try_lock().is_ok()) else { continue };
-        if kind.is_file() {
-            let _ = fs::remove_file(&path);
-        } else if settle(folder, &path, &mut |from, to| fs::rename(from, to)).is_ok() && is_settled(&path) {
-            let _ = fs::remove_dir_all(&path);
-        }
-    }
 }
 
 /// Waits for the lock on a folder, of which there is no file; `None` where there are no locks.

@@ -1,5 +1,4 @@
 use super::*;
-use crate::output::temporary;
 use std::collections::BTreeMap;
 use tempfile::TempDir;
 
@@ -123,8 +122,8 @@ fn what_is_left_of_a_removal_moves_nothing() {
             let _ = fs::remove_dir_all(fixture.temporary.join(removed));
             let _ = fs::remove_file(fixture.temporary.join(NEW).join("b.csv"));
             let _ = fs::remove_file(fixture.temporary.join(REPLACED).join("b.csv"));
-            temporary::sweep(fixture.folder.path());
-            assert_eq!((fixture.content(), fixture.temporary.exists()), (before, false), "{operations}, {removed}");
+            assert!(fixture.settle(usize::MAX) && is_settled(&fixture.temporary), "{operations}, {removed}");
+            assert_eq!(fixture.content(), before, "{operations}, {removed}");
         }
     }
 }
@@ -146,14 +145,14 @@ fn an_operation_that_fails_is_followed_by_the_inverse_of_those_before() {
     }
 }
 
-/// Nothing is overwritten, and the temporary folder stays, with what could not be moved.
+/// Nothing is overwritten, and what could not be moved stays in the temporary folder.
 #[test]
 fn what_somebody_has_put_there_since_stays() {
     let fixture = Fixture::new(OWN);
     fixture.replace(2);
     let mine = fixture.folder.path().join(SUMMARY);
     fs::write(&mine, "mine").expect("written");
-    temporary::sweep(fixture.folder.path());
+    assert!(!fixture.settle(usize::MAX) && !is_settled(&fixture.temporary));
     assert_eq!(fs::read_to_string(mine).expect("a file"), "mine");
     assert_eq!(fs::read_to_string(fixture.temporary.join(OLD).join(SUMMARY)).expect("a file"), "old");
 }

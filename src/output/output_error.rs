@@ -1,0 +1,22 @@
+//! Why results could not be written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// A result that could not be written.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {path}: {source}; nothing half-written was left there", path = path.display())]
+pub struct OutputError {
+    /// The file or folder.
+    pub path: PathBuf,
+    /// The reason.
+    #[source]
+    pub source: io::Error,
+}
+
+impl OutputError {
+    /// For results of a function about `path`.
+    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self { path: path.to_owned(), source }
+    }
+}
