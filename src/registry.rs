@@ -87,7 +87,7 @@ fn fitting(layout: &Layout) -> Result<(&'static Candidate, Vec<f64>), NoModel> {
     let mut fitting: Option<(&'static Candidate, Vec<f64>)> = None;
     let mut nearest: Option<(&str, Vec<StructuralDifference>)> = None;
     for candidate in CANDIDATES {
-        match parameters(candidate.manifest, layout) {
+        match parameters(&candidate.manifest.into(), layout) {
             Ok(values) if fitting.as_ref().is_none_or(|(_, best)| values.len() < best.len()) => {
                 fitting = Some((candidate, values));
             }

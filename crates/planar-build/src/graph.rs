@@ -2,11 +2,13 @@
 
 pub use crate::format::Graph;
 
+use crate::format::Parameter;
 use crate::renderer::camel_case;
 use crate::soundness;
 use planar_dynamics::manifest::ParameterKind;
 use planar_layout::diagnostic::{excerpt, printable};
 use planar_layout::layout::Layout;
+use planar_layout::structure::Structure;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -47,11 +49,7 @@ pub enum GraphError {
 /// # Errors
 /// [`GraphError`].
 pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
-    let Header { format } = parse(text)?;
-    if format != FORMAT {
-        return Err(GraphError::Format(format!("it has format {format}, this version reads format {FORMAT}")));
-    }
-    let graph: Graph = parse(text)?;
+    let graph = parse_format(text)?;
     let (found, wanted) = (&graph.layout.sha256, layout.sha256());
     if *found != wanted {
         return Err(GraphError::Stale { found: excerpt(found), wanted });
@@ -62,6 +60,43 @@ pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
     soundness::check(&graph).map_err(GraphError::Format)?;
     compare_parameters(&graph, layout)?;
     Ok(graph)
+}
+
+/// Parses the graph of a structure, to be evaluated for any layout of it.
+///
+/// # Errors
+/// [`GraphError::Format`].
+pub fn read_any(text: &str) -> Result<Graph, GraphError> {
+    let graph = parse_format(text)?;
+    soundness::check(&graph).map_err(GraphError::Format)?;
+    Ok(graph)
+}
+
+fn parse_format(text: &str) -> Result<Graph, GraphError> {
+    let Header { format } = parse(text)?;
+    if format != FORMAT {
+        return Err(GraphError::Format(format!("it has format {format}, this version reads format {FORMAT}")));
+    }
+    parse(text)
+}
+
+/// What the parameters of a graph are, by the names of [`ParameterKind`], with arm and link.
+///
+/// # Errors
+/// A parameter that no layout has, or that is there twice.
+pub fn structure(graph: &Graph) -> Result<Structure, GraphError> {
+    let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
+    let mut parameters = Vec::with_capacity(graph.parameters.len());
+    for Parameter { name, quantity, arm, link, .. } in &graph.parameters {
+        let kind = ParameterKind::ALL.into_iter().find(|kind| format!("{kind:?}") == camel_case(quantity));
+        let (arm, link) = (arm.unwrap_or(0), link.unwrap_or(0));
+        let place = kind.filter(|_| links.get(arm).is_some_and(|links| link < *links)).map(|kind| (kind, arm, link));
+        match place {
+            Some(place) if !parameters.contains(&place) => parameters.push(place),
+            _ => return Err(GraphError::Format(format!("parameter `{name}` is none of a layout, or is one twice"))),
+        }
+    }
+    Ok(Structure { links, parameters, needs_distinct_mounts: graph.layout.needs_distinct_mounts })
 }
 
 /// Compares the parameters of a graph with the numbers of its layout: each is one of them with its value as the

@@ -12,6 +12,8 @@ mod renderer;
 mod soundness;
 
 #[cfg(feature = "prove")]
+pub mod evaluator;
+#[cfg(feature = "prove")]
 pub mod prove;
 
 pub use command::{command, options, quoted};

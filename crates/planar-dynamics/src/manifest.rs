@@ -25,6 +25,22 @@ pub enum ParameterKind {
     LinkComY,
 }
 
+impl ParameterKind {
+    /// All kinds.
+    pub const ALL: [Self; 10] = [
+        Self::BaseMass,
+        Self::BaseInertia,
+        Self::MountX,
+        Self::MountY,
+        Self::MountAngle,
+        Self::LinkLength,
+        Self::LinkMass,
+        Self::LinkInertia,
+        Self::LinkComX,
+        Self::LinkComY,
+    ];
+}
+
 /// One run-time parameter of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {

@@ -1,4 +1,4 @@
-//! The structure of a layout, its arms, links and exact zeros, compared with that of generated code.
+//! The structure of a layout, its arms, links and exact zeros, compared with that of code or a graph.
 
 use crate::layout::{Arm, Layout, Link, parameter_key};
 use planar_dynamics::manifest::{Manifest, ParameterKind};
@@ -30,21 +30,39 @@ pub enum Mismatch {
     Zeros(Vec<StructuralDifference>),
 }
 
-/// The layout's numbers in the order of a manifest.
+/// The structure that some code or graph was derived for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Structure {
+    /// Number of links of each arm.
+    pub links: Vec<usize>,
+    /// What each parameter is, with arm and link, in order; all other numbers of a layout are exact zeros.
+    pub parameters: Vec<(ParameterKind, usize, usize)>,
+    /// Whether it divides by the distance between the first two mounts.
+    pub needs_distinct_mounts: bool,
+}
+
+impl From<&Manifest> for Structure {
+    fn from(manifest: &Manifest) -> Self {
+        let parameters = manifest.parameters.iter().map(|p| (p.kind, p.arm, p.link)).collect();
+        Self { links: manifest.links.to_vec(), parameters, needs_distinct_mounts: manifest.needs_distinct_mounts }
+    }
+}
+
+/// The layout's numbers in the order of a structure's parameters.
 ///
 /// # Errors
 /// [`Mismatch`] unless the structures are the same.
-pub fn parameters(manifest: &Manifest, layout: &Layout) -> Result<Vec<f64>, Mismatch> {
+pub fn parameters(structure: &Structure, layout: &Layout) -> Result<Vec<f64>, Mismatch> {
     let links: Vec<usize> = layout.arms.iter().map(|arm| arm.links.len()).collect();
-    if links != manifest.links {
+    if links != structure.links {
         return Err(Mismatch::Links);
     }
-    let mut values = vec![0.0; manifest.parameters.len()];
+    let mut values = vec![0.0; structure.parameters.len()];
     let mut differences = Vec::new();
     let mut differ = |key, value, instead| differences.push(StructuralDifference { key, value, instead });
     for (kind, arm, link, value) in layout.parameters() {
         let key = || parameter_key(kind, arm, link);
-        match manifest.position(kind, arm, link) {
+        match structure.parameters.iter().position(|parameter| *parameter == (kind, arm, link)) {
             None if value == 0.0 => {}
             None => differ(key(), value, "an exact zero, which costs no operations"),
             // the model divides by the length of an inner link
@@ -54,7 +72,7 @@ pub fn parameters(manifest: &Manifest, layout: &Layout) -> Result<Vec<f64>, Mism
             Some(position) => values[position] = value,
         }
     }
-    if manifest.needs_distinct_mounts && first_mounts_coincide(layout) {
+    if structure.needs_distinct_mounts && first_mounts_coincide(layout) {
         differ("arm[1].mount".to_owned(), layout.arms[1].mount[0], "two arms on mounts apart");
     }
     if differences.is_empty() { Ok(values) } else { Err(Mismatch::Zeros(differences)) }

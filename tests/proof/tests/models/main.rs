@@ -9,6 +9,7 @@ mod coordinates;
 mod equivalence;
 mod float;
 mod generic;
+mod graph_models;
 mod identities;
 mod integrators;
 mod light_last_link;

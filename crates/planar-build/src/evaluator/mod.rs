@@ -1,0 +1,17 @@
+//! Models that evaluate a graph, without a compiler: the functions of the graph as programs on registers.
+//!
+//! The results have the bits of the code that is rendered from the same graph (without the feature `fused`): every
+//! operation has the operands and the rounding that it has there.
+
+mod execute;
+mod functions;
+mod instruction;
+mod merge;
+mod model;
+mod program;
+mod values;
+
+pub use model::{Evaluator, GraphModel};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,81 @@
+//! The values of a program before they have registers: every name of a graph's statements as a number.
+
+use crate::format::{Operand, Operation, Statement, Targets};
+use std::collections::HashMap;
+
+/// Where a constant of a program comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Source {
+    /// The graph.
+    Number(f64),
+    /// The model: one of its parameters, or of what was computed from them.
+    Model(usize),
+}
+
+/// A value of a program.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Value {
+    Constant(Source),
+    /// An element of the inputs, which are one after the other.
+    Input(usize),
+    /// Of an operation. A sine is followed by its cosine, which is a result of the same operation.
+    Result { operation: Operation, a: usize, b: Option<usize> },
+    /// The cosine after a sine.
+    Cosine,
+}
+
+/// The values of a program, in the order of their computation.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Values {
+    pub all: Vec<Value>,
+    names: HashMap<String, usize>,
+}
+
+impl Values {
+    pub fn name(&mut self, name: String, value: Value) {
+        self.all.push(value);
+        self.names.insert(name, self.all.len() - 1);
+    }
+
+    /// The value of an operand.
+    ///
+    /// # Errors
+    /// A name that has none.
+    pub fn operand(&mut self, operand: &Operand) -> Result<usize, String> {
+        match operand {
+            Operand::Name(name) => {
+                self.names.get(name).copied().ok_or_else(|| format!("`{name}` is used before it is known"))
+            }
+            Operand::Number(number) => {
+                self.all.push(Value::Constant(Source::Number(*number)));
+                Ok(self.all.len() - 1)
+            }
+        }
+    }
+
+    /// Adds the values of statements.
+    ///
+    /// # Errors
+    /// A name that is used before it is known.
+    pub fn extend(&mut self, statements: &[Statement]) -> Result<(), String> {
+        for Statement { targets, operation, a, b } in statements {
+            let a = self.operand(a)?;
+            let has_second = matches!(
+                operation,
+                Operation::Add | Operation::Sub | Operation::Mul | Operation::Div | Operation::Min | Operation::Atan2
+            );
+            let b = if has_second { Some(self.operand(b)?) } else { None };
+            match targets {
+                Targets::Value(name) if *operation == Operation::Copy => {
+                    self.names.insert(name.clone(), a);
+                }
+                Targets::Value(name) => self.name(name.clone(), Value::Result { operation: *operation, a, b }),
+                Targets::SinCos(sine, cosine) => {
+                    self.name(sine.clone(), Value::Result { operation: *operation, a, b });
+                    self.name(cosine.clone(), Value::Cosine);
+                }
+            }
+        }
+        Ok(())
+    }
+}
