@@ -17,10 +17,10 @@ INSIDE = "PLANAR_CAPTURE_CODEGEN_INSIDE"
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m codegen",
-        description="Derives codegen/graphs/NAME.json from codegen/layouts/NAME.toml, and writes the layouts' cargo "
-        "features into Cargo.toml.",
+        description="Derives codegen/graphs/NAME.json from codegen/layouts/NAME.toml, codegen/structures/NAME.json from "
+        "NAME.toml beside it, and writes the layouts' cargo features into Cargo.toml.",
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts)")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts and codegen/structures)")
     parser.add_argument(
         "--check", action="store_true", help="write nothing; exit 1 if a graph is not the one of its layout"
     )
@@ -68,11 +68,11 @@ def main() -> int:
 
 def wrong_arguments(options: argparse.Namespace) -> str | None:
     """What is wrong with the arguments, before an environment is made for them."""
-    from .layout import LayoutError, layout_names, read
+    from .layout import LayoutError, layout_names, read, structure_names
 
-    shipped = layout_names()
+    shipped = layout_names() + structure_names()
     if unknown := [name for name in options.names if name not in shipped]:
-        return f"no layout {', '.join(unknown)} in codegen/layouts; there are: {', '.join(shipped)}"
+        return f"no layout {', '.join(unknown)} in codegen/layouts or codegen/structures; there are: {', '.join(shipped)}"
     if options.graph is not None and not options.graph.resolve().parent.is_dir():
         return f"cannot write {options.graph}: there is no folder {options.graph.parent}"
     try:
@@ -117,15 +117,17 @@ def derive_file(options: argparse.Namespace) -> int:
 
 def derive_shipped(options: argparse.Namespace) -> int:
     """Writes or checks the files derived from the layouts in codegen/layouts."""
-    from .derive import graph_names, graph_path
-    from .layout import layout_names
+    from .derive import graph_path, graph_paths, layout_path
+    from .layout import layout_names, structure_names
 
     shipped = layout_names()
-    files = derived_files(options.names or shipped, shipped)
+    names = shipped + structure_names()
+    files = derived_files(options.names or names, shipped)
     stale = [path for path, text in files if not up_to_date(path, text, options.check)]
-    orphans = [graph_path(name) for name in graph_names() if name not in shipped]
+    orphans = sorted(set(graph_paths()) - {graph_path(name) for name in names})
     for path in orphans:
-        print(f"{path.relative_to(ROOT)}: has no layout; delete it, or put codegen/layouts/{path.stem}.toml back")
+        layout = layout_path(path.stem).relative_to(ROOT)
+        print(f"{path.relative_to(ROOT)}: has no layout; delete it, or put {layout} back")
     if stale:
         print(f"to mend: python -m codegen {' '.join(options.names)}".rstrip(), file=sys.stderr)
     return 1 if stale or orphans else 0

@@ -14,16 +14,18 @@ from .json_text import dump
 from .layout import Layout, LayoutError, read
 
 
-def graph_names() -> list[str]:
-    return sorted(path.stem for path in (HERE / "graphs").glob("*.json"))
+def graph_paths() -> list[Path]:
+    return sorted(path for folder in ("graphs", "structures") for path in (HERE / folder).glob("*.json"))
 
 
 def layout_path(name: str) -> Path:
-    return HERE / "layouts" / f"{name}.toml"
+    structure = HERE / "structures" / f"{name}.toml"
+    return structure if structure.exists() else HERE / "layouts" / f"{name}.toml"
 
 
 def graph_path(name: str) -> Path:
-    return HERE / "graphs" / f"{name}.json"
+    folder = "structures" if (HERE / "structures" / f"{name}.toml").exists() else "graphs"
+    return HERE / folder / f"{name}.json"
 
 
 def derive_text(path: Path) -> str:

@@ -25,6 +25,11 @@ def layout_names() -> list[str]:
     return sorted(path.stem for path in (HERE / "layouts").glob("*.toml"))
 
 
+def structure_names() -> list[str]:
+    """The layouts in codegen/structures, whose graphs are evaluated, not rendered."""
+    return sorted(path.stem for path in (HERE / "structures").glob("*.toml"))
+
+
 @dataclass(frozen=True)
 class Base:
     """The base body; its frame has its origin at the centre of mass."""

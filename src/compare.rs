@@ -1,11 +1,12 @@
-//! Compares generated code with the generic implementation: every quantity at random states of every regime, errors
+//! Compares generated code, or a graph, with the generic implementation: every quantity at random states of every regime, errors
 //! relative to the natural size of each entry.
 
+use crate::engine::Choice;
 use crate::error::Error;
 use crate::layout::Layout;
 use crate::quantities::{Difference, differences};
 use crate::quantity::Quantity;
-use crate::registry::{NoModel, generated, generic};
+use crate::registry::generic;
 use crate::sampling::{REGIMES, Regime, RegimeSample};
 
 /// The largest error of one quantity.
@@ -70,15 +71,13 @@ impl Comparison {
 }
 
 /// Compares the implementations for a layout at `samples` states of every regime; equal seeds give equal states.
-///
-/// # Errors
-/// [`NoModel`] if no generated code has the layout's structure.
-pub fn compare(layout: &Layout, samples: u64, seed: u64) -> Result<Comparison, NoModel> {
+#[must_use]
+pub fn compare(layout: &Layout, choice: &Choice, samples: u64, seed: u64) -> Comparison {
     let mut comparison = Comparison::default();
     for regime in REGIMES {
         for index in 0..samples {
             let sample = regime.sample(layout, seed, index);
-            let (model, reference) = (generated(&sample.layout)?, generic(&sample.layout));
+            let (model, reference) = (choice.model(&sample.layout), generic(&sample.layout));
             comparison.states += 1;
             match differences(&*model, &*reference, &sample) {
                 Ok(differences) => {
@@ -92,5 +91,5 @@ pub fn compare(layout: &Layout, samples: u64, seed: u64) -> Result<Comparison, N
             }
         }
     }
-    Ok(comparison)
+    comparison
 }

@@ -119,6 +119,8 @@ pub use planar_dynamics::{
 #[cfg(feature = "build")]
 pub use planar_build as build;
 #[cfg(feature = "std")]
+pub use planar_build::evaluator;
+#[cfg(feature = "std")]
 pub use planar_build::prove::{self as generate, evaluation, generic, heavy_targets, owned, quantities, sampling};
 #[cfg(feature = "std")]
 pub use planar_layout::{diagnostic, layout, outline, structure};
@@ -130,9 +132,13 @@ pub mod check;
 #[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]
+pub mod engine;
+#[cfg(feature = "std")]
 pub mod eval;
 #[cfg(feature = "std")]
 pub mod frames;
+#[cfg(feature = "std")]
+pub mod graphs;
 #[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "std")]

@@ -117,22 +117,15 @@ pub fn generic(layout: &Layout) -> Box<dyn CloneModel> {
 
 /// How to get generated code of a layout.
 fn mend(layout: &Layout) -> String {
-    let name = &layout.name;
-    let generic = "`run` and `eval` compute any layout as it is with `--dynamics generic`, and `generate` writes code of \
-                   it for a crate of your own";
-    let shipped = SHIPPED.iter().find(|(shipped, _)| shipped == name);
-    let is_shipped = |text: &str| Layout::parse(text, name).is_ok_and(|shipped| shipped.sha256() == layout.sha256());
-    match shipped {
-        Some((_, text)) if DISABLED.contains(&name.as_str()) && is_shipped(text) => {
-            format!("It is shipped, but left out of this build: build again with `--features {name}`; {generic}")
+    let others = "without `--dynamics generated` it is computed by its graph or the generic implementation, and \
+                  `planar-capture generate` writes code of it for a program of your own";
+    let is_shipped = |(name, text): &&(&str, &str)| {
+        DISABLED.contains(name) && Layout::parse(text, name).is_ok_and(|shipped| shipped.sha256() == layout.sha256())
+    };
+    match SHIPPED.iter().find(is_shipped) {
+        Some((name, _)) => {
+            format!("It is shipped, but left out of this build: build again with `--features {name}`; {others}")
         }
-        Some(_) => format!(
-            "`{name}` is the name of a shipped layout: to add yours, give it a name of its own, put it into \
-             codegen/layouts/NAME.toml, run `python3 -m codegen NAME` and build again with `--features NAME`; {generic}"
-        ),
-        None => format!(
-            "To add it, put the layout into codegen/layouts/{name}.toml, run `python3 -m codegen {name}` and build \
-             again with `--features {name}`; {generic}"
-        ),
+        None => format!("To be computed now: {others}"),
     }
 }

@@ -6,7 +6,7 @@ use crate::capture::approach::ApproachTracking;
 use crate::capture::clearance::{Overlap, ineffective_ignores};
 use crate::capture::{Silent, StudyError, study};
 use crate::diagnostic::Warning;
-use crate::registry;
+use crate::engine::Choice;
 use crate::scenario::{Actuation, OnOverlap, Scenario, Tracking};
 use crate::simulate::stepper::Integration;
 
@@ -68,7 +68,8 @@ fn overlaps(scenario: &Scenario) -> Vec<Warning> {
         }
     }
     let layout = &scenario.layout;
-    let make = || registry::generated(layout).unwrap_or_else(|_| registry::generic(layout));
+    let (choice, _) = Choice::fastest(layout);
+    let make = || choice.model(layout);
     let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
         Ok(result) => result,
         Err(StudyError::ClearanceExhausted { what, .. }) => return vec![unfinished(what.time, &what.to_string())],

@@ -1,6 +1,7 @@
 //! The description of a layout: masses, lengths, degrees of freedom, generated code.
 
 use super::number::{point, short};
+use crate::engine::Choice;
 use crate::layout::Layout;
 use crate::registry;
 use crate::simulate::bodies::{BodySums, bodies, inertia_about};
@@ -47,15 +48,19 @@ pub(super) fn freedom(layout: &Layout) -> String {
     format!("{}: base 3, joints {joints}", 3 + joints)
 }
 
-/// The generated code of its structure, or how to get it.
+/// The generated code of its structure, or what computes it instead.
 pub(super) fn code(layout: &Layout) -> String {
     match registry::manifest(layout) {
         Ok(manifest) if manifest.sha256 == layout.sha256() => format!("generated::{}", manifest.name),
         Ok(manifest) => format!("generated::{}, with these numbers as its parameters", manifest.name),
-        Err(none) => {
-            let lines =
-                format!("none of this structure in this build{}\n{}", none.nearest, none.mend.replace("; ", ";\n"));
-            lines.replace('\n', &format!("\n{:22}", ""))
+        Err(_) => {
+            let (choice, unusable) = Choice::fastest(layout);
+            let why = unusable.map_or_else(String::new, |why| format!(" ({why})"));
+            format!(
+                "none of this structure in this build; computed by {}, {}{why}",
+                choice.engine.name(),
+                choice.origin
+            )
         }
     }
 }

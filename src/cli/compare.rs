@@ -1,8 +1,9 @@
 //! `planar-capture compare LAYOUT.toml`: generated against generic dynamics at random states.
 
 use super::terminal::{note, print};
-use super::{CommandError, file_error, layout};
+use super::{CommandError, derive, file_error, layout};
 use planar_capture::compare::{Comparison, LargestError, compare};
+use planar_capture::engine::{Choice, Engine};
 use planar_capture::eval::to_json;
 use planar_capture::layout::Layout;
 use planar_capture::output::result_folder::ResultFolder;
@@ -12,8 +13,9 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Compare generated code with the generic implementation at random states, quantity by quantity.
+/// Compare the derived dynamics with the generic implementation at random states, quantity by quantity.
 ///
+/// Those are the compiled code of the layout's structure, else its graph, which is derived first where there is none.
 /// Errors are relative to the natural size of each entry: the sum of the magnitudes of its terms. The worst state of
 /// each quantity is written for `eval`. Exit code 1 if an error exceeds its bound.
 #[derive(Debug, clap::Args)]
@@ -41,7 +43,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &layout);
     let folder = ResultFolder::claim(&folder, arguments.force, keep, &objection)?;
-    let comparison = compare(&layout, arguments.samples, arguments.seed).map_err(file_error(&arguments.layout))?;
+    let choice = choose(&layout, &arguments.layout)?;
+    let comparison = compare(&layout, &choice, arguments.samples, arguments.seed);
     let shown = folder.path().display().to_string();
     let staged = folder.stage()?;
     for LargestError { difference, sample, .. } in &comparison.largest_errors {
@@ -53,11 +56,11 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let code = if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     print(&format!(
         "{}Worst states in {shown}; replay: planar-capture eval {shown}/QUANTITY.toml {shown}/QUANTITY.json\n",
-        table(&comparison, &layout.name, arguments),
+        table(&comparison, (&layout.name, &choice), arguments),
     ));
     for refusal in &comparison.refusals {
         let (implementation, error) = match (&refusal.generated, &refusal.generic) {
-            (Some(error), None) => ("generated", error),
+            (Some(error), None) => (choice.engine.name(), error),
             (None, Some(error)) => ("generic", error),
             _ => continue,
         };
@@ -70,6 +73,16 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         }
     }
     Ok(code)
+}
+
+/// Compiled code, else a graph; where there is none it is derived.
+fn choose(layout: &Layout, file: &str) -> Result<Choice, CommandError> {
+    let (choice, _) = Choice::fastest(layout);
+    if choice.engine != Engine::Generic {
+        return Ok(choice);
+    }
+    derive::into_cache(layout, file)?;
+    Choice::graph(layout).map_err(file_error(file))
 }
 
 /// Name of the files of a quantity.
@@ -91,16 +104,25 @@ fn objection(folder: &Path, names: &[String], layout: &Layout) -> Option<String>
     Some(format!("holds the comparison of `{}`, not of `{}`", other.name, layout.name))
 }
 
-fn table(comparison: &Comparison, name: &str, arguments: &Arguments) -> String {
+fn table(comparison: &Comparison, of: (&str, &Choice), arguments: &Arguments) -> String {
     let mut text = String::new();
-    write_table(&mut text, comparison, name, arguments).expect("writing to a String does not fail");
+    write_table(&mut text, comparison, of, arguments).expect("writing to a String does not fail");
     text
 }
 
 /// One line per quantity.
-fn write_table(out: &mut String, comparison: &Comparison, name: &str, arguments: &Arguments) -> fmt::Result {
+fn write_table(
+    out: &mut String,
+    comparison: &Comparison,
+    (name, choice): (&str, &Choice),
+    arguments: &Arguments,
+) -> fmt::Result {
     let (states, samples, seed) = (comparison.states, arguments.samples, arguments.seed);
-    writeln!(out, "{name}: generated against generic at {states} states, {samples} of each regime, seed {seed}\n")?;
+    let (engine, origin) = (choice.engine.name(), &choice.origin);
+    writeln!(
+        out,
+        "{name}: {engine} ({origin}) against generic at {states} states, {samples} of each regime, seed {seed}\n"
+    )?;
     writeln!(out, "{:<28} {:>9} {:>9}  {:<14} {:>6}", "quantity", "error", "bound", "regime", "state")?;
     for LargestError { difference, regime, index, .. } in &comparison.largest_errors {
         let (quantity, error, bound) = (difference.quantity.row().name, difference.error, difference.bound());

@@ -1,32 +1,47 @@
-//! The option `--dynamics`: generated or generic models of a layout.
+//! The option `--dynamics`: which implementation computes a layout.
 
+use super::terminal::note;
+use super::{CommandError, file_error};
+use planar_capture::engine::{Choice, Engine};
 use planar_capture::layout::Layout;
-use planar_capture::owned::CloneModel;
-use planar_capture::registry::{self, NoModel};
 
 /// Implementations of the dynamics.
-#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Dynamics {
-    /// Closed-form code, generated for the layout's structure.
+    /// The fastest that there is for the layout's structure, of those below.
+    Auto,
+    /// Closed-form code, compiled into this program.
     Generated,
+    /// The expression graph of such code, evaluated.
+    Graph,
     /// Computed from the equations for any layout, slowly.
     Generic,
 }
 
 impl Dynamics {
-    /// As in the summary.
-    pub fn name(self) -> &'static str {
+    /// What computes a layout, which is in `file`; where that was not said, a line says it.
+    pub fn choose(self, layout: &Layout, file: &str) -> Result<Choice, CommandError> {
         match self {
-            Self::Generated => "generated",
-            Self::Generic => "generic",
+            Self::Auto => {
+                let (choice, unusable) = Choice::fastest(layout);
+                if let Some(why) = unusable {
+                    note(format_args!("warning: {why}"));
+                }
+                note(format_args!("dynamics: {}, {}{}", choice.engine.name(), choice.origin, faster(choice.engine)));
+                Ok(choice)
+            }
+            Self::Generated => Choice::generated(layout).map_err(file_error(file)),
+            Self::Graph => Choice::graph(layout).map_err(file_error(file)),
+            Self::Generic => Ok(Choice::generic()),
         }
     }
+}
 
-    /// The model of a layout.
-    pub fn model(self, layout: &Layout) -> Result<Box<dyn CloneModel>, NoModel> {
-        match self {
-            Self::Generated => registry::generated(layout),
-            Self::Generic => Ok(registry::generic(layout)),
-        }
+/// How to get a faster implementation.
+fn faster(engine: Engine) -> &'static str {
+    match engine {
+        Engine::Generated => "",
+        Engine::Graph => "; compiled code of it in a program of your own is faster: README, Your own robot",
+        Engine::Generic => "; a graph is many times faster: planar-capture derive LAYOUT",
     }
 }

@@ -22,14 +22,14 @@ pub struct Arguments {
     /// The states, a JSON array; `-` for the standard input.
     states: String,
     /// The implementation of the dynamics.
-    #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
     dynamics: Dynamics,
 }
 
 /// Evaluates the states one by one.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
-    let model = arguments.dynamics.model(&layout).map_err(file_error(&arguments.layout))?;
+    let model = arguments.dynamics.choose(&layout, &arguments.layout)?.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")
     } else {

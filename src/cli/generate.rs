@@ -2,14 +2,12 @@
 
 use super::progress::spinner;
 use super::terminal::{note, print};
-use super::{CommandError, file_error, layout};
-use indicatif::ProgressBar;
+use super::{CommandError, derive, file_error, layout};
 use planar_capture::build::graph::GraphError;
 use planar_capture::build::{CModule, CText, Module, command};
-use planar_capture::generate::{self, GenerateError, Proved};
+use planar_capture::generate::{GenerateError, Proved};
 use planar_capture::layout::Layout;
 use planar_capture::output::atomic_file::write_text;
-use planar_capture::python_package::PYTHON_PACKAGE;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -151,14 +149,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         paths.iter().try_for_each(|path| check_overwrite(path))?;
     }
     let progress = spinner("starting Python");
-    let graph_text =
-        generate::derive(&layout, &arguments.derivatives(), PYTHON_PACKAGE, &mut |line| show(&progress, line))
-            .map_err(file_error(&arguments.layout))?;
-    progress.set_message("comparing with the generic implementation");
-    let Proved { graph, text, proof } = generate::complete(&graph_text, &layout).map_err(|source| {
-        let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
-        CommandError::File { file: arguments.layout.clone(), source: source.into(), exit_code }
-    })?;
+    let Proved { graph, text, proof } =
+        derive::proved(&layout, &arguments.derivatives(), &arguments.layout, &progress)?;
     progress.set_message("rendering");
     let (source, command) = origin(arguments, &layout);
     let unrendered = |problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem)));
@@ -184,15 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         write_text(path, text)?;
     }
     let (lines, shown) = (texts.iter().map(|text| text.lines().count()).sum::<usize>(), names(&paths));
-    print(&format!(
-        "{shown}: {}, {} degrees of freedom, {lines} lines\n\
-         {} results agree with the generic implementation at {} states (largest difference {:.0e} of the rounding bound)\n",
-        layout.name,
-        layout.joints() + 3,
-        proof.results,
-        proof.states,
-        proof.worst
-    ));
+    print(&format!("{shown}: {}, {} degrees of freedom, {lines} lines\n{proof}\n", layout.name, layout.joints() + 3));
     Ok(ExitCode::SUCCESS)
 }
 
@@ -251,13 +235,4 @@ fn check_overwrite(path: &Path) -> Result<(), CommandError> {
     }
     let message = format!("{file} already exists and was not generated: choose another file, or move it first");
     Err(CommandError::Usage(message))
-}
-
-/// Shows a line of the derivation's output; without a terminal only those about the environment, which takes minutes.
-fn show(progress: &ProgressBar, line: &str) {
-    if !progress.is_hidden() {
-        progress.set_message(line.to_owned());
-    } else if line.contains("environment") {
-        note(line);
-    }
 }

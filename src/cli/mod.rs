@@ -2,6 +2,7 @@
 
 mod check;
 mod compare;
+mod derive;
 mod dynamics;
 mod eval;
 mod export;
@@ -40,6 +41,7 @@ enum Command {
     Eval(eval::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
+    Derive(derive::Arguments),
     Check(check::Arguments),
     Import(import::Arguments),
     Export(export::Arguments),
@@ -126,6 +128,7 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments),
+        Command::Derive(arguments) => derive::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Import(arguments) => import::run(&arguments),
         Command::Export(arguments) => export::run(&arguments),

@@ -1,10 +1,10 @@
 //! `planar-capture run SCENARIO.toml`: simulates a scenario and writes its results.
 
+use super::CommandError;
 use super::dynamics::Dynamics;
 use super::optional_outputs::{self, file_per_case};
 use super::progress::{Display, Progress};
 use super::terminal::{note, print};
-use super::{CommandError, file_error};
 use planar_capture::capture::scenario_key::ScenarioKey;
 use planar_capture::capture::{Study, StudyError, study};
 use planar_capture::diagnostic::report_error;
@@ -36,7 +36,7 @@ pub struct Arguments {
     #[arg(long)]
     force: bool,
     /// The implementation of the dynamics.
-    #[arg(long, value_enum, default_value_t = Dynamics::Generated)]
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
     dynamics: Dynamics,
     /// Write report.html too: an animation with plots that opens in any browser, without a network.
     #[arg(long)]
@@ -59,7 +59,6 @@ fn positive(text: &str) -> Result<f64, String> {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
     let (scenario, source) = Scenario::read_with_source(&arguments.scenario, registry::SHIPPED)?;
-    let model = arguments.dynamics.model(&scenario.layout).map_err(file_error(&source.scenario.file))?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
     let keep = [&source.scenario.file, &source.layout.file].map(Path::new);
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &scenario.name);
@@ -69,6 +68,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
             "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
         ));
     }
+    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file)?;
+    let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
     progress.finish();
@@ -77,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let code = if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     let shown = folder.path().display().to_string();
     let manifest = RunManifest::new(&scenario, source, command());
-    let summary = summary(&scenario, arguments.dynamics.name(), &study, &manifest)
+    let summary = summary(&scenario, choice.engine.name(), &study, &manifest)
         .map_err(|source| CommandError::Numbers { file: arguments.scenario.display().to_string(), source })?;
     write_results(&folder, &scenario, arguments, &study, (&manifest, summary))?;
     print(&format!("{}\nResults in {shown}\n", table(&scenario, &study)));

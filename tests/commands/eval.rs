@@ -214,7 +214,7 @@ fn a_layout_without_generated_code_is_an_error_that_says_what_to_do() {
     let state = json!([{"base_pose": [0, 0, 0], "joint_angles": [0], "base_twist": [0, 0, 0], "joint_rates": [1]}]);
     let (code, results, problem) = eval(path, &state.to_string(), "generated");
     assert_eq!((code, results.len()), (2, 0));
-    for part in ["one_link", "python3 -m codegen", "--dynamics generic"] {
+    for part in ["one_link", "the generic implementation", "planar-capture generate"] {
         assert!(problem.contains(part), "{problem}");
     }
     let (code, results, problem) = eval(path, &state.to_string(), "generic");

@@ -71,7 +71,7 @@ pub fn without_python() -> bool {
 }
 
 /// The folder of the repository's own environments.
-fn environments() -> String {
+pub fn environments() -> String {
     let print = "from codegen import environment; print(environment.home())";
     let output = Command::new(python().expect("Python"))
         .args(["-c", print])

@@ -10,6 +10,7 @@ mod compare;
 mod derivation;
 mod derivatives;
 mod diagnostics;
+mod dynamics;
 mod eval;
 mod generate;
 mod hidden_characters;

@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::fmt::Debug;
 
 /// The format of the graphs that are read.
-const FORMAT: u64 = 2;
+pub const FORMAT: u64 = 2;
 
 /// Why a graph cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

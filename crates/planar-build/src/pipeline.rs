@@ -3,6 +3,7 @@
 use crate::graph::{self, Graph};
 use crate::renderer::Module;
 use planar_layout::layout::Layout;
+use planar_layout::structure::Structure;
 use std::fs;
 use std::path::Path;
 
@@ -28,8 +29,8 @@ fn features() -> Vec<String> {
     names
 }
 
-/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them and
-/// `package.rs` that lists the derivation's Python files.
+/// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them,
+/// `graphs.rs` that lists all graphs, and `package.rs` that lists the derivation's Python files.
 ///
 /// # Errors
 /// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
@@ -51,7 +52,27 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
     let (enabled, disabled) = (enabled.join(", "), disabled.join(", "));
     write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))?;
     let package = self::names(codegen, "py")?.join("\", \"");
-    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))
+    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))?;
+    write(&out.join("graphs.rs"), &carried(codegen)?)
+}
+
+/// What a program needs to know of each graph that it carries before it reads it: name, folder, and structure.
+fn carried(codegen: &Path) -> Result<String, String> {
+    let mut text = "graphs! {\n".to_owned();
+    for (layouts, graphs) in [("layouts", "graphs"), ("structures", "structures")] {
+        for name in names(&codegen.join(layouts), "toml")? {
+            let [layout, graph] = [(layouts, "toml"), (graphs, "json")]
+                .map(|(folder, extension)| codegen.join(format!("{folder}/{name}.{extension}")));
+            let (_, value) = fresh(&layout, &graph, &format!("python -m codegen {name}"))?;
+            let structure = graph::structure(&value).map_err(|e| format!("{}: {e}", graph.display()))?;
+            let parameters: Vec<_> =
+                structure.parameters.iter().map(|(kind, arm, link)| format!("({kind:?}, {arm}, {link})")).collect();
+            let Structure { links, needs_distinct_mounts, .. } = &structure;
+            text +=
+                &format!("    {name} in {graphs}: {links:?}, [{}], {needs_distinct_mounts};\n", parameters.join(", "));
+        }
+    }
+    Ok(text + "}\n")
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.

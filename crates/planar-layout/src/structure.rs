@@ -48,6 +48,14 @@ impl From<&Manifest> for Structure {
     }
 }
 
+/// What two layouts of one structure share, as a text: links, exact zeros, and whether the first mounts coincide.
+#[must_use]
+pub fn fingerprint(layout: &Layout) -> String {
+    let numbers = layout.parameters();
+    let zeros = numbers.iter().map(|(kind, arm, link, value)| format!("{kind:?} {arm} {link} {}\n", *value == 0.0));
+    zeros.chain([format!("one mount {}\n", first_mounts_coincide(layout))]).collect()
+}
+
 /// The layout's numbers in the order of a structure's parameters.
 ///
 /// # Errors

@@ -23,7 +23,8 @@ impl Merge<f64> for GraphModel {
             let last = self.evaluator().structure().links[arm].saturating_sub(1);
             let place = |kind| self.position(kind, arm, last);
             let [mass, inertia, x, y] = [place(LinkMass)?, place(LinkInertia)?, place(LinkComX)?, place(LinkComY)?];
-            let before = target::LinkInertia { mass: values[mass], inertia: values[inertia], com: [values[x], values[y]] };
+            let before =
+                target::LinkInertia { mass: values[mass], inertia: values[inertia], com: [values[x], values[y]] };
             let after = target.merged_link(&before, values[place(LinkLength)?], end_effector[0]);
             (values[mass], values[inertia]) = (after.mass, after.inertia);
             [values[x], values[y]] = after.com;

@@ -60,7 +60,8 @@ impl Evaluator {
         }
         let program = values.extend(statements).and_then(|()| {
             let named = |constant: &Variable| Operand::Name(constant.name.clone());
-            let outputs = constants.iter().map(|constant| values.operand(&named(constant))).collect::<Result<Vec<_>, _>>();
+            let outputs =
+                constants.iter().map(|constant| values.operand(&named(constant))).collect::<Result<Vec<_>, _>>();
             Program::new(&values, graph.parameters.len(), &outputs?)
         });
         let constants = program.map_err(GraphError::Format)?;
@@ -68,7 +69,8 @@ impl Evaluator {
         let functions = Functions::new(&structure, &mut |name, inputs, outputs| {
             let index = compiled;
             compiled += 1;
-            Function::new(graph, (name, index), inputs, outputs).map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
+            Function::new(graph, (name, index), inputs, outputs)
+                .map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
         })?;
         Ok(Self { name: graph.layout.name.clone(), structure, constants, functions })
     }
@@ -135,7 +137,9 @@ impl GraphModel {
 
     /// Calls a function; `read` takes what it wants of the results.
     pub(super) fn call<R>(&self, function: &Function, inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
-        run(&function.program, &self.constants[function.index], inputs, |registers| read(&Results { function, registers }))
+        run(&function.program, &self.constants[function.index], inputs, |registers| {
+            read(&Results { function, registers })
+        })
     }
 }
 
@@ -173,14 +177,20 @@ impl Results<'_> {
 }
 
 impl Function {
-    fn new(graph: &Graph, (name, index): (&str, usize), inputs: &[&str], outputs: &[(&str, usize)]) -> Result<Self, String> {
+    fn new(
+        graph: &Graph,
+        (name, index): (&str, usize),
+        inputs: &[&str],
+        outputs: &[(&str, usize)],
+    ) -> Result<Self, String> {
         let functions = |family: &Family| family.functions.iter().position(|function| function.name == name);
         let found = graph.families.iter().find_map(|family| Some((family, &family.functions[functions(family)?])));
         let (family, function) = found.ok_or("it is missing")?;
         if function.inputs != inputs {
             return Err(format!("it has the inputs {}, expected {}", function.inputs.join(", "), inputs.join(", ")));
         }
-        let found: Vec<_> = function.outputs.iter().map(|output| (output.name.as_str(), output.elements.len())).collect();
+        let found: Vec<_> =
+            function.outputs.iter().map(|output| (output.name.as_str(), output.elements.len())).collect();
         if found != outputs {
             return Err(format!("it has the outputs {found:?}, expected {outputs:?}"));
         }
@@ -191,7 +201,8 @@ impl Function {
         }
         let mut elements = 0;
         for input in inputs {
-            let shape = graph.inputs.iter().find(|declared| declared.name == *input).map_or(&[][..], |found| &found.shape);
+            let shape =
+                graph.inputs.iter().find(|declared| declared.name == *input).map_or(&[][..], |found| &found.shape);
             let names: Vec<String> = match shape {
                 [] => vec![(*input).to_owned()],
                 [count] => (0..*count).map(|i| format!("{input}[{i}]")).collect(),

@@ -75,9 +75,8 @@ fn uses(values: &Values, outputs: &[usize]) -> Vec<usize> {
 
 /// The steps in which all values that are needed are computed; products that only one sum uses are part of it.
 fn steps(values: &Values, uses: &[usize]) -> Vec<Step> {
-    let is_product = |index: usize| {
-        uses[index] == 1 && matches!(values.all[index], Value::Result { operation: Operation::Mul, .. })
-    };
+    let is_product =
+        |index: usize| uses[index] == 1 && matches!(values.all[index], Value::Result { operation: Operation::Mul, .. });
     let mut absorbed = vec![false; values.all.len()];
     let mut steps = Vec::new();
     for (value, found) in values.all.iter().enumerate() {

@@ -19,7 +19,11 @@ pub(super) enum Value {
     /// An element of the inputs, which are one after the other.
     Input(usize),
     /// Of an operation. A sine is followed by its cosine, which is a result of the same operation.
-    Result { operation: Operation, a: usize, b: Option<usize> },
+    Result {
+        operation: Operation,
+        a: usize,
+        b: Option<usize>,
+    },
     /// The cosine after a sine.
     Cosine,
 }

@@ -86,8 +86,11 @@ pub fn derive(
     fs::read_to_string(&graph).map_err(|source| DerivationError::File { path: graph, source })
 }
 
-/// Where package and environment are kept: `$PLANAR_CAPTURE_HOME`, else the user's folder for caches.
-fn home() -> Result<PathBuf, DerivationError> {
+/// Where package, environment and graphs are kept: `$PLANAR_CAPTURE_HOME`, else the user's folder for caches.
+///
+/// # Errors
+/// [`DerivationError::NoHome`].
+pub fn home() -> Result<PathBuf, DerivationError> {
     if let Some(chosen) = env::var_os("PLANAR_CAPTURE_HOME").filter(|chosen| !chosen.is_empty()) {
         return Ok(PathBuf::from(chosen));
     }
@@ -96,11 +99,16 @@ fn home() -> Result<PathBuf, DerivationError> {
     Ok(etcetera::BaseStrategy::cache_dir(&strategy).join("planar-capture"))
 }
 
+/// What changes with the text of the package.
+#[must_use]
+pub fn package_hash(files: &[(&str, &str)]) -> String {
+    let all: Vec<String> = files.iter().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
+    sha256(&all.concat())
+}
+
 /// The folder that holds the package `codegen`; its name changes with the text of the package.
 fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationError> {
-    let all: Vec<String> = files.iter().map(|(name, text)| format!("{name} {}\n{text}", text.len())).collect();
-    let hash = sha256(&all.concat());
-    let place = home.join(format!("codegen-{hash:.16}"));
+    let place = home.join(format!("codegen-{:.16}", package_hash(files)));
     if place.join("codegen").is_dir() {
         return Ok(place);
     }

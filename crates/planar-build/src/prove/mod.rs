@@ -13,7 +13,7 @@ pub mod quantities;
 pub mod sampling;
 mod vectors;
 
-pub use derivation::{DerivationError, derive};
+pub use derivation::{DerivationError, derive, home, package_hash};
 
 use crate::format::{FunctionResult, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
@@ -24,6 +24,7 @@ use interpreter::interpret;
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
 use serde_json::json;
+use std::fmt;
 use vectors::{direction, reference_state};
 
 /// States of each regime that a graph is proved at.
@@ -76,6 +77,17 @@ pub struct Proof {
     pub results: usize,
     /// Largest difference over what is allowed: at most 1.
     pub worst: f64,
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { states, results, worst } = self;
+        write!(
+            f,
+            "{results} results agree with the generic implementation at {states} states (largest difference {worst:.0e} of \
+             the rounding bound)"
+        )
+    }
 }
 
 /// A graph with its proof.

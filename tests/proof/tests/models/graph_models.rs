@@ -21,9 +21,13 @@ fn evaluator(name: &str) -> Arc<Evaluator> {
 }
 
 /// The bits of every quantity, or the error.
-fn bits(model: &dyn CloneModel, instant: &planar_capture::evaluation::EvaluationInput) -> Result<Vec<Vec<u64>>, String> {
+fn bits(
+    model: &dyn CloneModel,
+    instant: &planar_capture::evaluation::EvaluationInput,
+) -> Result<Vec<Vec<u64>>, String> {
     let values = evaluate_all(model, instant).map_err(|error| format!("{error:?}"))?;
-    let of = |quantity: &Quantity| values.get(*quantity).unwrap_or_default().iter().map(|value| value.to_bits()).collect();
+    let of =
+        |quantity: &Quantity| values.get(*quantity).unwrap_or_default().iter().map(|value| value.to_bits()).collect();
     Ok(Quantity::ALL.iter().map(of).collect())
 }
 
@@ -40,8 +44,9 @@ fn graphs_have_the_bits_of_their_code() {
                 let code = registry::generated(&sample.layout).expect("its code");
                 let graph = evaluator.model(&sample.layout).expect("its structure");
                 let (code, graph) = (bits(&*code, &sample.instant), bits(&graph, &sample.instant));
-                for (quantity, (code, graph)) in
-                    Quantity::ALL.iter().zip(code.as_deref().unwrap_or_default().iter().zip(graph.as_deref().unwrap_or_default()))
+                for (quantity, (code, graph)) in Quantity::ALL
+                    .iter()
+                    .zip(code.as_deref().unwrap_or_default().iter().zip(graph.as_deref().unwrap_or_default()))
                 {
                     assert_eq!(code, graph, "{name}, {quantity:?}, {regime:?} {index}");
                 }

@@ -1,0 +1,68 @@
+//! `planar-capture derive LAYOUT.toml`: derives a layout into the user's cache folder.
+
+use super::progress::spinner;
+use super::terminal::{note, print};
+use super::{CommandError, file_error, layout};
+use indicatif::ProgressBar;
+use planar_capture::generate::{self, GenerateError, Proof, Proved};
+use planar_capture::graphs::cache_path;
+use planar_capture::layout::Layout;
+use planar_capture::output::atomic_file::{create_folder, write_text};
+use planar_capture::python_package::PYTHON_PACKAGE;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Derive the equations of a layout into your cache folder, where `run`, `eval` and `compare` find them.
+///
+/// They serve every layout of the same arms, links and exact zeros. The first run makes a Python environment with CasADi
+/// in the same folder (Python 3.11 or newer, network); later ones use it. The derived functions are compared with the
+/// generic implementation before they are kept.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The layout: a path, or the name of a shipped one.
+    layout: String,
+}
+
+/// Derives the graph, proves it, and keeps it.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout)?;
+    let (path, proof) = into_cache(&layout, &arguments.layout)?;
+    print(&format!(
+        "{}: the graph of {}, {} degrees of freedom\n{proof}\n",
+        path.display(),
+        layout.name,
+        layout.joints() + 3
+    ));
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Derives the graph of a layout, which is in `file`, and keeps it in the user's cache folder.
+pub fn into_cache(layout: &Layout, file: &str) -> Result<(PathBuf, Proof), CommandError> {
+    let path = cache_path(layout).map_err(file_error(file))?;
+    let progress = spinner("starting Python");
+    let Proved { text, proof, .. } = proved(layout, &[], file, &progress)?;
+    progress.finish_and_clear();
+    create_folder(path.parent().unwrap_or(Path::new(".")))?;
+    write_text(&path, &text)?;
+    Ok((path, proof))
+}
+
+/// Derives the graph of a layout, which is in `file`, and proves it.
+pub fn proved(layout: &Layout, options: &[String], file: &str, progress: &ProgressBar) -> Result<Proved, CommandError> {
+    let text = generate::derive(layout, options, PYTHON_PACKAGE, &mut |line| show(progress, line));
+    let text = text.map_err(file_error(file))?;
+    progress.set_message("comparing with the generic implementation");
+    generate::complete(&text, layout).map_err(|source| {
+        let exit_code = if matches!(source, GenerateError::Disagreement { .. }) { 1 } else { 2 };
+        CommandError::File { file: file.to_owned(), source: source.into(), exit_code }
+    })
+}
+
+/// Shows a line of the derivation's output; without a terminal only those about the environment, which takes minutes.
+fn show(progress: &ProgressBar, line: &str) {
+    if !progress.is_hidden() {
+        progress.set_message(line.to_owned());
+    } else if line.contains("environment") {
+        note(line);
+    }
+}

@@ -1,0 +1,93 @@
+//! The implementation of the dynamics that a layout is computed with.
+
+use crate::evaluator::Evaluator;
+use crate::graphs::{self, FoundGraph, NoGraph};
+use crate::layout::Layout;
+use crate::owned::CloneModel;
+use crate::registry::{self, NoModel};
+use std::sync::Arc;
+
+/// Implementations of the dynamics, the fastest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Code that was generated for the layout's structure and compiled.
+    Generated,
+    /// The graph that such code would be rendered from, evaluated.
+    Graph,
+    /// From the equations, for any layout, slowly.
+    Generic,
+}
+
+impl Engine {
+    /// As in the summary.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Generated => "generated",
+            Self::Graph => "graph",
+            Self::Generic => "generic",
+        }
+    }
+}
+
+/// What computes a structure of layouts.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// How it computes.
+    pub engine: Engine,
+    /// Which code or graph that is, in words.
+    pub origin: String,
+    /// With [`Engine::Graph`].
+    evaluator: Option<Arc<Evaluator>>,
+}
+
+impl Choice {
+    /// Compiled code of the layout's structure, else a graph of it, else the generic implementation; and why a graph that
+    /// is there cannot be used.
+    #[must_use]
+    pub fn fastest(layout: &Layout) -> (Self, Option<NoGraph>) {
+        if let Ok(choice) = Self::generated(layout) {
+            return (choice, None);
+        }
+        match Self::graph(layout) {
+            Ok(choice) => (choice, None),
+            Err(NoGraph::Missing { .. }) => (Self::generic(), None),
+            Err(why) => (Self::generic(), Some(why)),
+        }
+    }
+
+    /// Compiled code of the layout's structure.
+    ///
+    /// # Errors
+    /// [`NoModel`].
+    pub fn generated(layout: &Layout) -> Result<Self, NoModel> {
+        let origin = format!("compiled code of `{}`", registry::manifest(layout)?.name);
+        Ok(Self { engine: Engine::Generated, origin, evaluator: None })
+    }
+
+    /// A graph of the layout's structure.
+    ///
+    /// # Errors
+    /// [`NoGraph`].
+    pub fn graph(layout: &Layout) -> Result<Self, NoGraph> {
+        let FoundGraph { evaluator, origin } = graphs::find(layout)?;
+        Ok(Self { engine: Engine::Graph, origin, evaluator: Some(evaluator) })
+    }
+
+    /// The generic implementation.
+    #[must_use]
+    pub fn generic() -> Self {
+        Self { engine: Engine::Generic, origin: "for any layout".to_owned(), evaluator: None }
+    }
+
+    /// The model of a layout of the structure; the generic one of another layout.
+    #[must_use]
+    pub fn model(&self, layout: &Layout) -> Box<dyn CloneModel> {
+        let model = match (self.engine, &self.evaluator) {
+            (Engine::Generated, _) => registry::generated(layout).ok(),
+            (Engine::Graph, Some(evaluator)) => evaluator.model(layout).ok().map(|model| Box::new(model) as Box<_>),
+            _ => None,
+        };
+        model.unwrap_or_else(|| registry::generic(layout))
+    }
+}

@@ -1,0 +1,127 @@
+//! The graphs that the program carries, and those that were derived into the user's cache folder.
+
+use crate::generate::{DerivationError, home, package_hash};
+use crate::layout::{Layout, sha256};
+use crate::manifest::ParameterKind::{
+    self, BaseInertia, BaseMass, LinkComX, LinkComY, LinkInertia, LinkLength, LinkMass, MountAngle, MountX, MountY,
+};
+use crate::python_package::PYTHON_PACKAGE;
+use crate::structure::{Structure, fingerprint, in_words, parameters};
+use planar_build::evaluator::Evaluator;
+use planar_build::graph;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::{fs, io};
+
+/// A graph that the program carries.
+struct Carried {
+    name: &'static str,
+    links: &'static [usize],
+    parameters: &'static [(ParameterKind, usize, usize)],
+    needs_distinct_mounts: bool,
+    text: &'static str,
+}
+
+macro_rules! graphs {
+    ($($name:ident in $folder:ident: $links:tt, $parameters:tt, $distinct:literal;)*) => {
+        const CARRIED: &[Carried] = &[$(Carried {
+            name: stringify!($name),
+            links: &$links,
+            parameters: &$parameters,
+            needs_distinct_mounts: $distinct,
+            text: include_str!(concat!(
+                env!("CARGO_MANIFEST_DIR"), "/codegen/", stringify!($folder), "/", stringify!($name), ".json"
+            )),
+        }),*];
+    };
+}
+
+include!(concat!(env!("OUT_DIR"), "/graphs.rs"));
+
+/// No graph can be evaluated for a layout.
+#[derive(Debug, thiserror::Error)]
+pub enum NoGraph {
+    /// None has its structure.
+    #[error(
+        "no graph has the structure of layout `{layout}` ({structure}): `planar-capture derive LAYOUT` derives one"
+    )]
+    Missing {
+        /// The layout's name.
+        layout: String,
+        /// Its structure in words.
+        structure: String,
+    },
+    /// The one in the cache folder cannot be used.
+    #[error("{path}: {problem}; `planar-capture derive LAYOUT` derives it again", path = path.display())]
+    Unusable {
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+}
+
+/// The programs of a graph, and which graph that is.
+#[derive(Clone, Debug)]
+pub struct FoundGraph {
+    /// For all layouts of the structure.
+    pub evaluator: Arc<Evaluator>,
+    /// In words.
+    pub origin: String,
+}
+
+/// The graph of a layout's structure: the one in the user's cache folder, else of those that the program carries the one
+/// with the fewest parameters.
+///
+/// # Errors
+/// [`NoGraph`].
+pub fn find(layout: &Layout) -> Result<FoundGraph, NoGraph> {
+    if let Some(found) = cached(layout)? {
+        return Ok(found);
+    }
+    let fits = |carried: &&Carried| parameters(&carried.structure(), layout).is_ok();
+    let best = CARRIED.iter().filter(fits).min_by_key(|carried| carried.parameters.len());
+    let missing = || NoGraph::Missing { layout: layout.name.clone(), structure: in_words(layout) };
+    let Carried { name, text, .. } = best.ok_or_else(missing)?;
+    let unusable = |problem| NoGraph::Unusable { path: PathBuf::from(name), problem };
+    Ok(FoundGraph { evaluator: evaluator(text, layout).map_err(unusable)?, origin: format!("the graph `{name}`") })
+}
+
+impl Carried {
+    fn structure(&self) -> Structure {
+        let Self { links, parameters, needs_distinct_mounts, .. } = *self;
+        Structure { links: links.to_vec(), parameters: parameters.to_vec(), needs_distinct_mounts }
+    }
+}
+
+fn cached(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
+    // without a cache folder there is nothing in it
+    let Ok(path) = cache_path(layout) else { return Ok(None) };
+    let unusable = |problem| NoGraph::Unusable { path: path.clone(), problem };
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(unusable(error.to_string())),
+    };
+    let origin = "the graph derived for its structure".to_owned();
+    Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin }))
+}
+
+/// The evaluator of a graph that is to have the layout's structure.
+fn evaluator(text: &str, layout: &Layout) -> Result<Arc<Evaluator>, String> {
+    let evaluator =
+        graph::read_any(text).and_then(|graph| Evaluator::new(&graph)).map_err(|error| error.to_string())?;
+    match parameters(evaluator.structure(), layout) {
+        Ok(_) => Ok(Arc::new(evaluator)),
+        Err(_) => Err("it is of another structure".to_owned()),
+    }
+}
+
+/// Where the graph of a layout's structure is kept, of this version of the derivation and of the format of graphs.
+///
+/// # Errors
+/// [`DerivationError::NoHome`].
+pub fn cache_path(layout: &Layout) -> Result<PathBuf, DerivationError> {
+    let key = format!("{}\n{}\n{}", graph::FORMAT, package_hash(PYTHON_PACKAGE), fingerprint(layout));
+    Ok(home()?.join("graphs").join(format!("{:.32}.json", sha256(&key))))
+}

@@ -1,0 +1,151 @@
+//! Which implementation computes a layout: compiled code, a graph that is carried or derived, or the generic one.
+
+use crate::command;
+use crate::generate::{environments, without_python};
+use planar_proof::{file, said};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A robot with arms of so many links and no exact zero, in a folder, with a short motion of it.
+fn robot(folder: &Path, links: &[usize]) -> PathBuf {
+    let mut text = "name = 'robot'\n[base]\nmass = 50.0\ninertia = 5.0\n".to_owned();
+    for (arm, links) in links.iter().enumerate() {
+        text += &format!("[[arm]]\nname = 'a{arm}'\nmount = [{}, 0.1]\nmount_angle = 0.2\n", 0.3 - arm as f64);
+        text += &"[[arm.link]]\nlength = 0.5\nmass = 2.0\ninertia = 0.1\ncom = [0.2, 0.01]\n".repeat(*links);
+    }
+    fs::write(folder.join("robot.toml"), text).expect("written");
+    let angles = vec!["0.4"; links.iter().sum()].join(", ");
+    let scenario = folder.join("motion.toml");
+    let text = format!(
+        "name = 'motion'\nlayout = 'robot.toml'\n[initial]\njoint_angles = [{angles}]\nbase_twist = [0.1, 0.0, 0.2]\n\
+         [approach]\nduration = 1.0\nstep = 0.01\nintegrator = 'rk4'\ntrajectory = 'cycloidal'\n\
+         final_joint_angles = [{}]\ntracking = 'exact'\n",
+        angles.replace("0.4", "0.7")
+    );
+    fs::write(&scenario, text).expect("written");
+    scenario
+}
+
+/// Exit code, messages, and summary of a run with a cache folder of its own.
+fn run(scenario: &Path, cache: &Path, more: &[&str]) -> (i32, String, Value) {
+    let folder = TempDir::new().expect("a folder");
+    let out = folder.path().join("results");
+    let mut command = command();
+    command.env("PLANAR_CAPTURE_HOME", cache).arg("run").arg(scenario).arg("--out").arg(&out).args(more);
+    let (code, _, err) = said(command.output().expect("it runs"));
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap_or_else(|_| "null".to_owned());
+    (code, err, serde_json::from_str(&summary).expect("JSON"))
+}
+
+#[test]
+fn a_shipped_robot_runs_by_its_compiled_code() {
+    let cache = TempDir::new().expect("a folder");
+    let (code, err, summary) = run(&file("scenarios/redysim_single_arm_3r.toml"), cache.path(), &[]);
+    assert_eq!((code, &summary["dynamics"]), (0, &Value::from("generated")));
+    assert_eq!(err, "dynamics: generated, compiled code of `single_arm_3r`\n");
+    // what is asked for needs no line
+    let scenario = file("scenarios/redysim_single_arm_3r.toml");
+    assert_eq!(run(&scenario, cache.path(), &["--dynamics", "generated"]).1, "");
+}
+
+/// The same motion by graph and by the generic implementation, which the line and the summary name.
+#[test]
+fn most_robots_run_by_a_graph_that_is_carried() {
+    for links in [&[2][..], &[3], &[2, 2], &[3, 3], &[2, 2, 2], &[3, 3, 3]] {
+        let folder = TempDir::new().expect("a folder");
+        let scenario = robot(folder.path(), links);
+        let (code, err, by_graph) = run(&scenario, folder.path(), &[]);
+        assert_eq!((code, &by_graph["dynamics"]), (0, &Value::from("graph")), "{err}");
+        let (arms, links) = (links.len(), links[0]);
+        assert!(
+            err.starts_with(&format!("dynamics: graph, the graph `general_{arms}x{links}`; compiled code")),
+            "{err}"
+        );
+        let (code, err, generic) = run(&scenario, folder.path(), &["--dynamics", "generic"]);
+        assert_eq!((code, err.as_str(), &generic["dynamics"]), (0, "", &Value::from("generic")));
+        let yaw = |summary: &Value| summary["cases"][0]["approach"]["base_pose"][0].as_f64().expect("a number");
+        assert!((yaw(&by_graph) - yaw(&generic)).abs() < 1e-10, "{} {}", yaw(&by_graph), yaw(&generic));
+    }
+}
+
+#[test]
+fn a_paper_robot_with_another_mount_runs_like_any_other() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    assert!(text.contains("mount = [0.5, 0.0]"), "{text}");
+    fs::write(folder.path().join("other.toml"), text.replace("mount = [0.5, 0.0]", "mount = [0.5, 0.1]"))
+        .expect("written");
+    let scenario = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
+    assert!(scenario.contains("layout = \"dual_arm_3r\""), "{scenario}");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, scenario.replace("\"dual_arm_3r\"", "\"other.toml\"")).expect("written");
+    let (code, err, summary) = run(&path, folder.path(), &[]);
+    assert_eq!((code, &summary["dynamics"]), (0, &Value::from("graph")), "{err}");
+}
+
+#[test]
+fn a_structure_without_a_graph_runs_by_the_generic_implementation() {
+    let folder = TempDir::new().expect("a folder");
+    let scenario = robot(folder.path(), &[3, 2]);
+    let (code, err, summary) = run(&scenario, folder.path(), &[]);
+    assert_eq!((code, &summary["dynamics"]), (0, &Value::from("generic")), "{err}");
+    assert!(err.starts_with("dynamics: generic") && err.contains("planar-capture derive LAYOUT"), "{err}");
+    let (code, err, _) = run(&scenario, folder.path(), &["--dynamics", "graph"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("no graph has the structure of layout `robot` (2 arms of 3 + 2 links"), "{err}");
+    let (code, err, _) = run(&scenario, folder.path(), &["--dynamics", "generated"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("no generated code in this build has the structure of layout `robot`"), "{err}");
+}
+
+/// Once derived it serves other numbers and names, not another structure; a file that is no graph of it is not used.
+#[test]
+fn a_derived_graph_serves_its_structure() {
+    if without_python() {
+        return;
+    }
+    let folder = TempDir::new().expect("a folder");
+    let (scenario, layout) = (robot(folder.path(), &[3, 2]), folder.path().join("robot.toml"));
+    let derive = || {
+        let mut command = command();
+        command.env("PLANAR_CAPTURE_HOME", folder.path()).arg("derive").arg(&layout);
+        command.env("PLANAR_CAPTURE_ENVIRONMENTS", environments());
+        said(command.output().expect("it runs"))
+    };
+    let (code, out, err) = derive();
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(
+        out.contains(": the graph of robot, 8 degrees of freedom\n") && out.contains("agree with the generic"),
+        "{out}"
+    );
+    let text = fs::read_to_string(&layout).expect("a layout");
+    for (from, to) in [("mass = 2.0", "mass = 3.0"), ("name = 'a0'", "name = 'left'"), ("mass = 50.0", "mass = 70.0")] {
+        fs::write(&layout, text.replace(from, to)).expect("written");
+        let (code, err, summary) = run(&scenario, folder.path(), &[]);
+        assert_eq!((code, &summary["dynamics"]), (0, &Value::from("graph")), "{err}");
+        assert!(err.starts_with("dynamics: graph, the graph derived for its structure"), "{err}");
+    }
+    fs::write(&layout, text.replace("mount_angle = 0.2\n", "")).expect("written");
+    assert_eq!(run(&scenario, folder.path(), &[]).2["dynamics"], "generic", "other zeros");
+    fs::write(&layout, &text).expect("written");
+    let graphs = fs::read_dir(folder.path().join("graphs")).expect("a folder");
+    let [graph] =
+        <[_; 1]>::try_from(graphs.map(|entry| entry.expect("a file").path()).collect::<Vec<_>>()).expect("one");
+    let whole = fs::read_to_string(&graph).expect("a graph");
+    let carried = fs::read_to_string(file("codegen/structures/general_2x3.json")).expect("a graph");
+    for (found, problem) in [(&whole[..1000], "not JSON"), (&carried, "another structure")] {
+        fs::write(&graph, found).expect("written");
+        let (code, err, summary) = run(&scenario, folder.path(), &[]);
+        assert_eq!((code, &summary["dynamics"]), (0, &Value::from("generic")), "{err}");
+        assert!(
+            err.starts_with("warning: ") && err.contains(problem) && err.contains("planar-capture derive"),
+            "{err}"
+        );
+        let (code, err, _) = run(&scenario, folder.path(), &["--dynamics", "graph"]);
+        assert!(code == 2 && err.contains(problem) && err.contains(".json"), "{err}");
+    }
+    assert_eq!(derive().0, 0);
+    assert_eq!(fs::read_to_string(&graph).expect("a graph"), whole, "derived again");
+}
