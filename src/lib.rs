@@ -49,9 +49,9 @@
 //! # Features
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
-//! other crates, `urdf` layouts from URDF files and back, `cli` (the default) the command line, `figures` figures as
-//! SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun, `lanes` SIMD lanes as
-//! scalars, `batch` many instances at once.
+//! other crates, `urdf` layouts from URDF files and back, `fmu` FMUs for co-simulation, `cli` (the default) the command
+//! line, `figures` figures as SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun,
+//! `lanes` SIMD lanes as scalars, `batch` many instances at once.
 //!
 //! # Example
 //! ```
@@ -135,6 +135,8 @@ pub mod compare;
 pub mod engine;
 #[cfg(feature = "std")]
 pub mod eval;
+#[cfg(feature = "fmu")]
+pub mod fmu;
 #[cfg(feature = "std")]
 pub mod frames;
 #[cfg(feature = "std")]

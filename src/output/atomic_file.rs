@@ -71,6 +71,14 @@ fn folder_of(path: &Path) -> &Path {
 /// # Errors
 /// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
 pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// As [`write_text`], for what is no text.
+///
+/// # Errors
+/// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     sweep(folder_of(path));
-    StagedFile::new(path, |to| to.write_all(text.as_bytes()))?.commit()
+    StagedFile::new(path, |to| to.write_all(bytes))?.commit()
 }

@@ -18,4 +18,4 @@ pub mod prove;
 
 pub use command::{command, options, quoted};
 pub use layouts::{BuildError, render, render_to, verify};
-pub use renderer::{CModule, CText, Module};
+pub use renderer::{CModule, CText, CoSimulation, CoSimulationVariable, Module, Role};

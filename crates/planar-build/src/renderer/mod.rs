@@ -9,7 +9,7 @@ mod statements;
 mod syntax;
 mod wrap;
 
-pub use c::{CModule, CText};
+pub use c::{CModule, CText, CoSimulation, CoSimulationVariable, Role};
 
 use crate::format::{Family, Function, Graph, Parameter, ReferenceState, Variable};
 use composites::{merged_links, steps};
@@ -22,7 +22,7 @@ use syntax::Syntax;
 use tera::{Context, Tera};
 
 /// The templates, by the names under which they include each other.
-const TEMPLATES: [(&str, &str); 10] = [
+const TEMPLATES: [(&str, &str); 12] = [
     ("header", include_str!("../../templates/header.tera")),
     ("module.rs", include_str!("../../templates/module.rs.tera")),
     ("model.rs", include_str!("../../templates/model.rs.tera")),
@@ -33,6 +33,8 @@ const TEMPLATES: [(&str, &str); 10] = [
     ("arithmetic.c", include_str!("../../templates/arithmetic.c.tera")),
     ("steps.c", include_str!("../../templates/steps.c.tera")),
     ("self_test.c", include_str!("../../templates/self_test.c.tera")),
+    ("robot.h", include_str!("../../templates/robot.h.tera")),
+    ("robot.c", include_str!("../../templates/robot.c.tera")),
 ];
 
 /// The form of the module that is rendered from a graph.

@@ -1,8 +1,11 @@
 //! Renders a graph as C99: a source file and its header, which contain all that they need.
 
+mod co_simulation;
 mod names;
 mod self_test;
 mod sine;
+
+pub use co_simulation::{CoSimulation, CoSimulationVariable, Role};
 
 use super::composites::{merged_links, steps};
 use super::needed::needed;

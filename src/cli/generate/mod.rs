@@ -1,10 +1,13 @@
-//! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module, in Rust or C.
+//! `planar-capture generate LAYOUT.toml --out FILE.rs`: derives a layout and writes its module, in Rust or C, or its FMU.
+
+mod fmu;
 
 use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
-use planar_capture::build::graph::GraphError;
+use planar_capture::build::graph::{Graph, GraphError};
 use planar_capture::build::{CModule, CText, Module, command};
+use planar_capture::fmu::{Fmu, archive};
 use planar_capture::generate::{GenerateError, Proved};
 use planar_capture::layout::Layout;
 use planar_capture::output::atomic_file::write_text;
@@ -13,9 +16,10 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Derive the equations of a layout and write them as a module in Rust or C for your own program or firmware.
+/// Derive the equations of a layout and write them as a module in Rust or C for your own program or firmware, or as an
+/// FMU for other simulators.
 ///
-/// docs/c.md describes the modules in C.
+/// docs/c.md describes the modules in C, docs/fmu.md the FMU.
 ///
 /// The first run makes a Python environment with CasADi in the user's cache folder (Python 3.11 or newer, network);
 /// later ones use it. The derived functions are compared with the generic implementation before a file is written.
@@ -23,13 +27,17 @@ use std::process::ExitCode;
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
-    /// What to write: FILE.rs for the module, FILE.c (with FILE.h beside it) for that in C, FILE.json for the expression
-    /// graph that build scripts render.
+    /// What to write: FILE.rs for the module, FILE.c (with FILE.h beside it) for that in C, FILE.fmu for the FMU, FILE.json
+    /// for the expression graph that build scripts render.
     #[arg(long, value_name = "FILE", value_parser = output)]
     out: PathBuf,
     /// The language of the module.
     #[arg(long, value_enum, default_value_t = Language::Rust)]
     language: Language,
+    /// An FMU for co-simulation by FMI 3.0, with its sources in C, and a binary for this machine where there is a C compiler
+    /// (`cc`, or what the variable `CC` names).
+    #[arg(long)]
+    fmu: bool,
     /// A module without dependencies, not even on planar-capture's core.
     #[arg(long)]
     standalone: bool,
@@ -59,10 +67,11 @@ const MATRICES: [&str; 2] = ["forward_dynamics", "impact"];
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    if ["rs", "c", "json"].iter().any(|extension| has_extension(&path, extension)) {
+    if ["rs", "c", "fmu", "json"].iter().any(|extension| has_extension(&path, extension)) {
         Ok(path)
     } else {
-        Err("expected a file that ends in `.rs` or `.c` (the module) or `.json` (the graph)".to_owned())
+        Err("expected a file that ends in `.rs` or `.c` (the module), `.fmu` (the FMU) or `.json` (the graph)"
+            .to_owned())
     }
 }
 
@@ -102,12 +111,14 @@ impl Arguments {
     /// All that says what is generated.
     fn options(&self) -> Vec<String> {
         let language = (self.language == Language::C).then_some(["--language", "c"].map(str::to_owned));
-        let standalone = self.standalone.then(|| "--standalone".to_owned());
-        language.into_iter().flatten().chain(standalone).chain(self.derivatives()).collect()
+        let flags = [(self.standalone, "--standalone"), (self.fmu, "--fmu")];
+        let flags = flags.into_iter().filter(|(is_set, _)| *is_set).map(|(_, flag)| flag.to_owned());
+        language.into_iter().flatten().chain(flags).chain(self.derivatives()).collect()
     }
 
     /// Options that do not go together.
     fn check(&self, layout: &Layout) -> Result<(), CommandError> {
+        fmu::check(self)?;
         let usage = |message: String| Err(CommandError::Usage(message));
         let path = self.out.display();
         match (self.language, self.out.extension().and_then(|extension| extension.to_str())) {
@@ -152,32 +163,54 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let Proved { graph, text, proof } =
         derive::proved(&layout, &arguments.derivatives(), &arguments.layout, &progress)?;
     progress.set_message("rendering");
-    let (source, command) = origin(arguments, &layout);
-    let unrendered = |problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem)));
-    let texts = match (arguments.language, has_extension(&arguments.out, "json")) {
-        (_, true) => vec![text],
-        (Language::Rust, _) => {
-            let standalone = arguments.standalone;
-            let module = Module { standalone, item: false, fused: false, source: &source, command: &command };
-            vec![module.render(&graph).map_err(unrendered)?]
-        }
-        (Language::C, _) => {
-            let header = file_name(&arguments.out.with_extension("h"));
-            let module = CModule { header: &header, source: &source, command: &command };
-            let CText { source, header } = module.render(&graph).map_err(unrendered)?;
-            vec![source, header]
-        }
+    let product = if arguments.fmu {
+        Product::Fmu(fmu::render(&graph, &layout, arguments)?)
+    } else if has_extension(&arguments.out, "json") {
+        Product::Texts(vec![text])
+    } else {
+        Product::Texts(modules(&graph, &layout, arguments)?)
     };
     progress.finish_and_clear();
     if arguments.check {
-        return Ok(check(&paths, &texts, arguments));
+        return Ok(check(&paths, &product, arguments));
     }
-    for (path, text) in paths.iter().zip(&texts) {
-        write_text(path, text)?;
-    }
-    let (lines, shown) = (texts.iter().map(|text| text.lines().count()).sum::<usize>(), names(&paths));
-    print(&format!("{shown}: {}, {} degrees of freedom, {lines} lines\n{proof}\n", layout.name, layout.joints() + 3));
+    let content = match product {
+        Product::Texts(texts) => {
+            for (path, text) in paths.iter().zip(&texts) {
+                write_text(path, text)?;
+            }
+            format!("{} lines", texts.iter().map(|text| text.lines().count()).sum::<usize>())
+        }
+        Product::Fmu(written) => fmu::write(written, arguments)?,
+    };
+    let shown = names(&paths);
+    print(&format!("{shown}: {}, {} degrees of freedom, {content}\n{proof}\n", layout.name, layout.joints() + 3));
     Ok(ExitCode::SUCCESS)
+}
+
+/// What is written.
+enum Product {
+    /// One for each file.
+    Texts(Vec<String>),
+    Fmu(Fmu),
+}
+
+/// The texts of a module.
+fn modules(graph: &Graph, layout: &Layout, arguments: &Arguments) -> Result<Vec<String>, CommandError> {
+    let (source, command) = origin(arguments, layout);
+    let texts = match arguments.language {
+        Language::Rust => {
+            let standalone = arguments.standalone;
+            let module = Module { standalone, item: false, fused: false, source: &source, command: &command };
+            module.render(graph).map(|text| vec![text])
+        }
+        Language::C => {
+            let header = file_name(&arguments.out.with_extension("h"));
+            let module = CModule { header: &header, source: &source, command: &command };
+            module.render(graph).map(|CText { source, header }| vec![source, header])
+        }
+    };
+    texts.map_err(|problem| file_error(&arguments.layout)(GenerateError::from(GraphError::Format(problem))))
 }
 
 /// Source and command for the header of the module: without folders, so that the same layout gives the same bytes
@@ -201,10 +234,15 @@ fn names(paths: &[PathBuf]) -> String {
 }
 
 /// Compares the files with what the layout gives.
-fn check(paths: &[PathBuf], texts: &[String], arguments: &Arguments) -> ExitCode {
-    let mut different =
-        paths.iter().zip(texts).filter(|(path, text)| !fs::read(path).is_ok_and(|found| found == text.as_bytes()));
-    let Some((path, _)) = different.next() else {
+fn check(paths: &[PathBuf], product: &Product, arguments: &Arguments) -> ExitCode {
+    let different = match product {
+        Product::Texts(texts) => {
+            let mut files = paths.iter().zip(texts);
+            files.find(|(path, text)| !fs::read(path).is_ok_and(|found| found == text.as_bytes())).map(|(path, _)| path)
+        }
+        Product::Fmu(wanted) => (!fmu::is_fresh(wanted, arguments)).then_some(&arguments.out),
+    };
+    let Some(path) = different else {
         print(&format!("{}: fresh\n", names(paths)));
         return ExitCode::SUCCESS;
     };
@@ -229,7 +267,9 @@ fn check_overwrite(path: &Path) -> Result<(), CommandError> {
         // only the first bytes: a device or a pipe has no end
         let _ = fs::File::open(path).map(|file| file.take(64).read_to_end(&mut start));
     }
-    let generated = start.starts_with(b"// @generated from ") || start.starts_with(b"{\n \"format\": ");
+    let generated = start.starts_with(b"// @generated from ")
+        || start.starts_with(b"{\n \"format\": ")
+        || (start.starts_with(b"PK") && fs::File::open(path).is_ok_and(archive::is_generated));
     if generated || (found.is_file() && found.len() == 0) {
         return Ok(());
     }

@@ -1,0 +1,61 @@
+//! Archives in the ZIP format: written, and compared with what they should contain.
+//!
+//! Files are stored without compression: the bytes of compressed ones depend on the version of the compressor.
+
+use super::{Entry, Fmu};
+use std::collections::BTreeMap;
+use std::io::{self, Cursor, Read, Seek};
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
+
+/// The folder of what is compiled.
+const BINARIES: &str = "binaries/";
+
+/// The bytes of an archive with these files; their dates are the first that the format has.
+///
+/// # Errors
+/// An archive that is too large for the format.
+pub fn bytes(fmu: &Fmu) -> io::Result<Vec<u8>> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Stored)
+        .last_modified_time(DateTime::default());
+    for Entry { path, content } in &fmu.entries {
+        let permissions = if path.starts_with(BINARIES) { 0o755 } else { 0o644 };
+        archive.start_file(path, options.unix_permissions(permissions))?;
+        io::Write::write_all(&mut archive, content)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
+
+/// Whether an archive has these files with this content and no others; binaries, which depend on the compiler, aside.
+pub fn is_same(archive: impl Read + Seek, fmu: &Fmu) -> bool {
+    let Ok(mut archive) = ZipArchive::new(archive) else { return false };
+    let is_compared = |path: &str| !path.starts_with(BINARIES);
+    let mut left: BTreeMap<&str, &[u8]> = fmu.entries.iter().map(|e| (e.path.as_str(), e.content.as_slice())).collect();
+    left.retain(|path, _| is_compared(path));
+    for index in 0..archive.len() {
+        let Ok(file) = archive.by_index(index) else { return false };
+        let path = file.name().to_owned();
+        if !is_compared(&path) {
+            continue;
+        }
+        let Some(content) = left.remove(path.as_str()) else { return false };
+        let mut found = Vec::new();
+        // no more than what is looked for: an archive can claim any size
+        let read = file.take(content.len() as u64 + 1).read_to_end(&mut found);
+        if read.is_err() || found != content {
+            return false;
+        }
+    }
+    left.is_empty()
+}
+
+/// Whether an archive is an FMU that this program has written.
+pub fn is_generated(archive: impl Read + Seek) -> bool {
+    let Ok(mut archive) = ZipArchive::new(archive) else { return false };
+    let Ok(description) = archive.by_name("modelDescription.xml") else { return false };
+    let mut start = Vec::new();
+    description.take(2048).read_to_end(&mut start).is_ok()
+        && String::from_utf8_lossy(&start).contains(r#"generationTool="planar-capture "#)
+}

@@ -1,0 +1,93 @@
+//! FMUs: the module of a robot in C with the functions of FMI 3.0 for co-simulation around it, as one archive.
+//!
+//! [`Fmu::new`] has all texts of the archive, [`binary::compile`] the binary for this machine, and [`archive`] writes
+//! and compares archives. The same graph gives the same bytes, but for the binary.
+//!
+//! It never contains: a formula; the module has them, and its Runge–Kutta step.
+
+pub mod archive;
+pub mod binary;
+mod build_description;
+mod documentation;
+mod model_description;
+mod sources;
+mod xml;
+
+use crate::build::graph::Graph;
+use crate::build::{CModule, CText, CoSimulation};
+use crate::layout::sha256;
+use model_description::ModelDescription;
+
+/// A file in the archive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// From the archive's root, with `/`.
+    pub path: String,
+    /// The content.
+    pub content: Vec<u8>,
+}
+
+/// The files of an FMU.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fmu {
+    /// The name of the layout, of the binary, and the prefix of the module's functions.
+    pub name: String,
+    /// The files; `modelDescription.xml` is the first.
+    pub entries: Vec<Entry>,
+}
+
+/// What the headers of the module say of its origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a> {
+    /// The name of the layout, and of the module.
+    pub name: &'a str,
+    /// The hash of the layout.
+    pub layout_sha256: &'a str,
+    /// The source that the module's header names.
+    pub source: &'a str,
+    /// The command that generates the FMU again.
+    pub command: &'a str,
+}
+
+impl Fmu {
+    /// Descriptions, sources and documentation, without a binary.
+    ///
+    /// # Errors
+    /// What [`CModule::render`] and [`CoSimulation::render`] say.
+    pub fn new(graph: &Graph, origin: &Origin<'_>) -> Result<Self, String> {
+        let Origin { name, source, command, .. } = *origin;
+        let header = format!("{name}.h");
+        let module = CModule { header: &header, source, command };
+        let text = module.render(graph)?;
+        let describe = |token: &str| -> Result<(CoSimulation, String), String> {
+            let robot = CoSimulation::render(graph, &module, token)?;
+            let description = ModelDescription { origin, token, variables: &robot.variables }.xml();
+            Ok((robot, description))
+        };
+        let (robot, description) = describe("")?;
+        let token = sha256(&hashed(&text, &robot, &description));
+        let (robot, description) = describe(&token)?;
+        let mut files = vec![
+            ("modelDescription.xml".to_owned(), description),
+            ("documentation/index.html".to_owned(), documentation::html(origin, &robot.variables)),
+            ("documentation/licenses/license.txt".to_owned(), documentation::licences()),
+            ("sources/buildDescription.xml".to_owned(), build_description::xml(name)),
+            (format!("sources/{name}.c"), text.source),
+            (format!("sources/{name}.h"), text.header),
+            ("sources/robot.c".to_owned(), robot.source),
+            ("sources/robot.h".to_owned(), robot.header),
+        ];
+        files.extend(sources::fixed().map(|(file, text)| (format!("sources/{file}"), text.to_owned())));
+        let entries = files.into_iter().map(|(path, text)| Entry { path, content: text.into_bytes() }).collect();
+        Ok(Self { name: name.to_owned(), entries })
+    }
+}
+
+/// What the token is the hash of: everything but the headers of the module, which name the command.
+fn hashed(text: &CText, robot: &CoSimulation, description: &str) -> String {
+    let body = |text: &str| text.split_once("\n\n").map_or_else(|| text.to_owned(), |(_, body)| body.to_owned());
+    let mut all = vec![body(&text.source), body(&text.header), robot.source.clone(), robot.header.clone()];
+    all.extend(sources::fixed().map(|(_, text)| text.to_owned()));
+    all.push(description.to_owned());
+    all.concat()
+}
