@@ -30,7 +30,7 @@ DEV = HERE / "requirements-dev.txt"
 UNFINISHED = "making-"
 # what is in the lock and nothing else, whatever the user's configuration of pip says
 INSTALL = ["-m", "pip", "--isolated", "install", "--quiet", "--disable-pip-version-check", "--no-input"]
-INSTALL += ["--require-hashes", "--only-binary=:all:", "-r"]
+INSTALL += ["--require-hashes", "--no-deps", "--only-binary=:all:", "-r"]
 
 
 class EnvironmentProblem(Exception):
@@ -91,7 +91,7 @@ def ensure(dev: bool = False, reference: bool = False) -> Path:
     if reference:
         return made([REFERENCE], 1100)
     derivation = made([REQUIREMENTS], 400)
-    return made([DEV, REQUIREMENTS], 60) if dev else derivation
+    return made([DEV, REQUIREMENTS], 120) if dev else derivation
 
 
 def made(locks: list[Path], size: int) -> Path:

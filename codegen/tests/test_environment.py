@@ -123,7 +123,7 @@ def test_pip_asks_for_hashes_and_for_no_configuration(elsewhere, monkeypatch):
     installs = [command for command in pip.commands if "install" in command]
     assert len(installs) == 2
     for command in installs:
-        assert {"--isolated", "--require-hashes", "--only-binary=:all:"} <= set(command)
+        assert {"--isolated", "--require-hashes", "--no-deps", "--only-binary=:all:"} <= set(command)
 
 
 def test_what_was_left_unfinished_goes_at_once_where_there_are_locks(elsewhere, monkeypatch):
