@@ -1,7 +1,7 @@
 //! The sources that are the same for every robot: the functions of FMI, and its headers.
 
 /// Sources of our own, which are compiled with the module and `robot.c`.
-pub(super) const COMPILED: [&str; 4] = ["instance.c", "step.c", "saved_state.c", "absent.c"];
+pub(super) const COMPILED: [&str; 5] = ["instance.c", "step.c", "saved_state.c", "absent.c", "other_interfaces.c"];
 
 /// (name, text) of the files; the headers of FMI 3.0.2 are those of the Modelica Association, unchanged.
 pub(super) fn fixed() -> impl Iterator<Item = (&'static str, &'static str)> {
@@ -11,6 +11,7 @@ pub(super) fn fixed() -> impl Iterator<Item = (&'static str, &'static str)> {
         ("step.c", include_str!("sources/step.c")),
         ("saved_state.c", include_str!("sources/saved_state.c")),
         ("absent.c", include_str!("sources/absent.c")),
+        ("other_interfaces.c", include_str!("sources/other_interfaces.c")),
         ("fmi3Functions.h", include_str!("fmi3/fmi3Functions.h")),
         ("fmi3FunctionTypes.h", include_str!("fmi3/fmi3FunctionTypes.h")),
         ("fmi3PlatformTypes.h", include_str!("fmi3/fmi3PlatformTypes.h")),

@@ -12,6 +12,7 @@ mod derivatives;
 mod diagnostics;
 mod dynamics;
 mod eval;
+mod fmu;
 mod generate;
 mod hidden_characters;
 mod linear_time;
