@@ -35,19 +35,19 @@ impl ModelDescription<'_> {
         let tool = concat!("planar-capture ", env!("CARGO_PKG_VERSION"));
         let description = format!("Free-floating planar robot {name}; sha256 of its layout: {layout_sha256}");
         Element::new("fmiModelDescription")
-            .with("fmiVersion", "3.0")
-            .with("modelName", name)
-            .with("instantiationToken", self.token)
-            .with("description", description)
-            .with("generationTool", tool)
-            .with("variableNamingConvention", "flat")
+            .with("fmiVersion", &"3.0")
+            .with("modelName", &name)
+            .with("instantiationToken", &self.token)
+            .with("description", &description)
+            .with("generationTool", &tool)
+            .with("variableNamingConvention", &"flat")
             .containing([
                 co_simulation(name),
                 Element::new("UnitDefinitions").containing(UNITS.map(|(name, exponents)| unit(name, exponents))),
                 Element::new("LogCategories").containing([Element::new("Category")
-                    .with("name", "logStatusError")
-                    .with("description", "why a function has no result")]),
-                Element::new("DefaultExperiment").with("startTime", 0).with("stopTime", 10).with("stepSize", 0.01),
+                    .with("name", &"logStatusError")
+                    .with("description", &"why a function has no result")]),
+                Element::new("DefaultExperiment").with("startTime", &0).with("stopTime", &10).with("stepSize", &0.01),
                 Element::new("ModelVariables")
                     .containing(self.indexed().map(|(index, variable)| float(index, variable))),
                 Element::new("ModelStructure").containing(self.unknowns()),
@@ -68,29 +68,29 @@ impl ModelDescription<'_> {
         };
         let outputs = places(&[Role::State, Role::Observed]);
         let outputs =
-            outputs.map(|index| Element::new("Output").with("valueReference", index).with("dependencies", ""));
+            outputs.map(|index| Element::new("Output").with("valueReference", &index).with("dependencies", &""));
         let initial =
-            places(&[Role::Observed]).map(|index| Element::new("InitialUnknown").with("valueReference", index));
+            places(&[Role::Observed]).map(|index| Element::new("InitialUnknown").with("valueReference", &index));
         outputs.chain(initial).collect()
     }
 }
 
 fn co_simulation(name: &str) -> Element {
     Element::new("CoSimulation")
-        .with("modelIdentifier", name)
-        .with("canGetAndSetFMUState", true)
-        .with("canSerializeFMUState", true)
-        .with("canHandleVariableCommunicationStepSize", true)
+        .with("modelIdentifier", &name)
+        .with("canGetAndSetFMUState", &true)
+        .with("canSerializeFMUState", &true)
+        .with("canHandleVariableCommunicationStepSize", &true)
 }
 
 fn unit(name: &str, exponents: [i8; 4]) -> Element {
     let mut base = Element::new("BaseUnit");
     for (symbol, exponent) in ["kg", "m", "s", "rad"].into_iter().zip(exponents) {
         if exponent != 0 {
-            base = base.with(symbol, exponent);
+            base = base.with(symbol, &exponent);
         }
     }
-    Element::new("Unit").with("name", name).containing([base])
+    Element::new("Unit").with("name", &name).containing([base])
 }
 
 fn float(index: usize, variable: &CoSimulationVariable) -> Element {
@@ -106,17 +106,17 @@ fn float(index: usize, variable: &CoSimulationVariable) -> Element {
         Role::Observed => ("output", "continuous", Some("calculated")),
     };
     let mut element = Element::new("Float64")
-        .with("name", name)
-        .with("valueReference", index)
-        .with("description", description)
-        .with("causality", causality)
-        .with("variability", variability);
+        .with("name", &name)
+        .with("valueReference", &index)
+        .with("description", &description)
+        .with("causality", &causality)
+        .with("variability", &variability);
     if let Some(initial) = initial {
-        element = element.with("initial", initial);
+        element = element.with("initial", &initial);
     }
-    element = element.with("unit", unit);
+    element = element.with("unit", &unit);
     if matches!(role, Role::Parameter | Role::Input | Role::State) {
-        element = element.with("start", format!("{start:?}"));
+        element = element.with("start", &format!("{start:?}"));
     }
     element
 }

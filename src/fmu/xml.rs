@@ -18,7 +18,7 @@ impl Element {
     }
 
     /// With one attribute more.
-    pub(super) fn with(mut self, name: &'static str, value: impl ToString) -> Self {
+    pub(super) fn with(mut self, name: &'static str, value: &impl ToString) -> Self {
         self.attributes.push((name, value.to_string()));
         self
     }

@@ -1,5 +1,5 @@
 //! `generate --fmu`: what is written where, with and without a compiler, and refusals. What the FMU computes is tested by
-//! `tests/fmu.py` in FMPy.
+//! `tests/fmu.py` with another importer.
 
 use crate::generate::{folder, generate, outcome, without_python};
 use std::fs;

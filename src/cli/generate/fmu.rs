@@ -14,7 +14,6 @@ use std::fs::File;
 pub(super) fn check(arguments: &Arguments) -> Result<(), CommandError> {
     let path = arguments.out.display();
     let problem = match (arguments.fmu, arguments.out.extension().is_some_and(|extension| extension == "fmu")) {
-        (false, false) => return Ok(()),
         (false, true) => format!("{path}: write `--fmu` too for an FMU"),
         (true, false) => format!("{path}: `--fmu` wants a file that ends in `.fmu`"),
         (true, true) if arguments.language != Language::Rust => {
@@ -24,7 +23,7 @@ pub(super) fn check(arguments: &Arguments) -> Result<(), CommandError> {
         (true, true) if !arguments.derivatives().is_empty() => {
             "--derivatives and --directional are for modules: leave them out, an FMU has no derivatives".to_owned()
         }
-        (true, true) => return Ok(()),
+        (false, false) | (true, true) => return Ok(()),
     };
     Err(CommandError::Usage(problem))
 }
