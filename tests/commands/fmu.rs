@@ -4,10 +4,26 @@
 use crate::generate::{folder, generate, outcome, without_python};
 use std::fs;
 use std::path::Path;
+use tempfile::TempDir;
+
+/// An arm with a name that XML has to escape.
+const LAYOUT: &str = r#"
+name = "small"
+[base]
+mass = 210.0
+inertia = 33.0
+[[arm]]
+name = "left \"hand\""
+mount = [0.3, 0.0]
+[[arm.link]]
+length = 0.9
+mass = 7.0
+inertia = 0.5
+"#;
 
 /// Generates the FMU of the folder's layout with a C compiler of this name.
-fn written(folder: &Path, out: &str, compiler: &str, options: &[&str]) -> (i32, String, String) {
-    let mut command = generate(folder, &[&["held_out.toml", "--fmu", "--out", out][..], options].concat());
+fn written(folder: &Path, compiler: &str, options: &[&str]) -> (i32, String, String) {
+    let mut command = generate(folder, &[&["small.toml", "--fmu", "--out", "robot.fmu"][..], options].concat());
     command.env("CC", compiler);
     outcome(command)
 }
@@ -17,51 +33,39 @@ fn an_fmu_without_a_compiler_has_sources_alone_and_always_the_same_bytes() {
     if without_python() {
         return;
     }
-    let folder = folder();
-    let path = folder.path().join("robot.fmu");
-    let (code, out, err) = written(folder.path(), "robot.fmu", "no-such-compiler", &[]);
-    assert!(code == 0 && out.contains("9 degrees of freedom, sources only"), "{out}{err}");
+    let folder = TempDir::new().expect("a folder");
+    let (layout, path) = (folder.path().join("small.toml"), folder.path().join("robot.fmu"));
+    fs::write(&layout, LAYOUT).expect("written");
+    let (code, out, err) = written(folder.path(), "no-such-compiler", &[]);
+    assert!(code == 0 && out.contains("4 degrees of freedom, sources only"), "{out}{err}");
     let message = "robot.fmu: no binary, the FMU holds sources only: there is no C compiler `no-such-compiler`";
     assert!(err.contains(message), "{err}");
     let first = fs::read(&path).expect("an FMU");
     let has = |text: &str| first.windows(text.len()).any(|part| part == text.as_bytes());
-    for file in
-        ["modelDescription.xml", "sources/buildDescription.xml", "sources/held_out.c", "sources/fmi3Functions.h"]
-    {
+    for file in ["modelDescription.xml", "sources/buildDescription.xml", "sources/small.c", "sources/fmi3Functions.h"] {
         assert!(has(file), "{file}");
     }
-    // the licence of FMI's headers, and a name that XML has to escape
+    // the licence of FMI's headers, and the name of the arm
     assert!(has("Redistribution and use in source and binary forms") && has("left &quot;hand&quot;_joint1_angle"));
     assert!(!has("binaries/"), "no binary");
-    // over its own file
-    assert_eq!(written(folder.path(), "robot.fmu", "no-such-compiler", &[]).0, 0);
-    assert!(fs::read(&path).expect("an FMU") == first, "other bytes from the same layout");
-
-    let fresh = (0, "robot.fmu: fresh\n".to_owned(), String::new());
-    assert_eq!(written(folder.path(), "robot.fmu", "no-such-compiler", &["--check"]), fresh);
-    let mut changed = first.clone();
-    let place = first.windows(13).position(|part| part == b"ROBOT_TOKEN \"").expect("a token") + 13;
-    changed[place] ^= 1;
-    fs::write(&path, &changed).expect("written");
-    let (code, _, err) = written(folder.path(), "robot.fmu", "no-such-compiler", &["--check"]);
-    let mend = "planar-capture generate held_out.toml --out robot.fmu --fmu";
-    assert!(code == 1 && err.contains(mend), "{err}");
-    fs::remove_file(&path).expect("removed");
-    let (code, _, err) = written(folder.path(), "robot.fmu", "no-such-compiler", &["--check"]);
-    assert!(code == 1 && err.contains("does not exist"), "{err}");
-
-    // a compiler that fails; then one that works, where there is one: binaries are not compared
-    let (code, out, err) = written(folder.path(), "robot.fmu", "false", &[]);
+    // over its own file, with a compiler that fails
+    let (code, out, err) = written(folder.path(), "false", &[]);
     assert!(code == 0 && out.contains("sources only") && err.contains("`false` failed: no message"), "{out}{err}");
     assert!(fs::read(&path).expect("an FMU") == first, "other bytes from the same layout");
+
+    // binaries are not compared
+    let fresh = (0, "robot.fmu: fresh\n".to_owned(), String::new());
     if !crate::c::without("cc") {
-        let (code, out, err) = written(folder.path(), "robot.fmu", "cc", &[]);
+        let (code, out, err) = written(folder.path(), "cc", &[]);
         assert!(code == 0 && out.contains("sources and binaries/") && err.is_empty(), "{out}{err}");
-        assert_eq!(written(folder.path(), "robot.fmu", "cc", &["--check"]), fresh);
     }
-    let left: Vec<_> =
-        fs::read_dir(folder.path()).expect("a folder").map(|entry| entry.expect("one").file_name()).collect();
-    assert_eq!(left.len(), 2, "{left:?}");
+    assert_eq!(written(folder.path(), "no-such-compiler", &["--check"]), fresh);
+    fs::write(&layout, LAYOUT.replace("210.0", "211.0")).expect("written");
+    let (code, _, err) = written(folder.path(), "no-such-compiler", &["--check"]);
+    let mend =
+        "robot.fmu is not what the layout gives; to mend: planar-capture generate small.toml --out robot.fmu --fmu";
+    assert!(code == 1 && err.contains(mend), "{err}");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "the layout and the FMU");
 }
 
 /// All are refused before anything is derived.
