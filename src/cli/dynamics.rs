@@ -19,15 +19,22 @@ pub enum Dynamics {
 }
 
 impl Dynamics {
-    /// What computes a layout, which is in `file`; where that was not said, a line says it.
-    pub fn choose(self, layout: &Layout, file: &str) -> Result<Choice, CommandError> {
+    /// What computes a layout, which is in `file`; where the option does not say it, a line does, unless `quiet`.
+    pub fn choose(self, layout: &Layout, file: &str, quiet: bool) -> Result<Choice, CommandError> {
         match self {
             Self::Auto => {
                 let (choice, unusable) = Choice::fastest(layout);
                 if let Some(why) = unusable {
                     note(format_args!("warning: {why}"));
                 }
-                note(format_args!("dynamics: {}, {}{}", choice.engine.name(), choice.origin, faster(choice.engine)));
+                if !quiet {
+                    note(format_args!(
+                        "dynamics: {}, {}{}",
+                        choice.engine.name(),
+                        choice.origin,
+                        faster(choice.engine)
+                    ));
+                }
                 Ok(choice)
             }
             Self::Generated => Choice::generated(layout).map_err(file_error(file)),

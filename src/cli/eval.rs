@@ -29,7 +29,7 @@ pub struct Arguments {
 /// Evaluates the states one by one.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout)?;
-    let model = arguments.dynamics.choose(&layout, &arguments.layout)?.model(&layout);
+    let model = arguments.dynamics.choose(&layout, &arguments.layout, false)?.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")
     } else {

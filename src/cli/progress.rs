@@ -15,9 +15,9 @@ const TICK: Duration = Duration::from_millis(100);
 /// How a long command shows that it goes on.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Display {
-    /// Show no progress.
+    /// Show no progress, and not which implementation computes the dynamics.
     #[arg(short, long)]
-    quiet: bool,
+    pub quiet: bool,
     /// Seconds between two lines of progress where the standard error is no terminal.
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
     progress: Duration,

@@ -68,7 +68,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
             "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
         ));
     }
-    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file)?;
+    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, arguments.display.quiet)?;
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);

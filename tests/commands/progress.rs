@@ -10,7 +10,7 @@ fn run(scenario: &Path, more: &[&str]) -> (i32, String) {
     let folder = TempDir::new().expect("a folder");
     let results = folder.path().join("results").display().to_string();
     let scenario = scenario.display().to_string();
-    let (code, _, err) = said(&[&["run", &scenario, "--out", &results], more].concat());
+    let (code, _, err) = said(&[&["run", &scenario, "--out", &results, "--dynamics", "generated"], more].concat());
     (code, err)
 }
 

@@ -39,7 +39,7 @@ fn names(folder: &Path) -> Vec<String> {
 /// Runs a scenario into a folder: exit code and messages.
 fn run(scenario: &str, results: &Path, more: &[&str]) -> (i32, String) {
     let results = results.display().to_string();
-    let (code, _, err) = said(&[&["run", scenario, "--out", &results], more].concat());
+    let (code, _, err) = said(&[&["run", scenario, "--out", &results, "--dynamics", "generated"], more].concat());
     (code, err)
 }
 

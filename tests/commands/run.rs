@@ -16,7 +16,9 @@ fn run_text(text: &str) -> (i32, String, String, TempDir) {
 }
 
 fn run_file(path: &Path, results: &Path) -> (i32, String, String) {
-    said(command().arg("run").arg(path).arg("--out").arg(results).output().expect("it runs"))
+    let mut command = command();
+    command.args(["run", "--dynamics", "generated"]).arg(path).arg("--out").arg(results);
+    said(command.output().expect("it runs"))
 }
 
 fn paper() -> String {
@@ -255,26 +257,26 @@ fn results_are_of_one_run() {
     assert_eq!(fs::read_dir(&results).expect("a folder").count(), 2, "temporary files are gone");
 }
 
-/// Without generated code of its structure, a layout is refused, with the way to get it.
+/// Without generated code of its structure, a layout is refused where that is asked for, and computed by its graph else.
 #[test]
-fn a_structure_without_code_says_how_to_get_it() {
+fn a_structure_without_code_is_computed_by_its_graph() {
     let folder = TempDir::new().expect("a folder");
     let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
     let raised = layout.replace("\"dual_arm_3r\"", "\"raised\"").replacen("[0.5, 0.0]", "[0.5, 0.25]", 1);
     fs::write(folder.path().join("raised.toml"), raised).expect("written");
     let path = folder.path().join("scenario.toml");
     fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"raised.toml\"")).expect("written");
-    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    let results = folder.path().join("results");
+    let (code, _, err) = run_file(&path, &results);
     assert_eq!(code, 2);
-    assert!(err.contains("scenario.toml: no generated code") && err.contains("python3 -m codegen raised"), "{err}");
+    assert!(err.contains("scenario.toml: no generated code") && err.contains("planar-capture generate"), "{err}");
     assert!(err.contains("`arm[0].mount[1]` is 0.25") && err.contains("Nearest is `dual_arm_3r`"), "{err}");
-    // under a shipped layout's name it is not to take that layout's place
-    let shipped =
-        fs::read_to_string(folder.path().join("raised.toml")).expect("a layout").replace("raised", "dual_arm_3r");
-    fs::write(folder.path().join("raised.toml"), shipped).expect("written");
-    let (code, _, err) = run_file(&path, &folder.path().join("results"));
-    assert_eq!(code, 2);
-    assert!(err.contains("a name of its own") && !err.contains("codegen/layouts/dual_arm_3r.toml"), "{err}");
+    let mut command = command();
+    command.env("PLANAR_CAPTURE_HOME", folder.path()).arg("run").arg(&path).arg("--out").arg(&results);
+    let (code, _, err) = said(command.output().expect("it runs"));
+    assert_eq!(code, 0, "{err}");
+    let summary = fs::read_to_string(results.join("summary.json")).expect("a summary");
+    assert!(summary.contains("\"dynamics\": \"graph\""), "{summary}");
 }
 
 #[test]

@@ -58,7 +58,7 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
 
 /// What a program needs to know of each graph that it carries before it reads it: name, folder, and structure.
 fn carried(codegen: &Path) -> Result<String, String> {
-    let mut text = "graphs! {\n".to_owned();
+    let mut lines = vec!["graphs! {\n".to_owned()];
     for (layouts, graphs) in [("layouts", "graphs"), ("structures", "structures")] {
         for name in names(&codegen.join(layouts), "toml")? {
             let [layout, graph] = [(layouts, "toml"), (graphs, "json")]
@@ -68,11 +68,12 @@ fn carried(codegen: &Path) -> Result<String, String> {
             let parameters: Vec<_> =
                 structure.parameters.iter().map(|(kind, arm, link)| format!("({kind:?}, {arm}, {link})")).collect();
             let Structure { links, needs_distinct_mounts, .. } = &structure;
-            text +=
-                &format!("    {name} in {graphs}: {links:?}, [{}], {needs_distinct_mounts};\n", parameters.join(", "));
+            let parameters = parameters.join(", ");
+            lines.push(format!("    {name} in {graphs}: {links:?}, [{parameters}], {needs_distinct_mounts};\n"));
         }
     }
-    Ok(text + "}\n")
+    lines.push("}\n".to_owned());
+    Ok(lines.concat())
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.

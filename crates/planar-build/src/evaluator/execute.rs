@@ -8,6 +8,7 @@ use planar_dynamics::scalar::Scalar;
 pub(super) type Registers<T> = [T; REGISTERS];
 
 /// Registers on the heap; only those that are used are ever touched.
+#[allow(clippy::unnecessary_box_returns, reason = "half a megabyte has no place on the stack")]
 pub(super) fn registers<T: Scalar>() -> Box<Registers<T>> {
     let all = vec![T::ZERO; REGISTERS].into_boxed_slice();
     all.try_into().unwrap_or_else(|_| unreachable!("so many they are"))

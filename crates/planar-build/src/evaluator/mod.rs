@@ -3,7 +3,9 @@
 //! The results have the bits of the code that is rendered from the same graph (without the feature `fused`): every
 //! operation has the operands and the rounding that it has there.
 
+mod dynamics;
 mod execute;
+mod function;
 mod functions;
 mod instruction;
 mod merge;

@@ -1,16 +1,13 @@
 //! A robot whose dynamics are those of a graph.
 
-use super::execute::{Registers, execute, registers};
+use super::function::{Function, Results, run};
 use super::functions::Functions;
-use super::instruction::Register;
 use super::program::Program;
 use super::values::{Source, Value, Values};
-use crate::format::{Constants, Family, Graph, Operand, Variable};
+use crate::format::{Constants, Graph, Operand, Variable};
 use crate::graph::{self, GraphError};
 use planar_layout::layout::Layout;
 use planar_layout::structure::{Mismatch, Structure, parameters};
-use std::cell::RefCell;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The programs of a graph, for every layout of its structure.
@@ -23,16 +20,6 @@ pub struct Evaluator {
     pub(super) functions: Functions,
 }
 
-/// The program of a function.
-#[derive(Clone, Debug)]
-pub(super) struct Function {
-    /// Position of the function among those of the evaluator, and of its constants in a model.
-    index: usize,
-    program: Program,
-    /// The elements of each output.
-    outputs: Vec<Range<usize>>,
-}
-
 /// A robot with its numbers.
 #[derive(Clone, Debug)]
 pub struct GraphModel {
@@ -40,10 +27,6 @@ pub struct GraphModel {
     parameters: Vec<f64>,
     /// What is in the first registers of each function.
     constants: Vec<Vec<f64>>,
-}
-
-thread_local! {
-    static REGISTERS: RefCell<Box<Registers<f64>>> = RefCell::new(registers());
 }
 
 impl Evaluator {
@@ -137,101 +120,6 @@ impl GraphModel {
 
     /// Calls a function; `read` takes what it wants of the results.
     pub(super) fn call<R>(&self, function: &Function, inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
-        run(&function.program, &self.constants[function.index], inputs, |registers| {
-            read(&Results { function, registers })
-        })
-    }
-}
-
-/// Executes a program in the registers of the thread.
-fn run<R>(program: &Program, constants: &[f64], inputs: &[&[f64]], read: impl FnOnce(&Registers<f64>) -> R) -> R {
-    REGISTERS.with_borrow_mut(|registers| {
-        let mut rest = &mut registers[..];
-        for part in std::iter::once(&constants).chain(inputs) {
-            let (place, after) = rest.split_at_mut(part.len());
-            place.copy_from_slice(part);
-            rest = after;
-        }
-        execute(&program.instructions, registers);
-        read(registers)
-    })
-}
-
-/// The results of a call, in the registers.
-pub(super) struct Results<'a> {
-    function: &'a Function,
-    registers: &'a Registers<f64>,
-}
-
-impl Results<'_> {
-    /// The elements of an output, by its position.
-    pub fn elements(&self, output: usize) -> impl Iterator<Item = f64> {
-        let registers: &[Register] = &self.function.program.outputs[self.function.outputs[output].clone()];
-        registers.iter().map(|register| self.registers[usize::from(*register)])
-    }
-
-    /// An output of one element.
-    pub fn scalar(&self, output: usize) -> f64 {
-        self.elements(output).next().unwrap_or(f64::NAN)
-    }
-}
-
-impl Function {
-    fn new(
-        graph: &Graph,
-        (name, index): (&str, usize),
-        inputs: &[&str],
-        outputs: &[(&str, usize)],
-    ) -> Result<Self, String> {
-        let functions = |family: &Family| family.functions.iter().position(|function| function.name == name);
-        let found = graph.families.iter().find_map(|family| Some((family, &family.functions[functions(family)?])));
-        let (family, function) = found.ok_or("it is missing")?;
-        if function.inputs != inputs {
-            return Err(format!("it has the inputs {}, expected {}", function.inputs.join(", "), inputs.join(", ")));
-        }
-        let found: Vec<_> =
-            function.outputs.iter().map(|output| (output.name.as_str(), output.elements.len())).collect();
-        if found != outputs {
-            return Err(format!("it has the outputs {found:?}, expected {outputs:?}"));
-        }
-        let mut values = Values::default();
-        let of_model = graph.parameters.iter().map(|parameter| &parameter.name);
-        for (index, name) in of_model.chain(graph.constants.values.iter().map(|value| &value.name)).enumerate() {
-            values.name(name.clone(), Value::Constant(Source::Model(index)));
-        }
-        let mut elements = 0;
-        for input in inputs {
-            let shape =
-                graph.inputs.iter().find(|declared| declared.name == *input).map_or(&[][..], |found| &found.shape);
-            let names: Vec<String> = match shape {
-                [] => vec![(*input).to_owned()],
-                [count] => (0..*count).map(|i| format!("{input}[{i}]")).collect(),
-                [rows, columns, ..] => {
-                    let place = |i: usize| format!("{input}[{}][{}]", i / columns, i % columns);
-                    (0..rows * columns).map(place).collect()
-                }
-            };
-            for name in names {
-                values.name(name, Value::Input(elements));
-                elements += 1;
-            }
-        }
-        values.extend(&family.configuration.statements)?;
-        values.extend(&function.statements)?;
-        let mut wanted = Vec::new();
-        let mut ranges = Vec::with_capacity(function.outputs.len());
-        for output in &function.outputs {
-            let start = wanted.len();
-            for element in &output.elements {
-                wanted.push(values.operand(element)?);
-            }
-            ranges.push(start..wanted.len());
-        }
-        Ok(Self { index, program: Program::new(&values, elements, &wanted)?, outputs: ranges })
-    }
-
-    #[cfg(test)]
-    pub(super) fn program(&self) -> &Program {
-        &self.program
+        function.call(&self.constants[function.index], inputs, read)
     }
 }

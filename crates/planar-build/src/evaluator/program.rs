@@ -176,13 +176,11 @@ impl Registers {
     }
 
     fn take(&mut self, value: usize) -> Result<Register, String> {
-        let register = match self.free.pop() {
-            Some(register) => register,
-            None => {
-                let register = Register::try_from(self.next).map_err(|_| "it needs too many registers".to_owned())?;
-                self.next += 1;
-                register
-            }
+        let register = if let Some(register) = self.free.pop() {
+            register
+        } else {
+            self.next += 1;
+            Register::try_from(self.next - 1).map_err(|_| "it needs too many registers".to_owned())?
         };
         self.of[value] = Some(register);
         self.shared[value] = true;
@@ -203,24 +201,24 @@ fn instruction(values: &Values, step: &Step, to: &[Register], from: &[Register])
     let Value::Result { operation, .. } = values.all[step.value] else {
         unreachable!("a step computes a result");
     };
-    let t = to[0];
+    let result = to[0];
     match (operation, step.products, from) {
-        (Operation::SinCos, _, &[a]) => Instruction::SinCos([t, to[1], a]),
-        (Operation::Neg, _, &[a]) => Instruction::Neg([t, a]),
-        (Operation::Sqrt, _, &[a]) => Instruction::Sqrt([t, a]),
-        (Operation::Add, [true, true], &[a, b, c, d]) => Instruction::MulAddMul([t, a, b, c, d]),
-        (Operation::Sub, [true, true], &[a, b, c, d]) => Instruction::MulSubMul([t, a, b, c, d]),
+        (Operation::SinCos, _, &[a]) => Instruction::SinCos([result, to[1], a]),
+        (Operation::Neg, _, &[a]) => Instruction::Neg([result, a]),
+        (Operation::Sqrt, _, &[a]) => Instruction::Sqrt([result, a]),
+        (Operation::Add, [true, true], &[a, b, c, d]) => Instruction::MulAddMul([result, a, b, c, d]),
+        (Operation::Sub, [true, true], &[a, b, c, d]) => Instruction::MulSubMul([result, a, b, c, d]),
         (Operation::Add, [true, false], &[a, b, c]) | (Operation::Add, [false, true], &[c, a, b]) => {
-            Instruction::MulAdd([t, a, b, c])
+            Instruction::MulAdd([result, a, b, c])
         }
-        (Operation::Sub, [true, false], &[a, b, c]) => Instruction::MulSub([t, a, b, c]),
-        (Operation::Sub, [false, true], &[c, a, b]) => Instruction::SubMul([t, a, b, c]),
-        (Operation::Add, _, &[a, b]) => Instruction::Add([t, a, b]),
-        (Operation::Sub, _, &[a, b]) => Instruction::Sub([t, a, b]),
-        (Operation::Mul, _, &[a, b]) => Instruction::Mul([t, a, b]),
-        (Operation::Div, _, &[a, b]) => Instruction::Div([t, a, b]),
-        (Operation::Min, _, &[a, b]) => Instruction::Min([t, a, b]),
-        (Operation::Atan2, _, &[a, b]) => Instruction::Atan2([t, a, b]),
+        (Operation::Sub, [true, false], &[a, b, c]) => Instruction::MulSub([result, a, b, c]),
+        (Operation::Sub, [false, true], &[c, a, b]) => Instruction::SubMul([result, a, b, c]),
+        (Operation::Add, _, &[a, b]) => Instruction::Add([result, a, b]),
+        (Operation::Sub, _, &[a, b]) => Instruction::Sub([result, a, b]),
+        (Operation::Mul, _, &[a, b]) => Instruction::Mul([result, a, b]),
+        (Operation::Div, _, &[a, b]) => Instruction::Div([result, a, b]),
+        (Operation::Min, _, &[a, b]) => Instruction::Min([result, a, b]),
+        (Operation::Atan2, _, &[a, b]) => Instruction::Atan2([result, a, b]),
         (operation, ..) => unreachable!("{operation:?} of {} operands", from.len()),
     }
 }

@@ -151,7 +151,7 @@ fn programs_compute_what_their_statements_say() {
 fn results_share_registers() {
     let graph = graph::read_any(&shipped()).expect("sound");
     let evaluator = super::Evaluator::new(&graph).expect("all functions");
-    let program = evaluator.functions.forward_dynamics[0].program();
+    let program = &evaluator.functions.forward_dynamics[0].program;
     let last = program.instructions.iter().map(|instruction| format!("{instruction:?}"));
     let last = last.flat_map(|text| {
         let numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|part| part.parse::<usize>().ok());
