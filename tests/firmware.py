@@ -309,6 +309,7 @@ def document(bounds):
         "Bytes of code and constants on the Cortex-M4F, f32.",
         table(["", "budget", "library", "module", "C"], rows),
     ]
+    text.append(single_precision())
     others = [(layout, opt) for layout in tree for opt in tree[layout] if (layout, opt) != (ROBOT, "3")]
     if others:
         rows = []
@@ -336,6 +337,12 @@ def document(bounds):
             table(head, rows),
         ]
     return "\n\n".join(text) + "\n"
+
+
+def single_precision():
+    """The section of the document that a test of planar-proof writes and compares."""
+    found = re.search(r"^## Single precision\n.*?(?=\n+## |\n*\Z)", DOCUMENT.read_text(encoding="utf-8"), re.M | re.S)
+    return found[0] if found else "## Single precision"
 
 
 HEAD = """# On a microcontroller

@@ -9,6 +9,7 @@
     reason = "tests call it: a panic is a test that fails"
 )]
 
+pub mod approach;
 pub mod linear_time;
 pub mod maximal;
 pub mod sample;

@@ -124,23 +124,26 @@ pub const SAMPLED: f64 = 1e-9;
 pub const URDF: f64 = 1e-14;
 
 use planar_dynamics::quantity::{Quantity, Rounding};
+use planar_dynamics::scalar::Real;
 
-/// Bound on the difference of a quantity between two formulations.
+/// Bound on the difference of a quantity between two formulations, in rounding units ε of the scalar: 2⁻⁵² in `f64`, 2⁻²³ in
+/// `f32`. The same numbers hold for both, because the errors are roundings and nothing else.
 #[derive(Clone, Copy, Debug)]
 pub enum Equivalence {
-    /// In units of the entry's natural size (see `planar_capture::compare`).
+    /// Times ε, in units of the entry's natural size (see `planar_capture::compare`).
     Scaled(f64),
-    /// The same, times ε times the condition of the matrices solved on the way; 1e-13 at least.
+    /// Times ε times the condition of the matrices solved on the way; 450 ε at least.
     Condition(f64),
 }
 
 impl Equivalence {
-    /// The bound for one state.
-    pub fn bound(self, condition: f64) -> f64 {
-        match self {
-            Self::Scaled(bound) => bound,
-            Self::Condition(factor) => (factor * f64::EPSILON * condition).max(1e-13),
-        }
+    /// The bound for one state of a model of this scalar.
+    pub fn bound<T: Real>(self, condition: f64) -> f64 {
+        let roundings = match self {
+            Self::Scaled(roundings) => roundings,
+            Self::Condition(factor) => (factor * condition).max(450.0),
+        };
+        roundings * T::EPSILON.to_f64()
     }
 }
 
@@ -152,11 +155,23 @@ pub fn equivalence(quantity: Quantity) -> Equivalence {
         (Quantity::BodyInertias, _) => Equivalence::Scaled(0.0),
         // sums and products in two orders: composite inertias against sums over bodies 3e-15 measured, positions,
         // twists and momenta below 2e-15, the bias by a centripetal sweep against differentiated Jacobians 6e-16
-        (_, Rounding::Polynomial) => Equivalence::Scaled(1e-14),
+        (_, Rounding::Polynomial) => Equivalence::Scaled(45.0),
         // articulated inertias, eliminated centre of mass and arrow LDLᵀ against dense Cholesky: 0.1 of it measured for
         // accelerations and velocities after impacts, 0.4 for the generalized Jacobian
         (_, Rounding::Solved) => Equivalence::Condition(4.0),
     }
+}
+
+/// A bound below which a comparison in single precision says something: a hundredth of what makes an entry up.
+pub const SAYS_SOMETHING: f64 = 1e-2;
+/// Condition from which on a system may be refused in single precision: its smallest pivot is at most 8 ε of its scale, and
+/// not much larger than the inverse of the condition. 5e5 here; ε is 1.2e-7.
+pub const REFUSED_CONDITION: f64 = 1.0 / (16.0 * f32::EPSILON as f64);
+
+/// What single precision changes in 20,000 steps, relative: each step rounds each number by at most ε/2, independent roundings
+/// add up to their root of the number of steps, and four standard deviations are allowed. A third of it measured.
+pub fn single_precision_approach() -> f64 {
+    4.0 * 20_000.0_f64.sqrt() * f64::from(f32::EPSILON)
 }
 
 /// Outputs of generated functions that are in no trait, generated against generic, relative to the largest entry.

@@ -5,6 +5,7 @@ use planar_dynamics::dynamics::Model;
 use planar_dynamics::error::Error;
 use planar_dynamics::impact::{self, RigidImpactOutput};
 use planar_dynamics::quantity::Quantity;
+use planar_dynamics::scalar::Real;
 use planar_dynamics::state::{Forces, State};
 use planar_dynamics::target::Target;
 use planar_dynamics::validate::finite;
@@ -12,21 +13,49 @@ use planar_dynamics::with_quantities;
 
 /// The robot's state, the forces on it, and the targets that it captures at that instant.
 #[derive(Clone, Debug, PartialEq)]
-pub struct EvaluationInput {
+pub struct EvaluationInput<T = f64> {
     /// Pose, angles, twist, rates.
-    pub state: RobotState,
+    pub state: RobotState<T>,
     /// N m.
-    pub joint_torques: Vec<f64>,
+    pub joint_torques: Vec<T>,
     /// [n, fx, fy] at the base COM, inertial axes; `None` is zero.
-    pub base_wrench: Option<[f64; 3]>,
+    pub base_wrench: Option<[T; 3]>,
     /// [n, fx, fy] on the robot at each end effector, inertial axes; `None` is zero.
-    pub end_effector_wrenches: Option<Vec<[f64; 3]>>,
+    pub end_effector_wrenches: Option<Vec<[T; 3]>>,
     /// One per arm; `None` where the arm captures nothing.
-    pub targets: Vec<Option<Target<f64>>>,
+    pub targets: Vec<Option<Target<T>>>,
 }
 
-impl EvaluationInput {
-    fn forces(&self) -> Forces<'_, f64> {
+impl<T: Real> EvaluationInput<T> {
+    /// The same with each number rounded to another scalar.
+    #[must_use]
+    pub fn rounded<U: Real>(&self) -> EvaluationInput<U> {
+        let one = |x: T| U::constant(x.to_f64());
+        let all = |values: &[T]| values.iter().map(|x| one(*x)).collect();
+        let RobotState { base_pose, joint_angles, base_twist, joint_rates } = &self.state;
+        let state = RobotState {
+            base_pose: base_pose.map(one),
+            joint_angles: all(joint_angles),
+            base_twist: base_twist.map(one),
+            joint_rates: all(joint_rates),
+        };
+        let target = |Target { mass, inertia, contact, twist }: Target<T>| Target {
+            mass: one(mass),
+            inertia: one(inertia),
+            contact: contact.map(one),
+            twist: twist.map(one),
+        };
+        let wrenches = self.end_effector_wrenches.as_ref();
+        EvaluationInput {
+            state,
+            joint_torques: all(&self.joint_torques),
+            base_wrench: self.base_wrench.map(|wrench| wrench.map(one)),
+            end_effector_wrenches: wrenches.map(|wrenches| wrenches.iter().map(|wrench| wrench.map(one)).collect()),
+            targets: self.targets.iter().map(|captured| captured.map(target)).collect(),
+        }
+    }
+
+    fn forces(&self) -> Forces<'_, T> {
         Forces {
             joint_torques: &self.joint_torques,
             base_wrench: self.base_wrench,
@@ -57,8 +86,8 @@ impl Values {
         quantity.row().shape.iter().map(|extent| extent.count(self.arms, self.joints)).collect()
     }
 
-    pub(super) fn set(&mut self, quantity: Quantity, value: impl Into<Vec<f64>>) {
-        self.by_quantity[quantity as usize] = Some(value.into());
+    pub(super) fn set<T: Real>(&mut self, quantity: Quantity, value: &[T]) {
+        self.by_quantity[quantity as usize] = Some(value.iter().map(|x| x.to_f64()).collect());
     }
 }
 
@@ -66,33 +95,33 @@ impl Values {
 ///
 /// # Errors
 /// Those of the model, and [`Error::NotFinite`] for a result that overflows.
-pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Values, Error> {
+pub fn evaluate<T: Real>(model: &dyn Model<T>, instant: &EvaluationInput<T>) -> Result<Values, Error> {
     let by_quantity = vec![None; Quantity::ALL.len()];
     let mut values = Values { arms: model.arms(), joints: model.joints(), by_quantity };
     let state = instant.state.view();
     let momentum = model.momentum(&state)?;
-    values.set(Quantity::LinearMomentum, momentum.linear_momentum);
-    values.set(Quantity::AngularMomentum, [momentum.angular_momentum]);
-    values.set(Quantity::KineticEnergy, [momentum.kinetic_energy]);
+    values.set(Quantity::LinearMomentum, &momentum.linear_momentum);
+    values.set(Quantity::AngularMomentum, &[momentum.angular_momentum]);
+    values.set(Quantity::KineticEnergy, &[momentum.kinetic_energy]);
 
     functions(model, &state, &mut values)?;
 
     let joints = values.joints;
-    let mut inertias = vec![[0.0; 2]; joints + 1];
+    let mut inertias = vec![[T::ZERO; 2]; joints + 1];
     model.body_inertias(&mut inertias)?;
     values.set(Quantity::BodyInertias, inertias.as_flattened());
 
-    let (mut inertia, mut bias) = (vec![0.0; joints * joints], vec![0.0; joints]);
-    let mut jacobian = vec![0.0; 3 * values.arms * joints];
+    let (mut inertia, mut bias) = (vec![T::ZERO; joints * joints], vec![T::ZERO; joints]);
+    let mut jacobian = vec![T::ZERO; 3 * values.arms * joints];
     model.reduced_dynamics(&state, &mut inertia, &mut bias, &mut jacobian)?;
-    values.set(Quantity::GeneralizedInertia, inertia);
-    values.set(Quantity::GeneralizedBias, bias);
-    values.set(Quantity::GeneralizedJacobian, jacobian);
+    values.set(Quantity::GeneralizedInertia, &inertia);
+    values.set(Quantity::GeneralizedBias, &bias);
+    values.set(Quantity::GeneralizedJacobian, &jacobian);
 
-    let mut joint_accelerations = vec![0.0; joints];
+    let mut joint_accelerations = vec![T::ZERO; joints];
     let base = model.forward_dynamics(&state, &instant.forces(), &mut joint_accelerations)?;
-    values.set(Quantity::BaseAcceleration, base);
-    values.set(Quantity::JointAccelerations, joint_accelerations);
+    values.set(Quantity::BaseAcceleration, &base);
+    values.set(Quantity::JointAccelerations, &joint_accelerations);
 
     if instant.targets.iter().any(Option::is_some) {
         reduced_impact(model, instant, &mut values)?;
@@ -105,7 +134,7 @@ pub fn evaluate(model: &dyn Model<f64>, instant: &EvaluationInput) -> Result<Val
 ///
 /// # Errors
 /// As [`evaluate`].
-pub fn evaluate_all(model: &dyn CloneModel, instant: &EvaluationInput) -> Result<Values, Error> {
+pub fn evaluate_all<T: Real>(model: &dyn CloneModel<T>, instant: &EvaluationInput<T>) -> Result<Values, Error> {
     let mut values = evaluate(model, instant)?;
     if instant.targets.iter().any(Option::is_some) {
         merged(model, instant, &mut values)?;
@@ -121,11 +150,11 @@ macro_rules! functions {
         results $results:tt
     ) => {
         /// The functions of configuration or state alone.
-        fn functions(model: &dyn Model<f64>, state: &State<'_, f64>, values: &mut Values) -> Result<(), Error> {
+        fn functions<T: Real>(model: &dyn Model<T>, state: &State<'_, T>, values: &mut Values) -> Result<(), Error> {
             $($(
-                let mut result = vec![0.0; values.shape(Quantity::$quantity).iter().product()];
+                let mut result = vec![T::ZERO; values.shape(Quantity::$quantity).iter().product()];
                 call!(model.$method($inputs state), entries!($kind result))?;
-                values.set(Quantity::$quantity, result);
+                values.set(Quantity::$quantity, &result);
             )*)*
             Ok(())
         }
@@ -152,50 +181,56 @@ macro_rules! entries {
 
 with_quantities!(functions);
 
-fn reduced_impact(model: &dyn Model<f64>, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
+fn reduced_impact<T: Real>(
+    model: &dyn Model<T>,
+    instant: &EvaluationInput<T>,
+    values: &mut Values,
+) -> Result<(), Error> {
     let joints = values.joints;
-    let (mut matrix, mut momentum, mut rates) = (vec![0.0; joints * joints], vec![0.0; joints], vec![0.0; joints]);
+    let (mut matrix, mut momentum, mut rates) =
+        (vec![T::ZERO; joints * joints], vec![T::ZERO; joints], vec![T::ZERO; joints]);
     model.reduced_impact(&instant.state.view(), &instant.targets, &mut matrix, &mut momentum, &mut rates)?;
-    values.set(Quantity::ImpactMatrix, matrix);
-    values.set(Quantity::ImpactMomentum, momentum);
-    values.set(Quantity::ImpactJointRates, rates);
+    values.set(Quantity::ImpactMatrix, &matrix);
+    values.set(Quantity::ImpactMomentum, &momentum);
+    values.set(Quantity::ImpactJointRates, &rates);
     Ok(())
 }
 
-fn capture(model: &dyn Model<f64>, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
-    let mut joint_rates = vec![0.0; values.joints];
-    let (mut target_twists, mut impulses) = (vec![[0.0; 3]; values.arms], vec![[0.0; 3]; values.arms]);
+fn capture<T: Real>(model: &dyn Model<T>, instant: &EvaluationInput<T>, values: &mut Values) -> Result<(), Error> {
+    let mut joint_rates = vec![T::ZERO; values.joints];
+    let (mut target_twists, mut impulses) = (vec![[T::ZERO; 3]; values.arms], vec![[T::ZERO; 3]; values.arms]);
     let mut after =
         RigidImpactOutput { joint_rates: &mut joint_rates, target_twists: &mut target_twists, impulses: &mut impulses };
     let base_twist = impact::exact(model, &instant.state.view(), &instant.targets, &mut after)?;
     finite("target_twists_after", target_twists.as_flattened())?;
     finite("impulses", impulses.as_flattened())?;
-    values.set(Quantity::CaptureBaseTwist, base_twist);
-    values.set(Quantity::CaptureJointRates, joint_rates);
+    values.set(Quantity::CaptureBaseTwist, &base_twist);
+    values.set(Quantity::CaptureJointRates, &joint_rates);
     values.set(Quantity::CaptureTargetTwists, target_twists.as_flattened());
     values.set(Quantity::CaptureImpulses, impulses.as_flattened());
     Ok(())
 }
 
 /// The robot that holds its targets; its mass matrix G, and H = G v after the capture.
-fn merged(model: &dyn CloneModel, instant: &EvaluationInput, values: &mut Values) -> Result<(), Error> {
+fn merged<T: Real>(model: &dyn CloneModel<T>, instant: &EvaluationInput<T>, values: &mut Values) -> Result<(), Error> {
     let (joints, state) = (values.joints, instant.state.view());
     let mut model = model.clone_box();
     model.merge(&state.base_pose, state.joint_angles, &instant.targets)?;
-    let mut inertias = vec![[0.0; 2]; joints + 1];
+    let mut inertias = vec![[T::ZERO; 2]; joints + 1];
     model.body_inertias(&mut inertias)?;
     values.set(Quantity::MergedBodyInertias, inertias.as_flattened());
-    let mut mass_matrix = vec![0.0; (3 + joints) * (3 + joints)];
+    let mut mass_matrix = vec![T::ZERO; (3 + joints) * (3 + joints)];
     model.mass_matrix(&state.base_pose, state.joint_angles, &mut mass_matrix)?;
     let after = [Quantity::CaptureBaseTwist, Quantity::CaptureJointRates];
     let after = after.map(|part| values.get(part).unwrap_or_default()).concat();
     let rows = mass_matrix.chunks_exact(3 + joints);
-    let momentum: Vec<f64> = rows.map(|row| row.iter().zip(&after).map(|(entry, v)| entry * v).sum()).collect();
-    values.set(Quantity::CaptureMomentum, momentum);
-    values.set(Quantity::MergedMassMatrix, mass_matrix);
-    let mut joint_accelerations = vec![0.0; joints];
+    let momentum: Vec<f64> =
+        rows.map(|row| row.iter().zip(&after).map(|(entry, v)| entry.to_f64() * v).sum()).collect();
+    values.set(Quantity::CaptureMomentum, &momentum);
+    values.set(Quantity::MergedMassMatrix, &mass_matrix);
+    let mut joint_accelerations = vec![T::ZERO; joints];
     let base = model.forward_dynamics(&state, &instant.forces(), &mut joint_accelerations)?;
-    values.set(Quantity::MergedBaseAcceleration, base);
-    values.set(Quantity::MergedJointAccelerations, joint_accelerations);
+    values.set(Quantity::MergedBaseAcceleration, &base);
+    values.set(Quantity::MergedJointAccelerations, &joint_accelerations);
     Ok(())
 }

@@ -47,8 +47,8 @@ pub fn resolve_capture(model: &dyn Model<f64>, instant: &EvaluationInput, values
         twists[contact.arm] = twist;
         impulses[contact.arm] = impulse;
     }
-    values.set(Quantity::CaptureBaseTwist, base_twist);
-    values.set(Quantity::CaptureJointRates, joint_rates);
+    values.set(Quantity::CaptureBaseTwist, &base_twist);
+    values.set(Quantity::CaptureJointRates, &joint_rates);
     values.set(Quantity::CaptureTargetTwists, twists.as_flattened());
     values.set(Quantity::CaptureImpulses, impulses.as_flattened());
     Ok(())

@@ -43,7 +43,7 @@ fn generated_and_generic_agree() {
                     .unwrap_or_else(|errors| panic!("{name}: {errors:?}; {}", replay(regime, index, &sample)));
                 for difference in all {
                     let quantity = difference.quantity.row().name;
-                    let bound = equivalence(difference.quantity).bound(difference.condition);
+                    let bound = equivalence(difference.quantity).bound::<f64>(difference.condition);
                     let error = difference.error;
                     assert!(bound <= difference.bound(), "{quantity}: the test allows more than `compare` does");
                     assert!(

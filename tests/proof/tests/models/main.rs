@@ -16,4 +16,5 @@ mod light_last_link;
 mod not_a_number;
 mod references;
 mod scalars;
+mod single_precision;
 mod trajectory;

@@ -11,6 +11,7 @@ use crate::prove::owned::CloneModel;
 use crate::prove::sampling::RegimeSample;
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::{Quantity, Rounding};
+use planar_dynamics::scalar::Real;
 
 /// The difference of two models in one quantity at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,19 +41,21 @@ impl Difference {
     }
 }
 
-/// The differences of two models in every quantity that a sample has; those of an impact only where it has a target.
+/// The differences of two models in every quantity that a sample has; those of an impact only where it has a target. A model
+/// of another scalar has the sample's numbers rounded to it.
 ///
 /// # Errors
 /// The errors of the models: of the first, the second, or both.
-pub fn differences(
-    model: &dyn CloneModel,
+pub fn differences<T: Real>(
+    model: &dyn CloneModel<T>,
     reference: &dyn CloneModel,
     sample: &RegimeSample,
 ) -> Result<Vec<Difference>, [Option<Error>; 2]> {
-    let (found, expected) = match (evaluate_all(model, &sample.instant), evaluate_all(reference, &sample.instant)) {
-        (Ok(found), Ok(expected)) => (found, expected),
-        (found, expected) => return Err([found.err(), expected.err()]),
-    };
+    let (found, expected) =
+        match (evaluate_all(model, &sample.instant.rounded()), evaluate_all(reference, &sample.instant)) {
+            (Ok(found), Ok(expected)) => (found, expected),
+            (found, expected) => return Err([found.err(), expected.err()]),
+        };
     let sizes = natural_sizes(sample, &expected);
     let each = sizes.into_iter().filter_map(|(quantity, NaturalSize { sizes, condition })| {
         let error = scaled_error(found.get(quantity)?, expected.get(quantity)?, &sizes);
