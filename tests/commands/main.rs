@@ -17,6 +17,7 @@ mod generate;
 mod hidden_characters;
 mod linear_time;
 mod outlines;
+mod own_test;
 mod progress;
 mod rendering;
 mod result_folder;
