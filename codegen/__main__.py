@@ -17,10 +17,12 @@ INSIDE = "PLANAR_CAPTURE_CODEGEN_INSIDE"
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="python -m codegen",
-        description="Derives codegen/graphs/NAME.json from codegen/layouts/NAME.toml, codegen/structures/NAME.json from "
-        "NAME.toml beside it, and writes the layouts' cargo features into Cargo.toml.",
+        description="Derives codegen/graphs/NAME.json from codegen/layouts/NAME.toml, those of codegen/structures from "
+        "the layouts beside them, and writes the layouts' cargo features into Cargo.toml.",
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts and codegen/structures)")
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", help="layouts (default: all of codegen/layouts and codegen/structures)"
+    )
     parser.add_argument(
         "--check", action="store_true", help="write nothing; exit 1 if a graph is not the one of its layout"
     )
@@ -72,7 +74,9 @@ def wrong_arguments(options: argparse.Namespace) -> str | None:
 
     shipped = layout_names() + structure_names()
     if unknown := [name for name in options.names if name not in shipped]:
-        return f"no layout {', '.join(unknown)} in codegen/layouts or codegen/structures; there are: {', '.join(shipped)}"
+        return (
+            f"no layout {', '.join(unknown)} in codegen/layouts or codegen/structures; there are: {', '.join(shipped)}"
+        )
     if options.graph is not None and not options.graph.resolve().parent.is_dir():
         return f"cannot write {options.graph}: there is no folder {options.graph.parent}"
     try:
