@@ -1,7 +1,7 @@
 //! Derivatives by dual numbers through the functions of a graph: the reference for those that the graph computes.
 
 use crate::format::{Derivative, FunctionResult, Given, Graph, ReferenceState, Variable};
-use crate::prove::interpreter::interpret_some;
+use crate::prove::interpreter::{Arguments, interpret_some};
 use crate::prove::vectors::Reference;
 use planar_dynamics::scalar::Dual;
 
@@ -12,13 +12,17 @@ const FACTOR: f64 = 4.0;
 ///
 /// # Errors
 /// What the graph lacks.
-pub fn with_derivatives(graph: &Graph, reference: Reference, direction: &[Given]) -> Result<ReferenceState, String> {
-    let Reference { mut state, roundings } = reference;
+pub fn with_derivatives(
+    graph: &Graph,
+    (reference, parameters): (Reference, &[f64]),
+    direction: &[Given],
+) -> Result<ReferenceState, String> {
+    let Reference { mut state, roundings, .. } = reference;
     let directions = graph.inputs.iter().filter_map(|input| {
         let of = input.name.strip_suffix("_direction")?;
         Some(Given {
             name: input.name.clone(),
-            values: values_of(direction, of).unwrap_or_else(|| of_parameters(graph)),
+            values: values_of(direction, of).unwrap_or_else(|| of_parameters(parameters)),
         })
     });
     state.inputs.extend(directions);
@@ -26,7 +30,7 @@ pub fn with_derivatives(graph: &Graph, reference: Reference, direction: &[Given]
     for function in graph.families.iter().flat_map(|family| &family.functions) {
         for output in &function.outputs {
             if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != "smallest_pivot") {
-                let point = Point { graph, state: &state, roundings: &roundings, derivative };
+                let point = Point { graph, parameters, state: &state, roundings: &roundings, derivative };
                 let [values, sizes] = point.expected(output)?;
                 derived.push(FunctionResult {
                     function: function.name.clone(),
@@ -46,14 +50,15 @@ fn values_of(given: &[Given], name: &str) -> Option<Vec<f64>> {
 }
 
 /// The direction in the parameters: every one changes, by about half of it.
-fn of_parameters(graph: &Graph) -> Vec<f64> {
+fn of_parameters(parameters: &[f64]) -> Vec<f64> {
     let change = |(i, p): (usize, f64)| if i % 2 == 0 { 0.5 * p + 0.125 } else { 0.125 - 0.5 * p };
-    graph.parameters.iter().map(|parameter| parameter.default).enumerate().map(change).collect()
+    parameters.iter().copied().enumerate().map(change).collect()
 }
 
 /// A derivative at a state.
 struct Point<'a> {
     graph: &'a Graph,
+    parameters: &'a [f64],
     state: &'a ReferenceState,
     roundings: &'a [f64],
     derivative: &'a Derivative,
@@ -127,7 +132,8 @@ impl Point<'_> {
     fn column(&self, direction: &dyn Fn(&str, usize) -> f64) -> Result<Vec<f64>, String> {
         let Derivative { function, outputs, .. } = self.derivative;
         let dual = |name: &str, i: usize, value: f64| Dual(value, direction(name, i));
-        let found = interpret_some(self.graph, &self.state.inputs, &dual, &|other| other.name == *function)?;
+        let arguments = Arguments { inputs: &self.state.inputs, parameters: self.parameters };
+        let found = interpret_some(self.graph, arguments, &dual, &|other| other.name == *function)?;
         let results = outputs.iter().filter_map(|output| found.iter().find(|found| found.output == *output));
         Ok(results.flat_map(|result| result.values.iter().map(|value| value.1)).collect())
     }

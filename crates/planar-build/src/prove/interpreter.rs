@@ -4,13 +4,19 @@ use crate::format::{Function, FunctionResult, Given, Graph, Operand, Operation, 
 use planar_dynamics::scalar::Scalar;
 use std::collections::HashMap;
 
-/// Every result of every function, in the graph's order, with the layout's own numbers; `inputs` holds the elements of
-/// each input, row-major.
+/// Where a graph is computed: the elements of each input, row-major, and the values of the parameters, in its order.
+#[derive(Clone, Copy)]
+pub struct Arguments<'a> {
+    pub inputs: &'a [Given],
+    pub parameters: &'a [f64],
+}
+
+/// Every result of every function, in the graph's order.
 ///
 /// # Errors
 /// A name that is used before it has a value, or an input that is missing: which.
-pub fn interpret(graph: &Graph, inputs: &[Given]) -> Result<Vec<FunctionResult>, String> {
-    interpret_some(graph, inputs, &|_, _, value: f64| value, &|_| true)
+pub fn interpret(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, String> {
+    interpret_some(graph, arguments, &|_, _, value: f64| value, &|_| true)
 }
 
 /// The parameters, as an input of [`interpret_some`].
@@ -23,7 +29,7 @@ const PARAMETERS: &str = "parameters";
 /// As [`interpret`].
 pub fn interpret_some<T: Scalar>(
     graph: &Graph,
-    inputs: &[Given],
+    Arguments { inputs, parameters: values }: Arguments<'_>,
     scalar: &dyn Fn(&str, usize, f64) -> T,
     is_wanted: &dyn Fn(&Function) -> bool,
 ) -> Result<Vec<FunctionResult<T>>, String> {
@@ -38,8 +44,8 @@ pub fn interpret_some<T: Scalar>(
             known.own.insert(format!("{name}{place}"), scalar(name, i, *value));
         }
     }
-    let parameters = graph.parameters.iter().enumerate();
-    known.own.extend(parameters.map(|(i, p)| (p.name.clone(), scalar(PARAMETERS, i, p.default))));
+    let parameters = graph.parameters.iter().zip(values).enumerate();
+    known.own.extend(parameters.map(|(i, (p, value))| (p.name.clone(), scalar(PARAMETERS, i, *value))));
     known.run(&graph.constants.statements)?;
     let mut found = Vec::new();
     for family in graph.families.iter().filter(|family| family.functions.iter().any(is_wanted)) {

@@ -9,6 +9,7 @@ pub mod heavy_targets;
 mod impact_results;
 mod interpreter;
 pub mod owned;
+mod pivots;
 pub mod quantities;
 pub mod sampling;
 mod vectors;
@@ -20,9 +21,10 @@ use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
 use derivatives::with_derivatives;
 use impact_results::EXACT;
-use interpreter::interpret;
+use interpreter::{Arguments, interpret};
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
+use planar_layout::structure::parameters;
 use serde_json::json;
 use std::fmt;
 use vectors::{direction, reference_state};
@@ -110,8 +112,9 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
     let mut graph = graph::read(graph_text, layout)?;
     let proof = prove(layout, &graph)?;
     let states = (0..CARRIED).map(|index| {
-        let state = sample(layout, &graph, Regime::Moving, index)?;
-        let found = interpret(&graph, &state.inputs).map_err(GraphError::Format)?;
+        let (state, parameters) = sample(layout, &graph, Regime::Moving, index)?;
+        let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
+        let found = interpret(&graph, arguments).map_err(GraphError::Format)?;
         Ok(state.in_order_of(&found))
     });
     let states = states.collect::<Result<Vec<ReferenceState>, GenerateError>>()?;
@@ -125,17 +128,19 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
 }
 
 /// Compares the results of a graph, which is interpreted, with the generic implementation: every result of every
-/// function at states of every regime that uses the layout's own numbers. Derivatives are compared with dual numbers
-/// through the graph's own functions, which are compared themselves.
+/// function at states of every regime, with the layout's own numbers and with others. Derivatives are compared with dual
+/// numbers through the graph's own functions, which are compared themselves. Pivots, which the generic implementation
+/// does not have, are to show what is not a number.
 ///
 /// # Errors
 /// [`GenerateError`], with the first result that differs by more than is allowed.
 pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
-    for regime in REGIMES.into_iter().filter(|regime| regime.keeps_layout()) {
+    for regime in REGIMES {
         for index in 0..SAMPLES {
-            let state = sample(layout, graph, regime, index)?;
-            let mut found = interpret(graph, &state.inputs).map_err(GraphError::Format)?;
+            let (state, parameters) = sample(layout, graph, regime, index)?;
+            let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
+            let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
             found.retain(|found| found.output != "smallest_pivot");
             if found.len() != state.expected.len() {
                 let problem = "it has other results than the generic implementation";
@@ -153,14 +158,25 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
             proof.results = state.expected.len();
         }
     }
+    let (state, parameters) = sample(layout, graph, Regime::Moving, 0)?;
+    pivots::check(graph, Arguments { inputs: &state.inputs, parameters: &parameters })?;
     Ok(proof)
 }
 
-/// A state with the results of the generic implementation, and what derivatives of these the graph has.
-fn sample(layout: &Layout, graph: &Graph, regime: Regime, index: u64) -> Result<ReferenceState, GenerateError> {
+/// A state with the results of the generic implementation, and what derivatives of these the graph has; and the values of
+/// the graph's parameters.
+fn sample(
+    layout: &Layout,
+    graph: &Graph,
+    regime: Regime,
+    index: u64,
+) -> Result<(ReferenceState, Vec<f64>), GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
     let mut functions = graph.families.iter().flat_map(|family| &family.functions);
     let has_impact_results = functions.any(|function| function.name == EXACT);
     let reference = reference_state(layout, regime, index, has_impact_results).map_err(failed)?;
-    Ok(with_derivatives(graph, reference, &direction(layout, index)).map_err(GraphError::Format)?)
+    let parameters = parameters(&graph::structure(graph)?, &reference.layout)
+        .map_err(|_| GraphError::Format("its structure is not the layout's".to_owned()))?;
+    let state = with_derivatives(graph, (reference, &parameters), &direction(layout, index));
+    Ok((state.map_err(GraphError::Format)?, parameters))
 }

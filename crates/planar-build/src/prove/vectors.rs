@@ -5,7 +5,7 @@ use crate::prove::evaluation::EvaluationInput;
 use crate::prove::generic_results::{Expected, results};
 use crate::prove::impact_results::impact_results;
 use crate::prove::quantities::scaled_error;
-use crate::prove::sampling::Regime;
+use crate::prove::sampling::{Regime, RegimeSample};
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::Quantity;
 use planar_dynamics::target::Target;
@@ -16,12 +16,13 @@ const PIVOT_ROUNDINGS: f64 = 1024.0;
 
 /// Results at a state, and how many rounding units each of them may be off in natural sizes.
 pub struct Reference {
+    /// The robot, whose numbers are the layout's in some regimes.
+    pub layout: Layout,
     pub state: ReferenceState,
     pub roundings: Vec<f64>,
 }
 
-/// The results at one random state of a regime that leaves the layout as it is, in the order of the table of
-/// quantities; `has_impact_results` adds those of [`impact_results`]. Numbers of the state have four digits, so that they can be read; every machine makes the same.
+/// The results at one random state of a regime, and of its numbers of the robot, in the order of the table of quantities; `has_impact_results` adds those of [`impact_results`]. Numbers of the state have four digits, so that they can be read; every machine makes the same.
 ///
 /// # Errors
 /// A state that the generic implementation has no answer for.
@@ -31,7 +32,8 @@ pub fn reference_state(
     index: u64,
     has_impact_results: bool,
 ) -> Result<Reference, Error> {
-    let mut instant = readable(regime.sample(layout, 0, index).instant);
+    let RegimeSample { layout, instant } = regime.sample(layout, 0, index);
+    let mut instant = readable(instant);
     instant.base_wrench.get_or_insert([0.0; 3]);
     instant.end_effector_wrenches.get_or_insert_with(|| vec![[0.0; 3]; layout.arms.len()]);
     // impacts are computed where there is a target
@@ -41,7 +43,7 @@ pub fn reference_state(
     }
     let base_wrench = EvaluationInput { end_effector_wrenches: None, ..instant.clone() };
     let torques_alone = EvaluationInput { base_wrench: None, ..base_wrench.clone() };
-    let [torques_alone, base_wrench, all] = [&torques_alone, &base_wrench, &instant].map(|at| results(layout, at));
+    let [torques_alone, base_wrench, all] = [&torques_alone, &base_wrench, &instant].map(|at| results(&layout, at));
     let (torques_alone, base_wrench, all) = (torques_alone?, base_wrench?, all?);
     let (mut expected, mut roundings) = (Vec::new(), Vec::new());
     for quantity in Quantity::ALL {
@@ -59,12 +61,12 @@ pub fn reference_state(
         }
     }
     if has_impact_results {
-        for (result, allowed) in impact_results(layout, &instant)? {
+        for (result, allowed) in impact_results(&layout, &instant)? {
             expected.push(result);
             roundings.push(allowed);
         }
     }
-    Ok(Reference { state: ReferenceState { inputs: inputs(&instant), expected }, roundings })
+    Ok(Reference { layout, state: ReferenceState { inputs: inputs(&instant), expected }, roundings })
 }
 
 /// A direction in the inputs of all functions, by the inputs' names: differences of a moving state.
