@@ -16,6 +16,7 @@ mod vectors;
 
 pub use derivation::{DerivationError, derive, home, package_hash};
 
+use crate::evaluator::Evaluator;
 use crate::format::{FunctionResult, ReferenceState};
 use crate::graph::{self, Graph, GraphError};
 use crate::prove::sampling::{REGIMES, Regime};
@@ -135,6 +136,8 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
 /// # Errors
 /// [`GenerateError`], with the first result that differs by more than is allowed.
 pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
+    // that all functions are there, with their inputs and outputs in order
+    Evaluator::new(graph)?;
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES {
         for index in 0..SAMPLES {

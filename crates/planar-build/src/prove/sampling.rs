@@ -81,12 +81,6 @@ impl Regime {
         RegimeSample { layout, instant }
     }
 
-    /// Whether its samples are of the layout as it is, and not of other numbers.
-    #[must_use]
-    pub fn keeps_layout(self) -> bool {
-        !matches!(self, Self::LightLinks | Self::HeavyLinks | Self::MixedMasses | Self::OtherShape)
-    }
-
     fn layout(self, layout: &Layout, random: &mut Random) -> Layout {
         let mut layout = layout.clone();
         let common = match self {

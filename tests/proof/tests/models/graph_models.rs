@@ -125,6 +125,10 @@ fn graphs_that_are_right_for_one_robot_alone_are_not_proved() {
             });
         })
     };
+    let text = problem(&|graph| {
+        functions(graph, &|function| function["outputs"].as_array_mut().expect("outputs").reverse());
+    });
+    assert!(text.contains("it has the outputs"), "{text}");
     assert!(pivot(0.5).contains("does not show that the parameter"), "{}", pivot(0.5));
     assert!(pivot(2.0).contains("is 2e0 at a regular state"), "{}", pivot(2.0));
     assert!(pivot(0.0).contains("is 0e0 at a regular state"), "{}", pivot(0.0));
