@@ -49,6 +49,6 @@ fn faster(engine: Engine) -> &'static str {
     match engine {
         Engine::Generated => "",
         Engine::Graph => "; compiled code of it in a program of your own is faster: README, Your own robot",
-        Engine::Generic => "; a graph is many times faster: planar-capture derive LAYOUT",
+        Engine::Generic => "; a graph is several times as fast: planar-capture derive LAYOUT",
     }
 }
