@@ -66,6 +66,19 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
+/// Writes texts that belong together to their paths, all or none; removes what a killed process left in their folders.
+///
+/// # Errors
+/// [`OutputError`] with the reason; where a file cannot be written, those that were there are unchanged.
+pub fn write_texts<'a>(files: impl IntoIterator<Item = (&'a Path, &'a str)>) -> Result<(), OutputError> {
+    let stage = |(path, text): (&Path, &str)| {
+        sweep(folder_of(path));
+        StagedFile::new(path, |to| to.write_all(text.as_bytes()))
+    };
+    let staged = files.into_iter().map(stage).collect::<Result<Vec<_>, _>>()?;
+    staged.into_iter().try_for_each(StagedFile::commit)
+}
+
 /// Writes `text` to `path`, completely or not at all; removes what a killed process left in the same folder.
 ///
 /// # Errors
@@ -81,4 +94,25 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     sweep(folder_of(path));
     StagedFile::new(path, |to| to.write_all(bytes))?.commit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::write_texts;
+    use std::fs;
+
+    #[test]
+    fn texts_that_belong_together_are_all_written_or_none() {
+        let folder = tempfile::TempDir::new().expect("a folder");
+        let [source, header] = ["robot.c", "robot.h"].map(|name| folder.path().join(name));
+        fs::write(&source, "old").expect("written");
+        fs::create_dir(&header).expect("a folder in its place");
+        let files = || [(source.as_path(), "new"), (header.as_path(), "new")];
+        assert_eq!(write_texts(files()).expect_err("a folder").path, header);
+        assert_eq!(fs::read_to_string(&source).expect("a file"), "old");
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "no temporary file is left");
+        fs::remove_dir(&header).expect("removed");
+        write_texts(files()).expect("written");
+        assert_eq!([&source, &header].map(|path| fs::read_to_string(path).expect("a file")), ["new", "new"]);
+    }
 }

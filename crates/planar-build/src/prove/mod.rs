@@ -111,6 +111,9 @@ pub struct Proved {
 /// [`GenerateError`].
 pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateError> {
     let mut graph = graph::read(graph_text, layout)?;
+    if graph.self_test.is_some() {
+        return Err(GraphError::Format("it has reference vectors already, which this adds".to_owned()).into());
+    }
     let proof = prove(layout, &graph)?;
     let states = (0..CARRIED).map(|index| {
         let (state, parameters) = sample(layout, &graph, Regime::Moving, index)?;
