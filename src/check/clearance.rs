@@ -76,7 +76,12 @@ fn overlaps(scenario: &Scenario) -> Vec<Warning> {
         Err(StudyError::RoughPath { time, path_error, .. }) => {
             return vec![unfinished(time, &format!("the path is known to {path_error:.1e} rad or m alone"))];
         }
-        // what stops a run is reported by the run
+        // of the start, so that every run stops there
+        Err(error @ StudyError::Inside { .. }) => {
+            let help = "choose another start of the target or of the robot";
+            return vec![warning(error.key(scenario).path, error.to_string(), help)];
+        }
+        // what else stops a run is reported by the run
         Err(_) => return Vec::new(),
     };
     let is_deep = |overlap: &&Overlap| match scenario.clearance.on_overlap {

@@ -359,3 +359,15 @@ fn overlaps_that_fail_a_run_are_warned_of() {
     let fast = fast.replace("radius = 0.6", "polygon = [[-1.4, -0.05], [1.4, -0.05], [1.4, 0.05], [-1.4, 0.05]]");
     assert!(check(&fast).contains("were looked for only until"), "{}", check(&fast));
 }
+
+/// A run refuses it, whatever its phases are.
+#[test]
+fn targets_that_the_robot_starts_in_are_said() {
+    let text = fs::read_to_string(file("scenarios/elastic_rebound.toml")).expect("a scenario");
+    assert!(text.contains("radius = 0.3"), "{text}");
+    let warnings =
+        |text: &str| inspect(text, "it.toml", &file("scenarios"), SHIPPED).expect("valid").warnings.to_string();
+    assert!(!warnings(&text).contains("inside target"), "{}", warnings(&text));
+    let shown = warnings(&text.replace("radius = 0.3", "radius = 30.0"));
+    assert!(shown.contains("inside target `") && shown.contains("`target[0].position`"), "{shown}");
+}
