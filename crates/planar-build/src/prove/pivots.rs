@@ -7,6 +7,9 @@ use planar_dynamics::manifest::ParameterKind;
 
 const PIVOT: &str = "smallest_pivot";
 
+/// The function whose matrix has the size of the joints.
+const OF_JOINTS: &str = "reduced_impact";
+
 /// Inputs that enter the system of equations of a function that has them.
 const ENTERING: [&str; 4] = ["joint_angles", "target_masses", "target_inertias", "contacts"];
 
@@ -30,12 +33,15 @@ pub fn check(graph: &Graph, arguments: Arguments<'_>) -> Result<(), GraphError> 
         }
     }
     let structure = graph::structure(graph)?;
+    // relative to itself the one element of a matrix is 1, whatever it is: then results alone show it
+    let is_shown = |function: &str| function != OF_JOINTS || structure.links.iter().sum::<usize>() > 1;
     for (place, (kind, arm, link)) in structure.parameters.iter().enumerate() {
         let mut parameters = arguments.parameters.to_vec();
         parameters[place] = f64::NAN;
         let is_end = *kind == ParameterKind::LinkLength && link + 1 == structure.links[*arm];
         for found in pivots(graph, Arguments { parameters: &parameters, ..arguments })? {
-            let shows = !is_end || inputs(graph, &found.function).any(|input| input == OF_AN_IMPACT);
+            let shows = is_shown(&found.function)
+                && (!is_end || inputs(graph, &found.function).any(|input| input == OF_AN_IMPACT));
             if shows && !found.values.iter().all(|pivot| pivot.is_nan()) {
                 let name = &graph.parameters[place].name;
                 return wrong(&found.function, &format!("does not show that the parameter `{name}` is not a number"));
@@ -49,7 +55,8 @@ pub fn check(graph: &Graph, arguments: Arguments<'_>) -> Result<(), GraphError> 
             let mut changed: Vec<Given> = arguments.inputs.to_vec();
             changed[place].values[element] = f64::NAN;
             for found in pivots(graph, Arguments { inputs: &changed, ..arguments })? {
-                let shows = inputs(graph, &found.function).any(|input| *input == given.name);
+                let has = inputs(graph, &found.function).any(|input| *input == given.name);
+                let shows = has && is_shown(&found.function);
                 if shows && !found.values.iter().all(|pivot| pivot.is_nan()) {
                     let what = format!("does not show that `{}[{element}]` is not a number", given.name);
                     return wrong(&found.function, &what);
