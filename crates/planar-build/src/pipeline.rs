@@ -5,7 +5,7 @@ use crate::renderer::Module;
 use planar_layout::layout::Layout;
 use planar_layout::structure::Structure;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The whole build script of the crate that ships the layouts in `codegen`: [`render_all`] into `$OUT_DIR`, for the
 /// layouts whose cargo features are on; ends the process with exit code 1 where that fails.
@@ -13,7 +13,7 @@ pub fn build(codegen: &str) {
     println!("cargo::rerun-if-changed={codegen}");
     println!("cargo::rustc-env=PLANAR_CAPTURE_FEATURES={}", features().join(","));
     let out = std::env::var_os("OUT_DIR").unwrap_or_default();
-    let enabled = |layout: &str| std::env::var_os(format!("CARGO_FEATURE_{}", layout.to_uppercase())).is_some();
+    let enabled = |layout: &str| is_on(&layout.to_uppercase());
     if let Err(problem) = render_all(codegen.as_ref(), out.as_ref(), &enabled) {
         eprintln!("{problem}");
         std::process::exit(1);
@@ -30,7 +30,7 @@ fn features() -> Vec<String> {
 }
 
 /// Renders the graphs of the enabled layouts to `out/NAME.rs`, with `index.rs` and `registry.rs` that list them,
-/// `graphs.rs` that lists all graphs, and `package.rs` that lists the derivation's Python files.
+/// `graphs.rs` that lists all graphs (feature `std`), and `package.rs` that lists the derivation's Python files.
 ///
 /// # Errors
 /// A graph that cannot be read or rendered, or is not its layout's: which, and the command that mends it.
@@ -42,38 +42,47 @@ pub fn render_all(codegen: &Path, out: &Path, enabled: &dyn Fn(&str) -> bool) ->
             "codegen/graphs/{orphan}.json has no layout codegen/layouts/{orphan}.toml: put it back, or delete the graph"
         ));
     }
-    let (enabled, disabled): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| enabled(name));
-    for name in &enabled {
-        let code = render_one(codegen, name, is_fused())?;
-        write(&out.join(format!("{name}.rs")), &code)?;
+    // what files and scenarios need: the core evaluates no graphs
+    let has_files = is_on("STD");
+    let mut carried = Vec::new();
+    for name in &names {
+        if enabled(name) || has_files {
+            let graph = fresh_in(codegen, ["layouts", "graphs"], name)?;
+            if enabled(name) {
+                write(&out.join(format!("{name}.rs")), &rendered(&graph, codegen, name, is_fused())?)?;
+            }
+            carried.push(carried_graph(&graph, codegen, "graphs", name)?);
+        }
     }
+    if has_files {
+        for name in &self::names(&codegen.join("structures"), "toml")? {
+            let graph = fresh_in(codegen, ["structures"; 2], name)?;
+            carried.push(carried_graph(&graph, codegen, "structures", name)?);
+        }
+        write(&out.join("graphs.rs"), &format!("graphs! {{\n{}}}\n", carried.concat()))?;
+    }
+    let (enabled, disabled): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| enabled(name));
     let include = |name: &String| format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));\n");
     write(&out.join("index.rs"), &enabled.iter().map(include).collect::<String>())?;
     let (enabled, disabled) = (enabled.join(", "), disabled.join(", "));
     write(&out.join("registry.rs"), &format!("registry!(enabled: [{enabled}], disabled: [{disabled}]);\n"))?;
     let package = self::names(codegen, "py")?.join("\", \"");
-    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))?;
-    write(&out.join("graphs.rs"), &carried(codegen)?)
+    write(&out.join("package.rs"), &format!("package!(\"{package}\");\n"))
 }
 
-/// What a program needs to know of each graph that it carries before it reads it: name, folder, and structure.
-fn carried(codegen: &Path) -> Result<String, String> {
-    let mut lines = vec!["graphs! {\n".to_owned()];
-    for (layouts, graphs) in [("layouts", "graphs"), ("structures", "structures")] {
-        for name in names(&codegen.join(layouts), "toml")? {
-            let [layout, graph] = [(layouts, "toml"), (graphs, "json")]
-                .map(|(folder, extension)| codegen.join(format!("{folder}/{name}.{extension}")));
-            let (_, value) = fresh(&layout, &graph, &format!("python -m codegen {name}"))?;
-            let structure = graph::structure(&value).map_err(|e| format!("{}: {e}", graph.display()))?;
-            let parameters: Vec<_> =
-                structure.parameters.iter().map(|(kind, arm, link)| format!("({kind:?}, {arm}, {link})")).collect();
-            let Structure { links, needs_distinct_mounts, .. } = &structure;
-            let parameters = parameters.join(", ");
-            lines.push(format!("    {name} in {graphs}: {links:?}, [{parameters}], {needs_distinct_mounts};\n"));
-        }
-    }
-    lines.push("}\n".to_owned());
-    Ok(lines.concat())
+/// What a program needs to know of a graph that it carries before it reads it: name, folder, and structure.
+fn carried_graph(graph: &Graph, codegen: &Path, folder: &str, name: &str) -> Result<String, String> {
+    let Structure { links, parameters, needs_distinct_mounts } =
+        graph::structure(graph).map_err(|e| format!("{}: {e}", graph_path(codegen, folder, name).display()))?;
+    let parameters: Vec<_> = parameters.iter().map(|(kind, arm, link)| format!("({kind:?}, {arm}, {link})")).collect();
+    let parameters = parameters.join(", ");
+    Ok(format!("    {name} in {folder}: {links:?}, [{parameters}], {needs_distinct_mounts};\n"))
+}
+
+/// The graph of a layout in one of two folders, by the name of both.
+fn fresh_in(codegen: &Path, [layouts, graphs]: [&str; 2], name: &str) -> Result<Graph, String> {
+    let layout = codegen.join(format!("{layouts}/{name}.toml"));
+    fresh(&layout, &graph_path(codegen, graphs, name), &derivation(name)).map(|(_, graph)| graph)
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.
@@ -81,18 +90,34 @@ fn carried(codegen: &Path) -> Result<String, String> {
 /// # Errors
 /// As [`render_all`].
 pub fn render_one(codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
-    let command = format!("python -m codegen {name}");
-    let (layout, graph) = (codegen.join(format!("layouts/{name}.toml")), codegen.join(format!("graphs/{name}.json")));
-    let (_, value) = fresh(&layout, &graph, &command)?;
-    let source = format!("codegen/graphs/{name}.json");
+    rendered(&fresh_in(codegen, ["layouts", "graphs"], name)?, codegen, name, fused)
+}
+
+fn rendered(graph: &Graph, codegen: &Path, name: &str, fused: bool) -> Result<String, String> {
+    let (source, command) = (format!("codegen/graphs/{name}.json"), derivation(name));
     let module = Module { standalone: false, item: true, fused, source: &source, command: &command };
-    module.render(&value).map_err(|e| format!("{}: {e}; generate it again: {command}", graph.display()))
+    let path = graph_path(codegen, "graphs", name);
+    module.render(graph).map_err(|e| format!("{}: {e}; generate it again: {command}", path.display()))
+}
+
+fn graph_path(codegen: &Path, folder: &str, name: &str) -> PathBuf {
+    codegen.join(format!("{folder}/{name}.json"))
+}
+
+/// The command that derives the graph of a layout of this repository.
+fn derivation(name: &str) -> String {
+    format!("python -m codegen {name}")
 }
 
 /// Whether the crate that is built has a feature `fused`, and it is on.
 #[must_use]
 pub fn is_fused() -> bool {
-    std::env::var_os("CARGO_FEATURE_FUSED").is_some()
+    is_on("FUSED")
+}
+
+/// Whether the crate that is built has a feature, and it is on; the name in capitals.
+fn is_on(feature: &str) -> bool {
+    std::env::var_os(format!("CARGO_FEATURE_{feature}")).is_some()
 }
 
 /// A layout and the graph that was derived from it; `command` makes the graph again. With the feature `prove` the graph
