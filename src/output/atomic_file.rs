@@ -66,14 +66,14 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Writes texts that belong together to their paths, all or none; removes what a killed process left in their folders.
+/// Writes files that belong together, all or none; removes what a killed process left in their folders.
 ///
 /// # Errors
 /// [`OutputError`] with the reason; where a file cannot be written, those that were there are unchanged.
-pub fn write_texts<'a>(files: impl IntoIterator<Item = (&'a Path, &'a str)>) -> Result<(), OutputError> {
-    let stage = |(path, text): (&Path, &str)| {
+pub fn write_together<'a>(files: impl IntoIterator<Item = (&'a Path, &'a [u8])>) -> Result<(), OutputError> {
+    let stage = |(path, bytes): (&Path, &[u8])| {
         sweep(folder_of(path));
-        StagedFile::new(path, |to| to.write_all(text.as_bytes()))
+        StagedFile::new(path, |to| to.write_all(bytes))
     };
     let staged = files.into_iter().map(stage).collect::<Result<Vec<_>, _>>()?;
     staged.into_iter().try_for_each(StagedFile::commit)
@@ -84,35 +84,26 @@ pub fn write_texts<'a>(files: impl IntoIterator<Item = (&'a Path, &'a str)>) -> 
 /// # Errors
 /// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
 pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
-    write_bytes(path, text.as_bytes())
-}
-
-/// As [`write_text`], for what is no text.
-///
-/// # Errors
-/// [`OutputError`] with the reason; an earlier file at `path` is then unchanged.
-pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    sweep(folder_of(path));
-    StagedFile::new(path, |to| to.write_all(bytes))?.commit()
+    write_together([(path, text.as_bytes())])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::write_texts;
+    use super::write_together;
     use std::fs;
 
     #[test]
-    fn texts_that_belong_together_are_all_written_or_none() {
+    fn files_that_belong_together_are_all_written_or_none() {
         let folder = tempfile::TempDir::new().expect("a folder");
         let [source, header] = ["robot.c", "robot.h"].map(|name| folder.path().join(name));
         fs::write(&source, "old").expect("written");
         fs::create_dir(&header).expect("a folder in its place");
-        let files = || [(source.as_path(), "new"), (header.as_path(), "new")];
-        assert_eq!(write_texts(files()).expect_err("a folder").path, header);
+        let files = || [(source.as_path(), &b"new"[..]), (header.as_path(), b"new")];
+        assert_eq!(write_together(files()).expect_err("a folder").path, header);
         assert_eq!(fs::read_to_string(&source).expect("a file"), "old");
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "no temporary file is left");
         fs::remove_dir(&header).expect("removed");
-        write_texts(files()).expect("written");
+        write_together(files()).expect("written");
         assert_eq!([&source, &header].map(|path| fs::read_to_string(path).expect("a file")), ["new", "new"]);
     }
 }

@@ -7,7 +7,7 @@ use planar_capture::build::graph::{Graph, GraphError};
 use planar_capture::fmu::{Fmu, Origin, archive, binary};
 use planar_capture::generate::GenerateError;
 use planar_capture::layout::Layout;
-use planar_capture::output::atomic_file::write_bytes;
+use planar_capture::output::atomic_file::write_together;
 use std::fs::File;
 
 /// Options that do not go together.
@@ -50,7 +50,7 @@ pub(super) fn write(mut fmu: Fmu, arguments: &Arguments) -> Result<String, Comma
         }
     };
     let bytes = archive::bytes(&fmu).map_err(file_error(&arguments.layout))?;
-    write_bytes(&arguments.out, &bytes)?;
+    write_together([(arguments.out.as_path(), &bytes[..])])?;
     Ok(content)
 }
 

@@ -10,7 +10,7 @@ use planar_capture::build::{CModule, CText, Module, command};
 use planar_capture::fmu::{Fmu, archive};
 use planar_capture::generate::{GenerateError, Proved};
 use planar_capture::layout::Layout;
-use planar_capture::output::atomic_file::write_texts;
+use planar_capture::output::atomic_file::write_together;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -176,7 +176,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     }
     let content = match product {
         Product::Texts(texts) => {
-            write_texts(paths.iter().map(PathBuf::as_path).zip(texts.iter().map(String::as_str)))?;
+            write_together(paths.iter().map(PathBuf::as_path).zip(texts.iter().map(String::as_bytes)))?;
             format!("{} lines", texts.iter().map(|text| text.lines().count()).sum::<usize>())
         }
         Product::Fmu(written) => fmu::write(written, arguments)?,
