@@ -181,6 +181,31 @@ pub struct FunctionResult<T = f64> {
     pub sizes: Vec<f64>,
 }
 
+impl Graph {
+    /// The functions of all families.
+    pub(crate) fn functions(&self) -> impl Iterator<Item = &Function> + Clone {
+        self.families.iter().flat_map(|family| &family.functions)
+    }
+}
+
+#[cfg(feature = "prove")]
+impl Variable {
+    /// The name of an element, row-major, in statements: `joint_angles[1]`, `contacts[0][1]`.
+    pub fn element(&self, index: usize) -> String {
+        match self.shape.get(1) {
+            None => format!("{}[{index}]", self.name),
+            Some(columns) => format!("{}[{}][{}]", self.name, index / columns, index % columns),
+        }
+    }
+}
+
+impl Operation {
+    /// Whether it has one operand.
+    pub fn is_unary(self) -> bool {
+        matches!(self, Self::Copy | Self::Neg | Self::SinCos | Self::Sqrt)
+    }
+}
+
 impl Targets {
     pub fn names(&self) -> Vec<&str> {
         match self {

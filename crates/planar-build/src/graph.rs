@@ -88,31 +88,30 @@ pub fn structure(graph: &Graph) -> Result<Structure, GraphError> {
     let links: Vec<usize> = graph.layout.arms.iter().map(|arm| arm.links).collect();
     let mut parameters = Vec::with_capacity(graph.parameters.len());
     for Parameter { name, quantity, arm, link, .. } in &graph.parameters {
-        let kind = ParameterKind::ALL.into_iter().find(|kind| format!("{kind:?}") == camel_case(quantity));
+        let camel = camel_case(quantity);
+        let kind = ParameterKind::ALL.into_iter().find(|kind| format!("{kind:?}") == camel);
         let (arm, link) = (arm.unwrap_or(0), link.unwrap_or(0));
         let place = kind.filter(|_| links.get(arm).is_some_and(|links| link < *links)).map(|kind| (kind, arm, link));
         match place {
             Some(place) if !parameters.contains(&place) => parameters.push(place),
-            _ => return Err(GraphError::Format(format!("parameter `{name}` is none of a layout, or is one twice"))),
+            _ => return Err(no_parameter(name)),
         }
     }
     Ok(Structure { links, parameters, needs_distinct_mounts: graph.layout.needs_distinct_mounts })
 }
 
+fn no_parameter(name: &str) -> GraphError {
+    GraphError::Format(format!("parameter `{name}` is no parameter of the layout, or is one twice"))
+}
+
 /// Compares the parameters of a graph with the numbers of its layout: each is one of them with its value as the
 /// default, and those without a parameter are the exact zeros.
 fn compare_parameters(graph: &Graph, layout: &Layout) -> Result<(), GraphError> {
-    let camel: HashMap<String, ParameterKind> =
-        layout.parameters().into_iter().map(|(kind, ..)| (format!("{kind:?}"), kind)).collect();
     let mut left: HashMap<_, f64> =
         layout.parameters().into_iter().map(|(kind, arm, link, value)| ((kind, arm, link), value)).collect();
-    for parameter in &graph.parameters {
+    for (parameter, place) in graph.parameters.iter().zip(structure(graph)?.parameters) {
         let name = &parameter.name;
-        let unknown =
-            || GraphError::Format(format!("parameter `{name}` is no parameter of the layout, or is one twice"));
-        let kind = *camel.get(&camel_case(&parameter.quantity)).ok_or_else(unknown)?;
-        let place = (kind, parameter.arm.unwrap_or(0), parameter.link.unwrap_or(0));
-        let value = left.remove(&place).ok_or_else(unknown)?;
+        let value = left.remove(&place).ok_or_else(|| no_parameter(name))?;
         equal(&format!("the default of `{name}`"), &parameter.default, &value)?;
     }
     let mut numbers = layout.parameters().into_iter();

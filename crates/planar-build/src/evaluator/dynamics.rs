@@ -2,6 +2,7 @@
 
 use super::function::Results;
 use super::model::GraphModel;
+use super::targets::by_arm;
 use planar_dynamics::dynamics::{ForwardDynamics, Impact, Momentum, MomentumAndEnergy, ReducedDynamics, Robot};
 use planar_dynamics::error::Error;
 use planar_dynamics::manifest::ParameterKind;
@@ -59,18 +60,6 @@ fn of_state<'a>(state: &'a State<'_, f64>) -> [&'a [f64]; 4] {
 fn triple(results: &Results<'_>, output: usize) -> [f64; 3] {
     let mut elements = results.elements(output);
     [(); 3].map(|()| elements.next().unwrap_or(f64::NAN))
-}
-
-/// The elements of the targets' inputs: masses, inertias, contacts and twists, those of a massless target for an arm
-/// without one.
-fn by_arm(targets: &[Option<Target<f64>>]) -> [Vec<f64>; 4] {
-    let all = || targets.iter().map(|target| target.unwrap_or(Target::massless()));
-    [
-        all().map(|target| target.mass).collect(),
-        all().map(|target| target.inertia).collect(),
-        all().flat_map(|target| target.contact).collect(),
-        all().flat_map(|target| target.twist).collect(),
-    ]
 }
 
 impl GraphModel {

@@ -94,18 +94,10 @@ impl Function {
         }
         let mut elements = 0;
         for input in inputs {
-            let shape =
-                graph.inputs.iter().find(|declared| declared.name == *input).map_or(&[][..], |found| &found.shape);
-            let names: Vec<String> = match shape {
-                [] => vec![(*input).to_owned()],
-                [count] => (0..*count).map(|i| format!("{input}[{i}]")).collect(),
-                [rows, columns, ..] => {
-                    let place = |i: usize| format!("{input}[{}][{}]", i / columns, i % columns);
-                    (0..rows * columns).map(place).collect()
-                }
-            };
-            for name in names {
-                values.name(name, Value::Input(elements));
+            let declared = graph.inputs.iter().find(|declared| declared.name == *input);
+            let declared = declared.ok_or_else(|| format!("its input `{input}` is not declared"))?;
+            for index in 0..declared.shape.iter().product() {
+                values.name(declared.element(index), Value::Input(elements));
                 elements += 1;
             }
         }

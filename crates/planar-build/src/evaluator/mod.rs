@@ -11,9 +11,11 @@ mod instruction;
 mod merge;
 mod model;
 mod program;
+mod targets;
 mod values;
 
 pub use model::{Evaluator, GraphModel};
+pub(crate) use targets::by_arm;
 
 #[cfg(test)]
 mod tests;

@@ -13,7 +13,6 @@ use std::sync::Arc;
 /// The programs of a graph, for every layout of its structure.
 #[derive(Clone, Debug)]
 pub struct Evaluator {
-    name: String,
     structure: Structure,
     /// From the parameters to all that later programs read besides them.
     constants: Program,
@@ -55,13 +54,7 @@ impl Evaluator {
             Function::new(graph, (name, index), inputs, outputs)
                 .map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
         })?;
-        Ok(Self { name: graph.layout.name.clone(), structure, constants, functions })
-    }
-
-    /// The name of the layout that the graph was derived from.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.name
+        Ok(Self { structure, constants, functions })
     }
 
     /// The structure of the layouts that it has models of.

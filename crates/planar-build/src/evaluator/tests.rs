@@ -183,7 +183,7 @@ fn what_is_no_graph_of_a_robot_is_refused() {
         problem(&|graph| function(graph, "mass_matrix", &|f| f["inputs"] = json!(["joint_angles", "base_pose"])));
     assert!(text.contains("`mass_matrix`: it has the inputs joint_angles, base_pose, expected"), "{text}");
     let text = problem(&|graph| graph["parameters"][2]["quantity"] = "base_mass".into());
-    assert!(text.contains("is none of a layout, or is one twice"), "{text}");
+    assert!(text.contains("is no parameter of the layout, or is one twice"), "{text}");
     let text = problem(&|graph| graph["parameters"][2]["link"] = 7.into());
-    assert!(text.contains("is none of a layout"), "{text}");
+    assert!(text.contains("is no parameter of the layout, or is one twice"), "{text}");
 }

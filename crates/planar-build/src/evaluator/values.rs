@@ -64,11 +64,7 @@ impl Values {
     pub fn extend(&mut self, statements: &[Statement]) -> Result<(), String> {
         for Statement { targets, operation, a, b } in statements {
             let a = self.operand(a)?;
-            let has_second = matches!(
-                operation,
-                Operation::Add | Operation::Sub | Operation::Mul | Operation::Div | Operation::Min | Operation::Atan2
-            );
-            let b = if has_second { Some(self.operand(b)?) } else { None };
+            let b = if operation.is_unary() { None } else { Some(self.operand(b)?) };
             match targets {
                 Targets::Value(name) if *operation == Operation::Copy => {
                     self.names.insert(name.clone(), a);

@@ -27,7 +27,7 @@ pub fn with_derivatives(
     });
     state.inputs.extend(directions);
     let mut derived = Vec::new();
-    for function in graph.families.iter().flat_map(|family| &family.functions) {
+    for function in graph.functions() {
         for output in &function.outputs {
             if let Some(derivative) = output.derivative.as_ref().filter(|_| output.name != "smallest_pivot") {
                 let point = Point { graph, parameters, state: &state, roundings: &roundings, derivative };

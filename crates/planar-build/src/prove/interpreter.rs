@@ -38,11 +38,8 @@ pub fn interpret_some<T: Scalar>(
         let name = &input.name;
         let given =
             inputs.iter().find(|given| given.name == *name).ok_or_else(|| format!("input `{name}` has no value"))?;
-        let columns = input.shape.get(1).copied();
-        for (i, value) in given.values.iter().enumerate() {
-            let place = columns.map_or_else(|| format!("[{i}]"), |n| format!("[{}][{}]", i / n, i % n));
-            known.own.insert(format!("{name}{place}"), scalar(name, i, *value));
-        }
+        let elements = given.values.iter().enumerate();
+        known.own.extend(elements.map(|(i, value)| (input.element(i), scalar(name, i, *value))));
     }
     let parameters = graph.parameters.iter().zip(values).enumerate();
     known.own.extend(parameters.map(|(i, (p, value))| (p.name.clone(), scalar(PARAMETERS, i, *value))));

@@ -25,7 +25,7 @@ use impact_results::EXACT;
 use interpreter::{Arguments, interpret};
 use planar_dynamics::error::Error;
 use planar_layout::layout::Layout;
-use planar_layout::structure::parameters;
+use planar_layout::structure::{Structure, parameters};
 use serde_json::json;
 use std::fmt;
 use vectors::{direction, reference_state};
@@ -115,8 +115,9 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
         return Err(GraphError::Format("it has reference vectors already, which this adds".to_owned()).into());
     }
     let proof = prove(layout, &graph)?;
+    let structure = graph::structure(&graph)?;
     let states = (0..CARRIED).map(|index| {
-        let (state, parameters) = sample(layout, &graph, Regime::Moving, index)?;
+        let (state, parameters) = sample(layout, (&graph, &structure), Regime::Moving, index)?;
         let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
         let found = interpret(&graph, arguments).map_err(GraphError::Format)?;
         Ok(state.in_order_of(&found))
@@ -140,11 +141,12 @@ pub fn complete(graph_text: &str, layout: &Layout) -> Result<Proved, GenerateErr
 /// [`GenerateError`], with the first result that differs by more than is allowed.
 pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
     // that all functions are there, with their inputs and outputs in order
-    Evaluator::new(graph)?;
+    let evaluator = Evaluator::new(graph)?;
+    let structure = evaluator.structure();
     let mut proof = Proof { states: 0, results: 0, worst: 0.0 };
     for regime in REGIMES {
         for index in 0..SAMPLES {
-            let (state, parameters) = sample(layout, graph, regime, index)?;
+            let (state, parameters) = sample(layout, (graph, structure), regime, index)?;
             let arguments = Arguments { inputs: &state.inputs, parameters: &parameters };
             let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
             found.retain(|found| found.output != "smallest_pivot");
@@ -164,8 +166,8 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
             proof.results = state.expected.len();
         }
     }
-    let (state, parameters) = sample(layout, graph, Regime::Moving, 0)?;
-    pivots::check(graph, Arguments { inputs: &state.inputs, parameters: &parameters })?;
+    let (state, parameters) = sample(layout, (graph, structure), Regime::Moving, 0)?;
+    pivots::check(graph, structure, Arguments { inputs: &state.inputs, parameters: &parameters })?;
     Ok(proof)
 }
 
@@ -173,15 +175,15 @@ pub fn prove(layout: &Layout, graph: &Graph) -> Result<Proof, GenerateError> {
 /// the graph's parameters.
 fn sample(
     layout: &Layout,
-    graph: &Graph,
+    (graph, structure): (&Graph, &Structure),
     regime: Regime,
     index: u64,
 ) -> Result<(ReferenceState, Vec<f64>), GenerateError> {
     let failed = |source| GenerateError::NoReference { regime: regime.name(), index, source };
-    let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+    let mut functions = graph.functions();
     let has_impact_results = functions.any(|function| function.name == EXACT);
     let reference = reference_state(layout, regime, index, has_impact_results).map_err(failed)?;
-    let parameters = parameters(&graph::structure(graph)?, &reference.layout)
+    let parameters = parameters(structure, &reference.layout)
         .map_err(|_| GraphError::Format("its structure is not the layout's".to_owned()))?;
     let state = with_derivatives(graph, (reference, &parameters), &direction(layout, index));
     Ok((state.map_err(GraphError::Format)?, parameters))

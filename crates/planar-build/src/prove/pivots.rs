@@ -1,9 +1,10 @@
 //! The smallest pivots of a graph, which say that there is no result.
 
-use crate::format::{FunctionResult, Given, Graph};
-use crate::graph::{self, GraphError};
-use crate::prove::interpreter::{Arguments, interpret};
+use crate::format::{Function, Given, Graph};
+use crate::graph::GraphError;
+use crate::prove::interpreter::{Arguments, interpret_some};
 use planar_dynamics::manifest::ParameterKind;
+use planar_layout::structure::Structure;
 
 const PIVOT: &str = "smallest_pivot";
 
@@ -21,60 +22,64 @@ const OF_AN_IMPACT: &str = "target_masses";
 ///
 /// # Errors
 /// [`GraphError::Format`]: which function, and what it does not show.
-pub fn check(graph: &Graph, arguments: Arguments<'_>) -> Result<(), GraphError> {
-    let wrong = |function: &str, what: &str| Err(GraphError::Format(format!("`{PIVOT}` of `{function}` {what}")));
-    for found in pivots(graph, arguments)? {
-        let pivot = found.values.first().copied().unwrap_or(f64::NAN);
+pub fn check(graph: &Graph, structure: &Structure, arguments: Arguments<'_>) -> Result<(), GraphError> {
+    for (function, values) in pivots(graph, arguments)? {
+        let pivot = values.first().copied().unwrap_or(f64::NAN);
         if !(pivot > 0.0 && pivot <= 1.0 + 1e-9) {
-            return wrong(
-                &found.function,
-                &format!("is {pivot:e} at a regular state, expected more than 0 and 1 at most"),
-            );
+            return wrong(function, &format!("is {pivot:e} at a regular state, expected more than 0 and 1 at most"));
         }
     }
-    let structure = graph::structure(graph)?;
     // relative to itself the one element of a matrix is 1, whatever it is: then results alone show it
-    let is_shown = |function: &str| function != OF_JOINTS || structure.links.iter().sum::<usize>() > 1;
+    let has_one_joint = structure.links.iter().sum::<usize>() == 1;
+    let is_shown = |function: &Function| function.name != OF_JOINTS || !has_one_joint;
     for (place, (kind, arm, link)) in structure.parameters.iter().enumerate() {
         let mut parameters = arguments.parameters.to_vec();
         parameters[place] = f64::NAN;
         let is_end = *kind == ParameterKind::LinkLength && link + 1 == structure.links[*arm];
-        for found in pivots(graph, Arguments { parameters: &parameters, ..arguments })? {
-            let shows = is_shown(&found.function)
-                && (!is_end || inputs(graph, &found.function).any(|input| input == OF_AN_IMPACT));
-            if shows && !found.values.iter().all(|pivot| pivot.is_nan()) {
-                let name = &graph.parameters[place].name;
-                return wrong(&found.function, &format!("does not show that the parameter `{name}` is not a number"));
-            }
-        }
+        let shows = |function: &Function| is_shown(function) && (!is_end || has(function, OF_AN_IMPACT));
+        let what = format!("the parameter `{}`", graph.parameters[place].name);
+        require_shown(graph, Arguments { parameters: &parameters, ..arguments }, &what, &shows)?;
     }
-    for (place, given) in
-        arguments.inputs.iter().enumerate().filter(|(_, given)| ENTERING.contains(&given.name.as_str()))
-    {
+    let entering = |(_, given): &(usize, &Given)| ENTERING.contains(&given.name.as_str());
+    for (place, given) in arguments.inputs.iter().enumerate().filter(entering) {
+        let shows = |function: &Function| is_shown(function) && has(function, &given.name);
         for element in 0..given.values.len() {
-            let mut changed: Vec<Given> = arguments.inputs.to_vec();
-            changed[place].values[element] = f64::NAN;
-            for found in pivots(graph, Arguments { inputs: &changed, ..arguments })? {
-                let has = inputs(graph, &found.function).any(|input| *input == given.name);
-                let shows = has && is_shown(&found.function);
-                if shows && !found.values.iter().all(|pivot| pivot.is_nan()) {
-                    let what = format!("does not show that `{}[{element}]` is not a number", given.name);
-                    return wrong(&found.function, &what);
-                }
-            }
+            let mut inputs = arguments.inputs.to_vec();
+            inputs[place].values[element] = f64::NAN;
+            let what = format!("`{}[{element}]`", given.name);
+            require_shown(graph, Arguments { inputs: &inputs, ..arguments }, &what, &shows)?;
         }
     }
     Ok(())
 }
 
-fn pivots(graph: &Graph, arguments: Arguments<'_>) -> Result<Vec<FunctionResult>, GraphError> {
-    let mut found = interpret(graph, arguments).map_err(GraphError::Format)?;
-    found.retain(|found| found.output == PIVOT);
-    Ok(found)
+/// Whether a function has an input.
+fn has(function: &Function, input: &str) -> bool {
+    function.inputs.iter().any(|name| name == input)
 }
 
-/// The inputs of a function.
-fn inputs<'a>(graph: &'a Graph, function: &'a str) -> impl Iterator<Item = &'a String> {
-    let functions = graph.families.iter().flat_map(|family| &family.functions);
-    functions.filter(move |other| other.name == function).flat_map(|function| &function.inputs)
+/// That the pivots of the functions that are to show it are no numbers, where something is none.
+fn require_shown(
+    graph: &Graph,
+    arguments: Arguments<'_>,
+    what: &str,
+    shows: &dyn Fn(&Function) -> bool,
+) -> Result<(), GraphError> {
+    let mut pivots = pivots(graph, arguments)?.into_iter();
+    match pivots.find(|(function, values)| shows(function) && !values.iter().all(|pivot| pivot.is_nan())) {
+        None => Ok(()),
+        Some((function, _)) => wrong(function, &format!("does not show that {what} is not a number")),
+    }
+}
+
+fn wrong(function: &Function, what: &str) -> Result<(), GraphError> {
+    Err(GraphError::Format(format!("`{PIVOT}` of `{}` {what}", function.name)))
+}
+
+/// The pivots of every function that has them.
+fn pivots<'a>(graph: &'a Graph, arguments: Arguments<'_>) -> Result<Vec<(&'a Function, Vec<f64>)>, GraphError> {
+    let has_pivot = |function: &Function| function.outputs.iter().any(|output| output.name == PIVOT);
+    let found = interpret_some(graph, arguments, &|_, _, value: f64| value, &has_pivot).map_err(GraphError::Format)?;
+    let values = found.into_iter().filter(|found| found.output == PIVOT).map(|found| found.values);
+    Ok(graph.functions().filter(|function| has_pivot(function)).zip(values).collect())
 }

@@ -1,5 +1,6 @@
 //! Reference vectors: results of the generic implementation at a state, for every output of every generated function.
 
+use crate::evaluator::by_arm;
 use crate::format::{FunctionResult, Given, ReferenceState};
 use crate::prove::evaluation::EvaluationInput;
 use crate::prove::generic_results::{Expected, results};
@@ -105,7 +106,7 @@ impl ReferenceState {
 /// The inputs of all functions, row-major, by name.
 fn inputs(instant: &EvaluationInput) -> Vec<Given> {
     let EvaluationInput { state, joint_torques, base_wrench, end_effector_wrenches, targets } = instant;
-    let targets: Vec<_> = targets.iter().map(|target| target.unwrap_or_else(Target::massless)).collect();
+    let [masses, inertias, contacts, twists] = by_arm(targets);
     let inputs = [
         ("base_pose", state.base_pose.to_vec()),
         ("joint_angles", state.joint_angles.clone()),
@@ -114,10 +115,10 @@ fn inputs(instant: &EvaluationInput) -> Vec<Given> {
         ("joint_torques", joint_torques.clone()),
         ("base_wrench", base_wrench.unwrap_or_default().to_vec()),
         ("end_effector_wrenches", end_effector_wrenches.iter().flatten().flatten().copied().collect()),
-        ("target_masses", targets.iter().map(|target| target.mass).collect()),
-        ("target_inertias", targets.iter().map(|target| target.inertia).collect()),
-        ("contacts", targets.iter().flat_map(|target| target.contact).collect()),
-        ("target_twists", targets.iter().flat_map(|target| target.twist).collect()),
+        ("target_masses", masses),
+        ("target_inertias", inertias),
+        ("contacts", contacts),
+        ("target_twists", twists),
     ];
     inputs.map(|(name, values)| Given { name: name.to_owned(), values }).into()
 }

@@ -206,7 +206,7 @@ fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         let map = if input.shape.len() == 1 { "map(T::constant)" } else { "map(|row| row.map(T::constant))" };
         json!({"name": input.name, "type": array_type(&input.shape, "f64"), "map": map})
     });
-    let functions = graph.families.iter().flat_map(|family| &family.functions).map(|function| {
+    let functions = graph.functions().map(|function| {
         let slices = function.outputs.iter().map(|output| {
             let field = if function.outputs.len() == 1 { String::new() } else { format!(".{}", output.name) };
             match output.shape.len() {

@@ -28,8 +28,7 @@ impl<'a> Known<'a> {
         for statement in statements {
             let Statement { targets, operation, a, b } = statement;
             self.operand(a)?;
-            let is_unary = matches!(operation, Operation::Copy | Operation::Neg | Operation::SinCos | Operation::Sqrt);
-            if !is_unary {
+            if !operation.is_unary() {
                 self.operand(b)?;
             }
             let is_pair = matches!(targets, Targets::SinCos(..));

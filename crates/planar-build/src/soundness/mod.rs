@@ -43,7 +43,7 @@ pub fn check(graph: &Graph) -> Result<(), String> {
     constants.require(&values)?;
     counts(&graph.constants.operations)?;
     distinct("family", graph.families.iter().map(|family| family.name.as_str()))?;
-    let functions = || graph.families.iter().flat_map(|family| &family.functions);
+    let functions = || graph.functions();
     distinct("function", functions().map(|function| function.name.as_str()))?;
     let before: HashSet<&str> = parameters.iter().copied().chain(values).collect();
     graph.families.iter().try_for_each(|family| check_family(&declared, family, &before))?;
@@ -55,7 +55,7 @@ pub fn check(graph: &Graph) -> Result<(), String> {
 fn derivative(graph: &Graph, output: &Variable) -> Result<(), String> {
     let Some(Derivative { function, outputs, by, along }) = &output.derivative else { return Ok(()) };
     let wrong = |what: &str| Err(format!("`{}` is the derivative of {what}", output.name));
-    let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+    let mut functions = graph.functions();
     let Some(function) = functions.find(|other| other.name == *function) else {
         return wrong(&format!("`{}`, which is no function", excerpt(function)));
     };
@@ -153,7 +153,7 @@ fn self_test(graph: &Graph) -> Result<(), String> {
                 return Err(format!("a state of its test has `{found}`, expected `{wanted}` with {:?}", input.shape));
             }
         }
-        let functions = graph.families.iter().flat_map(|family| &family.functions);
+        let functions = graph.functions();
         let results = functions.flat_map(|function| function.outputs.iter().map(move |output| (function, output)));
         let is_result = |(function, output): (&str, &str)| {
             let mut results = results.clone();

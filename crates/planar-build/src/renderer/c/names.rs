@@ -16,7 +16,7 @@ const RESERVED: &str = "alignas alignof and and_eq asm auto bitand bitor bool ca
 /// Names that are keywords, or that two things of a function have.
 pub fn check_names(graph: &Graph) -> Result<(), String> {
     let reserved: HashSet<&str> = RESERVED.split_whitespace().collect();
-    let functions = || graph.families.iter().flat_map(|family| &family.functions);
+    let functions = || graph.functions();
     let configurations = graph.families.iter().map(|family| family.configuration.statements.as_slice());
     let calls = functions().map(|function| function.statements.as_slice());
     let stages = [graph.constants.statements.as_slice()].into_iter().chain(configurations).chain(calls);

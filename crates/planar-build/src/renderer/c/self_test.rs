@@ -17,7 +17,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
             "values": values.collect::<Vec<_>>(),
         })
     });
-    let functions = graph.families.iter().flat_map(|family| &family.functions);
+    let functions = graph.functions();
     let functions = functions.map(|function| {
         let stored: Vec<&Variable> = function.outputs.iter().filter(|o| o.name != "smallest_pivot").collect();
         let mut places = Vec::new();
@@ -48,7 +48,7 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         })
     });
     let place = |name: &str| {
-        let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+        let mut functions = graph.functions();
         let outputs = &functions.find(|function| function.name == "full_impact")?.outputs;
         let before = outputs.iter().position(|output| output.name == name)?;
         Some(outputs[..before].iter().map(|output| output.elements.len()).sum::<usize>())

@@ -30,7 +30,7 @@ impl CoSimulation {
     /// A function that is missing, a template that does not render: which and where.
     pub fn render(graph: &Graph, module: &CModule<'_>, token: &str) -> Result<Self, String> {
         for needed in ["end_effector_poses", "end_effector_twists", "momentum"] {
-            let mut functions = graph.families.iter().flat_map(|family| &family.functions);
+            let mut functions = graph.functions();
             functions
                 .find(|function| function.name == needed)
                 .ok_or_else(|| format!("it has no function `{needed}`"))?;
