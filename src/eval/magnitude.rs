@@ -1,6 +1,6 @@
 //! Angles and masses that 16 digits resolve in the results.
 
-use crate::layout::{Arm, Layout};
+use crate::layout::Layout;
 
 /// rad; the directions of links are sums of angles, whose rounding is then 1e-10 rad.
 const LARGEST_ANGLE: f64 = 1e6;
@@ -20,7 +20,7 @@ pub(super) fn wrong_angle(angle: f64) -> Option<String> {
 
 /// What is wanted in place of the `mass`, or the `inertia`, of a target that is too heavy for the robot.
 pub(super) fn wrong_mass(layout: &Layout, key: &str, found: f64) -> Option<String> {
-    let reach = layout.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max);
+    let reach = layout.reach_from_base();
     let (mass, gyration) = (layout.mass(), layout.base.radius_of_gyration());
     let (own, unit) = if key == "mass" { (mass, "kg") } else { (mass * reach.max(gyration).powi(2), "kg m²") };
     let most = LARGEST_RATIO * own;

@@ -224,6 +224,12 @@ impl Layout {
         all
     }
 
+    /// Largest [reach](Arm::reach_from_base) of an arm, m.
+    #[must_use]
+    pub fn reach_from_base(&self) -> f64 {
+        self.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max)
+    }
+
     /// A body beside which the others are lost in rounding.
     fn disproportion(&self) -> Option<Disproportion> {
         let arms = self.arms.iter().enumerate();
@@ -234,7 +240,7 @@ impl Layout {
             })
             .collect();
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
-        disproportion(base, &links, self.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max))
+        disproportion(base, &links, self.reach_from_base())
     }
 
     fn canonical_text(&self) -> String {

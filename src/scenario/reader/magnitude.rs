@@ -1,7 +1,7 @@
 //! Distances, sizes and masses that 16 digits resolve beside the robot's.
 
 use crate::diagnostic::{Table, Value};
-use crate::layout::{Arm, Layout};
+use crate::layout::Layout;
 use crate::outline::Outline;
 
 /// Largest distance over the robot's reach: double precision then resolves 1e-7 of the reach.
@@ -56,5 +56,5 @@ pub(super) fn check_mass(table: &Table<'_>, key: &str, found: f64, layout: Optio
 
 /// Of the robot's end effectors from its base's COM, m; 0 for one without arms.
 fn reach(layout: Option<&Layout>) -> f64 {
-    layout.iter().flat_map(|layout| &layout.arms).map(Arm::reach_from_base).fold(0.0, f64::max)
+    layout.map_or(0.0, Layout::reach_from_base)
 }
