@@ -4,7 +4,7 @@ use crate::evaluator::Evaluator;
 use crate::graphs::{self, FoundGraph, NoGraph};
 use crate::layout::Layout;
 use crate::owned::CloneModel;
-use crate::registry::{self, NoModel};
+use crate::registry::{self, CompiledCode, NoModel, Robots};
 use std::sync::Arc;
 
 /// Implementations of the dynamics, the fastest first.
@@ -37,16 +37,18 @@ pub struct Choice {
     pub engine: Engine,
     /// Which code or graph that is, in words.
     pub origin: String,
+    /// With [`Engine::Generated`].
+    code: Option<CompiledCode>,
     /// With [`Engine::Graph`].
     evaluator: Option<Arc<Evaluator>>,
 }
 
 impl Choice {
-    /// Compiled code of the layout's structure, else a graph of it, else the generic implementation; and why a graph that
+    /// Compiled code of the layout's structure among `robots`, else a graph of it, else the generic implementation; and why a graph that
     /// is there cannot be used.
     #[must_use]
-    pub fn fastest(layout: &Layout) -> (Self, Option<NoGraph>) {
-        if let Ok(choice) = Self::generated(layout) {
+    pub fn fastest(layout: &Layout, robots: Robots<'_>) -> (Self, Option<NoGraph>) {
+        if let Ok(choice) = Self::generated(layout, robots) {
             return (choice, None);
         }
         match Self::graph(layout) {
@@ -56,13 +58,14 @@ impl Choice {
         }
     }
 
-    /// Compiled code of the layout's structure.
+    /// Compiled code of the layout's structure among `robots`.
     ///
     /// # Errors
     /// [`NoModel`].
-    pub fn generated(layout: &Layout) -> Result<Self, NoModel> {
-        let origin = format!("compiled code of `{}`", registry::manifest(layout)?.name);
-        Ok(Self { engine: Engine::Generated, origin, evaluator: None })
+    pub fn generated(layout: &Layout, robots: Robots<'_>) -> Result<Self, NoModel> {
+        let code = robots.code(layout)?;
+        let origin = format!("compiled code of `{}`", code.manifest.name);
+        Ok(Self { engine: Engine::Generated, origin, code: Some(code), evaluator: None })
     }
 
     /// A graph of the layout's structure.
@@ -71,22 +74,22 @@ impl Choice {
     /// [`NoGraph`].
     pub fn graph(layout: &Layout) -> Result<Self, NoGraph> {
         let FoundGraph { evaluator, origin } = graphs::find(layout)?;
-        Ok(Self { engine: Engine::Graph, origin, evaluator: Some(evaluator) })
+        Ok(Self { engine: Engine::Graph, origin, code: None, evaluator: Some(evaluator) })
     }
 
     /// The generic implementation.
     #[must_use]
     pub fn generic() -> Self {
-        Self { engine: Engine::Generic, origin: "for any layout".to_owned(), evaluator: None }
+        Self { engine: Engine::Generic, origin: "for any layout".to_owned(), code: None, evaluator: None }
     }
 
     /// The model of a layout of the structure; the generic one of another layout.
     #[must_use]
     pub fn model(&self, layout: &Layout) -> Box<dyn CloneModel> {
-        let model = match (self.engine, &self.evaluator) {
-            (Engine::Generated, _) => registry::generated(layout).ok(),
-            (Engine::Graph, Some(evaluator)) => evaluator.model(layout).ok().map(|model| Box::new(model) as Box<_>),
-            _ => None,
+        let model = match (self.code, &self.evaluator) {
+            (Some(code), _) => code.of(layout),
+            (None, Some(evaluator)) => evaluator.model(layout).ok().map(|model| Box::new(model) as Box<_>),
+            (None, None) => None,
         };
         model.unwrap_or_else(|| registry::generic(layout))
     }

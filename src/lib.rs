@@ -129,6 +129,8 @@ pub use planar_layout::{diagnostic, layout, outline, structure};
 pub mod capture;
 #[cfg(feature = "std")]
 pub mod check;
+#[cfg(feature = "cli")]
+pub mod cli;
 #[cfg(feature = "std")]
 pub mod compare;
 #[cfg(feature = "std")]

@@ -7,6 +7,7 @@ use crate::capture::clearance::{Overlap, ineffective_ignores};
 use crate::capture::{Silent, StudyError, study};
 use crate::diagnostic::Warning;
 use crate::engine::Choice;
+use crate::registry::Robots;
 use crate::scenario::{Actuation, OnOverlap, Scenario, Tracking};
 use crate::simulate::stepper::Integration;
 
@@ -21,11 +22,11 @@ const TOLERATED_DEPTH: f64 = 1e-3;
 
 /// One warning for each case in which bodies of given outlines overlap before the contact, and for pairs in `ignore`
 /// that are not compared anyway.
-pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
+pub(super) fn warnings(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
     let ineffective = ineffective_ignores(scenario)
         .into_iter()
         .map(|(i, why)| warning(format!("clearance.ignore[{i}]"), why, "remove it, or name the pair that is meant"));
-    ineffective.chain(overlaps(scenario)).collect()
+    ineffective.chain(overlaps(scenario, robots)).collect()
 }
 
 /// That the search has ended early, at a time in s.
@@ -34,7 +35,7 @@ fn unfinished(time: f64, reason: &str) -> Warning {
     warning("approach", why, "`run` looks at all of it")
 }
 
-fn overlaps(scenario: &Scenario) -> Vec<Warning> {
+fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
     let mut planned = scenario.clone();
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     planned.post_impact = None;
@@ -68,7 +69,7 @@ fn overlaps(scenario: &Scenario) -> Vec<Warning> {
         }
     }
     let layout = &scenario.layout;
-    let (choice, _) = Choice::fastest(layout);
+    let (choice, _) = Choice::fastest(layout, robots);
     let make = || choice.model(layout);
     let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
         Ok(result) => result,

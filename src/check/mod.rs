@@ -19,6 +19,7 @@ mod targets;
 
 use crate::diagnostic::{Report, Warning, report_warnings};
 use crate::layout::Layout;
+use crate::registry::Robots;
 use crate::scenario::Scenario;
 use kind::Kind;
 use std::path::Path;
@@ -37,25 +38,37 @@ pub struct CheckReport {
 /// # Errors
 /// Those of [`Layout::parse`] and [`Scenario::parse`].
 pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<CheckReport, Report> {
+    inspect_with(text, file, folder, shipped, Robots::SHIPPED)
+}
+
+/// As [`inspect`], in a program that has code for these robots.
+///
+/// # Errors
+/// Those of [`inspect`].
+pub fn inspect_with(
+    text: &str,
+    file: &str,
+    folder: &Path,
+    shipped: &[(&str, &str)],
+    robots: Robots<'_>,
+) -> Result<CheckReport, Report> {
     match Kind::of(text, file)? {
         Kind::Layout => {
             let layout = Layout::parse(text, file)?;
-            Ok(CheckReport { description: robot::description(&layout), warnings: layout_warnings(&layout, text, file) })
+            Ok(CheckReport {
+                description: robot::description(&layout, robots),
+                warnings: layout_warnings(&layout, text, file),
+            })
         }
         Kind::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let warnings = [
-                names::warnings,
-                approach::warnings,
-                pose::warnings,
-                stiffness::warnings,
-                targets::warnings,
-                clearance::warnings,
-            ];
-            let warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
+            let warnings =
+                [names::warnings, approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
+            let mut warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
+            warnings.extend(clearance::warnings(&scenario, robots));
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
             Ok(CheckReport {
-                description: study::description(&scenario),
+                description: study::description(&scenario, robots),
                 warnings: report_warnings(text, file, &warnings).and(of_layout),
             })
         }

@@ -3,19 +3,19 @@
 use super::number::{point, short};
 use crate::engine::Choice;
 use crate::layout::Layout;
-use crate::registry;
+use crate::registry::{self, Robots};
 use crate::simulate::bodies::{BodySums, bodies, inertia_about};
 use crate::state::State;
 use crate::structure::in_words;
 use std::fmt::{self, Write};
 
-pub(super) fn description(layout: &Layout) -> String {
+pub(super) fn description(layout: &Layout, robots: Robots<'_>) -> String {
     let mut text = String::new();
-    write(&mut text, layout).expect("writing to a String does not fail");
+    write(&mut text, layout, robots).expect("writing to a String does not fail");
     text
 }
 
-fn write(out: &mut String, layout: &Layout) -> fmt::Result {
+fn write(out: &mut String, layout: &Layout, robots: Robots<'_>) -> fmt::Result {
     writeln!(out, "{}: a layout, sha256 {}\n", layout.name, digest(layout))?;
     writeln!(out, "  degrees of freedom  {}", freedom(layout))?;
     let (all, base) = (layout.mass(), &layout.base);
@@ -34,7 +34,7 @@ fn write(out: &mut String, layout: &Layout) -> fmt::Result {
         writeln!(out, "  inertia             {inertia} kg m² about the robot's COM, all joint angles 0")?;
     }
     writeln!(out, "  structure           {}", in_words(layout))?;
-    writeln!(out, "  generated code      {}\n", code(layout))?;
+    writeln!(out, "  generated code      {}\n", code(layout, robots))?;
     arms(out, layout)
 }
 
@@ -49,12 +49,12 @@ pub(super) fn freedom(layout: &Layout) -> String {
 }
 
 /// The generated code of its structure, or what computes it instead.
-pub(super) fn code(layout: &Layout) -> String {
-    match registry::manifest(layout) {
+pub(super) fn code(layout: &Layout, robots: Robots<'_>) -> String {
+    match robots.code(layout).map(|code| code.manifest) {
         Ok(manifest) if manifest.sha256 == layout.sha256() => format!("generated::{}", manifest.name),
         Ok(manifest) => format!("generated::{}, with these numbers as its parameters", manifest.name),
         Err(_) => {
-            let (choice, unusable) = Choice::fastest(layout);
+            let (choice, unusable) = Choice::fastest(layout, robots);
             let why = unusable.map_or_else(String::new, |why| format!(" ({why})"));
             format!(
                 "none of this structure in this build; computed by {}, {}{why}",

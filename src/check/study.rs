@@ -7,7 +7,7 @@ use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::contact_reach;
 use crate::contact::ContactKind;
-use crate::registry;
+use crate::registry::{self, Robots};
 use crate::scenario::{
     Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, PostCaptureControl, Scenario, Tracking,
     contact_name,
@@ -15,19 +15,19 @@ use crate::scenario::{
 use crate::simulate::Timing;
 use std::fmt::{self, Write};
 
-pub(super) fn description(scenario: &Scenario) -> String {
+pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     let mut text = String::new();
-    write(&mut text, scenario).expect("writing to a String does not fail");
+    write(&mut text, scenario, robots).expect("writing to a String does not fail");
     text
 }
 
-fn write(out: &mut String, scenario: &Scenario) -> fmt::Result {
+fn write(out: &mut String, scenario: &Scenario, robots: Robots<'_>) -> fmt::Result {
     let (layout, approach) = (&scenario.layout, &scenario.approach);
     writeln!(out, "{}: a scenario\n", scenario.name)?;
     let [mass, digest, freedom] = [short(layout.mass()), digest(layout), freedom(layout)];
     writeln!(out, "  robot               {}, {mass} kg, sha256 {digest}", layout.name)?;
     writeln!(out, "  degrees of freedom  {freedom}")?;
-    writeln!(out, "  generated code      {}", code(layout))?;
+    writeln!(out, "  generated code      {}", code(layout, robots))?;
     writeln!(out, "  start               {}", start(scenario))?;
     writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
     writeln!(out, "  trajectory          {}", trajectory(scenario))?;

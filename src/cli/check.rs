@@ -2,8 +2,8 @@
 
 use super::terminal::{note, print};
 use super::{CommandError, color, layout};
-use planar_capture::check::inspect;
-use planar_capture::registry::SHIPPED;
+use crate::check::inspect_with;
+use crate::registry::Robots;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -19,10 +19,10 @@ pub struct Arguments {
 }
 
 /// Prints the description and the warnings.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let (text, file) = layout::source(&arguments.file)?;
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let (text, file) = layout::source(&arguments.file, robots)?;
     let folder = Path::new(&arguments.file).parent().unwrap_or(Path::new(""));
-    let inspection = inspect(&text, &file, folder, SHIPPED)?;
+    let inspection = inspect_with(&text, &file, folder, &robots.layouts(), robots)?;
     let warnings = inspection.warnings;
     let count = warnings.count();
     print(&format!("{}\n{}", inspection.description, if count == 0 { "no warnings\n" } else { "" }));

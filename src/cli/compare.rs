@@ -2,12 +2,13 @@
 
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
-use planar_capture::compare::{Comparison, LargestError, compare};
-use planar_capture::engine::{Choice, Engine};
-use planar_capture::eval::to_json;
-use planar_capture::layout::Layout;
-use planar_capture::output::result_folder::ResultFolder;
-use planar_capture::quantity::Quantity;
+use crate::compare::{Comparison, LargestError, compare};
+use crate::engine::{Choice, Engine};
+use crate::eval::to_json;
+use crate::layout::Layout;
+use crate::output::result_folder::ResultFolder;
+use crate::quantity::Quantity;
+use crate::registry::Robots;
 use std::fmt::{self, Write};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -37,13 +38,13 @@ pub struct Arguments {
 }
 
 /// Compares the implementations, writes the worst states and prints a table.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let layout = layout::read(&arguments.layout)?;
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout, robots)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results/compare").join(&layout.name));
     let keep: &[&Path] = if Layout::is_path(&arguments.layout) { &[Path::new(&arguments.layout)] } else { &[] };
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &layout);
     let folder = ResultFolder::claim(&folder, arguments.force, keep, &objection)?;
-    let choice = choose(&layout, &arguments.layout)?;
+    let choice = choose(&layout, &arguments.layout, robots)?;
     let comparison = compare(&layout, &choice, arguments.samples, arguments.seed);
     let shown = folder.path().display().to_string();
     let staged = folder.stage()?;
@@ -76,8 +77,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 }
 
 /// Compiled code, else a graph; where there is none it is derived.
-fn choose(layout: &Layout, file: &str) -> Result<Choice, CommandError> {
-    let (choice, _) = Choice::fastest(layout);
+fn choose(layout: &Layout, file: &str, robots: Robots<'_>) -> Result<Choice, CommandError> {
+    let (choice, _) = Choice::fastest(layout, robots);
     if choice.engine != Engine::Generic {
         return Ok(choice);
     }

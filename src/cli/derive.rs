@@ -3,12 +3,13 @@
 use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
+use crate::generate::{self, GenerateError, Proof, Proved};
+use crate::graphs::cache_path;
+use crate::layout::Layout;
+use crate::output::atomic_file::{create_folder, write_text};
+use crate::python_package::PYTHON_PACKAGE;
+use crate::registry::Robots;
 use indicatif::ProgressBar;
-use planar_capture::generate::{self, GenerateError, Proof, Proved};
-use planar_capture::graphs::cache_path;
-use planar_capture::layout::Layout;
-use planar_capture::output::atomic_file::{create_folder, write_text};
-use planar_capture::python_package::PYTHON_PACKAGE;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,8 +25,8 @@ pub struct Arguments {
 }
 
 /// Derives the graph, proves it, and keeps it.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let layout = layout::read(&arguments.layout)?;
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout, robots)?;
     let (path, proof) = into_cache(&layout, &arguments.layout)?;
     print(&format!(
         "{}: the graph of {}, {} degrees of freedom\n{proof}\n",

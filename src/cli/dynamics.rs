@@ -2,8 +2,9 @@
 
 use super::terminal::note;
 use super::{CommandError, file_error};
-use planar_capture::engine::{Choice, Engine};
-use planar_capture::layout::Layout;
+use crate::engine::{Choice, Engine};
+use crate::layout::Layout;
+use crate::registry::Robots;
 
 /// Implementations of the dynamics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -20,10 +21,16 @@ pub enum Dynamics {
 
 impl Dynamics {
     /// What computes a layout, which is in `file`; where the option does not say it, a line does, unless `quiet`.
-    pub fn choose(self, layout: &Layout, file: &str, quiet: bool) -> Result<Choice, CommandError> {
+    pub fn choose(
+        self,
+        layout: &Layout,
+        file: &str,
+        robots: Robots<'_>,
+        quiet: bool,
+    ) -> Result<Choice, CommandError> {
         match self {
             Self::Auto => {
-                let (choice, unusable) = Choice::fastest(layout);
+                let (choice, unusable) = Choice::fastest(layout, robots);
                 if let Some(why) = unusable {
                     note(format_args!("warning: {why}"));
                 }
@@ -37,7 +44,7 @@ impl Dynamics {
                 }
                 Ok(choice)
             }
-            Self::Generated => Choice::generated(layout).map_err(file_error(file)),
+            Self::Generated => Choice::generated(layout, robots).map_err(file_error(file)),
             Self::Graph => Choice::graph(layout).map_err(file_error(file)),
             Self::Generic => Ok(Choice::generic()),
         }
@@ -48,7 +55,9 @@ impl Dynamics {
 fn faster(engine: Engine) -> &'static str {
     match engine {
         Engine::Generated => "",
-        Engine::Graph => "; compiled code of it in a program of your own is faster: README, Your own robot",
+        Engine::Graph => {
+            "; compiled code of it in a program of your own is faster: planar-capture new DIR --layout LAYOUT"
+        }
         Engine::Generic => "; a graph is several times as fast: planar-capture derive LAYOUT",
     }
 }

@@ -2,11 +2,12 @@
 
 use super::dynamics::Dynamics;
 use super::{CommandError, file_error, layout};
-use planar_capture::dynamics::AnyModel;
-use planar_capture::eval::{StateError, States, result_to_json};
-use planar_capture::evaluation::evaluate;
-use planar_capture::heavy_targets::resolve_capture;
-use planar_capture::layout::Layout;
+use crate::dynamics::AnyModel;
+use crate::eval::{StateError, States, result_to_json};
+use crate::evaluation::evaluate;
+use crate::heavy_targets::resolve_capture;
+use crate::layout::Layout;
+use crate::registry::Robots;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::ExitCode;
@@ -27,9 +28,9 @@ pub struct Arguments {
 }
 
 /// Evaluates the states one by one.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let layout = layout::read(&arguments.layout)?;
-    let model = arguments.dynamics.choose(&layout, &arguments.layout, false)?.model(&layout);
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout, robots)?;
+    let model = arguments.dynamics.choose(&layout, &arguments.layout, robots, false)?.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")
     } else {

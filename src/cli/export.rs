@@ -1,7 +1,8 @@
 //! `planar-capture export LAYOUT.toml`: writes a layout as a URDF.
 
 use super::{CommandError, layout, write_new};
-use planar_capture::urdf;
+use crate::registry::Robots;
+use crate::urdf;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -16,8 +17,8 @@ pub struct Arguments {
 }
 
 /// Converts the layout.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let layout = layout::read(&arguments.layout)?;
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout, robots)?;
     write_new(arguments.out.as_deref(), &urdf::export(&layout))?;
     Ok(ExitCode::SUCCESS)
 }

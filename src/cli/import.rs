@@ -2,8 +2,8 @@
 
 use super::terminal::note;
 use super::{CommandError, file_error, write_new};
-use planar_capture::diagnostic::read_text;
-use planar_capture::urdf::{self, ImportOptions};
+use crate::diagnostic::read_text;
+use crate::urdf::{self, ImportOptions};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -1,25 +1,26 @@
 //! The layout that an argument names.
 
 use super::CommandError;
-use planar_capture::diagnostic::{nearest, read_text};
-use planar_capture::layout::Layout;
-use planar_capture::registry::SHIPPED;
+use crate::diagnostic::{nearest, read_text};
+use crate::layout::Layout;
+use crate::registry::Robots;
 use std::path::Path;
 
 /// Reads a layout; see [`source`].
-pub fn read(argument: &str) -> Result<Layout, CommandError> {
-    let (text, file) = source(argument)?;
+pub fn read(argument: &str, robots: Robots<'_>) -> Result<Layout, CommandError> {
+    let (text, file) = source(argument, robots)?;
     Ok(Layout::parse(&text, &file)?)
 }
 
 /// The text that an argument names and its name in messages: an argument that ends in `.toml` or contains a `/` is a
 /// path, any other the name of a shipped layout.
-pub fn source(argument: &str) -> Result<(String, String), CommandError> {
+pub fn source(argument: &str, robots: Robots<'_>) -> Result<(String, String), CommandError> {
     if Layout::is_path(argument) || argument.contains(std::path::MAIN_SEPARATOR) {
         return Ok((read_text(Path::new(argument), "TOML")?, argument.to_owned()));
     }
-    let names = || SHIPPED.iter().map(|(name, _)| *name);
-    if let Some((name, text)) = SHIPPED.iter().find(|(name, _)| *name == argument) {
+    let known = robots.layouts();
+    let names = || known.iter().map(|(name, _)| *name);
+    if let Some((name, text)) = known.iter().find(|(name, _)| *name == argument) {
         return Ok(((*text).to_owned(), format!("{name}.toml (shipped)")));
     }
     let path = Path::new(argument);

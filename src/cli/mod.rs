@@ -1,4 +1,12 @@
 //! The command line: results on the standard output, errors and progress on the standard error, exit codes.
+//!
+//! [`main_with`] is the same command line for a program of one's own, with the robots that are compiled into it.
+
+#![warn(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "`println!` and `eprintln!` panic where they cannot write: `terminal` prints"
+)]
 
 mod check;
 mod compare;
@@ -15,12 +23,13 @@ mod reproduce;
 mod run;
 mod terminal;
 
+use crate::diagnostic::Report;
+use crate::output::atomic_file::write_text;
+use crate::output::finite::NotFinite;
+use crate::output::output_error::OutputError;
+use crate::output::result_folder::ClaimError;
+use crate::registry::{CompiledRobot, Robots};
 use clap::{Parser, Subcommand};
-use planar_capture::diagnostic::Report;
-use planar_capture::output::atomic_file::write_text;
-use planar_capture::output::finite::NotFinite;
-use planar_capture::output::output_error::OutputError;
-use planar_capture::output::result_folder::ClaimError;
 use std::error::Error;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -121,17 +130,27 @@ fn write_new(path: Option<&Path>, text: &str) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// Runs the command line.
+/// Runs the command line of `planar-capture`.
+#[must_use]
 pub fn main() -> ExitCode {
+    main_with(&[])
+}
+
+/// Runs the command line with robots of one's own ([`robot!`](crate::robot)): they are known by their names wherever a
+/// shipped layout is, and `--dynamics auto` and `generated` find their code.
+// what else a program can have of its own, as control laws, is an argument here and of the commands that use it
+#[must_use]
+pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
+    let robots = Robots::with(robots);
     let result = match CommandLine::parse().command {
-        Command::Run(arguments) => run::run(&arguments),
-        Command::Eval(arguments) => eval::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
-        Command::Generate(arguments) => generate::run(&arguments),
-        Command::Derive(arguments) => derive::run(&arguments),
-        Command::Check(arguments) => check::run(&arguments),
+        Command::Run(arguments) => run::run(&arguments, robots),
+        Command::Eval(arguments) => eval::run(&arguments, robots),
+        Command::Compare(arguments) => compare::run(&arguments, robots),
+        Command::Generate(arguments) => generate::run(&arguments, robots),
+        Command::Derive(arguments) => derive::run(&arguments, robots),
+        Command::Check(arguments) => check::run(&arguments, robots),
         Command::Import(arguments) => import::run(&arguments),
-        Command::Export(arguments) => export::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments, robots),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
     };
     match result {

@@ -1,10 +1,10 @@
 //! Files of `run` that only a build with the cargo feature of the same name can write.
 
 use super::CommandError;
-use planar_capture::capture::{CaseResult, Study};
-use planar_capture::output::result_folder::StagedFolder;
-use planar_capture::output::run_manifest::RunManifest;
-use planar_capture::scenario::Scenario;
+use crate::capture::{CaseResult, Study};
+use crate::output::result_folder::StagedFolder;
+use crate::output::run_manifest::RunManifest;
+use crate::scenario::Scenario;
 use std::fs::File;
 use std::io::{self, BufWriter};
 
@@ -102,13 +102,13 @@ fn parquet(
     study: &Study,
     manifest: &RunManifest,
 ) -> Result<(), CommandError> {
-    use planar_capture::output::time_series::write_parquet;
+    use crate::output::time_series::write_parquet;
     file_per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, manifest, to))
 }
 
 #[cfg(feature = "mcap")]
 fn mcap(folder: &StagedFolder, scenario: &Scenario, study: &Study, manifest: &RunManifest) -> Result<(), CommandError> {
-    use planar_capture::output::mcap::write_mcap;
+    use crate::output::mcap::write_mcap;
     file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, manifest, to))
 }
 
@@ -125,7 +125,7 @@ pub fn file_per_case(
 
 #[cfg(feature = "figures")]
 fn figures(folder: &StagedFolder, scenario: &Scenario, study: &Study, _: &RunManifest) -> Result<(), CommandError> {
-    use planar_capture::output::figures::{draw, figures};
+    use crate::output::figures::{draw, figures};
     use std::io::Write;
 
     for figure in figures(scenario, study) {

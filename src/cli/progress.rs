@@ -1,8 +1,8 @@
 //! Progress of simulations and derivations on the standard error: bars on a terminal, elsewhere a line now and then.
 
 use super::terminal::note;
+use crate::capture::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
-use planar_capture::capture::Observer;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};

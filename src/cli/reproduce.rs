@@ -33,9 +33,9 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
     use super::progress::Progress;
     use super::terminal::{note, print};
-    use planar_capture::output::atomic_file::{StagedFile, create_folder};
-    use planar_capture::output::result_folder::ResultFolder;
-    use planar_capture::reproduction::reproduce;
+    use crate::output::atomic_file::{StagedFile, create_folder};
+    use crate::output::result_folder::ResultFolder;
+    use crate::reproduction::reproduce;
     use std::io::Write;
 
     if !arguments.check {

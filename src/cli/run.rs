@@ -5,18 +5,18 @@ use super::dynamics::Dynamics;
 use super::optional_outputs::{self, file_per_case};
 use super::progress::{Display, Progress};
 use super::terminal::{note, print};
-use planar_capture::capture::scenario_key::ScenarioKey;
-use planar_capture::capture::{Study, StudyError, study};
-use planar_capture::diagnostic::report_error;
-use planar_capture::output::console::table;
-use planar_capture::output::html_report::write_report;
-use planar_capture::output::result_folder::ResultFolder;
-use planar_capture::output::run_folder::{SUMMARY, objection};
-use planar_capture::output::run_manifest::RunManifest;
-use planar_capture::output::summary::summary;
-use planar_capture::output::time_series::write_csv;
-use planar_capture::registry;
-use planar_capture::scenario::{Scenario, Source};
+use crate::capture::scenario_key::ScenarioKey;
+use crate::capture::{Study, StudyError, study};
+use crate::diagnostic::report_error;
+use crate::output::console::table;
+use crate::output::html_report::write_report;
+use crate::output::result_folder::ResultFolder;
+use crate::output::run_folder::{SUMMARY, objection};
+use crate::output::run_manifest::RunManifest;
+use crate::output::summary::summary;
+use crate::output::time_series::write_csv;
+use crate::registry::Robots;
+use crate::scenario::{Scenario, Source};
 use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -56,9 +56,9 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// Computes the study, writes its files and prints its table; exit code 1 if the audit fails.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
-    let (scenario, source) = Scenario::read_with_source(&arguments.scenario, registry::SHIPPED)?;
+    let (scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
     let keep = [&source.scenario.file, &source.layout.file].map(Path::new);
     let objection = |folder: &Path, names: &[String]| objection(folder, names, &scenario.name);
@@ -68,7 +68,8 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
             "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
         ));
     }
-    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, arguments.display.quiet)?;
+    let file = &source.scenario.file;
+    let choice = arguments.dynamics.choose(&scenario.layout, file, robots, arguments.display.quiet)?;
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
@@ -138,8 +139,11 @@ fn write_results(
 
 /// The command line, as it can be typed again.
 fn command() -> String {
-    let arguments = std::env::args_os().skip(1).map(|argument| argument.to_string_lossy().into_owned());
-    let words: Vec<_> = std::iter::once("planar-capture".to_owned()).chain(arguments).collect();
+    let mut words: Vec<_> = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    if let Some(program) = words.first_mut() {
+        // without the folder, in which others do not have it
+        *program = Path::new(program).file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    }
     // only a NUL cannot be quoted, which no argument has
     shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
 }

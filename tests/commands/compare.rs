@@ -6,7 +6,7 @@ use planar_capture::engine::Choice;
 use planar_capture::layout::Layout;
 use planar_capture::quantities::Difference;
 use planar_capture::quantity::Quantity;
-use planar_capture::registry::SHIPPED;
+use planar_capture::registry::{Robots, SHIPPED};
 use planar_capture::sampling::REGIMES;
 use planar_proof::file;
 use std::fs;
@@ -90,8 +90,12 @@ fn links_of_any_length_agree() {
         let mut layout = valid.clone();
         let changed = &mut layout.arms[0].links[link];
         (changed.length, changed.com) = (length, [length / 2.0, 0.0]);
-        let comparison =
-            planar_capture::compare::compare(&layout, &Choice::generated(&layout).expect("its code"), 100, 7);
+        let comparison = planar_capture::compare::compare(
+            &layout,
+            &Choice::generated(&layout, Robots::SHIPPED).expect("its code"),
+            100,
+            7,
+        );
         let over = comparison.largest_errors.iter().filter(|largest| largest.difference.ratio() > 1.0);
         let over: Vec<_> = over.map(|largest| (&largest.difference, largest.index)).collect();
         assert!(comparison.agrees(), "link {link} of {length} m: {over:?}");

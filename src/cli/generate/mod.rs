@@ -11,6 +11,7 @@ use planar_capture::fmu::{Fmu, archive};
 use planar_capture::generate::{GenerateError, Proved};
 use planar_capture::layout::Layout;
 use planar_capture::output::atomic_file::write_together;
+use planar_capture::registry::Robots;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -152,8 +153,8 @@ fn has_extension(path: &Path, extension: &str) -> bool {
 }
 
 /// Derives the graph, proves it, and writes it or its module.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    let layout = layout::read(&arguments.layout)?;
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let layout = layout::read(&arguments.layout, robots)?;
     arguments.check(&layout)?;
     let paths = arguments.paths();
     if !arguments.check {
