@@ -48,7 +48,7 @@ macro_rules! robot {
                 ::core::env!("OUT_DIR"),
                 "/",
                 ::core::stringify!($name),
-                ".toml"
+                ".layout"
             )),
             code: $crate::compiled_code!($name),
         }

@@ -7,7 +7,7 @@ use crate::derivation::python;
 use planar_capture::build::Module;
 use planar_capture::build::graph::{self, Graph, GraphError};
 use planar_capture::build::{render_to, verify};
-use planar_capture::generate::{GenerateError, complete, prove};
+use planar_capture::generate::{GenerateError, Proved, complete, prove};
 use planar_capture::layout::Layout;
 use planar_proof::{file, said};
 use serde_json::Value;
@@ -254,6 +254,8 @@ fn a_user_graph_is_rendered_without_python() {
     assert!(module.contains("pub mod held_out {") && module.contains("planar_capture::implement_dynamics!"));
 
     fs::write(at("held_out.toml"), LAYOUT.replace("33.0", "34.0")).expect("written");
+    assert_eq!(render(), Ok(()), "the structure is the same");
+    fs::write(at("held_out.toml"), other_structure()).expect("written");
     let stale = render().expect_err("stale");
     assert!(stale.contains("is stale") && stale.contains("planar-capture generate "), "{stale}");
     fs::remove_file(at("held_out.toml")).expect("removed");
@@ -269,6 +271,43 @@ fn a_user_graph_is_rendered_without_python() {
     fs::remove_file(at("other.toml")).expect("removed");
     let empty = render().expect_err("nothing");
     assert!(empty.contains("no layout NAME.toml"), "{empty}");
+}
+
+/// [`LAYOUT`] with a number where the derivation had an exact zero.
+pub fn other_structure() -> String {
+    LAYOUT.replace("[0.4, 0.0]", "[0.4, 0.1]")
+}
+
+/// Other numbers and names need no other graph, the module has them; its reference vectors are those of the graph.
+#[test]
+fn names_and_numbers_are_the_layouts() {
+    let (layout, text) = shipped("single_arm_2r");
+    let folder = TempDir::new().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let Proved { text, .. } = complete(&text, &layout).unwrap_or_else(|e| panic!("{e}"));
+    fs::write(at("mine.json"), text).expect("written");
+    let mut mine = Layout { name: "mine".to_owned(), ..layout.clone() };
+    let render = |layout: &Layout| {
+        fs::write(at("mine.toml"), layout.to_toml()).expect("written");
+        render_to(folder.path(), folder.path()).map_err(|e| e.to_string())?;
+        Ok::<_, String>(fs::read_to_string(at("mine.rs")).expect("a module"))
+    };
+    let same = render(&mine).expect("the same numbers");
+    assert!(same.contains("pub mod mine {") && !same.contains("Parameters::from_array(["), "a name alone");
+    mine.base.mass = 123.25;
+    mine.arms[0].name = "crane".to_owned();
+    let module = render(&mine).expect("the same structure");
+    assert!(module.contains(&mine.sha256()) && !module.contains(&layout.sha256()));
+    assert!(module.contains("default: 123.25 }") && module.contains("of arm 1 (crane)") && !module.contains("(arm1)"));
+    let reference = format!("Parameters::from_array([{:?}, ", layout.base.mass);
+    assert!(module.contains(&reference), "no `{reference}`");
+    assert_eq!(fs::read_to_string(at("mine.layout")).expect("the layout"), mine.to_toml());
+    mine.arms[0].mount[1] = 0.25;
+    let stale = render(&mine).expect_err("another structure");
+    assert!(stale.contains("is stale") && stale.contains("`arm[0].mount[1]` is 0.25"), "{stale}");
+    mine.arms[0].links.pop();
+    let stale = render(&mine).expect_err("another structure");
+    assert!(stale.contains("other arms or links"), "{stale}");
 }
 
 /// A shipped layout with the text of its graph.

@@ -23,6 +23,9 @@ pub struct Graph {
     pub(crate) families: Vec<Family>,
     /// Reference vectors of a proved graph.
     pub(crate) self_test: Option<Vec<ReferenceState>>,
+    /// The parameters that the reference vectors hold for, where they are not the defaults.
+    #[serde(skip)]
+    pub(crate) reference_parameters: Option<Vec<f64>>,
 }
 
 /// The layout that a graph was derived from.

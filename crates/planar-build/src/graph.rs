@@ -8,7 +8,7 @@ use crate::soundness;
 use planar_dynamics::manifest::ParameterKind;
 use planar_layout::diagnostic::{excerpt, printable};
 use planar_layout::layout::Layout;
-use planar_layout::structure::Structure;
+use planar_layout::structure::{Mismatch, Structure, parameters};
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -31,6 +31,9 @@ pub enum GraphError {
         /// The layout's.
         wanted: String,
     },
+    /// It was derived from a layout of another structure.
+    #[error("it is stale: it was derived from a layout of another structure: {0}")]
+    Structure(String),
     /// It has the layout's hash, but another name, arm or number.
     #[error("{what} is {found}, the layout has {wanted}")]
     Differs {
@@ -59,6 +62,40 @@ pub fn read(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
     equal("arms", &found, &layout.arms.iter().map(|arm| (&arm.name, arm.links.len())).collect())?;
     soundness::check(&graph).map_err(GraphError::Format)?;
     compare_parameters(&graph, layout)?;
+    Ok(graph)
+}
+
+/// Parses a graph and compares its structure with a layout's, from which it takes names and defaults: what was derived
+/// for one layout holds for all of its structure. It is checked as by [`read`].
+///
+/// # Errors
+/// [`GraphError`].
+pub(crate) fn read_for(text: &str, layout: &Layout) -> Result<Graph, GraphError> {
+    let mut graph = parse_format(text)?;
+    let values = parameters(&structure(&graph)?, layout).map_err(|mismatch| match mismatch {
+        Mismatch::Links => GraphError::Structure("the layout has other arms or links".to_owned()),
+        Mismatch::Zeros(found) => {
+            GraphError::Structure(found.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+        }
+    })?;
+    let defaults: Vec<f64> = graph.parameters.iter().map(|parameter| parameter.default).collect();
+    graph.reference_parameters = (defaults != values).then_some(defaults);
+    for (parameter, value) in graph.parameters.iter_mut().zip(values) {
+        parameter.default = value;
+        // "… of arm 1 (NAME)"
+        let arms = parameter.arm.and_then(|arm| Some((&graph.layout.arms.get(arm)?.name, &layout.arms.get(arm)?.name)));
+        if let Some((of, name)) =
+            arms.and_then(|(old, name)| Some((parameter.description.strip_suffix(&format!("({old})"))?, name)))
+        {
+            parameter.description = format!("{of}({name})");
+        }
+    }
+    graph.layout.name.clone_from(&layout.name);
+    graph.layout.sha256 = layout.sha256();
+    for (arm, of) in graph.layout.arms.iter_mut().zip(&layout.arms) {
+        arm.name.clone_from(&of.name);
+    }
+    soundness::check(&graph).map_err(GraphError::Format)?;
     Ok(graph)
 }
 

@@ -1,6 +1,7 @@
 //! Rust modules from committed graphs, for build scripts: needs no Python.
 
 use crate::command::{command, options};
+use crate::graph;
 use crate::pipeline::{fresh, is_fused, names, write};
 use crate::renderer::Module;
 use planar_layout::layout::{Layout, sha256};
@@ -26,7 +27,11 @@ impl From<String> for BuildError {
 }
 
 /// Renders every `folder/NAME.toml` with its graph `folder/NAME.json` to `$OUT_DIR/NAME.rs`, as a module `NAME` that
-/// implements the traits of [`dynamics`](planar_dynamics::dynamics). `include_layout!("NAME");` includes it.
+/// implements the traits of [`dynamics`](planar_dynamics::dynamics). `include_layout!("NAME");` includes it. Beside it is the
+/// layout's text, `$OUT_DIR/NAME.layout`, for `robot!(NAME)`.
+///
+/// A graph holds for every layout of its structure (arms, links, exact zeros): another mass, length or name needs no other
+/// graph.
 ///
 /// `planar-capture generate layouts/NAME.toml --out layouts/NAME.json` derives a graph. The crate uses the core of
 /// `planar-capture` in the generated code, and this function in its build script:
@@ -77,7 +82,7 @@ fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
     let with = written.lines().find(|line| line.starts_with(" \"command\": ")).map(|line| line.trim_end_matches("\","));
     let command = command(&from.to_string(), &shown, &options(with.unwrap_or_default()));
     let mend = format!("{command}{}", here());
-    let (layout, graph) = fresh(&layout_path, &graph_path, &mend)?;
+    let (layout, graph) = fresh(&layout_path, &graph_path, graph::read_for, &mend)?;
     if layout.name != name {
         let found = &layout.name;
         return Err(BuildError(format!("{from}: name = \"{found}\" has to be the file's own name, \"{name}\"")));
@@ -87,6 +92,8 @@ fn render_one(folder: &Path, name: &str, out: &Path) -> Result<(), BuildError> {
     }
     let module = Module { standalone: false, item: true, fused: is_fused(), source: &shown, command: &command };
     let text = module.render(&graph).map_err(|e| format!("{shown}: {e}; to mend: {mend}"))?;
+    let layout_text = fs::read_to_string(&layout_path).map_err(|e| format!("{from}: {e}"))?;
+    write(&out.join(format!("{name}.layout")), &layout_text)?;
     Ok(write(&out.join(format!("{name}.rs")), &text)?)
 }
 

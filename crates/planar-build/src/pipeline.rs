@@ -1,6 +1,6 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
 
-use crate::graph::{self, Graph};
+use crate::graph::{self, Graph, GraphError};
 use crate::renderer::Module;
 use planar_layout::layout::Layout;
 use planar_layout::structure::Structure;
@@ -82,7 +82,7 @@ fn carried_graph(graph: &Graph, codegen: &Path, folder: &str, name: &str) -> Res
 /// The graph of a layout in one of two folders, by the name of both.
 fn fresh_in(codegen: &Path, [layouts, graphs]: [&str; 2], name: &str) -> Result<Graph, String> {
     let layout = codegen.join(format!("{layouts}/{name}.toml"));
-    fresh(&layout, &graph_path(codegen, graphs, name), &derivation(name)).map(|(_, graph)| graph)
+    fresh(&layout, &graph_path(codegen, graphs, name), graph::read, &derivation(name)).map(|(_, graph)| graph)
 }
 
 /// Rust text of one layout's graph, after its hash was compared with the layout's.
@@ -120,16 +120,21 @@ fn is_on(feature: &str) -> bool {
     std::env::var_os(format!("CARGO_FEATURE_{feature}")).is_some()
 }
 
-/// A layout and the graph that was derived from it; `command` makes the graph again. With the feature `prove` the graph
-/// is proved: interpreted, and compared with the generic implementation.
+/// A layout and its graph, by a reader that compares them; `command` makes the graph again. With the feature `prove` the
+/// graph is proved: interpreted, and compared with the generic implementation.
 ///
 /// # Errors
 /// What is wrong with either, or that the graph is not the layout's, with the command.
-pub fn fresh(layout_path: &Path, graph_path: &Path, command: &str) -> Result<(Layout, Graph), String> {
+pub fn fresh(
+    layout_path: &Path,
+    graph_path: &Path,
+    read: impl Fn(&str, &Layout) -> Result<Graph, GraphError>,
+    command: &str,
+) -> Result<(Layout, Graph), String> {
     let layout = Layout::read(layout_path).map_err(|report| report.to_string())?;
     let mend = |e: &dyn std::fmt::Display| format!("{}: {e}; generate it again: {command}", graph_path.display());
     let text = fs::read_to_string(graph_path).map_err(|e| mend(&e))?;
-    let graph = graph::read(&text, &layout).map_err(|e| mend(&e))?;
+    let graph = read(&text, &layout).map_err(|e| mend(&e))?;
     #[cfg(feature = "prove")]
     crate::prove::prove(&layout, &graph).map_err(|e| mend(&e))?;
     Ok((layout, graph))

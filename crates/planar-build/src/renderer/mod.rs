@@ -233,6 +233,9 @@ fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         "inputs": inputs.collect::<Vec<_>>(),
         "functions": functions.collect::<Vec<_>>(),
         "states": states.collect::<Vec<_>>(),
+        "parameters": graph.reference_parameters.as_ref().map(|values| {
+            values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(", ")
+        }),
     })
 }
 
