@@ -6,6 +6,7 @@ use crate::manifest::ParameterKind::{
     self, BaseInertia, BaseMass, LinkComX, LinkComY, LinkInertia, LinkLength, LinkMass, MountAngle, MountX, MountY,
 };
 use crate::python_package::PYTHON_PACKAGE;
+use crate::registry::SHIPPED;
 use crate::structure::{Structure, fingerprint, in_words, parameters};
 use planar_build::evaluator::Evaluator;
 use planar_build::graph;
@@ -19,6 +20,8 @@ struct Carried {
     links: &'static [usize],
     parameters: &'static [(ParameterKind, usize, usize)],
     needs_distinct_mounts: bool,
+    /// Below the folder of the derivation.
+    path: &'static str,
     text: &'static str,
 }
 
@@ -29,6 +32,7 @@ macro_rules! graphs {
             links: &$links,
             parameters: &$parameters,
             needs_distinct_mounts: $distinct,
+            path: concat!(stringify!($folder), "/", stringify!($name), ".json"),
             text: include_str!(concat!(
                 env!("CARGO_MANIFEST_DIR"), "/codegen/", stringify!($folder), "/", stringify!($name), ".json"
             )),
@@ -85,6 +89,21 @@ pub fn find(layout: &Layout) -> Result<FoundGraph, NoGraph> {
     let Carried { name, text, .. } = best.ok_or_else(missing)?;
     let unusable = |problem| NoGraph::Unusable { path: PathBuf::from(name), problem };
     Ok(FoundGraph { evaluator: evaluator(text, layout).map_err(unusable)?, origin: format!("the graph `{name}`") })
+}
+
+/// A shipped layout of the same structure, and the text of its graph.
+#[must_use]
+pub fn of_shipped(layout: &Layout) -> Option<(Layout, &'static str)> {
+    let print = fingerprint(layout);
+    let shipped = SHIPPED.iter().filter_map(|(name, text)| Layout::parse(text, name).ok());
+    let found = shipped.into_iter().find(|shipped| fingerprint(shipped) == print)?;
+    let Carried { text, .. } = CARRIED.iter().find(|carried| carried.name == found.name)?;
+    Some((found, text))
+}
+
+/// (path below `codegen`, text) of every graph that the program carries.
+pub fn carried() -> impl Iterator<Item = (&'static str, &'static str)> {
+    CARRIED.iter().map(|carried| (carried.path, carried.text))
 }
 
 impl Carried {

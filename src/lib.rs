@@ -145,6 +145,8 @@ pub mod frames;
 pub mod graphs;
 #[cfg(feature = "std")]
 pub mod output;
+#[cfg(feature = "cli")]
+pub mod own_crate;
 #[cfg(feature = "std")]
 pub mod python_package;
 #[cfg(feature = "std")]

@@ -17,6 +17,7 @@ mod export;
 mod generate;
 mod import;
 mod layout;
+mod new;
 mod optional_outputs;
 mod progress;
 mod reproduce;
@@ -51,6 +52,7 @@ enum Command {
     Compare(compare::Arguments),
     Generate(generate::Arguments),
     Derive(derive::Arguments),
+    New(new::Arguments),
     Check(check::Arguments),
     Import(import::Arguments),
     Export(export::Arguments),
@@ -148,6 +150,7 @@ pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
         Command::Compare(arguments) => compare::run(&arguments, robots),
         Command::Generate(arguments) => generate::run(&arguments, robots),
         Command::Derive(arguments) => derive::run(&arguments, robots),
+        Command::New(arguments) => new::run(&arguments, robots),
         Command::Check(arguments) => check::run(&arguments, robots),
         Command::Import(arguments) => import::run(&arguments),
         Command::Export(arguments) => export::run(&arguments, robots),

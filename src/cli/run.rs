@@ -18,6 +18,7 @@ use crate::output::time_series::write_csv;
 use crate::registry::Robots;
 use crate::scenario::{Scenario, Source};
 use serde_json::Value;
+use std::env::consts::EXE_SUFFIX;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -142,7 +143,8 @@ fn command() -> String {
     let mut words: Vec<_> = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
     if let Some(program) = words.first_mut() {
         // without the folder, in which others do not have it
-        *program = Path::new(program).file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let name = Path::new(program).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        name.strip_suffix(EXE_SUFFIX).unwrap_or(&name).clone_into(program);
     }
     // only a NUL cannot be quoted, which no argument has
     shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()

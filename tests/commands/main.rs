@@ -16,6 +16,7 @@ mod fmu;
 mod generate;
 mod hidden_characters;
 mod linear_time;
+mod new;
 mod outlines;
 mod own_test;
 mod progress;

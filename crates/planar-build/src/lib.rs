@@ -10,6 +10,7 @@ mod layouts;
 pub mod pipeline;
 mod renderer;
 mod soundness;
+mod sources;
 
 #[cfg(feature = "prove")]
 pub mod evaluator;
@@ -19,3 +20,4 @@ pub mod prove;
 pub use command::{command, options, quoted};
 pub use layouts::{BuildError, render, render_to, verify};
 pub use renderer::{CModule, CText, CoSimulation, CoSimulationVariable, Module, Role};
+pub use sources::sources;

@@ -2,8 +2,10 @@
 
 use crate::graph::{self, Graph, GraphError};
 use crate::renderer::Module;
+use crate::sources::sources;
 use planar_layout::layout::Layout;
 use planar_layout::structure::Structure;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -14,10 +16,23 @@ pub fn build(codegen: &str) {
     println!("cargo::rustc-env=PLANAR_CAPTURE_FEATURES={}", features().join(","));
     let out = std::env::var_os("OUT_DIR").unwrap_or_default();
     let enabled = |layout: &str| is_on(&layout.to_uppercase());
-    if let Err(problem) = render_all(codegen.as_ref(), out.as_ref(), &enabled) {
+    let out: &Path = out.as_ref();
+    let carried = || if is_on("CLI") { carry_sources(out) } else { Ok(()) };
+    if let Err(problem) = render_all(codegen.as_ref(), out, &enabled).and_then(|()| carried()) {
         eprintln!("{problem}");
         std::process::exit(1);
     }
+}
+
+/// Writes `sources.rs`, which lists the sources that the program carries.
+fn carry_sources(out: &Path) -> Result<(), String> {
+    let files = sources(Path::new(""))?;
+    // a file that is new has to be carried
+    for top in files.iter().filter_map(|file| file.split('/').next()).collect::<BTreeSet<_>>() {
+        println!("cargo::rerun-if-changed={top}");
+    }
+    let list: Vec<String> = files.iter().map(|file| format!("    {file:?},\n")).collect();
+    write(&out.join("sources.rs"), &format!("sources!(\n{});\n", list.concat()))
 }
 
 /// The cargo features that are on, sorted, in lower case as this repository writes them; `default` only lists others.
