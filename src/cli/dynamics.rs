@@ -21,13 +21,7 @@ pub enum Dynamics {
 
 impl Dynamics {
     /// What computes a layout, which is in `file`; where the option does not say it, a line does, unless `quiet`.
-    pub fn choose(
-        self,
-        layout: &Layout,
-        file: &str,
-        robots: Robots<'_>,
-        quiet: bool,
-    ) -> Result<Choice, CommandError> {
+    pub fn choose(self, layout: &Layout, file: &str, robots: Robots<'_>, quiet: bool) -> Result<Choice, CommandError> {
         match self {
             Self::Auto => {
                 let (choice, unusable) = Choice::fastest(layout, robots);
