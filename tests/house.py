@@ -5,6 +5,7 @@
 - A published crate depends only on those before it in ORDER; only tests depend on planar-proof.
 - No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed.
 - A target with `test = false` has no tests; every nested workspace has its lock committed.
+- A crate with a robot of one's own builds few crates.
 - Modules of a crate, and those of each of its folders, use each other in one direction: no circles.
 """
 
@@ -18,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ORDER = ["planar-dynamics", "planar-layout", "planar-build", "planar-capture"]
 FIXTURES = "planar-proof"
+OWN_ROBOT, MOST_CRATES = "examples/own_robot/Cargo.lock", 40
 OWN_FILES = {"lib", "main", "mod"}
 
 
@@ -47,6 +49,13 @@ def directions(packages):
                 yield f"{name} depends on {other}: allowed are {', '.join(before) or 'none'}"
             if tests_only and other == FIXTURES and dependency["req"] != "*":
                 yield f"{name}: {FIXTURES} with a version cannot be left out when the crate is packaged"
+
+
+def own_robot():
+    """The crates of a crate with a robot of one's own, where they are too many."""
+    crates = (ROOT / OWN_ROBOT).read_text(encoding="utf-8").count("[[package]]")
+    if crates > MOST_CRATES:
+        yield f"{OWN_ROBOT}: {crates} crates, at most {MOST_CRATES}"
 
 
 def crate_of(path):
@@ -151,7 +160,7 @@ def main():
     """Exit code 1 if there is a violation."""
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     packages = json.loads(output("cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"))["packages"]
-    problems = [*directions(packages), *untested(packages)]
+    problems = [*directions(packages), *untested(packages), *own_robot()]
     problems += [problem for path in tracked("*.rs") for problem in texts(path)]
     locks = set(map(str, tracked("*Cargo.lock")))
     own = [

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use planar_dynamics::manifest::ParameterKind;
-use sha2::{Digest, Sha256};
 
 use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
@@ -259,7 +258,7 @@ impl Layout {
 /// The SHA-256 of a text, in hexadecimal.
 #[must_use]
 pub fn sha256(text: &str) -> String {
-    let digest: [u8; 32] = Sha256::digest(text).into();
+    let digest = hmac_sha256::Hash::hash(text.as_bytes());
     digest.map(|byte| format!("{byte:02x}")).concat()
 }
 
