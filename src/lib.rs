@@ -121,7 +121,7 @@ pub use planar_build as build;
 #[cfg(feature = "std")]
 pub use planar_build::evaluator;
 #[cfg(feature = "std")]
-pub use planar_build::prove::{self as generate, evaluation, generic, heavy_targets, owned, quantities, sampling};
+pub use planar_build::prove::{self as generate, evaluation, generic, owned, quantities, rigid_capture, sampling};
 #[cfg(feature = "std")]
 pub use planar_layout::{diagnostic, layout, outline, structure};
 

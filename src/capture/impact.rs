@@ -3,7 +3,9 @@
 use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::contact_response::{ContactResponse, response};
-use crate::contact::{self, Contact, ContactPartner, DelassusMatrix, workspace_length};
+use crate::contact::{
+    self, Contact, ContactPartner, DelassusMatrix, balance_length, balance_momentum, bilateral_rows, workspace_length,
+};
 use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;
 use crate::impact::{self, PaperImpactWorkspace, RigidImpactOutput};
@@ -175,15 +177,20 @@ fn by_contacts(
     });
     let held = assembly.constraint_contacts(&end_effectors, &bodies);
     let all: Vec<_> = new.chain(held).collect();
-    let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&all));
-    let mut numbers = vec![0.0; length];
-    let rows = DelassusMatrix::new(model, &before.base_pose, &before.joint_angles, &bodies, &all, &mut numbers)?;
     let mut joint_rates = vec![0.0; model.joints()];
     let mut body_twists = vec![[0.0; 3]; bodies.len()];
     let mut impulses = vec![[0.0; 3]; all.len()];
     let mut after =
         contact::ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut impulses };
-    let base_twist = contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
+    if !are_independent(&all) {
+        // the impulses of bounces, and whether the contacts depend on each other
+        let length = workspace_length(model.joints(), model.arms(), bodies.len(), DelassusMatrix::count(&all));
+        let mut numbers = vec![0.0; length];
+        let rows = DelassusMatrix::new(model, &before.base_pose, &before.joint_angles, &bodies, &all, &mut numbers)?;
+        contact::impact(model, &before.view(), &bodies, rows, &mut after)?;
+    }
+    let length = balance_length(model.joints(), model.arms(), bodies.len(), bilateral_rows(&all));
+    let base_twist = balance_momentum(model, &before.view(), &bodies, &all, &mut vec![0.0; length], &mut after)?;
     let mut end_effector_twists = vec![[0.0; 3]; model.arms()];
     let moving = State { base_twist, joint_rates: &joint_rates, ..before.view() };
     model.end_effector_twists(&moving, &mut end_effector_twists)?;
@@ -192,6 +199,14 @@ fn by_contacts(
     impulses.truncate(contacts.len());
     let twists = after.iter().map(|target| target.twist).collect();
     Ok(Velocities { base_twist, joint_rates, targets: twists, impulses })
+}
+
+/// Whether the contacts are rigid or pins, each with a body of its own: their equations cannot depend on each other.
+fn are_independent(contacts: &[Contact<f64>]) -> bool {
+    contacts.iter().enumerate().all(|(i, contact)| {
+        let is_alone = !contacts[..i].iter().any(|other| other.partner == contact.partner || other.arm == contact.arm);
+        is_alone && contact.law.kind().holds() && matches!(contact.partner, ContactPartner::Body(_))
+    })
 }
 
 fn balance(

@@ -403,3 +403,45 @@ fn impacts_of_one_arm_of_two_are_written() {
     let twists = summary["cases"][0]["impact"]["exact"]["target_twists_after"].as_array().expect("one per arm");
     assert_eq!(twists.iter().filter(|twist| twist.is_null()).count(), 1, "{twists:?}");
 }
+
+/// The impact is that of `eval` from the state before it, with links a billion times lighter than their targets too.
+#[test]
+fn light_last_links_lose_no_digits_of_an_impact() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let heads: Vec<_> = layout.split("[[arm.link]]").collect();
+    let light = |link: &str| link.replace("mass = 10.0", "mass = 1e-8").replace("inertia = 1.05", "inertia = 1.05e-9");
+    let links =
+        heads.iter().enumerate().map(|(i, text)| if i % 3 == 0 && i > 0 { light(text) } else { (*text).to_owned() });
+    let light = links.collect::<Vec<_>>().join("[[arm.link]]");
+    assert_eq!(light.matches("1e-8").count(), 2);
+    fs::write(folder.path().join("dual_arm_3r.toml"), light).expect("written");
+    let text = paper()
+        .replace("\"dual_arm_3r\"", "\"dual_arm_3r.toml\"")
+        .replace("\"pd\"", "\"computed_torque\"")
+        .replace("gain = 49.0", "gain = 4.0")
+        .replace("gain = 14.0", "gain = 4.0");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, text).expect("written");
+    let results = folder.path().join("results");
+    let (code, _, err) = run_file(&path, &results);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(results.join("summary.json")).expect("a summary")).expect("JSON");
+    for (case, spins) in summary["cases"].as_array().expect("cases").iter().zip([[0.2, 0.2], [0.0, 0.0], [0.2, -0.2]]) {
+        let target = |contact: f64, spin: f64| serde_json::json!({"mass": 10.0, "inertia": 1.0, "contact": [0.0, contact], "twist": [spin, 0.0, 0.0]});
+        let mut state = serde_json::json!({"targets": [target(0.5, spins[0]), target(-0.5, spins[1])]});
+        for key in ["base_pose", "base_twist", "joint_angles", "joint_rates"] {
+            state[key] = case["approach"][key].clone();
+        }
+        let mut eval = assert_cmd::Command::from_std(command());
+        let output = eval.arg("eval").arg(folder.path().join("dual_arm_3r.toml")).arg("-");
+        let output = output.write_stdin(serde_json::json!([state]).to_string()).output().expect("it runs");
+        let expected: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        for key in ["joint_rates_after", "base_twist_after", "target_twists_after", "impulses"] {
+            let [found, expected] = [&case["impact"]["exact"][key], &expected[0]["capture"][key]].map(numbers);
+            let largest = expected.iter().fold(0.0, |most: f64, part| most.max(part.abs()));
+            assert_close(key, &found, &expected, tolerance::CAPTURE * largest);
+        }
+    }
+}

@@ -5,12 +5,12 @@ mod derivatives;
 pub mod evaluation;
 pub mod generic;
 mod generic_results;
-pub mod heavy_targets;
 mod impact_results;
 mod interpreter;
 pub mod owned;
 mod pivots;
 pub mod quantities;
+pub mod rigid_capture;
 pub mod sampling;
 mod vectors;
 

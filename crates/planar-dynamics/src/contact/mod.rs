@@ -11,7 +11,8 @@
 //! | [`ContactLaw::Bounce`] | relative velocity along the normal | compressive force along the normal |
 //!
 //! With the [`DelassusMatrix`] W, the change of the rows' velocities per row impulse, [`impact`] applies Poisson's law
-//! of restitution; the [`ConstraintSolver`] computes the constraint forces of lasting contacts.
+//! of restitution, and [`balance_momentum`] solves it again where inertias differ by many orders of magnitude; the
+//! [`ConstraintSolver`] computes the constraint forces of lasting contacts.
 
 mod complementarity;
 mod constraint_row;
@@ -21,6 +22,7 @@ mod impact;
 mod inverse_inertia;
 mod kind;
 mod loop_constraint;
+mod momentum_balance;
 
 pub use constraint_solver::{ConstraintSolver, ConstraintWorkspace};
 pub use delassus_matrix::{DelassusMatrix, workspace_length};
@@ -28,6 +30,7 @@ pub use impact::{ImpactOutput, impact};
 pub use inverse_inertia::{ImpulseEllipse, InverseInertia};
 pub use kind::{ContactKind, ContactLaw};
 pub use loop_constraint::LoopConstraint;
+pub use momentum_balance::{balance_length, balance_momentum, bilateral_rows};
 
 use crate::error::Error;
 use crate::scalar::Real;

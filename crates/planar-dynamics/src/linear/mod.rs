@@ -1,12 +1,15 @@
 //! Linear algebra of the core, on slices: no allocation, no panic, any real scalar.
 //!
-//! [`factor`] and [`substitute`] solve symmetric systems, [`least_squares`] damped least-squares problems.
+//! [`factor`] and [`substitute`] solve symmetric systems, [`eliminate`] general ones, [`least_squares`] damped
+//! least-squares problems.
 
 mod ldlt;
 mod least_squares;
+mod lu;
 
 pub(crate) use ldlt::{factor, solve, substitute};
 pub(crate) use least_squares::least_squares;
+pub(crate) use lu::eliminate;
 
 use crate::scalar::Real;
 use core::borrow::Borrow;

@@ -12,6 +12,7 @@ use planar_capture::state::State;
 use planar_proof::maximal;
 use planar_proof::maximal::impact::Kind;
 use planar_proof::maximal::random::{PlannedContact, Scene};
+use planar_proof::{assert_close, tolerance};
 
 /// Result of an impact by the product.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,7 +61,7 @@ pub fn targets_and_contacts(scene: &Scene) -> (Vec<Body<f64>>, Vec<Contact<f64>>
     (scene.targets.iter().map(body).collect(), scene.planned.iter().map(contact).collect())
 }
 
-/// All contacts at once, by [`contact::impact`].
+/// All contacts at once, by [`contact::impact`], which [`contact::balance_momentum`] has to confirm.
 pub fn solve_impact<T: Real>(
     model: &dyn Model<T>,
     state: &State<'_, T>,
@@ -82,5 +83,24 @@ pub fn solve_impact<T: Real>(
         impulses: &mut found.impulses,
     };
     found.base_twist = contact::impact(model, state, bodies, rows, &mut after)?;
+    let mut balanced = found.clone();
+    let mut after = ImpactOutput {
+        joint_rates: &mut balanced.joint_rates,
+        body_twists: &mut balanced.body_twists,
+        impulses: &mut balanced.impulses,
+    };
+    let rows = contact::bilateral_rows(contacts);
+    let mut numbers =
+        vec![T::constant(f64::NAN); contact::balance_length(model.joints(), model.arms(), bodies.len(), rows)];
+    balanced.base_twist = contact::balance_momentum(model, state, bodies, contacts, &mut numbers, &mut after)?;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let same = |what, found: &[f64], balanced: &[f64]| {
+        assert_close(what, balanced, found, tolerance::SAME_BALANCE * T::EPSILON.to_f64() * largest(found));
+    };
+    let impulses = |outcome: &Outcome<T>| -> Vec<f64> {
+        outcome.impulses.as_flattened().iter().map(|value| value.to_f64()).collect()
+    };
+    same("velocities", &found.velocities(), &balanced.velocities());
+    same("impulses", &impulses(&found), &impulses(&balanced));
     Ok(found)
 }
