@@ -87,13 +87,13 @@ impl<'a> PathInterval<'a> {
         }
     }
 
-    /// Bounds of the magnitudes of the rates and of their derivatives, by the control points of the interpolant's
-    /// derivatives in Bernstein form.
-    pub fn bounds(&self, rates: &mut [f64], accelerations: &mut [f64]) {
+    /// Bounds of the magnitudes of the rates, less those of a `reference`, and of their derivatives, by the control points
+    /// of the interpolant's derivatives in Bernstein form.
+    pub fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
         let length = self.span[1] - self.span[0];
         for (i, (rate, acceleration)) in rates.iter_mut().zip(accelerations).enumerate() {
-            let slope = (self.end[0][i] - self.start[0][i]) / length;
-            let [v, w] = [self.start[1][i], self.end[1][i]];
+            let slope = (self.end[0][i] - self.start[0][i]) / length - reference(i);
+            let [v, w] = [self.start[1][i], self.end[1][i]].map(|rate| rate - reference(i));
             *rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
             let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
             *acceleration = ends[0].abs().max(ends[1].abs()) * 2.0 / length;
@@ -204,7 +204,7 @@ mod tests {
                 assert!((position[0] - exact).abs() < 2.0 * TOLERANCE, "{time}: {}", position[0] - exact);
                 assert!((rate[0] - exact_rate).abs() < 1e-6, "{time}: {}", rate[0] - exact_rate);
                 let (mut largest, mut acceleration) = ([0.0], [0.0]);
-                interval.bounds(&mut largest, &mut acceleration);
+                interval.bounds(|_| 0.0, &mut largest, &mut acceleration);
                 assert!(rate[0].abs() <= largest[0] + 1e-9, "{time}: {} > {}", rate[0], largest[0]);
                 assert!(acceleration[0] >= 9.0 * exact.abs() - 0.02, "{time}: {}", acceleration[0]);
             }

@@ -32,7 +32,7 @@ pub(in crate::capture) struct FrameState {
 pub(in crate::capture) struct MotionBound {
     /// Of the yaw rate, rad/s.
     pub(in crate::capture) yaw_rate: f64,
-    /// Of the speed of the origin, m/s.
+    /// Of the speed of the origin less the velocity of the base at the start of the interval, m/s.
     pub(in crate::capture) speed: f64,
     /// Of the yaw acceleration, rad/s².
     yaw_acceleration: f64,
@@ -40,8 +40,14 @@ pub(in crate::capture) struct MotionBound {
     acceleration: f64,
 }
 
+/// [ω, vx, vy] of the base at the start of an interval.
+pub(super) fn velocity_of_base(interval: &PathInterval<'_>) -> [f64; 3] {
+    let [_, rates] = interval.start;
+    [rates[0], rates[1], rates[2]]
+}
+
 impl MotionBound {
-    /// Of the speed of points up to `reach` from the origin, m/s.
+    /// Of the speed of points up to `reach` from the origin, less the velocity of the base at the start, m/s.
     pub(in crate::capture) fn speed_within(&self, reach: f64) -> f64 {
         self.speed + self.yaw_rate * reach
     }
@@ -135,7 +141,14 @@ impl FrameKinematics<'_> {
         bounds: &mut Vec<MotionBound>,
     ) {
         let [rates, accelerations] = coordinates;
-        interval.bounds(rates, accelerations);
+        // all bodies move together in an orbit
+        let [_, bx, by] = velocity_of_base(interval);
+        let reference = |i: usize| match i.checked_sub(3 + self.joints) {
+            Some(of_bodies) => [0.0, bx, by][of_bodies % 3],
+            None if i < 3 => [0.0, bx, by][i],
+            None => 0.0,
+        };
+        interval.bounds(reference, rates, accelerations);
         let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);
         bounds.clear();
         for (k, frame) in self.frames.iter().enumerate() {
@@ -148,7 +161,7 @@ impl FrameKinematics<'_> {
                 FrameMotion::Target(target) => match self.targets {
                     TargetMotion::Free(bodies) => {
                         let [omega, vx, vy] = bodies[target].twist;
-                        MotionBound { yaw_rate: omega.abs(), speed: vx.hypot(vy), ..MotionBound::default() }
+                        MotionBound { yaw_rate: omega.abs(), speed: (vx - bx).hypot(vy - by), ..MotionBound::default() }
                     }
                     TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
                         TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
