@@ -23,6 +23,7 @@ use crate::registry::Robots;
 use crate::scenario::Scenario;
 use kind::Kind;
 use std::path::Path;
+pub use stiffness::help_with_gains;
 
 /// A valid file.
 #[derive(Clone, Debug)]

@@ -14,6 +14,30 @@ const MAX_STEP: f64 = 0.5;
 const RECOMMENDED_STEP: f64 = 0.2;
 
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
+    closed_loops(scenario).iter().flat_map(|law| [law.long_step(), law.long_sample_time()]).flatten().collect()
+}
+
+/// What helps where a phase, `approach` or `post_impact`, breaks down: for gains that are too high for its step or its
+/// sample time, what they and the robot's inertia make of the joints, and what would do.
+#[must_use]
+pub fn help_with_gains(scenario: &Scenario, phase: &str) -> Option<String> {
+    let law = closed_loops(scenario).into_iter().find(|law| law.phase == phase)?;
+    let Warning { why, help, .. } = law.long_step().or_else(|| law.long_sample_time())?;
+    let remedy = format!("{why}: {help}");
+    Some(match &scenario.approach.tracking {
+        Tracking::ProportionalDerivative { proportional_gain, derivative_gain } if phase == "approach" => {
+            let [stiffness, damping] =
+                [proportional_gain, derivative_gain].map(|gains| short(gains.iter().copied().fold(0.0, f64::max)));
+            format!(
+                "{remedy} than `proportional_gain` = {stiffness} N m/rad and `derivative_gain` = {damping} N m s/rad; or \
+                 `tracking = \"computed_torque\"`, whose gains are in 1/s² and 1/s, for a robot of any size"
+            )
+        }
+        _ => remedy,
+    })
+}
+
+fn closed_loops(scenario: &Scenario) -> Vec<ClosedLoop> {
     let Scenario { approach, .. } = scenario;
     let before = fastest_mode(scenario).map(|rate| ClosedLoop {
         phase: "approach",
@@ -25,7 +49,7 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
         let (step, steps_per_sample) = (after.step, after.actuation.steps_per_sample);
         Some(ClosedLoop { phase: "post_impact", step, steps_per_sample, rate: fastest_mode_afterwards(scenario)? })
     });
-    before.iter().chain(&after).flat_map(|law| [law.long_step(), law.long_sample_time()]).flatten().collect()
+    before.into_iter().chain(after).collect()
 }
 
 /// The rate of the fastest mode of the joints under the tracking law, 1/s. Under computed torque, and resolved motion

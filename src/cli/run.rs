@@ -7,6 +7,7 @@ use super::progress::{Display, Progress};
 use super::terminal::{note, print};
 use crate::capture::scenario_key::ScenarioKey;
 use crate::capture::{Study, StudyError, study};
+use crate::check::help_with_gains;
 use crate::diagnostic::report_error;
 use crate::output::console::table;
 use crate::output::html_report::write_report;
@@ -107,7 +108,9 @@ fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> Comm
         _ => 2,
     };
     let ScenarioKey { path, value } = error.key(scenario);
-    let report = report_error(&source.text, &source.file, (&path, &value), &error.to_string());
+    let phase = path.split_once('.').map_or("", |(phase, _)| phase);
+    let help = help_with_gains(scenario, phase);
+    let report = report_error(&source.text, &source.file, (&path, &value), &error.to_string(), help);
     CommandError::Computation { report, exit_code }
 }
 

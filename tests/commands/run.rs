@@ -269,7 +269,7 @@ fn a_structure_without_code_is_computed_by_its_graph() {
     let results = folder.path().join("results");
     let (code, _, err) = run_file(&path, &results);
     assert_eq!(code, 2);
-    assert!(err.contains("scenario.toml: no generated code") && err.contains("planar-capture generate"), "{err}");
+    assert!(err.contains("scenario.toml: no generated code") && err.contains("planar-capture new"), "{err}");
     assert!(err.contains("`arm[0].mount[1]` is 0.25") && err.contains("Nearest is `dual_arm_3r`"), "{err}");
     let mut command = command();
     command.env("PLANAR_CAPTURE_HOME", folder.path()).arg("run").arg(&path).arg("--out").arg(&results);
@@ -322,6 +322,25 @@ fn integrators_say_what_they_cannot_do() {
     let (code, _, err, _) = run_text(&stiff);
     assert_eq!(code, 1, "{err}");
     assert!(err.contains("do not converge") && err.contains("a shorter step, or smaller gains"), "{err}");
+}
+
+/// The paper's gains break a robot of a hundredth of its masses: the message has the gains, their time and a step.
+#[test]
+fn gains_that_break_a_small_robot_are_named() {
+    let folder = TempDir::new().expect("a folder");
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let small = layout.replace("mass = 500.0", "mass = 5.0").replace("inertia = 83.61", "inertia = 0.8361");
+    let small = small.replace("mass = 10.0", "mass = 0.1").replace("inertia = 1.05", "inertia = 0.0105");
+    fs::write(folder.path().join("small.toml"), small).expect("written");
+    let path = folder.path().join("scenario.toml");
+    fs::write(&path, paper().replace("\"dual_arm_3r\"", "\"small.toml\"")).expect("written");
+    let (code, _, err) = run_file(&path, &folder.path().join("results"));
+    assert_eq!(code, 1, "{err}");
+    for part in
+        ["approach.step", "is not a finite number", "`proportional_gain` = 49", "`derivative_gain` = 14", "or less"]
+    {
+        assert!(err.contains(part), "no {part} in: {err}");
+    }
 }
 
 /// Steps that are far too long: the audit objects, and the exit code says so.

@@ -101,7 +101,7 @@ impl Layout {
         match layout.disproportion() {
             None => Ok(layout),
             Some(Disproportion { kind, arm, link, value, why }) => {
-                Err(report_error(text, file, (&parameter_key(kind, arm, link), &value.to_string()), &why))
+                Err(report_error(text, file, (&parameter_key(kind, arm, link), &value.to_string()), &why, None))
             }
         }
     }

@@ -36,10 +36,10 @@ pub fn report_warnings(text: &str, file: &str, warnings: &[Warning]) -> Report {
 ///
 /// A key that is not given is shown with its `default` at the table that may hold it.
 #[must_use]
-pub fn report_error(text: &str, file: &str, (key, default): (&str, &str), why: &str) -> Report {
+pub fn report_error(text: &str, file: &str, (key, default): (&str, &str), why: &str, help: Option<String>) -> Report {
     let document = Document::new(text, file, Severity::Error);
     let (tree, _) = DeTable::parse_recoverable(document.source());
-    report_at(&document, tree.get_ref(), (key, Some(default)), why, None);
+    report_at(&document, tree.get_ref(), (key, Some(default)), why, help);
     document.into_report()
 }
 
