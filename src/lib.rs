@@ -123,7 +123,7 @@ pub use planar_build::evaluator;
 #[cfg(feature = "std")]
 pub use planar_build::prove::{self as generate, evaluation, generic, owned, quantities, rigid_capture, sampling};
 #[cfg(feature = "std")]
-pub use planar_layout::{diagnostic, layout, outline, structure};
+pub use planar_layout::{diagnostic, format, layout, outline, structure};
 
 #[cfg(feature = "std")]
 pub mod capture;

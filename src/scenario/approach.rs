@@ -102,6 +102,14 @@ impl FinalRates {
 }
 
 impl Tracking {
+    /// All laws, without gains.
+    pub(crate) const LAWS: &'static [Self] = &[
+        Self::ProportionalDerivative { proportional_gain: Vec::new(), derivative_gain: Vec::new() },
+        Self::InverseDynamics,
+        Self::ComputedTorque { proportional_gain: Vec::new(), derivative_gain: Vec::new() },
+        Self::ResolvedMotionRate { pose_gain: 0.0, rate_gain: 0.0, singularity_threshold: 0.0 },
+    ];
+
     /// As in a scenario.
     #[must_use]
     pub const fn name(&self) -> &'static str {

@@ -10,6 +10,11 @@ pub enum Detection {
     Event,
 }
 
+impl Detection {
+    /// All of them with their names in scenarios.
+    pub const ALL: [(&'static str, Self); 2] = [("time", Self::Time), ("event", Self::Event)];
+}
+
 /// The `[contact]` table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactRules {

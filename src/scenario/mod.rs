@@ -4,6 +4,7 @@ mod approach;
 mod case;
 mod clearance;
 mod contact;
+mod keys;
 mod post_impact;
 mod reader;
 mod target;
@@ -18,6 +19,7 @@ pub use approach::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, 
 pub use case::Case;
 pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
+pub use keys::FORMAT;
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use reader::{ScenarioSource, Source};
 pub use target::{PlannedContact, Target, contact_name};

@@ -47,6 +47,14 @@ pub enum PostCaptureControl {
 }
 
 impl PostCaptureControl {
+    /// All laws, without gains.
+    pub(crate) const LAWS: &'static [Self] = &[
+        Self::None,
+        Self::Hold { proportional_gain: Vec::new(), derivative_gain: Vec::new() },
+        Self::Damping { derivative_gain: Vec::new() },
+        Self::Stabilise { derivative_gain: Vec::new(), base_gain: 0.0, base_torque_limit: None },
+    ];
+
     /// As in a scenario.
     #[must_use]
     pub const fn name(&self) -> &'static str {

@@ -13,6 +13,7 @@ mod diagnostics;
 mod dynamics;
 mod eval;
 mod fmu;
+mod formats;
 mod generate;
 mod hidden_characters;
 mod linear_time;

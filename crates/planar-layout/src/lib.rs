@@ -1,10 +1,12 @@
-//! Arm layouts: read from TOML, written, hashed, compared with the structures of generated code; and the diagnostics of
-//! everything that is read.
+//! Arm layouts: read from TOML, written, hashed, compared with the structures of generated code; the formats of files
+//! that people write; and the diagnostics of everything that is read.
 //!
 //! It never contains: a model, a graph, a computation of dynamics, a terminal.
 
 pub mod diagnostic;
+pub mod format;
 pub mod layout;
+mod names;
 pub mod outline;
 mod proportion;
 pub mod structure;

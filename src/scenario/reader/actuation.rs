@@ -1,32 +1,22 @@
 //! `torque_limits` and `sample_time`: the actuators of a control law.
 
 use super::joints::Joints;
-use super::{read_or, reject_keys};
-use crate::diagnostic::{NumberRule, Table, Value};
+use crate::diagnostic::{Table, Value};
 use crate::simulate::Timing;
 use crate::simulate::actuators::Actuation;
-
-const TORQUE_LIMIT: NumberRule = NumberRule::non_negative("a torque limit (or one per joint)", "N m");
-const SAMPLE_TIME: NumberRule = NumberRule::positive("a sample time", "s");
 
 /// Largest distance of a sample time from a whole number of steps, in steps: rounding of decimal fractions.
 const STEP_TOLERANCE: f64 = 1e-6;
 
 /// Reads the actuation of a phase; `times` are its duration and step.
 pub(super) fn actuation(table: &Table<'_>, times: Option<(f64, f64)>, joints: &Joints<'_>) -> Option<Actuation> {
-    let torque_limits =
-        read_or(table, "torque_limits", None, |value| joints.one_or_each(value, &TORQUE_LIMIT).map(Some));
-    let steps_per_sample = read_or(table, "sample_time", None, |value| steps_per_sample(value, times).map(Some));
+    let torque_limits = table.read_or("torque_limits", None, |value| joints.one_or_each(value).map(Some));
+    let steps_per_sample = table.read_or("sample_time", None, |value| steps_per_sample(value, times).map(Some));
     Some(Actuation { torque_limits: torque_limits?, steps_per_sample: steps_per_sample? })
 }
 
-/// Rejects the keys of an actuation where no control law has actuators.
-pub(super) fn reject_actuation(table: &Table<'_>, why: &str) {
-    reject_keys(table, &["torque_limits", "sample_time"], why);
-}
-
 fn steps_per_sample(value: &Value<'_>, times: Option<(f64, f64)>) -> Option<u32> {
-    let sample_time = value.number(&SAMPLE_TIME)?;
+    let sample_time = value.number()?;
     let (duration, step) = times?;
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let step = duration / Timing { duration, step, sample: step, ..Timing::default() }.steps() as f64;

@@ -1,17 +1,14 @@
 //! `[[target]]`, `[contact]`, `[[case]]` and `[post_impact]`, and the rules between them.
 
-use super::case::{self, case};
+use super::case::case;
 use super::joints::Joints;
-use super::post_impact::{self, post_impact};
-use super::target::{self, NO_BOUNCE, target};
-use super::{read_or, reject_keys};
+use super::post_impact::post_impact;
+use super::target::{NO_BOUNCE, target};
 use crate::contact::ContactKind;
-use crate::diagnostic::{NumberRule, Table, every};
+use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
 use crate::scenario::{Case, ContactRules, Detection, PostImpact, Target};
 use std::collections::HashSet;
-
-const CONTACT_DURATION: NumberRule = NumberRule::positive("the duration of a contact", "s");
 
 /// The contents of the tables.
 pub(super) struct Capture {
@@ -23,11 +20,9 @@ pub(super) struct Capture {
 
 /// Reads the tables; `name` is the scenario's.
 pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>) -> Option<Capture> {
-    let contact = read_or(root, "contact", ContactRules::default(), |value| {
-        contact_rules(&value.table(&["detection", "duration"])?)
-    });
+    let contact = root.read_or("contact", ContactRules::default(), |value| contact_rules(&value.table()?));
     let detection = contact.unwrap_or_default().detection;
-    let tables = root.tables("target", target::KEYS)?;
+    let tables = root.tables("target")?;
     let no_targets = tables.is_empty();
     Table::reject_repeats(&tables, "name", str::to_owned, "target names must differ");
     Table::reject_repeats(&tables, "arm", str::to_owned, "an arm captures at most one target");
@@ -39,7 +34,7 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
     // cases name targets, which they can only where the names differ
     let target_names = every(tables.iter().map(|table| table.get("name")?.as_str()))
         .filter(|names| names.iter().collect::<HashSet<_>>().len() == names.len());
-    let cases = root.tables("case", case::KEYS).and_then(|tables| {
+    let cases = root.tables("case").and_then(|tables| {
         if let (true, Some(table)) = (no_targets, tables.first()) {
             let message = "`case[0]` is a table, expected no `[[case]]` without a `[[target]]`";
             table.reject(message, "there is nothing to capture");
@@ -49,9 +44,9 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
         every(tables.iter().map(|table| case(table, target_names.as_deref(), targets.as_deref(), detection)))
     });
 
-    let after = if no_targets { None } else { root.table("post_impact", post_impact::KEYS) };
+    let after = if no_targets { None } else { root.table("post_impact") };
     let post_impact = if no_targets {
-        reject_keys(root, &["contact", "post_impact"], "there is nothing to capture, expected a `[[target]]` with it");
+        root.reject_keys(&["contact", "post_impact"], "there is nothing to capture, expected a `[[target]]` with it");
         Some(None)
     } else {
         after.as_ref().and_then(|table| post_impact(table, &Joints { layout })).map(Some)
@@ -72,10 +67,8 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
 }
 
 fn contact_rules(table: &Table<'_>) -> Option<ContactRules> {
-    let detection = read_or(table, "detection", Detection::Time, |value| {
-        value.choice(&[("time", Detection::Time), ("event", Detection::Event)])
-    });
-    let duration = read_or(table, "duration", None, |value| value.number(&CONTACT_DURATION).map(Some));
+    let detection = table.choice("detection", &Detection::ALL);
+    let duration = table.optional_number("duration");
     Some(ContactRules { detection: detection?, duration: duration? })
 }
 
@@ -109,7 +102,7 @@ fn merges_all(targets: &[Target], cases: &[Case], detection: Detection) -> bool 
 fn reject_idle_restitutions(tables: &[Table<'_>], cases: &[Case]) {
     for (i, table) in tables.iter().enumerate() {
         if !cases.iter().any(|case| case.kinds[i].iter().flatten().any(|kind| kind.is_unilateral())) {
-            reject_keys(table, &["restitution"], NO_BOUNCE);
+            table.reject_keys(&["restitution"], NO_BOUNCE);
         }
     }
 }

@@ -1,13 +1,9 @@
 //! Reads `[[case]]`: the contact kinds of each variant of a capture.
 
-use super::target::{NO_BOUNCE, NO_NORMAL, bounces_at_com, contact_kinds, restitution};
-use super::{FILE_NAME, TWIST, file_name};
-use crate::diagnostic::{NumberRule, Table, Value, every};
+use super::file_name;
+use super::target::{NO_BOUNCE, NO_NORMAL, bounces_at_com, contact_kinds};
+use crate::diagnostic::{Table, Value, every};
 use crate::scenario::{Case, Detection, Target};
-
-const IMPULSE: NumberRule = NumberRule::non_negative("an impulse magnitude", "N s");
-
-pub(super) const KEYS: &[&str] = &["name", "target_twists", "kinds", "restitutions", "printed_impulses"];
 
 /// `names` are the targets', where they differ; `targets`, where they could be read, are in the same order.
 pub(super) fn case<'a>(
@@ -16,11 +12,11 @@ pub(super) fn case<'a>(
     targets: Option<&[Target]>,
     detection: Detection,
 ) -> Option<Case> {
-    let name = table.require("name", FILE_NAME).and_then(|value| file_name(&value));
+    let name = table.require("name").and_then(|value| file_name(&value));
     let names = names?;
     let default = targets.map(|targets| Case::of_targets("", targets));
     let target_twists = of_targets(table, "target_twists", names, |i, value| match value {
-        Some(value) => value.vector(&TWIST),
+        Some(value) => value.vector(),
         None => default.as_ref().map(|default| default.target_twists[i]),
     });
     let kinds = of_targets(table, "kinds", names, |i, value| match value {
@@ -41,12 +37,12 @@ pub(super) fn case<'a>(
             if holds {
                 value.reject(NO_BOUNCE);
             }
-            restitution(&value).filter(|_| !holds)
+            value.number().filter(|_| !holds)
         }
         None => default.as_ref().map(|default| default.restitutions[i]),
     });
     let printed_impulses = of_targets(table, "printed_impulses", names, |_, value| match value {
-        Some(value) => value.number(&IMPULSE).map(Some),
+        Some(value) => value.number().map(Some),
         None => Some(None),
     });
     Some(Case {
@@ -66,7 +62,7 @@ fn of_targets<'a, R>(
     read: impl Fn(usize, Option<Value<'a>>) -> Option<R>,
 ) -> Option<Vec<R>> {
     let given = match table.get(key) {
-        Some(value) => Some(value.table(names)?),
+        Some(value) => Some(value.by_name(names)?),
         None => None,
     };
     every(names.iter().enumerate().map(|(i, name)| read(i, given.as_ref().and_then(|given| given.get(name)))))

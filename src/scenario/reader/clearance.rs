@@ -1,18 +1,15 @@
 //! Reads the `[clearance]` table.
 
-use super::read_or;
 use crate::diagnostic::{Table, Value, every, listing};
 use crate::scenario::{ClearanceRules, OnOverlap};
-
-pub(super) const KEYS: &[&str] = &["on_overlap", "ignore"];
 
 const PAIRS: &str = "a list of pairs of bodies, [[\"base\", \"arms/ARM/link2\"], …]";
 
 /// `names` are those of the scenario's bodies.
 pub(super) fn clearance(table: &Table<'_>, names: &[String]) -> Option<ClearanceRules> {
-    let on_overlap = read_or(table, "on_overlap", OnOverlap::Report, |value| value.choice(&OnOverlap::ALL));
+    let on_overlap = table.choice("on_overlap", &OnOverlap::ALL);
     let ignore =
-        read_or(table, "ignore", Vec::new(), |value| every(value.items(PAIRS)?.iter().map(|item| pair(item, names))));
+        table.read_or("ignore", Vec::new(), |value| every(value.items(PAIRS)?.iter().map(|item| pair(item, names))));
     Some(ClearanceRules { on_overlap: on_overlap?, ignore: ignore?, ..ClearanceRules::default() })
 }
 
@@ -20,7 +17,7 @@ fn pair(value: &Value<'_>, names: &[String]) -> Option<[String; 2]> {
     let items = value.items(PAIRS)?;
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     let body = |item: &Value<'_>| {
-        let name = item.text(&format!("the name of a body: {}", listing(&known, "or")))?;
+        let name = item.text_as(&format!("the name of a body: {}", listing(&known, "or")))?;
         if !known.contains(&name) {
             item.expected_one_of(&known, None);
             return None;

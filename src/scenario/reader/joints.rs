@@ -1,12 +1,8 @@
 //! Lists with one entry per joint or arm, checked against the layout.
 
-use crate::diagnostic::{NumberRule, Table, Value};
+use crate::diagnostic::{Table, Value};
+use crate::format::{Default, Key};
 use crate::layout::Layout;
-
-pub(super) const PROPORTIONAL_GAIN: NumberRule =
-    NumberRule::non_negative("a proportional gain (or one per joint)", "N m/rad");
-pub(super) const DERIVATIVE_GAIN: NumberRule =
-    NumberRule::non_negative("a derivative gain (or one per joint)", "N m s/rad");
 
 /// The joints and arms that lists are checked against; not checked where the layout could not be read.
 pub(super) struct Joints<'a> {
@@ -29,26 +25,27 @@ impl Joints<'_> {
     }
 
     /// A list with one number per joint; the first that is wrong is noted.
-    pub(super) fn numbers(&self, value: &Value<'_>, rule: &NumberRule) -> Option<Vec<f64>> {
+    pub(super) fn numbers(&self, value: &Value<'_>) -> Option<Vec<f64>> {
         let items = value.items(&self.one_each())?;
         self.check_length(value, items.len(), &self.one_each())?;
-        items.iter().map(|item| item.number(rule)).collect()
+        items.iter().map(Value::number).collect()
     }
 
     /// One number for all joints, or a list with one per joint.
-    pub(super) fn one_or_each(&self, value: &Value<'_>, rule: &NumberRule) -> Option<Vec<f64>> {
+    pub(super) fn one_or_each(&self, value: &Value<'_>) -> Option<Vec<f64>> {
         if value.is_array() {
-            return self.numbers(value, rule);
+            return self.numbers(value);
         }
-        value.number(rule).map(|number| self.repeat(number))
+        value.number().map(|number| self.repeat(number))
     }
 
-    /// Puts the gain under a key, if given, in place of the default.
-    pub(super) fn read_gain(&self, table: &Table<'_>, key: &str, rule: &NumberRule, gain: &mut Vec<f64>) -> Option<()> {
-        if let Some(value) = table.get(key) {
-            *gain = self.one_or_each(&value, rule)?;
+    /// The gain of a law, of which the table's format has a default.
+    pub(super) fn gain(&self, table: &Table<'_>, key: &'static Key) -> Option<Vec<f64>> {
+        match (table.get_as(key), key.default) {
+            (Some(value), _) => self.one_or_each(&value),
+            (None, Default::Number(default)) => Some(self.repeat(default)),
+            (None, _) => None,
         }
-        Some(())
     }
 
     /// The same entry for every joint.

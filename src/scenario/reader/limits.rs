@@ -1,24 +1,15 @@
 //! The `[limits]` table: ranges of joint angles and largest joint rates.
 
 use super::joints::Joints;
-use super::{LARGEST_ANGLE, read_or};
-use crate::diagnostic::{NumberRule, Table, Value, every};
+use crate::diagnostic::{Table, Value, every};
 use crate::owned::RobotState;
 use crate::simulate::limits::JointLimits;
 
-pub(super) const KEYS: &[&str] = &["joint_angles", "joint_rates"];
-
-const RATE: NumberRule = NumberRule::positive("a largest joint rate (or one per joint)", "rad/s");
-const RANGE: [NumberRule; 2] = [
-    NumberRule::any("low", "rad").not_degrees(LARGEST_ANGLE),
-    NumberRule::any("high", "rad").not_degrees(LARGEST_ANGLE),
-];
-
 /// One per joint.
 pub(super) fn joint_limits(table: &Table<'_>, joints: &Joints<'_>) -> Option<Vec<JointLimits>> {
-    let angles = read_or(table, "joint_angles", joints.repeat(None), |value| angles(value, joints));
-    let rates = read_or(table, "joint_rates", joints.repeat(None), |value| {
-        Some(joints.one_or_each(value, &RATE)?.into_iter().map(Some).collect())
+    let angles = table.read_or("joint_angles", joints.repeat(None), |value| angles(value, joints));
+    let rates = table.read_or("joint_rates", joints.repeat(None), |value| {
+        Some(joints.one_or_each(value)?.into_iter().map(Some).collect())
     });
     let layout = joints.layout?;
     let limits = angles?.into_iter().zip(rates?).enumerate();
@@ -41,7 +32,7 @@ fn angles(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Option<[f64; 2]>
 }
 
 fn range(value: &Value<'_>) -> Option<[f64; 2]> {
-    let [low, high] = value.vector(&RANGE)?;
+    let [low, high] = value.vector()?;
     if low >= high {
         value.reject("the lower limit comes first, expected [low, high] with low < high");
         return None;

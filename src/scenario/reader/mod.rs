@@ -12,42 +12,17 @@ mod magnitude;
 mod post_impact;
 mod target;
 
-use crate::diagnostic::{NumberRule, Report, Table, Value, read_document, read_text};
+use crate::diagnostic::{Report, Table, Value, read_document, read_text};
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::{ClearanceRules, Scenario, Tracking};
+use crate::scenario::{ClearanceRules, FORMAT, Scenario, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
-use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
-
-/// The time step where a scenario gives none, in s.
-const DEFAULT_STEP: f64 = 0.005;
 
 /// The most steps that one phase may take; more would run for days and fill the disk.
 const MOST_STEPS: f64 = 1e8;
-
-const DURATION: NumberRule = NumberRule::positive("a duration", "s");
-const STEP: NumberRule = NumberRule::positive("a time step", "s");
-/// Two turns; a larger angle is taken for one in degrees.
-const LARGEST_ANGLE: f64 = 4.0 * PI;
-const JOINT_ANGLE: NumberRule = NumberRule::any("a joint angle", "rad").not_degrees(LARGEST_ANGLE);
-/// rad/s; a faster body turns more often in a second than its angle has digits to show.
-const LARGEST_RATE: f64 = 1e9;
-/// That of light, m/s: no body of mechanics is faster.
-const LARGEST_VELOCITY: f64 = 299_792_458.0;
-const JOINT_RATE: NumberRule = NumberRule::any("a joint rate", "rad/s").at_most(LARGEST_RATE);
-const POSITION: [NumberRule; 2] = [NumberRule::any("x", "m"), NumberRule::any("y", "m")];
-const POSE: [NumberRule; 3] = [NumberRule::any("yaw", "rad"), NumberRule::any("x", "m"), NumberRule::any("y", "m")];
-const TWIST: [NumberRule; 3] = [
-    NumberRule::any("ω", "rad/s").at_most(LARGEST_RATE),
-    NumberRule::any("vx", "m/s").at_most(LARGEST_VELOCITY),
-    NumberRule::any("vy", "m/s").at_most(LARGEST_VELOCITY),
-];
-
-const FILE_NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
-const LAYOUT: &str = "a shipped layout's name or the path of a layout file";
 
 /// What a file was read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,31 +82,17 @@ impl Scenario {
         folder: &Path,
         shipped: &[(&str, &str)],
     ) -> Result<(Self, Source), Report> {
-        const KEYS: [&str; 10] = [
-            "name",
-            "layout",
-            "initial",
-            "limits",
-            "approach",
-            "target",
-            "contact",
-            "clearance",
-            "case",
-            "post_impact",
-        ];
-        read_document(text, file, &KEYS, |root| {
-            let name = root.require("name", FILE_NAME).and_then(|value| file_name(&value));
+        read_document(text, file, &FORMAT, |root| {
+            let name = root.require("name").and_then(|value| file_name(&value));
             let (layout, source) =
-                root.require("layout", LAYOUT).and_then(|value| find_layout(&value, folder, shipped)).unzip();
+                root.require("layout").and_then(|value| find_layout(&value, folder, shipped)).unzip();
             let joints = Joints { layout: layout.as_ref() };
 
-            let initial_table = root.table("initial", &["joint_angles", "base_pose", "base_twist", "joint_rates"]);
+            let initial_table = root.table("initial");
             let initial = initial_table.as_ref().and_then(|table| initial_state(table, &joints));
             let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
-            let approach =
-                root.table("approach", approach::KEYS).and_then(|table| approach::approach(&table, &joints, start));
-            let limits =
-                read_or(root, "limits", Vec::new(), |value| limits::joint_limits(&value.table(limits::KEYS)?, &joints));
+            let approach = root.table("approach").and_then(|table| approach::approach(&table, &joints, start));
+            let limits = root.read_or("limits", Vec::new(), |value| limits::joint_limits(&value.table()?, &joints));
             if let (Some(table), Some(initial)) = (&initial_table, &initial) {
                 if let Some(value) = table.get("base_pose") {
                     let [_, x, y] = initial.base_pose;
@@ -143,16 +104,16 @@ impl Scenario {
                 if from_rest && initial.joint_rates.iter().any(|rate| *rate != 0.0) {
                     let why = "exact tracking starts from rest, expected zeros, `tracking = \"pd\"` or \
                                `trajectory = \"quintic\"`";
-                    reject_keys(table, &["joint_rates"], why);
+                    table.reject_keys(&["joint_rates"], why);
                 }
                 limits::check_initial(table, initial, limits.as_deref().unwrap_or_default());
             }
             let capture = capture::capture(root, layout.as_ref(), name.as_deref())?;
-            let clearance = read_or(root, "clearance", ClearanceRules::default(), |value| {
+            let clearance = root.read_or("clearance", ClearanceRules::default(), |value| {
                 let targets = capture.targets.iter().map(|target| target.name.as_str());
                 let bodies = frames(layout.as_ref()?, targets).into_iter();
                 let names: Vec<_> = bodies.filter(|f| f.motion != FrameMotion::Fixed).map(|f| f.name).collect();
-                clearance::clearance(&value.table(clearance::KEYS)?, &names)
+                clearance::clearance(&value.table()?, &names)
             });
             let scenario = Self {
                 name: name?,
@@ -171,25 +132,12 @@ impl Scenario {
     }
 }
 
-/// What `read` makes of the value of a key; the default where the key is not given.
-fn read_or<'a, T>(table: &Table<'a>, key: &str, default: T, read: impl FnOnce(&Value<'a>) -> Option<T>) -> Option<T> {
-    table.get(key).map_or(Some(default), |value| read(&value))
-}
-
-/// Rejects each of the keys that is given.
-fn reject_keys(table: &Table<'_>, keys: &[&str], why: &str) {
-    for value in keys.iter().filter_map(|key| table.get(key)) {
-        value.reject(why);
-    }
-}
-
 /// The state at the start; joint angles must be given, all else is zero by default.
 fn initial_state(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
-    let joint_angles =
-        table.require("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value, &JOINT_ANGLE));
-    let base_pose = table.vector_or("base_pose", &POSE, [0.0; 3]);
-    let base_twist = table.vector_or("base_twist", &TWIST, [0.0; 3]);
-    let joint_rates = read_or(table, "joint_rates", joints.repeat(0.0), |value| joints.numbers(value, &JOINT_RATE));
+    let joint_angles = table.require_as("joint_angles", &joints.one_each()).and_then(|value| joints.numbers(&value));
+    let base_pose = table.vector("base_pose");
+    let base_twist = table.vector("base_twist");
+    let joint_rates = table.read_or("joint_rates", joints.repeat(0.0), |value| joints.numbers(value));
     Some(RobotState {
         joint_angles: joint_angles?,
         base_pose: base_pose?,
@@ -200,8 +148,8 @@ fn initial_state(table: &Table<'_>, joints: &Joints<'_>) -> Option<RobotState> {
 
 /// `duration` and `step` of a phase, with a number of steps that can be simulated.
 fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
-    let duration = table.number("duration", &DURATION);
-    let step = table.number_or("step", &STEP, DEFAULT_STEP);
+    let duration = table.number("duration");
+    let step = table.number("step");
     let (duration, step) = (duration?, step?);
     let steps = duration / step;
     let why = if steps < 1.0 {
@@ -220,10 +168,10 @@ fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
 
 /// A name that can be part of a file's name on any system.
 fn file_name(value: &Value<'_>) -> Option<String> {
-    let name = value.text(FILE_NAME)?;
+    let name = value.text()?;
     let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
-        value.expected(&format!("{FILE_NAME}, at most 100 of them"), None);
+        value.expected(&format!("{}, at most 100 of them", value.wanted()), None);
         return None;
     }
     Some(name.to_owned())
@@ -231,7 +179,7 @@ fn file_name(value: &Value<'_>) -> Option<String> {
 
 /// The layout that a scenario names, and the text that it was read from.
 fn find_layout(value: &Value<'_>, folder: &Path, shipped: &[(&str, &str)]) -> Option<(Layout, Source)> {
-    let name = value.text(LAYOUT)?;
+    let name = value.text()?;
     let source = if Layout::is_path(name) {
         // collecting the components drops `./`
         let path: PathBuf = folder.join(name).components().collect();

@@ -2,46 +2,24 @@
 
 use super::joints::check_length;
 use super::magnitude::{check_distance, check_mass, check_size};
-use super::{LARGEST_ANGLE, POSITION, TWIST, read_or};
 use crate::contact::ContactKind;
-use crate::diagnostic::{NumberRule, Table, Value, every, listing};
+use crate::diagnostic::{Table, Value, every, listing};
 use crate::layout::Layout;
 use crate::outline::Outline;
 use crate::scenario::{Detection, PlannedContact, Target, contact_name};
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
-const MASS: NumberRule = NumberRule::positive("a mass", "kg");
-const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
-const RADIUS: NumberRule = NumberRule::positive("a radius", "m");
-const YAW: NumberRule = NumberRule::any("a yaw", "rad").not_degrees(LARGEST_ANGLE);
-const RESTITUTION: NumberRule = NumberRule::any("a restitution, 0 (no rebound) to 1 (no loss)", "");
 const POINTS: &str = "[rx, ry] in m, or a list of those, one per arm";
-const POINT: [NumberRule; 2] = [NumberRule::any("rx", "m"), NumberRule::any("ry", "m")];
-
-pub(super) const KEYS: &[&str] = &[
-    "name",
-    "arm",
-    "mass",
-    "inertia",
-    "contact",
-    "radius",
-    "polygon",
-    "kind",
-    "restitution",
-    "twist",
-    "yaw",
-    "position",
-];
 
 pub(super) const NO_NORMAL: &str = "a bounce at the COM has no outward normal, expected a contact on the rim";
 
 pub(super) const NO_BOUNCE: &str = "no contact of the target bounces, and rigid contacts and pins have no restitution, expected `bounce` as a kind of it";
 
 pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Detection) -> Option<Target> {
-    let name = table.text("name", "a name");
+    let name = table.text("name");
     let arms = table
-        .require("arm", "the name of an arm of the layout, or a list of such names")
+        .require_as("arm", "the name of an arm of the layout, or a list of such names")
         .and_then(|value| arms(&value, layout?));
     let count = arms.as_ref().map(Vec::len);
     let points = contact_points(table, count, detection);
@@ -49,18 +27,18 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
         Some(value) => contact_kinds(&value, count),
         None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
     };
-    let mass = table.number("mass", &MASS).filter(|mass| check_mass(table, "mass", *mass, layout));
-    let inertia = table.number("inertia", &INERTIA).filter(|inertia| check_mass(table, "inertia", *inertia, layout));
+    let mass = table.number("mass").filter(|mass| check_mass(table, "mass", *mass, layout));
+    let inertia = table.number("inertia").filter(|inertia| check_mass(table, "inertia", *inertia, layout));
     let outline = outline(table).filter(|outline| check_size(table, outline, layout));
-    let restitution = read_or(table, "restitution", 0.0, restitution);
-    let twist = table.vector_or("twist", &TWIST, [0.0; 3]);
-    let yaw = table.number_or("yaw", &YAW, 0.0);
+    let restitution = table.number("restitution");
+    let twist = table.vector("twist");
+    let yaw = table.number("yaw");
     let position = match detection {
         Detection::Event => {
             let expected = "[x, y] of its COM at the start in m, from which it moves freely";
-            table.require("position", expected).and_then(|value| value.vector(&POSITION)).map(Some)
+            table.require_as("position", expected).and_then(|value| value.vector()).map(Some)
         }
-        Detection::Time => read_or(table, "position", None, |value| value.vector(&POSITION).map(Some)),
+        Detection::Time => table.read_or("position", None, |value| value.vector().map(Some)),
     };
     if let (Some(value), Some(Some(position))) = (table.get("position"), position) {
         check_distance(&value, position, layout);
@@ -110,16 +88,6 @@ pub(super) fn contact_kinds(value: &Value<'_>, count: Option<usize>) -> Option<V
     every(items.iter().map(|item| item.choice(&kinds)))
 }
 
-/// A restitution from 0 to 1.
-pub(super) fn restitution(value: &Value<'_>) -> Option<f64> {
-    let restitution = value.number(&RESTITUTION)?;
-    if !(0.0..=1.0).contains(&restitution) {
-        value.expected(&RESTITUTION.to_string(), None);
-        return None;
-    }
-    Some(restitution)
-}
-
 /// The indices of one arm or several.
 fn arms(value: &Value<'_>, layout: &Layout) -> Option<Vec<usize>> {
     if !value.is_array() {
@@ -160,16 +128,16 @@ fn contact_points(table: &Table<'_>, arms: Option<usize>, detection: Detection) 
         }
         return arms.map(|arms| vec![[0.0; 2]; arms]);
     }
-    let value = table.require("contact", POINTS)?;
+    let value = table.require_as("contact", POINTS)?;
     let items = value.items(POINTS)?;
     let expected = for_each(arms, "a contact point [rx, ry] in m");
     if !items.iter().any(Value::is_array) && (arms == Some(1) || !items.is_empty()) {
-        let point = value.vector(&POINT)?;
+        let point = value.vector()?;
         check_length(&value, 1, arms, &expected)?;
         return Some(vec![point]);
     }
     check_length(&value, items.len(), arms, &expected)?;
-    every(items.iter().map(|item| item.vector(&POINT)))
+    every(items.iter().map(Value::vector))
 }
 
 /// What a list holds, and for how many arms.
@@ -187,17 +155,17 @@ fn outline(table: &Table<'_>) -> Option<Outline> {
         // a misspelt `polygon` is noted already
         (None, None) if table.is_misspelt("polygon") => None,
         (None, None) => {
-            let expected = format!("{RADIUS}, or the corners of a `polygon` in its place");
-            table.require("radius", &expected).and(None)
+            let expected = format!("{}, or the corners of a `polygon` in its place", table.wanted("radius"));
+            table.require_as("radius", &expected).and(None)
         }
         (Some(_), Some(polygon)) => {
             polygon.reject("`radius` is there too, expected one of the two");
             None
         }
-        (Some(value), None) => value.number(&RADIUS).map(Outline::disc),
+        (Some(value), None) => value.number().map(Outline::disc),
         (None, Some(value)) => {
             let items = value.items("a list of corners [x, y] in m, in the target's frame, COM at the origin")?;
-            let corners = every(items.iter().map(|item| item.vector(&POSITION)))?;
+            let corners = every(items.iter().map(Value::vector))?;
             let surround = surround_origin(&corners);
             let outline = Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()?;
             if !surround {

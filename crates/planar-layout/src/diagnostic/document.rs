@@ -139,6 +139,6 @@ pub(super) fn table_name(path: &str) -> String {
 }
 
 /// A path as in headers: `arm.link` of `arm[0].link[1]`.
-fn without_indices(path: &str) -> String {
+pub(super) fn without_indices(path: &str) -> String {
     path.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect()
 }

@@ -7,23 +7,26 @@
 mod document;
 mod file;
 mod hidden_character;
-mod number_rule;
 mod syntax;
 mod table;
 mod warning;
 
+use std::convert::Infallible;
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::format::TableFormat;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use document::Document;
+use table::Keys;
 use toml::de::DeTable;
 
+pub use crate::format::NumberRule;
+pub use crate::names::{listing, nearest};
 pub use file::read_text;
 pub use hidden_character::{is_hidden, printable};
-pub use number_rule::NumberRule;
 pub use table::{Table, Value, every};
 pub use warning::{Warning, report_error, report_warnings};
 
@@ -141,15 +144,35 @@ impl Display for Report {
 
 impl Error for Report {}
 
-/// Parses `text` and reads its root table, which may hold `keys` and no others, with `read`. `read` returns `None` where
-/// it has found problems.
+/// Parses `text` and reads its root table, which may hold the keys of `format` and no others, with `read`. `read` returns
+/// `None` where it has found problems.
 ///
 /// # Errors
 /// The syntax errors, one per line, or all problems of the content.
 pub fn read_document<T>(
     text: &str,
     file: &str,
-    keys: &[&str],
+    format: &'static TableFormat,
+    read: impl FnOnce(&Table<'_>) -> Option<T>,
+) -> Result<T, Report> {
+    read_root(text, file, &Keys::Of(format), read)
+}
+
+/// The report that a text, which may hold these keys at its top level, is not what is wanted; with its syntax errors alone
+/// if it has any.
+#[must_use]
+pub fn reject_document(text: &str, file: &str, keys: &[&str], message: &str, label: &str) -> Report {
+    let Err(report) = read_root::<Infallible>(text, file, &Keys::Names(keys.to_vec(), None), |root| {
+        root.reject(message, label);
+        None
+    });
+    report
+}
+
+fn read_root<T>(
+    text: &str,
+    file: &str,
+    keys: &Keys<'_>,
     read: impl FnOnce(&Table<'_>) -> Option<T>,
 ) -> Result<T, Report> {
     let document = Document::new(text, file, Severity::Error);
@@ -160,29 +183,6 @@ pub fn read_document<T>(
         if errors.is_empty() { read(&root()) } else { None }
     };
     content.filter(|_| document.is_valid()).ok_or_else(|| document.into_report())
-}
-
-/// The candidate that is most similar to `name`, ignoring case; `None` if all have a Jaro–Winkler similarity below 0.8.
-#[must_use]
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let name = name.to_lowercase();
-    candidates
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(&name, &candidate.to_lowercase()), candidate))
-        .filter(|(similarity, _)| *similarity >= 0.8)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, candidate)| candidate)
-}
-
-/// The names in backticks as an English list, such as `` `a`, `b` or `c` `` with the conjunction "or".
-#[must_use]
-pub fn listing(names: &[&str], conjunction: &str) -> String {
-    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    match quoted.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, rest)) => format!("{} {conjunction} {last}", rest.join(", ")),
-        None => "nothing".to_owned(),
-    }
 }
 
 /// Text from an input as one short printable line.

@@ -54,7 +54,7 @@ fn report_at(
     let found = follow(root, key);
     let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
     let (message, label) = if let Some((value, "")) = found {
-        let shown = Value::new(document, value, key.to_owned()).shown();
+        let shown = Value::new(document, value, key.to_owned(), None).shown();
         (format!("`{key}` is {shown}: {why}"), None)
     } else {
         let default = default.map_or_else(String::new, |default| format!(", {default}"));

@@ -1,7 +1,9 @@
 //! Outlines of bodies: discs, capsules and polygons, and the signed distance of points from them.
 
+mod keys;
 mod reader;
 
+pub use keys::FORMAT;
 pub use reader::outline;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,14 +1,8 @@
 //! Reads and writes the `outline` of a base or link.
 
-use super::Outline;
-use crate::diagnostic::{NumberRule, Table, Value, every};
-
-const RADIUS: NumberRule = NumberRule::positive("a radius", "m").not_millimetres(1e4);
-const CAPSULE_RADIUS: NumberRule = NumberRule::non_negative("a radius", "m").not_millimetres(1e4);
-const SIDE: NumberRule = NumberRule::positive("a side", "m").not_millimetres(1e4);
-const ANGLE: NumberRule = NumberRule::any("an angle", "rad").not_degrees(std::f64::consts::TAU);
-const POINT: [NumberRule; 2] =
-    [NumberRule::any("x", "m").not_millimetres(1e4), NumberRule::any("y", "m").not_millimetres(1e4)];
+use super::{FORMAT, Outline};
+use crate::diagnostic::{Table, Value, every};
+use crate::format::With;
 
 const EXPECTED: &str = "one of `disc` (a radius in m), `box` (two sides in m), `capsule` (a radius in m, 0 for a segment) \
                         and `polygon` (a list of corners [x, y] in m)";
@@ -19,20 +13,14 @@ const EXPECTED: &str = "one of `disc` (a radius in m), `box` (two sides in m), `
 /// `ends` (default: the joint and the end of the link).
 #[must_use]
 pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
-    let table = value.table(&["disc", "box", "capsule", "polygon", "center", "angle", "ends"])?;
-    let kinds = ["disc", "box", "capsule", "polygon"];
-    let given: Vec<&str> = kinds.into_iter().filter(|kind| table.get(kind).is_some()).collect();
+    let table = value.table()?;
+    let given: Vec<&str> = FORMAT.one_of.iter().copied().filter(|kind| table.get(kind).is_some()).collect();
     let [kind] = given[..] else {
         value.reject(&format!("found {} of them, expected {EXPECTED}", given.len()));
         return None;
     };
-    let with: &[&str] = match kind {
-        "disc" => &["center"],
-        "box" => &["center", "angle"],
-        "capsule" => &["ends"],
-        _ => &[],
-    };
-    let others = ["center", "angle", "ends"].into_iter().filter(|key| !with.contains(key));
+    let is_for_others = |with| matches!(with, Some(With::Key(kinds)) if !kinds.contains(&kind));
+    let others = FORMAT.keys.iter().filter(|key| is_for_others(key.with)).map(|key| key.name);
     let others: Vec<_> = others.filter_map(|key| table.get(key)).collect();
     for other in &others {
         other.reject(&format!("`{kind}` takes no such key, expected {EXPECTED}"));
@@ -40,24 +28,24 @@ pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
     if !others.is_empty() {
         return None;
     }
-    let center = table.vector_or("center", &POINT, [length.unwrap_or(0.0) / 2.0, 0.0]);
+    let center = table.read_or("center", [length.unwrap_or(0.0) / 2.0, 0.0], Value::vector);
     match kind {
-        "disc" => Some(Outline::Disc { center: center?, radius: table.number("disc", &RADIUS)? }),
+        "disc" => Some(Outline::Disc { center: center?, radius: table.number("disc")? }),
         "box" => {
-            let size = table.vector("box", &[SIDE; 2]);
-            let angle = table.number_or("angle", &ANGLE, 0.0);
+            let size = table.vector("box");
+            let angle = table.number("angle");
             // sides far smaller than the rest have no corners of their own in double precision
             let corners = Outline::rectangle(center?, size?, angle?).corners();
             Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()
         }
         "capsule" => {
-            let radius = table.number("capsule", &CAPSULE_RADIUS);
+            let radius = table.number("capsule");
             let ends = ends(&table, length);
             Some(Outline::Capsule { ends: ends?, radius: radius? })
         }
         _ => {
-            let value = table.require("polygon", "a list of corners [x, y] in m")?;
-            let corners = every(value.items("a list of corners [x, y] in m")?.iter().map(|item| item.vector(&POINT)))?;
+            let value = table.require("polygon")?;
+            let corners = every(value.items("a list of corners [x, y] in m")?.iter().map(Value::vector))?;
             Outline::polygon(corners).map_err(|why| value.reject(&why.to_string())).ok()
         }
     }
@@ -68,9 +56,9 @@ fn ends(table: &Table<'_>, length: Option<f64>) -> Option<[[f64; 2]; 2]> {
     let value = match (table.get("ends"), length) {
         (Some(value), _) => value,
         (None, Some(length)) => return Some([[0.0, 0.0], [length, 0.0]]),
-        (None, None) => table.require("ends", ENDS)?,
+        (None, None) => table.require_as("ends", ENDS)?,
     };
-    let items = every(value.items(ENDS)?.iter().map(|item| item.vector(&POINT)))?;
+    let items = every(value.items(ENDS)?.iter().map(Value::vector))?;
     let ends = <[[f64; 2]; 2]>::try_from(items);
     ends.map_err(|items| value.reject(&format!("found {} points, expected {ENDS}", items.len()))).ok()
 }

@@ -8,12 +8,30 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
-use super::document::{Document, table_name};
-use super::number_rule::{NumberRule, form};
-use super::{listing, nearest};
+use super::document::{Document, table_name, without_indices};
+use crate::format::{Default, Key, Shape, TableFormat};
+use crate::names::{listing, nearest};
 use value::did_you_mean;
 
 pub use value::Value;
+
+/// The keys that a table may hold.
+#[derive(Clone, Debug)]
+pub(super) enum Keys<'a> {
+    /// Those of a format.
+    Of(&'static TableFormat),
+    /// These, all with values of one shape, if that is known.
+    Names(Vec<&'a str>, Option<&'static Shape>),
+}
+
+impl<'a> Keys<'a> {
+    fn names(&self) -> Vec<&'a str> {
+        match self {
+            Self::Of(format) => format.names(),
+            Self::Names(names, _) => names.clone(),
+        }
+    }
+}
 
 /// A table in a document, with the keys it may hold.
 #[derive(Clone, Debug)]
@@ -23,6 +41,9 @@ pub struct Table<'a> {
     span: Range<usize>,
     path: String,
     keys: Vec<&'a str>,
+    format: Option<&'static TableFormat>,
+    /// Of every value, where there is no format.
+    shape: Option<&'static Shape>,
     /// Those that unknown keys are probably misspellings of.
     misspelt: Vec<&'a str>,
 }
@@ -34,10 +55,15 @@ impl<'a> Table<'a> {
         entries: &'a DeTable<'a>,
         span: Range<usize>,
         path: String,
-        keys: &[&'a str],
+        keys: &Keys<'a>,
     ) -> Self {
-        document.add_table(&path, keys);
-        let mut table = Self { document, entries, span, path, keys: keys.to_vec(), misspelt: Vec::new() };
+        let names = keys.names();
+        let (format, shape) = match keys {
+            Keys::Of(format) => (Some(*format), None),
+            Keys::Names(_, shape) => (None, *shape),
+        };
+        document.add_table(&path, &names);
+        let mut table = Self { document, entries, span, path, keys: names, format, shape, misspelt: Vec::new() };
         table.misspelt = table.report_unknown_keys();
         table
     }
@@ -45,12 +71,50 @@ impl<'a> Table<'a> {
     /// The value of a key, if given.
     #[must_use]
     pub fn get(&self, key: &str) -> Option<Value<'a>> {
-        self.entries.get(key).map(|value| Value::new(self.document, value, self.path_of(key)))
+        let shape = self.format.and_then(|format| format.key(key)).map(|key| &key.shape).or(self.shape);
+        self.value(key, shape)
+    }
+
+    /// The value of a key whose entry depends on a choice, if given.
+    #[must_use]
+    pub fn get_as(&self, key: &'static Key) -> Option<Value<'a>> {
+        self.value(key.name, Some(&key.shape))
+    }
+
+    fn value(&self, key: &str, shape: Option<&'static Shape>) -> Option<Value<'a>> {
+        self.entries.get(key).map(|value| Value::new(self.document, value, self.path_of(key), shape))
+    }
+
+    /// The entry of a key in the table's format.
+    ///
+    /// # Panics
+    /// For a key that the format does not have.
+    fn entry(&self, key: &str) -> &'static Key {
+        self.format.and_then(|format| format.key(key)).expect("a key of the table's format")
     }
 
     /// The value of a key; a problem if it is missing, unless an unknown key is a misspelling of it.
     #[must_use]
-    pub fn require(&self, key: &str, wanted: &str) -> Option<Value<'a>> {
+    pub fn require(&self, key: &str) -> Option<Value<'a>> {
+        let wanted = match self.entry(key).shape {
+            Shape::Table(format) => {
+                format!("a table `[{}]` with {}", self.path_of(key), listing(&format.names(), "and"))
+            }
+            Shape::Tables(_) => self.one_table(key),
+            _ => self.wanted(key),
+        };
+        self.require_as(key, &wanted)
+    }
+
+    /// What the value of a key must be, as it reads after "expected".
+    #[must_use]
+    pub fn wanted(&self, key: &str) -> String {
+        self.entry(key).shape.wanted()
+    }
+
+    /// As [`require`](Self::require), with words for what the value must be.
+    #[must_use]
+    pub fn require_as(&self, key: &str, wanted: &str) -> Option<Value<'a>> {
         let value = self.get(key);
         if value.is_none() && !self.is_misspelt(key) {
             let message = format!("missing key `{}`, expected {wanted}", self.path_of(key));
@@ -60,52 +124,105 @@ impl<'a> Table<'a> {
         value
     }
 
-    /// A number that must be given.
+    /// What `read` makes of the value of a key; the default where the key is not given.
     #[must_use]
-    pub fn number(&self, key: &str, quantity: &NumberRule) -> Option<f64> {
-        self.require(key, &quantity.to_string())?.number(quantity)
+    pub fn read_or<T>(&self, key: &str, default: T, read: impl FnOnce(&Value<'a>) -> Option<T>) -> Option<T> {
+        self.get(key).map_or(Some(default), |value| read(&value))
     }
 
-    /// A number, or the default where the key is not given.
+    /// A number, or its default.
     #[must_use]
-    pub fn number_or(&self, key: &str, quantity: &NumberRule, default: f64) -> Option<f64> {
-        self.get(key).map_or(Some(default), |value| value.number(quantity))
+    pub fn number(&self, key: &str) -> Option<f64> {
+        match self.entry(key).default {
+            Default::Number(default) => self.read_or(key, default, Value::number),
+            _ => self.require(key)?.number(),
+        }
     }
 
-    /// A string that must be given; `wanted` describes it.
+    /// A number, or nothing where it is not given.
     #[must_use]
-    pub fn text(&self, key: &str, wanted: &str) -> Option<&'a str> {
-        self.require(key, wanted)?.text(wanted)
+    #[allow(clippy::option_option, reason = "None where it is invalid, Some(None) where it is not given")]
+    pub fn optional_number(&self, key: &str) -> Option<Option<f64>> {
+        self.read_or(key, None, |value| value.number().map(Some))
     }
 
-    /// A vector that must be given.
+    /// A text that must be given.
     #[must_use]
-    pub fn vector<const N: usize>(&self, key: &str, components: &[NumberRule; N]) -> Option<[f64; N]> {
-        self.require(key, &form(components))?.vector(components)
+    pub fn text(&self, key: &str) -> Option<&'a str> {
+        self.require(key)?.text()
     }
 
-    /// A vector, or the default where the key is not given.
+    /// A vector, or zeros where that is its default.
     #[must_use]
-    pub fn vector_or<const N: usize>(
-        &self,
-        key: &str,
-        components: &[NumberRule; N],
-        default: [f64; N],
-    ) -> Option<[f64; N]> {
-        self.get(key).map_or(Some(default), |value| value.vector(components))
+    pub fn vector<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
+        match self.entry(key).default {
+            Default::Zeros => self.read_or(key, [0.0; N], Value::vector),
+            _ => self.require(key)?.vector(),
+        }
     }
 
-    /// A table that must be given, with the keys that it may hold.
+    /// The choice that a text names, or the default one.
     #[must_use]
-    pub fn table(&self, key: &str, keys: &[&'a str]) -> Option<Table<'a>> {
-        let wanted = format!("a table `[{}]` with {}", self.path_of(key), listing(keys, "and"));
-        self.require(key, &wanted)?.table(keys)
+    pub fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Option<T> {
+        match (self.entry(key).default, self.get(key)) {
+            (Default::Choice(default), None) => {
+                choices.iter().find(|(name, _)| *name == default).map(|(_, choice)| *choice)
+            }
+            _ => self.require(key)?.choice(choices),
+        }
     }
 
-    /// An array of tables, `[[key]]`, with the keys that each may hold; empty where not given.
+    /// A table that must be given.
     #[must_use]
-    pub fn tables(&self, key: &str, keys: &[&'a str]) -> Option<Vec<Table<'a>>> {
-        self.get(key).map_or(Some(Vec::new()), |value| value.tables(keys))
+    pub fn table(&self, key: &str) -> Option<Table<'a>> {
+        self.require(key)?.table()
+    }
+
+    /// An array of tables, `[[key]]`: at least one if it must be given, else empty where it is not.
+    #[must_use]
+    pub fn tables(&self, key: &str) -> Option<Vec<Table<'a>>> {
+        if self.entry(key).default != Default::Required {
+            return self.read_or(key, Vec::new(), Value::tables);
+        }
+        let value = self.require(key)?;
+        let tables = value.tables()?;
+        if tables.is_empty() {
+            value.expected(&self.one_table(key), None);
+        }
+        Some(tables)
+    }
+
+    /// "at least one `[[arm.link]]`".
+    fn one_table(&self, key: &str) -> String {
+        format!("at least one `[[{}]]`", without_indices(&self.path_of(key)))
+    }
+
+    /// Rejects each of the keys that is given.
+    pub fn reject_keys(&self, keys: &[&str], why: &str) {
+        for value in keys.iter().filter_map(|key| self.get(key)) {
+            value.reject(why);
+        }
+    }
+
+    /// Rejects each given key that its format has only with other choices of the key `selector`.
+    pub fn reject_keys_without(&self, selector: &str, choice: &str, why: &str) {
+        self.reject_keys(&self.keys_without(selector, choice), why);
+    }
+
+    /// The keys that its format has only with other choices of the key `selector`.
+    #[must_use]
+    pub fn keys_without(&self, selector: &str, choice: &str) -> Vec<&'static str> {
+        self.format.map_or_else(Vec::new, |format| format.keys_without(selector, choice))
+    }
+
+    /// The entry of a key for this choice of the key `selector`.
+    ///
+    /// # Panics
+    /// Where the format has none.
+    #[must_use]
+    pub fn entry_with(&self, key: &str, selector: &str, choice: &str) -> &'static Key {
+        let entry = self.format.and_then(|format| format.variants(key).find(|key| key.is_with(selector, choice)));
+        entry.expect("an entry of the table's format")
     }
 
     /// Adds a problem of the table as a whole.
@@ -149,7 +266,7 @@ impl<'a> Table<'a> {
             }
             let similar = self.similar_key(name);
             misspelt.extend(similar.filter(|similar| !misspelt.contains(similar)));
-            let value = Value::new(self.document, value, self.path_of(name));
+            let value = Value::new(self.document, value, self.path_of(name), None);
             let message = format!("unknown key `{}` ({})", value.path(), value.shown());
             let owner = self.document.owner_of(name, &self.path);
             let label = match owner {

@@ -5,10 +5,11 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Table, every};
+use super::{Keys, Table, every};
 use crate::diagnostic::document::Document;
-use crate::diagnostic::number_rule::{NumberRule, form};
-use crate::diagnostic::{Report, excerpt, is_hidden, listing, nearest};
+use crate::diagnostic::{Report, excerpt, is_hidden};
+use crate::format::{NumberRule, Refusal, Shape, form};
+use crate::names::{listing, nearest};
 
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
 #[derive(Clone, Debug)]
@@ -17,11 +18,21 @@ pub struct Value<'a> {
     tree: &'a DeValue<'a>,
     span: Range<usize>,
     path: String,
+    /// What it is by the format of its file; `None` for the value of an unknown key.
+    shape: Option<&'static Shape>,
 }
 
+/// The panic of a reader that asks for what the format of its file does not have.
+const OTHER_SHAPE: &str = "a value of the shape that its format has";
+
 impl<'a> Value<'a> {
-    pub(in crate::diagnostic) fn new(document: &'a Document, value: &'a Spanned<DeValue<'a>>, path: String) -> Self {
-        Self { document, tree: value.get_ref(), span: value.span(), path }
+    pub(in crate::diagnostic) fn new(
+        document: &'a Document,
+        value: &'a Spanned<DeValue<'a>>,
+        path: String,
+        shape: Option<&'static Shape>,
+    ) -> Self {
+        Self { document, tree: value.get_ref(), span: value.span(), path, shape }
     }
 
     /// The path from the root of the document.
@@ -40,6 +51,15 @@ impl<'a> Value<'a> {
     #[must_use]
     pub fn is_array(&self) -> bool {
         self.tree.is_array()
+    }
+
+    /// What the value must be by the format of its file, as it reads after "expected".
+    ///
+    /// # Panics
+    /// Where the format has no such key; so the accessors below, where it has another kind of value here.
+    #[must_use]
+    pub fn wanted(&self) -> String {
+        self.shape.expect(OTHER_SHAPE).wanted()
     }
 
     /// Adds a problem: the value is not what is wanted.
@@ -84,9 +104,16 @@ impl<'a> Value<'a> {
         items.first().is_some_and(|item| item.span() == self.span)
     }
 
-    /// A number, integer or not, in the range of this quantity.
+    /// A number, integer or not, in the range of its quantity.
+    ///
+    /// # Panics
+    /// See [`wanted`](Self::wanted).
     #[must_use]
-    pub fn number(&self, quantity: &NumberRule) -> Option<f64> {
+    pub fn number(&self) -> Option<f64> {
+        self.number_of(self.shape.and_then(Shape::rule).expect(OTHER_SHAPE))
+    }
+
+    fn number_of(&self, quantity: &NumberRule) -> Option<f64> {
         let number = match self.tree {
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
@@ -95,9 +122,13 @@ impl<'a> Value<'a> {
         };
         let outcome = match number {
             Some(number) => quantity.check(number).map(|()| number),
-            None => Err(self.as_str().map(|_| "write the number without quotes".to_owned())),
+            None => Err(Refusal::Hint(self.as_str().map(|_| "write the number without quotes".to_owned()))),
         };
-        outcome.map_err(|help| self.expected(&quantity.to_string(), help)).ok()
+        let refuse = |refusal| match refusal {
+            Refusal::Hint(help) => self.expected(&quantity.to_string(), help),
+            Refusal::Reason(why) => self.reject(&why),
+        };
+        outcome.map_err(refuse).ok()
     }
 
     /// The elements of an array; `wanted` describes the array.
@@ -107,26 +138,40 @@ impl<'a> Value<'a> {
             self.expected(wanted, None);
             return None;
         };
-        let item = |(index, value)| Self::new(self.document, value, format!("{}[{index}]", self.path));
+        let shape = self.shape.and_then(|shape| match shape {
+            Shape::List(item, _) | Shape::OneOrList(item, _) => Some(*item),
+            _ => None,
+        });
+        let item = |(index, value)| Self::new(self.document, value, format!("{}[{index}]", self.path), shape);
         Some(items.iter().enumerate().map(item).collect())
     }
 
     /// An array with one number for each component, `[x, y]`.
+    ///
+    /// # Panics
+    /// See [`wanted`](Self::wanted).
     #[must_use]
-    pub fn vector<const N: usize>(&self, components: &[NumberRule; N]) -> Option<[f64; N]> {
+    pub fn vector<const N: usize>(&self) -> Option<[f64; N]> {
+        let components = self.shape.and_then(|shape| shape.components(N)).expect(OTHER_SHAPE);
         let items = self.items(&form(components))?;
         if items.len() != N {
             self.expected(&form(components), None);
             return None;
         }
         let pairs = items.iter().zip(components);
-        let numbers: Option<Vec<_>> = pairs.map(|(item, component)| item.number(component)).collect();
+        let numbers: Option<Vec<_>> = pairs.map(|(item, component)| item.number_of(component)).collect();
         numbers?.try_into().ok()
     }
 
     /// A string of one line that is not blank and has no hidden characters, see [`is_hidden`].
     #[must_use]
-    pub fn text(&self, wanted: &str) -> Option<&'a str> {
+    pub fn text(&self) -> Option<&'a str> {
+        self.text_as(&self.wanted())
+    }
+
+    /// As [`text`](Self::text), with words for what it must be.
+    #[must_use]
+    pub fn text_as(&self, wanted: &str) -> Option<&'a str> {
         let text = self.as_str().filter(|text| !text.trim().is_empty() && !text.contains(is_hidden));
         if text.is_none() {
             let wanted = format!("{wanted}: text in quotes, on one line, not blank, without hidden characters");
@@ -146,21 +191,38 @@ impl<'a> Value<'a> {
         chosen.map(|(_, choice)| *choice)
     }
 
-    /// A table that may hold these keys and no others.
+    /// A table with the keys of its format.
     #[must_use]
-    pub fn table(&self, keys: &[&'a str]) -> Option<Table<'a>> {
+    pub fn table(&self) -> Option<Table<'a>> {
+        match self.shape {
+            Some(Shape::Table(format) | Shape::Tables(format)) => self.table_with(&Keys::Of(format)),
+            _ => unreachable!("{OTHER_SHAPE}"),
+        }
+    }
+
+    /// A table with these names as keys.
+    #[must_use]
+    pub fn by_name(&self, names: &[&'a str]) -> Option<Table<'a>> {
+        let shape = self.shape.and_then(|shape| match shape {
+            Shape::ByName(item, _) => Some(*item),
+            _ => None,
+        });
+        self.table_with(&Keys::Names(names.to_vec(), shape))
+    }
+
+    fn table_with(&self, keys: &Keys<'a>) -> Option<Table<'a>> {
         let DeValue::Table(entries) = self.tree else {
             let header = (!self.path.contains('[')).then(|| format!("write `[{}]`", self.path));
-            self.expected(&format!("a table with {}", listing(keys, "and")), header);
+            self.expected(&format!("a table with {}", listing(&keys.names(), "and")), header);
             return None;
         };
         let (path, span) = (self.path.clone(), self.span.clone());
         Some(Table::new(self.document, entries, span, path, keys))
     }
 
-    /// An array of tables, `[[path]]`, each of which may hold these keys and no others.
+    /// An array of tables, `[[path]]`.
     #[must_use]
-    pub fn tables(&self, keys: &[&'a str]) -> Option<Vec<Table<'a>>> {
+    pub fn tables(&self) -> Option<Vec<Table<'a>>> {
         if self.tree.is_table() {
             let header = self.document.text(&self.span);
             let path = &self.path;
@@ -173,8 +235,8 @@ impl<'a> Value<'a> {
             self.document.report(&self.span, &message, Some(label), None);
             return None;
         }
-        let items = self.items(&format!("a list of tables with {}", listing(keys, "and")))?;
-        every(items.iter().map(|item| item.table(keys)))
+        let items = self.items(&self.wanted())?;
+        every(items.into_iter().map(|item| Self { shape: self.shape, ..item }.table()))
     }
 }
 

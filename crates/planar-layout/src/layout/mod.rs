@@ -1,20 +1,16 @@
 //! Arm layouts: the bodies and joints of a robot, read from TOML.
 
-use std::f64::consts::PI;
+mod keys;
+
 use std::path::Path;
 
 use planar_dynamics::manifest::ParameterKind;
 
-use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text, report_error};
+use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, disproportion};
 
-const MASS: NumberRule = NumberRule::positive("a mass", "kg");
-const INERTIA: NumberRule = NumberRule::positive("a moment of inertia", "kg m²");
-const LENGTH: NumberRule = NumberRule::non_negative("a length", "m").not_millimetres(1e4);
-const ANGLE: NumberRule = NumberRule::any("an angle", "rad").not_degrees(2.0 * PI);
-const POSITION: [NumberRule; 2] =
-    [NumberRule::any("x", "m").not_millimetres(1e4), NumberRule::any("y", "m").not_millimetres(1e4)];
+pub use keys::FORMAT;
 
 /// Rust's keywords, strict and reserved, up to edition 2024.
 const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else enum extern \
@@ -85,14 +81,10 @@ impl Layout {
     /// # Errors
     /// A report of everything wrong with the content.
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
-        let layout = read_document(text, file, &["name", "base", "arm"], |root| {
-            let name = root.require("name", MODULE_NAME).and_then(|value| module_name(&value));
-            let base = root.table("base", &["mass", "inertia", "outline"]).and_then(|base| Base::from_table(&base));
-            let arms = root.require("arm", "at least one `[[arm]]`").and_then(|value| {
-                let arms = value.tables(&["name", "mount", "mount_angle", "link"])?;
-                if arms.is_empty() {
-                    value.expected("at least one `[[arm]]`", None);
-                }
+        let layout = read_document(text, file, &FORMAT, |root| {
+            let name = root.require("name").and_then(|value| module_name(&value));
+            let base = root.table("base").and_then(|base| Base::from_table(&base));
+            let arms = root.tables("arm").and_then(|arms| {
                 Table::reject_repeats(&arms, "name", str::to_owned, "arm names must differ");
                 every(arms.iter().map(Arm::from_table))
             });
@@ -286,9 +278,9 @@ impl Base {
     }
 
     fn from_table(table: &Table<'_>) -> Option<Self> {
-        let mass = table.number("mass", &MASS);
-        let inertia = table.number("inertia", &INERTIA);
-        let outline = table.get("outline").map_or(Some(None), |value| outline(&value, None).map(Some));
+        let mass = table.number("mass");
+        let inertia = table.number("inertia");
+        let outline = table.read_or("outline", None, |value| outline(value, None).map(Some));
         Some(Self { mass: mass?, inertia: inertia?, outline: outline? })
     }
 }
@@ -313,48 +305,37 @@ impl Arm {
     }
 
     fn from_table(table: &Table<'_>) -> Option<Self> {
-        let name = table.text("name", "a name");
-        let mount = table.vector("mount", &POSITION);
-        let mount_angle = table.number_or("mount_angle", &ANGLE, 0.0);
-        let links = table.require("link", "at least one `[[arm.link]]`").and_then(|value| {
-            let links = value.tables(&["length", "mass", "inertia", "com", "outline"])?;
-            if links.is_empty() {
-                value.expected("at least one `[[arm.link]]`", None);
-            }
-            every(links.iter().map(Link::from_table))
-        });
+        let name = table.text("name");
+        let mount = table.vector("mount");
+        let mount_angle = table.number("mount_angle");
+        let links = table.tables("link").and_then(|links| every(links.iter().map(Link::from_table)));
         Some(Self { name: name?.to_owned(), mount: mount?, mount_angle: mount_angle?, links: links? })
     }
 }
 
 impl Link {
     fn from_table(table: &Table<'_>) -> Option<Self> {
-        let length = table.number("length", &LENGTH);
-        let mass = table.number("mass", &MASS);
-        let inertia = table.number("inertia", &INERTIA);
-        let com = match table.get("com") {
-            Some(value) => value.vector(&POSITION),
-            None => length.map(|length| [length / 2.0, 0.0]),
-        };
-        let outline = table.get("outline").map_or(Some(None), |value| outline(&value, length).map(Some));
+        let length = table.number("length");
+        let mass = table.number("mass");
+        let inertia = table.number("inertia");
+        let com = table.get("com").map_or(length.map(|length| [length / 2.0, 0.0]), |value| value.vector());
+        let outline = table.read_or("outline", None, |value| outline(value, length).map(Some));
         Some(Self { length: length?, mass: mass?, inertia: inertia?, com: com?, outline: outline? })
     }
 }
 
-const MODULE_NAME: &str = "a name for a Rust module (lower-case letters, digits and `_`, a letter first)";
-
 /// A valid name of a Rust module and a file.
 fn module_name(value: &Value<'_>) -> Option<String> {
-    let name = value.text(MODULE_NAME)?;
+    let name = value.text()?;
     if !has_module_letters(name) {
         let suggestion: String =
             name.to_lowercase().chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
         let help = has_module_letters(&suggestion).then(|| format!("`{suggestion}` would do"));
-        value.expected(&format!("{MODULE_NAME}, at most 64 of them"), help);
+        value.expected(&format!("{}, at most 64 of them", value.wanted()), help);
         return None;
     }
     if is_keyword(name) {
-        value.expected(MODULE_NAME, Some(format!("`{name}` is a Rust keyword; `{name}_robot` would do")));
+        value.expected(&value.wanted(), Some(format!("`{name}` is a Rust keyword; `{name}_robot` would do")));
         return None;
     }
     Some(name.to_owned())
