@@ -4,6 +4,7 @@ mod approach;
 mod case;
 mod clearance;
 mod contact;
+mod key_path;
 mod keys;
 mod post_impact;
 mod reader;
@@ -19,6 +20,7 @@ pub use approach::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, 
 pub use case::Case;
 pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
+pub use key_path::{KeyFile, find_key};
 pub use keys::FORMAT;
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use reader::{ScenarioSource, Source};
