@@ -137,6 +137,8 @@ pub mod compare;
 pub mod engine;
 #[cfg(feature = "std")]
 pub mod eval;
+#[cfg(feature = "std")]
+pub mod file_format;
 #[cfg(feature = "fmu")]
 pub mod fmu;
 #[cfg(feature = "std")]

@@ -10,18 +10,23 @@
 
 mod check;
 mod compare;
+mod completions;
 mod derive;
 mod dynamics;
 mod eval;
 mod export;
+mod file_format;
 mod generate;
 mod import;
 mod layout;
+mod list;
 mod new;
 mod optional_outputs;
 mod progress;
 mod reproduce;
 mod run;
+mod schema;
+mod template;
 mod terminal;
 
 use crate::diagnostic::Report;
@@ -57,6 +62,11 @@ enum Command {
     Import(import::Arguments),
     Export(export::Arguments),
     Reproduce(reproduce::Arguments),
+    List(list::Arguments),
+    Template(template::Arguments),
+    Schema(schema::Arguments),
+    Completions(completions::Completions),
+    Man(completions::Manual),
 }
 
 /// Why a command has no result.
@@ -155,6 +165,11 @@ pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
         Command::Import(arguments) => import::run(&arguments),
         Command::Export(arguments) => export::run(&arguments, robots),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
+        Command::List(arguments) => list::run(&arguments, robots),
+        Command::Template(arguments) => template::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => completions::manual(&arguments),
     };
     match result {
         Ok(code) => code,

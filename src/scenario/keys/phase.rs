@@ -41,7 +41,7 @@ pub(super) const INTEGRATOR: Key = Key::optional(
     "integrator",
     Shape::Choice(integrators),
     Default::Words("`\"adaptive\"`; `\"rk4\"` where torques are limited or held"),
-    "how the motion is integrated ([comparison](integrators.md))",
+    "how the motion is integrated",
 )
 .example("\"adaptive\"");
 

@@ -35,4 +35,6 @@ pub enum Example {
     Comment(&'static str),
     /// To start with.
     Start(&'static str),
+    /// So many tables of a list.
+    Entries(usize),
 }

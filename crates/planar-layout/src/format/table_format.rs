@@ -119,6 +119,12 @@ impl Key {
         Self { example: Example::Start(toml), ..self }
     }
 
+    /// With so many tables in a file to start from.
+    #[must_use]
+    pub const fn entries(self, count: usize) -> Self {
+        Self { example: Example::Entries(count), ..self }
+    }
+
     /// With this value, as a comment, in a file to start from.
     #[must_use]
     pub const fn example(self, toml: &'static str) -> Self {

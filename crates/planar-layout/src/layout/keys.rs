@@ -52,7 +52,7 @@ static ARM: TableFormat = TableFormat {
             Default::Number(0.0),
             "direction of the first link at joint angle 0, from the base's x axis",
         ),
-        Key::required("link", Shape::Tables(&LINK), "the links, at least one, from the base outwards"),
+        Key::required("link", Shape::Tables(&LINK), "the links, at least one, from the base outwards").entries(2),
     ],
     one_of: &[],
 };

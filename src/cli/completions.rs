@@ -1,0 +1,62 @@
+//! `planar-capture completions SHELL` and `planar-capture man`: the command line described to other programs.
+
+use super::{CommandError, CommandLine, write_new};
+use clap::{Command, CommandFactory};
+use clap_complete::Shell;
+use clap_mangen::Man;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Print completions of this command line for a shell.
+///
+/// bash: `planar-capture completions bash > ~/.local/share/bash-completion/completions/planar-capture`;
+/// fish: `… fish > ~/.config/fish/completions/planar-capture.fish`;
+/// zsh: `… zsh` into a file `_planar-capture` in a folder of `fpath`.
+#[derive(Debug, clap::Args)]
+pub struct Completions {
+    /// The shell.
+    shell: Shell,
+}
+
+/// Print a manual page, of the whole command line or of one command: `planar-capture man | man -l -`.
+#[derive(Debug, clap::Args)]
+pub struct Manual {
+    /// The command [default: all].
+    command: Option<String>,
+}
+
+/// Prints the completions.
+pub fn completions(arguments: &Completions) -> Result<ExitCode, CommandError> {
+    let mut text = Vec::new();
+    clap_complete::generate(arguments.shell, &mut CommandLine::command(), program(), &mut text);
+    write_new(None, &String::from_utf8_lossy(&text))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Prints the page.
+pub fn manual(arguments: &Manual) -> Result<ExitCode, CommandError> {
+    let mut all = CommandLine::command().name(program());
+    // commands know their whole names then
+    all.build();
+    let page = match &arguments.command {
+        None => all,
+        Some(name) => all.find_subcommand(name).cloned().ok_or_else(|| {
+            let known: Vec<_> = all.get_subcommands().map(Command::get_name).collect();
+            CommandError::Usage(format!("there is no command `{name}`, expected one of {}", known.join(", ")))
+        })?,
+    };
+    let name = page.get_display_name().unwrap_or(page.get_name()).to_owned();
+    let mut text = Vec::new();
+    Man::new(page.name(name)).render(&mut text)?;
+    write_new(None, &String::from_utf8_lossy(&text))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The name that this program is called by, which need not be that of the command line: it may be one with robots of its
+/// own.
+fn program() -> String {
+    let own = std::env::args_os().next();
+    let name =
+        own.as_deref().and_then(|path| Path::new(path).file_stem()).map(|name| name.to_string_lossy().into_owned());
+    name.unwrap_or_else(|| CommandLine::command().get_name().to_owned())
+}

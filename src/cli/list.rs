@@ -1,0 +1,70 @@
+//! `planar-capture list`: what this program knows by name.
+
+use super::{CommandError, write_new};
+use crate::engine;
+use crate::format::{Choice, Shape, TableFormat};
+use crate::layout::Layout;
+use crate::registry::Robots;
+use crate::scenario;
+use std::process::ExitCode;
+
+/// List the robots that this program knows by name, with what computes them, and the names that scenarios choose from:
+/// trajectories, control laws, integrators, kinds of contacts.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {}
+
+/// Columns of a line.
+const WIDTH: usize = 100;
+/// Columns before an explanation.
+const NAME: usize = 25;
+
+/// Prints the list.
+pub fn run(_: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let mut text = String::from("robots: arms of links, what computes them\n");
+    for (name, toml) in robots.layouts() {
+        let layout = Layout::parse(toml, name)?;
+        let links: Vec<_> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
+        let arms = if links.len() == 1 { "arm" } else { "arms" };
+        let engine = engine::Choice::fastest(&layout, robots).0.engine.name();
+        text += &item(name, &format!("{} {arms} of {}, {engine}", links.len(), links.join(" + ")));
+    }
+    let mut all = Vec::new();
+    collect(&mut all, "", &scenario::FORMAT);
+    for (keys, choices) in all {
+        text.extend(["\n", &keys.join(", "), "\n"]);
+        text.extend(choices.iter().map(|choice| item(choice.name, &choice.doc.replace('`', ""))));
+    }
+    write_new(None, &text)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What the keys of a table, and of those in it, choose from, with the keys that have the same choices.
+fn collect(all: &mut Vec<(Vec<String>, Vec<Choice>)>, path: &str, table: &'static TableFormat) {
+    for key in table.keys {
+        let path = format!("{path}{}", key.name);
+        match key.shape {
+            Shape::Choice(choices) | Shape::OneOrList(&Shape::Choice(choices), _) => {
+                let choices = choices();
+                match all.iter_mut().find(|(_, known)| *known == choices) {
+                    Some((keys, _)) => keys.push(path),
+                    None => all.push((vec![path], choices)),
+                }
+            }
+            Shape::Table(inner) | Shape::Tables(inner) => collect(all, &format!("{path}."), inner),
+            _ => {}
+        }
+    }
+}
+
+/// A name with its explanation beside it.
+fn item(name: &str, explanation: &str) -> String {
+    let (mut lines, mut line) = (String::new(), format!("  {name:<width$}", width = NAME - 2));
+    for word in explanation.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDTH {
+            lines.extend([line.trim_end(), "\n"]);
+            line = " ".repeat(NAME);
+        }
+        line.extend([" ", word]);
+    }
+    lines + line.trim_end() + "\n"
+}

@@ -1,0 +1,26 @@
+//! `planar-capture schema layout|scenario`: prints a JSON Schema.
+
+use super::{CommandError, write_new};
+use crate::file_format::FileFormat;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Print the JSON Schema of a file, by which editors complete its keys and complain of wrong ones.
+///
+/// Editors with Taplo, as VS Code with "Even Better TOML", use it for a file that starts with the line
+/// `#:schema ./scenario.json`, the path of the schema.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The kind of file.
+    #[arg(value_name = "KIND")]
+    kind: FileFormat,
+    /// Where to write it [default: the standard output].
+    #[arg(long, value_name = "FILE.json")]
+    out: Option<PathBuf>,
+}
+
+/// Prints the schema.
+pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
+    write_new(arguments.out.as_deref(), &arguments.kind.schema())?;
+    Ok(ExitCode::SUCCESS)
+}

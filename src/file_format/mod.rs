@@ -1,0 +1,116 @@
+//! The files that people write, layouts and scenarios, as their tables of keys describe them: a reference in Markdown, a
+//! JSON Schema for editors, and a commented file to start from.
+//!
+//! It never contains: a key.
+
+mod json_schema;
+mod reference;
+mod template;
+
+use crate::format::{Key, NumberRule, Shape, TableFormat, With};
+use crate::{layout, scenario};
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    /// A robot.
+    Layout,
+    /// A study.
+    Scenario,
+}
+
+impl FileFormat {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Layout, Self::Scenario];
+
+    /// Its name: `layout`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Layout => "layout",
+            Self::Scenario => "scenario",
+        }
+    }
+
+    /// Its keys.
+    #[must_use]
+    pub fn table(self) -> &'static TableFormat {
+        match self {
+            Self::Layout => &layout::FORMAT,
+            Self::Scenario => &scenario::FORMAT,
+        }
+    }
+
+    /// The reference of its keys, in Markdown.
+    #[must_use]
+    pub fn reference(self) -> String {
+        reference::page(self)
+    }
+
+    /// Its JSON Schema, draft 7, with the extensions of Taplo.
+    #[must_use]
+    pub fn schema(self) -> String {
+        json_schema::schema(self)
+    }
+
+    /// A valid file to start from.
+    #[must_use]
+    pub fn template(self) -> String {
+        template::template(self)
+    }
+}
+
+/// The condition of a key in words: "with `tracking = "pd"`".
+fn condition(key: &Key) -> Option<String> {
+    let any_of = |names: Vec<String>| match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+        None => String::new(),
+    };
+    Some(match key.with? {
+        With::Choice(selector, [first, rest @ ..]) => {
+            let others = rest.iter().map(|choice| format!("`\"{choice}\"`"));
+            format!("with {}", any_of([format!("`{selector} = \"{first}\"`")].into_iter().chain(others).collect()))
+        }
+        With::Choice(..) => return None,
+        With::Key(keys) => format!("beside {}", any_of(keys.iter().map(|key| format!("`{key}`")).collect())),
+    })
+}
+
+/// The unit of a value, that of each component where they differ; empty where it has none.
+fn unit(shape: &Shape) -> String {
+    match shape {
+        Shape::Number(rule) => rule.unit().to_owned(),
+        Shape::Vector(components) => {
+            let mut units: Vec<_> = components.iter().map(NumberRule::unit).collect();
+            if units.windows(2).all(|pair| pair.first() == pair.last()) {
+                units.truncate(1);
+            }
+            units.join(", ")
+        }
+        Shape::OneOf([longest, ..]) => unit(&Shape::Vector(longest)),
+        Shape::List(item, _) | Shape::OneOrList(item, _) | Shape::ByName(item, _) => unit(item),
+        _ => String::new(),
+    }
+}
+
+/// Unit, condition and default of a key in words, as far as there are any.
+fn about(key: &Key) -> String {
+    let unit = Some(unit(&key.shape)).filter(|unit| !unit.is_empty()).map(|unit| format!("in {unit}"));
+    // some keys must be given unless there is another one
+    let default =
+        default(key).map(|words| if words.starts_with("required") { words } else { format!("default: {words}") });
+    [unit, condition(key), default].into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// The default of a key as in a file, or in words; `None` where there is none.
+fn default(key: &Key) -> Option<String> {
+    use crate::format::Default;
+    Some(match key.default {
+        Default::Required | Default::Nothing => return None,
+        Default::Number(number) => format!("{number:?}"),
+        Default::Choice(name) => format!("\"{name}\""),
+        Default::Zeros => "zeros".to_owned(),
+        Default::Words(words) => words.to_owned(),
+    })
+}
