@@ -568,6 +568,38 @@ fn without_targets_there_is_nothing_to_capture() {
     assert!(matches!(&alone, Ok(s) if s.post_impact.is_none() && s.targets.is_empty()));
 }
 
+/// Python and editors read TOML 1.0, where a table in braces is one line; values in it may be several.
+#[test]
+fn tables_in_braces_are_those_of_toml_1_0() {
+    let with = |outline: &str| {
+        let text = LAYOUT.replacen("83.61", &format!("83.61\noutline = {outline}"), 1);
+        let report = Layout::parse(&text, "one.toml").err();
+        report.map(|report| (report.count(), report.to_string()))
+    };
+    for fine in ["{ disc = 1 }", "{disc=1}", "{ box = [\n1, # m\n2,\n], center = [0,\n0] }"] {
+        assert_eq!(with(fine), None, "{fine}");
+    }
+    for (outline, why) in [
+        ("{\n disc = 1 }", "stands on one line"),
+        ("{ disc = 1\n}", "stands on one line"),
+        ("{ box = [1, 2],\n angle = 0.1 }", "stands on one line"),
+        ("{ disc = 1, # m\n}", "stands on one line"),
+        ("{ disc = 1, }", "no comma at its end"),
+    ] {
+        let (count, shown) = with(outline).unwrap_or_else(|| panic!("{outline} is accepted"));
+        assert!(count == 1 && shown.contains(why) && shown.contains("one.toml:5:11"), "{outline}:\n{shown}");
+        assert!(shown.contains("TOML 1.0") && shown.contains("write it on one line"), "{shown}");
+    }
+    // beside what else is wrong, and in tables in braces in a list
+    let text = SCENARIO.replacen("{ ball = [0, 0, 0] }", "{ ball = [0, 0, 0],\n}\nkinds = { ball = \"rigd\" }", 1);
+    let shown = scenario(&text).err().map(|report| (report.count(), report.to_string())).unwrap_or_default();
+    assert!(shown.0 == 2 && shown.1.contains("demo.toml:22:17") && shown.1.contains("`rigid`?"), "{}", shown.1);
+    let layout = "name = 'a'\nbase = { mass = 1, inertia = 1 }\n\
+                  arm = [\n{ name = 'l', mount = [0, 0], link = [{ length = 1,\n mass = 1, inertia.x = 1 }] },\n]";
+    let shown = Layout::parse(layout, "one.toml").expect_err("a line in braces").to_string();
+    assert!(shown.contains("one.toml:4:39") && shown.contains("stands on one line"), "{shown}");
+}
+
 #[test]
 fn problems_are_reported_together_in_order() {
     let text = LAYOUT.replacen("500.0", "-1", 1).replacen("83.61", "inf", 1).replacen("\"left\"", "7", 1).replacen(

@@ -7,6 +7,7 @@
 mod document;
 mod file;
 mod hidden_character;
+mod inline_table;
 mod syntax;
 mod table;
 mod warning;
@@ -180,7 +181,12 @@ fn read_root<T>(
         let (tree, errors) = DeTable::parse_recoverable(document.source());
         syntax::report(&document, &errors);
         let root = || Table::new(&document, tree.get_ref(), 0..0, String::new(), keys);
-        if errors.is_empty() { read(&root()) } else { None }
+        if errors.is_empty() {
+            inline_table::report(&document, tree.get_ref());
+            read(&root())
+        } else {
+            None
+        }
     };
     content.filter(|_| document.is_valid()).ok_or_else(|| document.into_report())
 }
