@@ -65,7 +65,7 @@ fn row(key: &Key, path: &str) -> String {
 /// What a value is, without its unit.
 fn value(shape: &Shape, path: &str) -> String {
     match shape {
-        Shape::Text(_) => "text".to_owned(),
+        Shape::Text(what) => format!("text: {what}"),
         Shape::Choice(_) => "one of those below".to_owned(),
         Shape::Number(rule) => {
             let [least, most] = rule.bounds().map(|bound| bound.map(|bound| (bound.value, bound.is_excluded)));

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 pub struct Approach {
     /// Length in s, greater than 0.
     pub duration: f64,
-    /// Time step in s, at most the duration; default 0.005.
+    /// Time step in s, at most the duration.
     pub step: f64,
     /// Duration of a trajectory that ends at rest before the phase does, s; its final state is then the setpoint.
     /// `None`, the default, where the trajectory takes the whole phase.
@@ -65,26 +65,26 @@ pub enum Tracking {
     InverseDynamics,
     /// τ = Kp (θd − θ) + Kd (θ̇d − θ̇), the default.
     ProportionalDerivative {
-        /// Kp for each joint in N m/rad, 0 or more; default 49.
+        /// Kp for each joint in N m/rad, 0 or more.
         proportional_gain: Vec<f64>,
-        /// Kd for each joint in N m s/rad, 0 or more; default 14.
+        /// Kd for each joint in N m s/rad, 0 or more.
         derivative_gain: Vec<f64>,
     },
     /// The end effectors follow straight paths to `final_end_effector_poses`, by feedback of their poses; see
     /// [`ResolvedMotionRate`](crate::control::ResolvedMotionRate).
     ResolvedMotionRate {
-        /// K in 1/s, greater than 0; default 2.
+        /// K in 1/s, greater than 0.
         pose_gain: f64,
-        /// k in 1/s, greater than 0; default 10.
+        /// k in 1/s, greater than 0.
         rate_gain: f64,
-        /// Singular values below this part of the largest are damped, 0 to 1; default 0.04.
+        /// Singular values below this part of the largest are damped, 0 to 1.
         singularity_threshold: f64,
     },
     /// τ = I (θ̈d + Kd (θ̇d − θ̇) + Kp (θd − θ)) + c, by inverse dynamics of the measured state.
     ComputedTorque {
-        /// Kp for each joint in 1/s², 0 or more; default 49.
+        /// Kp for each joint in 1/s², 0 or more.
         proportional_gain: Vec<f64>,
-        /// Kd for each joint in 1/s, 0 or more; default 14.
+        /// Kd for each joint in 1/s, 0 or more.
         derivative_gain: Vec<f64>,
     },
 }

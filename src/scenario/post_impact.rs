@@ -8,7 +8,7 @@ use crate::simulate::stepper::Integration;
 pub struct PostImpact {
     /// Length in s, greater than 0.
     pub duration: f64,
-    /// Time step in s, at most the duration; default 0.005.
+    /// Time step in s, at most the duration.
     pub step: f64,
     /// The control law of the joints.
     pub control: PostCaptureControl,
@@ -25,21 +25,21 @@ pub enum PostCaptureControl {
     None,
     /// τ = Kp (θ0 − θ) − Kd θ̇, with the joint angles θ0 of the capture.
     Hold {
-        /// Kp for each joint in N m/rad, 0 or more; default 49.
+        /// Kp for each joint in N m/rad, 0 or more.
         proportional_gain: Vec<f64>,
-        /// Kd for each joint in N m s/rad, 0 or more; default 14.
+        /// Kd for each joint in N m s/rad, 0 or more.
         derivative_gain: Vec<f64>,
     },
     /// τ = −Kd θ̇.
     Damping {
-        /// Kd for each joint in N m s/rad, 0 or more; default 7.
+        /// Kd for each joint in N m s/rad, 0 or more.
         derivative_gain: Vec<f64>,
     },
     /// Joint rates, and the base rate where wheels or a base torque take the momentum, decay as exp(−gain t).
     Stabilise {
-        /// For each joint in 1/s, 0 or more; default 0.5.
+        /// For each joint in 1/s, 0 or more.
         derivative_gain: Vec<f64>,
-        /// Of the base rate in 1/s, 0 or more; default 0.5.
+        /// Of the base rate in 1/s, 0 or more.
         base_gain: f64,
         /// Largest torque on the base in N m, 0 or more; `None`, the default, where there is no such actuator.
         base_torque_limit: Option<f64>,

@@ -16,11 +16,11 @@ pub struct Target {
     pub inertia: f64,
     /// In its own frame.
     pub outline: Outline,
-    /// Coefficient of restitution of bounces, 0 to 1; default 0.
+    /// Coefficient of restitution of bounces, 0 to 1.
     pub restitution: f64,
-    /// Twist of the COM before the impact [ω, vx, vy] in rad/s, m/s, m/s; default zero.
+    /// Twist of the COM before the impact [ω, vx, vy] in rad/s, m/s, m/s.
     pub twist: [f64; 3],
-    /// Yaw of its frame in rad, default 0: at the impact, or at the start where contacts are found by detection.
+    /// Yaw of its frame in rad: at the impact, or at the start where contacts are found by detection.
     pub yaw: f64,
     /// [x, y] of the COM in m, inertial frame: expected at the impact and used only to report the distance from there,
     /// or, where contacts are found by detection, the position at the start (then always given).

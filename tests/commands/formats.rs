@@ -6,6 +6,7 @@ use planar_capture::format::{Default, Key, Shape, ShapeAt, Step, TableFormat, Wi
 use planar_capture::scenario::{KeyFile, find_key};
 use planar_capture::{layout, scenario};
 use planar_proof::file;
+use serde_json::Value;
 use std::fs;
 use tempfile::TempDir;
 
@@ -181,13 +182,146 @@ fn templates_are_valid_and_run() {
     assert!(code == 0 && out.contains("case1"), "{out}{err}");
 }
 
+/// What a value breaks of a schema, for the words that the schemas here have.
+fn broken(schema: &Value, value: &Value, path: &str, problems: &mut Vec<String>) {
+    let mut problem = |what: &str| problems.push(format!("{path}: {what}"));
+    let known =
+        ["$schema", "title", "type", "description", "default", "x-taplo", "properties", "required", "oneOf", "anyOf"];
+    let known = known.into_iter().chain(["additionalProperties", "enum", "items", "minItems", "maxItems"]);
+    let known: Vec<_> = known.chain(["minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"]).collect();
+    let Value::Object(words) = schema else { return problem("this schema is no object") };
+    for word in words.keys().filter(|word| !known.contains(&word.as_str())) {
+        problem(&format!("the schema says `{word}`"));
+    }
+    let is_of_type = match schema["type"].as_str() {
+        Some("object") => value.is_object(),
+        Some("array") => value.is_array(),
+        Some("string") => value.is_string(),
+        Some("number") => value.is_number(),
+        _ => schema["anyOf"].is_array(),
+    };
+    if !is_of_type {
+        problem(&format!("the type of {value}"));
+    }
+    let number = value.as_f64().unwrap_or_default();
+    let beyond =
+        |word: &str, is_beyond: fn(f64, f64) -> bool| schema[word].as_f64().is_some_and(|end| is_beyond(number, end));
+    if beyond("minimum", |x, end| x < end) || beyond("maximum", |x, end| x > end) {
+        problem(&format!("the range of {value}"));
+    }
+    if beyond("exclusiveMinimum", |x, end| x <= end) || beyond("exclusiveMaximum", |x, end| x >= end) {
+        problem(&format!("the range of {value}"));
+    }
+    if schema["enum"].as_array().is_some_and(|names| !names.contains(value)) {
+        problem(&format!("{value} is no choice"));
+    }
+    let count = |word: &str| {
+        let holds = |schema: &&Value| {
+            let mut inner = Vec::new();
+            let needed: Vec<_> =
+                schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+            if schema["type"].is_null() && schema["anyOf"].is_null() {
+                return needed.iter().all(|key| value.get(*key).is_some());
+            }
+            broken(schema, value, path, &mut inner);
+            inner.is_empty()
+        };
+        schema[word].as_array().map(|schemas| schemas.iter().filter(holds).count())
+    };
+    if count("anyOf") == Some(0) || count("oneOf").is_some_and(|count| count != 1) {
+        problem(&format!("the alternatives of {value}"));
+    }
+    for key in schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+        if value.get(key).is_none() {
+            problem(&format!("no {key}"));
+        }
+    }
+    let items = value.as_array().map_or(&[][..], Vec::as_slice);
+    let length = |word: &str| schema[word].as_u64().map(|length| usize::try_from(length).expect("a length"));
+    if length("minItems").is_some_and(|least| items.len() < least)
+        || length("maxItems").is_some_and(|most| items.len() > most)
+    {
+        problem(&format!("the length of {value}"));
+    }
+    for (i, item) in items.iter().enumerate() {
+        let of_item = if schema["items"].is_array() { &schema["items"][i] } else { &schema["items"] };
+        if !of_item.is_null() {
+            broken(of_item, item, &format!("{path}[{i}]"), problems);
+        }
+    }
+    for (key, value) in value.as_object().into_iter().flatten() {
+        let path = format!("{path}.{key}");
+        match (&schema["properties"][key], &schema["additionalProperties"]) {
+            (Value::Null, Value::Bool(false)) => problems.push(format!("{path} is unknown")),
+            (Value::Null, other) => broken(other, value, &path, problems),
+            (property, _) => broken(property, value, &path, problems),
+        }
+    }
+}
+
+#[test]
+fn every_tracked_file_fits_its_schema() {
+    let folders = |name| match name {
+        "layout" => &["codegen/layouts", "codegen/structures"][..],
+        _ => &["scenarios"],
+    };
+    for format in FileFormat::ALL {
+        let schema: Value = serde_json::from_str(&format.schema()).expect("JSON");
+        let problems = |text: &str| {
+            let value = toml::from_str::<Value>(text).expect("TOML");
+            let mut problems = Vec::new();
+            broken(&schema, &value, "", &mut problems);
+            problems
+        };
+        let paths = folders(format.name()).iter().flat_map(|folder| fs::read_dir(file(folder)).expect("a folder"));
+        let paths = paths
+            .map(|entry| entry.expect("an entry").path())
+            .filter(|path| path.extension().is_some_and(|e| e == "toml"));
+        let texts: Vec<_> =
+            paths.map(|path| fs::read_to_string(path).expect("a file")).chain([format.template()]).collect();
+        assert!(texts.len() > 7);
+        for text in &texts {
+            assert_eq!(problems(text), Vec::<String>::new(), "{text}");
+        }
+        let wrong = match format {
+            FileFormat::Layout => [
+                ("\nmass = ", "\nmas = ", ".base.mas is unknown"),
+                ("500.0", "-5", ".base.mass: the range of -5"),
+                ("[0.5, 0.0]", "[0.5]", ".arm[0].mount: the length"),
+                ("inertia = 83.61\n", "", ".base: no inertia"),
+                (
+                    "inertia = 83.61",
+                    "inertia = 1\noutline = { disc = 1, box = [1, 1] }",
+                    ".base.outline: the alternatives",
+                ),
+            ],
+            FileFormat::Scenario => [
+                (
+                    "\ntrajectory = \"quintic\"",
+                    "\ntrajectory = \"quartik\"",
+                    ".approach.trajectory: \"quartik\" is no choice",
+                ),
+                ("radius = 0.5", "", ".target[0]: the alternatives"),
+                ("target1 = [0.2, ", "target1 = [", ".case[0].target_twists.target1: the length"),
+                ("name = \"my_study\"", "name = 5", ".name: the type of 5"),
+                ("# restitution = 0.0", "restitution = 2", ".target[0].restitution: the range of 2"),
+            ],
+        };
+        for (from, to, problem) in wrong {
+            let text = format.template();
+            assert!(text.contains(from), "{from}");
+            let found = problems(&text.replacen(from, to, 1));
+            assert!(found.iter().any(|found| found.contains(problem)), "{from} -> {to}: {found:?}");
+        }
+    }
+}
+
 /// Every key stands in the template, with a value that the reader takes where its condition holds.
 #[test]
 fn every_line_of_a_template_can_be_switched_on() {
     for format in FileFormat::ALL {
         let text = format.template();
-        let is_entry =
-            |line: &str| line.strip_prefix("# ").filter(|rest| is_header(rest) || is_assignment(rest)).is_some();
+        let is_entry = |line: &str| line.strip_prefix("# ").is_some_and(|rest| is_header(rest) || is_assignment(rest));
         for table in
             tables(format.table()).into_iter().filter(|table| table.one_of != planar_capture::outline::FORMAT.one_of)
         {
