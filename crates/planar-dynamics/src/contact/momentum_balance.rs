@@ -1,8 +1,7 @@
 //! The velocities after an impact from the balances of momentum, where inertias differ by many orders of magnitude.
 
-use super::constraint_row::ConstraintRow;
+use super::Contact;
 use super::impact::ImpactOutput;
-use super::{Contact, ContactPartner};
 use crate::body::Body;
 use crate::dynamics::Model;
 use crate::error::Error;
@@ -11,20 +10,12 @@ use crate::scalar::Real;
 use crate::state::State;
 use crate::validate::{finite, finite_state, length};
 
-/// The sizes of an impact: of the robot's velocity, of the bodies' twists, and of the impulses along bilateral rows.
-#[derive(Clone, Copy)]
-struct Sizes {
-    robot: usize,
-    bodies: usize,
-    rows: usize,
-}
-
 /// Length of the working space of [`balance_momentum`], for `rows` rows of rigid contacts and pins.
 #[must_use]
 pub const fn balance_length(joints: usize, arms: usize, bodies: usize, rows: usize) -> usize {
     let robot = 3 + joints;
     let size = robot + 3 * bodies + rows;
-    size * (size + 2) + robot * robot + 3 * arms * robot
+    size * (size + 2) + robot * robot + 3 * arms * (robot + 1)
 }
 
 /// Number of rows of the rigid contacts and pins.
@@ -36,9 +27,9 @@ pub fn bilateral_rows<T: Real>(contacts: &[Contact<T>]) -> usize {
 /// Solves an impact again, for the velocities and impulses together; returns the base twist after it.
 ///
 /// ```text
-/// ⎡M    0    −Aᵀ⎤ ⎡v_f ⎤   ⎡M v_i + Σ bounces⎤
-/// ⎢0    I_t   Bᵀ⎥ ⎢t_tf⎥ = ⎢I_t t_ti − …     ⎥
-/// ⎣A   −B     0 ⎦ ⎣p   ⎦   ⎣0                ⎦
+/// ⎡M    0    −Aᵀ⎤ ⎡v_f ⎤   ⎡M v_i + Σ bounces   ⎤
+/// ⎢0    I_t   Bᵀ⎥ ⎢t_tf⎥ = ⎢I_t t_ti − Σ bounces⎥
+/// ⎣A   −B     0 ⎦ ⎣p   ⎦   ⎣0                   ⎦
 /// ```
 ///
 /// with the rows A of the end effectors and B of their partners. `after` has the impulses of the bouncing contacts, as
@@ -68,42 +59,51 @@ pub fn balance_momentum<T: Real, M: Model<T> + ?Sized>(
     length("body_twists_after", bodies.len(), after.body_twists.len())?;
     length("impulses", contacts.len(), after.impulses.len())?;
     length("balance workspace", balance_length(joints, arms, bodies.len(), rows), workspace.len())?;
-    let sizes = Sizes { robot: 3 + joints, bodies: 3 * bodies.len(), rows };
-    let size = sizes.robot + sizes.bodies + sizes.rows;
+    let robot = 3 + joints;
+    let moving = robot + 3 * bodies.len();
+    let size = moving + rows;
     let mut rest = workspace;
     let mut part = |length: usize| rest.split_off_mut(..length).unwrap_or_default();
     let (system, scales) = (part(size * (size + 1)), part(size));
-    let (mass_matrix, jacobian) = (part(sizes.robot * sizes.robot), part(3 * arms * sizes.robot));
+    let (mass_matrix, jacobian) = (part(robot * robot), part(3 * arms * robot));
+    let end_effectors = part(3 * arms).as_chunks_mut().0;
     model.mass_matrix(&state.base_pose, state.joint_angles, mass_matrix)?;
     model.end_effector_jacobian(&state.base_pose, state.joint_angles, jacobian)?;
 
     system.fill(T::ZERO);
     let width = size + 1;
     let velocity = || state.base_twist.iter().chain(state.joint_rates);
-    for (row, equation) in matrix_rows(mass_matrix, sizes.robot).zip(matrix_rows_mut(system, width)) {
+    for (row, equation) in matrix_rows(mass_matrix, robot).zip(matrix_rows_mut(system, width)) {
         copy(row, equation);
         add(equation, size, dot(row, velocity()));
     }
     let inertias = bodies.iter().flat_map(|body| [body.inertia, body.mass, body.mass].into_iter().zip(body.twist));
-    for (i, (inertia, twist)) in (sizes.robot..).zip(inertias) {
+    for (i, (inertia, twist)) in (robot..).zip(inertias) {
         add(system, i * width + i, inertia);
         add(system, i * width + size, inertia * twist);
     }
-    let mut constraint = sizes.robot + sizes.bodies;
-    for (contact, impulse) in contacts.iter().zip(after.impulses.iter()) {
-        check(contact, arms, bodies.len())?;
-        for row in contact.rows() {
-            let given = row.restitution.map(|_| dot(&row.wrench, impulse));
-            for column in 0..sizes.robot + sizes.bodies {
-                let value = coefficient(&row, jacobian, column, sizes);
-                if let Some(impulse) = given {
-                    add(system, column * width + size, value * impulse);
+    // the rows' velocities when one velocity of robot or bodies is 1 and the others are 0
+    for column in 0..moving {
+        let of_jacobian = matrix_rows(jacobian, robot).map(|row| row.get(column));
+        for (twist, entry) in end_effectors.as_flattened_mut().iter_mut().zip(of_jacobian) {
+            *twist = entry.map_or(T::ZERO, |entry| *entry);
+        }
+        let twists = after.body_twists.as_flattened_mut().iter_mut();
+        for (i, twist) in (robot..).zip(twists) {
+            *twist = if i == column { T::ONE } else { T::ZERO };
+        }
+        let mut constraint = moving;
+        for (contact, impulse) in contacts.iter().zip(after.impulses.iter()) {
+            for row in contact.rows() {
+                let velocity = row.velocity(end_effectors, after.body_twists)?;
+                if row.restitution.is_some() {
+                    add(system, column * width + size, velocity * dot(&row.wrench, impulse));
                 } else {
-                    add(system, column * width + constraint, -value);
-                    add(system, constraint * width + column, value);
+                    add(system, column * width + constraint, -velocity);
+                    add(system, constraint * width + column, velocity);
+                    constraint += 1;
                 }
             }
-            constraint += usize::from(given.is_none());
         }
     }
     eliminate("the balance of momentum at the contacts", system, scales)?;
@@ -127,37 +127,6 @@ pub fn balance_momentum<T: Real, M: Model<T> + ?Sized>(
     finite("body_twists_after", after.body_twists.as_flattened())?;
     finite("impulses", after.impulses.as_flattened())?;
     Ok(base_twist)
-}
-
-/// The change of a row's velocity per unit of one of the velocities: of the robot, then of the bodies.
-fn coefficient<T: Real>(row: &ConstraintRow<T>, jacobian: &[T], column: usize, sizes: Sizes) -> T {
-    let along = |wrench: &[T; 3], arm: usize| {
-        let rows = matrix_rows(jacobian, sizes.robot).skip(3 * arm);
-        wrench.iter().zip(rows).fold(T::ZERO, |sum, (w, row)| sum + *w * at(row, column))
-    };
-    let is_robot = column < sizes.robot;
-    let own = if is_robot { along(&row.wrench, row.arm) } else { T::ZERO };
-    own - match row.partner {
-        ContactPartner::EndEffector(arm) if is_robot => along(&row.partner_wrench, arm),
-        ContactPartner::Body(i) if column >= sizes.robot + 3 * i => {
-            at(&row.partner_wrench, column - sizes.robot - 3 * i)
-        }
-        _ => T::ZERO,
-    }
-}
-
-fn check<T>(contact: &Contact<T>, arms: usize, bodies: usize) -> Result<(), Error> {
-    let below = |what, index, count| if index < count { Ok(()) } else { Err(Error::Index { what, index, count }) };
-    below("arm", contact.arm, arms)?;
-    match contact.partner {
-        ContactPartner::EndEffector(arm) => below("arm", arm, arms),
-        ContactPartner::Body(i) => below("body", i, bodies),
-    }
-}
-
-/// An entry, zero outside.
-fn at<T: Real>(values: &[T], index: usize) -> T {
-    values.get(index).map_or(T::ZERO, |value| *value)
 }
 
 fn add<T: Real>(values: &mut [T], index: usize, value: T) {

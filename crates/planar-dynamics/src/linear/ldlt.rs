@@ -1,6 +1,6 @@
 //! Solves symmetric positive definite systems of equations by the factors `A = L D Lᵀ`.
 
-use super::{add_scaled, dot, matrix_rows};
+use super::{add_scaled, check_pivot, dot, matrix_rows};
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -30,7 +30,7 @@ pub(crate) fn factor<T: Real>(what: &'static str, matrix: &mut [T], size: usize)
             *entry = scaled / *divisor;
             *pivot -= scaled * *entry;
         }
-        check(what, *pivot / diagonal.abs())?;
+        check_pivot(what, *pivot / diagonal.abs(), SMALLEST_PIVOT)?;
     }
     Ok(())
 }
@@ -61,11 +61,6 @@ pub(crate) fn solve<T: Real>(what: &'static str, matrix: &mut [T], right: &mut [
     factor(what, matrix, right.len())?;
     substitute(matrix, right);
     Ok(())
-}
-
-fn check<T: Real>(what: &'static str, relative: T) -> Result<(), Error> {
-    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * SMALLEST_PIVOT);
-    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Solves general systems of equations by elimination, with the pivot that is largest relative to its row.
 
-use super::{add_scaled, matrix_rows, matrix_rows_mut};
+use super::{add_scaled, check_pivot, matrix_rows, matrix_rows_mut};
 use crate::error::Error;
 use crate::scalar::Real;
 
@@ -27,7 +27,7 @@ pub(crate) fn eliminate<T: Real>(what: &'static str, rows: &mut [T], scales: &mu
             continue;
         };
         let largest = exchange(i, rest, scales, width);
-        check(what, largest)?;
+        check_pivot(what, largest, SMALLEST_PIVOT)?;
         let Some((pivot_row, others)) = rest.split_at_mut_checked(width) else { continue };
         let Some([pivot, known @ ..]) = pivot_row.get(i..) else { continue };
         for row in matrix_rows_mut(others, width) {
@@ -75,11 +75,6 @@ fn exchange<T: Real>(i: usize, rows: &mut [T], scales: &mut [T], width: usize) -
         }
     }
     largest
-}
-
-fn check<T: Real>(what: &'static str, relative: T) -> Result<(), Error> {
-    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * SMALLEST_PIVOT);
-    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
 }
 
 #[cfg(test)]

@@ -11,8 +11,15 @@ pub(crate) use ldlt::{factor, solve, substitute};
 pub(crate) use least_squares::least_squares;
 pub(crate) use lu::eliminate;
 
+use crate::error::Error;
 use crate::scalar::Real;
 use core::borrow::Borrow;
+
+/// [`Error::Singular`] unless a relative pivot is larger than so many ε.
+fn check_pivot<T: Real>(what: &'static str, relative: T, smallest: f64) -> Result<(), Error> {
+    let (pivot, limit) = (relative.to_f64(), T::EPSILON.to_f64() * smallest);
+    if pivot > limit { Ok(()) } else { Err(Error::Singular { what, pivot, limit }) }
+}
 
 /// Σ aᵢ bᵢ, in order, over the length of the shorter one.
 pub(crate) fn dot<T: Real, B: Borrow<T>>(a: &[T], b: impl IntoIterator<Item = B>) -> T {
