@@ -26,8 +26,7 @@ pub fn help_with_gains(scenario: &Scenario, phase: &str) -> Option<String> {
     let remedy = format!("{why}: {help}");
     Some(match &scenario.approach.tracking {
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } if phase == "approach" => {
-            let [stiffness, damping] =
-                [proportional_gain, derivative_gain].map(|gains| short(gains.iter().copied().fold(0.0, f64::max)));
+            let [stiffness, damping] = [proportional_gain, derivative_gain].map(|gains| short(largest(gains)));
             format!(
                 "{remedy} than `proportional_gain` = {stiffness} N m/rad and `derivative_gain` = {damping} N m s/rad; or \
                  `tracking = \"computed_torque\"`, whose gains are in 1/s² and 1/s, for a robot of any size"
@@ -63,7 +62,6 @@ pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
         Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } => return Some(pose_gain.max(*rate_gain)),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => (proportional_gain, derivative_gain),
         Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
-            let largest = |gains: &[f64]| gains.iter().copied().fold(0.0, f64::max);
             return Some(largest(derivative_gain).max(largest(proportional_gain).sqrt()));
         }
     };
@@ -87,6 +85,10 @@ pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
             Some(derivative_gain.iter().copied().fold(*base_gain, f64::max))
         }
     }
+}
+
+fn largest(gains: &[f64]) -> f64 {
+    gains.iter().copied().fold(0.0, f64::max)
 }
 
 /// The fastest mode of PD control at rest in a pose.

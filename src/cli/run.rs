@@ -103,13 +103,14 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
 
 /// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
 fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
-    let exit_code = match error {
-        StudyError::Approach(stopped) | StudyError::PostImpact { source: stopped, .. } if !stopped.is_misuse() => 1,
-        _ => 2,
+    let stopped = match error {
+        StudyError::Approach(stopped) => Some(("approach", stopped)),
+        StudyError::PostImpact { source, .. } => Some(("post_impact", source)),
+        _ => None,
     };
+    let exit_code = if stopped.is_some_and(|(_, stopped)| !stopped.is_misuse()) { 1 } else { 2 };
+    let help = stopped.and_then(|(phase, _)| help_with_gains(scenario, phase));
     let ScenarioKey { path, value } = error.key(scenario);
-    let phase = path.split_once('.').map_or("", |(phase, _)| phase);
-    let help = help_with_gains(scenario, phase);
     let report = report_error(&source.text, &source.file, (&path, &value), &error.to_string(), help);
     CommandError::Computation { report, exit_code }
 }
