@@ -92,8 +92,9 @@ impl<'a> PathInterval<'a> {
     pub fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
         let length = self.span[1] - self.span[0];
         for (i, (rate, acceleration)) in rates.iter_mut().zip(accelerations).enumerate() {
-            let slope = (self.end[0][i] - self.start[0][i]) / length - reference(i);
-            let [v, w] = [self.start[1][i], self.end[1][i]].map(|rate| rate - reference(i));
+            let reference = reference(i);
+            let slope = (self.end[0][i] - self.start[0][i]) / length - reference;
+            let [v, w] = [self.start[1][i] - reference, self.end[1][i] - reference];
             *rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
             let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
             *acceleration = ends[0].abs().max(ends[1].abs()) * 2.0 / length;

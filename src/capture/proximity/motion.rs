@@ -40,10 +40,10 @@ pub(in crate::capture) struct MotionBound {
     acceleration: f64,
 }
 
-/// [ω, vx, vy] of the base at the start of an interval.
-pub(super) fn velocity_of_base(interval: &PathInterval<'_>) -> [f64; 3] {
+/// [vx, vy] of the base at the start of an interval, m/s.
+pub(super) fn velocity_of_base(interval: &PathInterval<'_>) -> [f64; 2] {
     let [_, rates] = interval.start;
-    [rates[0], rates[1], rates[2]]
+    [rates[1], rates[2]]
 }
 
 impl MotionBound {
@@ -142,11 +142,11 @@ impl FrameKinematics<'_> {
     ) {
         let [rates, accelerations] = coordinates;
         // all bodies move together in an orbit
-        let [_, bx, by] = velocity_of_base(interval);
-        let reference = |i: usize| match i.checked_sub(3 + self.joints) {
-            Some(of_bodies) => [0.0, bx, by][of_bodies % 3],
-            None if i < 3 => [0.0, bx, by][i],
-            None => 0.0,
+        let [bx, by] = velocity_of_base(interval);
+        let reference = |i: usize| {
+            // of a pose: that of the base before the joints, or that of a body after them
+            let component = i.checked_sub(3 + self.joints).map_or(i, |of_bodies| of_bodies % 3);
+            [0.0, bx, by].get(component).copied().unwrap_or(0.0)
         };
         interval.bounds(reference, rates, accelerations);
         let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);

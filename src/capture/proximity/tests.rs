@@ -58,7 +58,7 @@ impl Motion<'_> {
 
     /// A velocity less that of the base at the start.
     fn relative(&self, [vx, vy]: [f64; 2]) -> [f64; 2] {
-        let [_, bx, by] = velocity_of_base(&self.interval());
+        let [bx, by] = velocity_of_base(&self.interval());
         [vx - bx, vy - by]
     }
 
