@@ -2,6 +2,7 @@
 
 use super::{CommandError, write_new};
 use crate::engine;
+use crate::file_format::wrap;
 use crate::format::{Choice, Shape, TableFormat};
 use crate::layout::Layout;
 use crate::registry::Robots;
@@ -13,8 +14,6 @@ use std::process::ExitCode;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {}
 
-/// Columns of a line.
-const WIDTH: usize = 100;
 /// Columns before an explanation.
 const NAME: usize = 25;
 
@@ -58,13 +57,6 @@ fn collect(all: &mut Vec<(Vec<String>, Vec<Choice>)>, path: &str, table: &'stati
 
 /// A name with its explanation beside it.
 fn item(name: &str, explanation: &str) -> String {
-    let (mut lines, mut line) = (String::new(), format!("  {name:<width$}", width = NAME - 2));
-    for word in explanation.split_whitespace() {
-        if line.chars().count() + 1 + word.chars().count() > WIDTH {
-            lines.extend([line.trim_end(), "\n"]);
-            line = " ".repeat(NAME);
-        }
-        line.extend([" ", word]);
-    }
-    lines + line.trim_end() + "\n"
+    let lines = wrap(&format!("  {name:<width$}", width = NAME - 2), &" ".repeat(NAME), explanation);
+    lines.iter().flat_map(|line| [line.trim_end(), "\n"]).collect()
 }

@@ -6,9 +6,12 @@
 mod json_schema;
 mod reference;
 mod template;
+mod wrap;
 
-use crate::format::{Key, NumberRule, Shape, TableFormat, With};
+use crate::diagnostic::listing;
+use crate::format::{Key, Shape, TableFormat, With, units};
 use crate::{layout, scenario};
+pub(crate) use wrap::wrap;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,18 +65,15 @@ impl FileFormat {
 
 /// The condition of a key in words: "with `tracking = "pd"`".
 fn condition(key: &Key) -> Option<String> {
-    let any_of = |names: Vec<String>| match names.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
-        None => String::new(),
-    };
     Some(match key.with? {
         With::Choice(selector, [first, rest @ ..]) => {
-            let others = rest.iter().map(|choice| format!("`\"{choice}\"`"));
-            format!("with {}", any_of([format!("`{selector} = \"{first}\"`")].into_iter().chain(others).collect()))
+            let names =
+                [format!("{selector} = \"{first}\"")].into_iter().chain(rest.iter().map(|name| format!("\"{name}\"")));
+            let names: Vec<_> = names.collect();
+            format!("with {}", listing(&names.iter().map(String::as_str).collect::<Vec<_>>(), "or"))
         }
         With::Choice(..) => return None,
-        With::Key(keys) => format!("beside {}", any_of(keys.iter().map(|key| format!("`{key}`")).collect())),
+        With::Key(keys) => format!("beside {}", listing(keys, "or")),
     })
 }
 
@@ -81,14 +81,8 @@ fn condition(key: &Key) -> Option<String> {
 fn unit(shape: &Shape) -> String {
     match shape {
         Shape::Number(rule) => rule.unit().to_owned(),
-        Shape::Vector(components) => {
-            let mut units: Vec<_> = components.iter().map(NumberRule::unit).collect();
-            if units.windows(2).all(|pair| pair.first() == pair.last()) {
-                units.truncate(1);
-            }
-            units.join(", ")
-        }
-        Shape::OneOf([longest, ..]) => unit(&Shape::Vector(longest)),
+        Shape::Vector(components) => units(components),
+        Shape::OneOf([longest, ..]) => units(longest),
         Shape::List(item, _) | Shape::OneOrList(item, _) | Shape::ByName(item, _) => unit(item),
         _ => String::new(),
     }

@@ -1,9 +1,7 @@
 //! A commented file to start from, which is valid as it stands.
 
-use super::{FileFormat, about, default};
+use super::{FileFormat, about, default, wrap};
 use crate::format::{Default, Example, Key, Shape, TableFormat};
-
-const WIDTH: usize = 100;
 
 /// The whole file.
 pub fn template(file: FileFormat) -> String {
@@ -94,12 +92,5 @@ fn zeros(shape: &Shape) -> String {
 
 /// A text as lines of comment.
 fn comment(lines: &mut Vec<String>, text: &str) {
-    let mut line = String::from("#");
-    for word in text.split_whitespace() {
-        if line.chars().count() + 1 + word.chars().count() > WIDTH {
-            lines.push(std::mem::replace(&mut line, String::from("#  ")));
-        }
-        line = format!("{line} {word}");
-    }
-    lines.push(line);
+    lines.extend(wrap("#", "#  ", text));
 }

@@ -22,3 +22,13 @@ pub fn listing(names: &[&str], conjunction: &str) -> String {
         None => "nothing".to_owned(),
     }
 }
+
+/// Whether TOML takes a key without quotes.
+pub(crate) fn is_bare(key: &str) -> bool {
+    !key.is_empty() && key.chars().all(is_bare_letter)
+}
+
+/// Whether a key without quotes may have this letter.
+pub(crate) fn is_bare_letter(c: char) -> bool {
+    c.is_ascii_alphanumeric() || matches!(c, '-' | '_')
+}

@@ -13,7 +13,7 @@ mod table_format;
 
 pub use attributes::{Default, Example, With};
 pub use choice::{Choice, Count};
-pub use number_rule::{Bound, NumberRule};
+pub use number_rule::{Bound, NumberRule, units};
 pub(crate) use number_rule::{Refusal, form};
 pub use path::{NoKey, Place, ShapeAt, Step, find, find_below, quoted_key};
 pub use table_format::{Key, Shape, TableFormat};

@@ -207,9 +207,15 @@ pub(crate) fn form(components: &[NumberRule]) -> String {
     if names.is_empty() {
         return "[]".to_owned();
     }
+    format!("[{}] in {}", names.join(", "), units(components))
+}
+
+/// The units of a vector's components: "rad, m, m", or one for all.
+#[must_use]
+pub fn units(components: &[NumberRule]) -> String {
     let mut units: Vec<_> = components.iter().map(|component| component.unit).collect();
     if units.windows(2).all(|pair| pair.first() == pair.last()) {
         units.truncate(1);
     }
-    format!("[{}] in {}", names.join(", "), units.join(", "))
+    units.join(", ")
 }

@@ -1,7 +1,7 @@
 //! Paths to a key of a file: `target."my.t".mass`, `arm.arm1.link[0].mass`, `approach.proportional_gain[2]`.
 
 use super::{Count, Key, NumberRule, Shape, TableFormat};
-use crate::names::{listing, nearest};
+use crate::names::{is_bare, is_bare_letter, listing, nearest};
 use std::fmt;
 use toml::de::DeTable;
 
@@ -239,12 +239,7 @@ fn longest(shape: &'static Shape) -> Option<&'static [NumberRule]> {
 /// A key as it is written in a path: quoted where it needs to be.
 #[must_use]
 pub fn quoted_key(name: &str) -> String {
-    let bare = !name.is_empty() && name.chars().all(is_bare);
-    if bare { name.to_owned() } else { toml::Value::from(name).to_string() }
-}
-
-fn is_bare(c: char) -> bool {
-    c.is_ascii_alphanumeric() || matches!(c, '-' | '_')
+    if is_bare(name) { name.to_owned() } else { toml::Value::from(name).to_string() }
 }
 
 /// The parts of a path.
@@ -284,7 +279,7 @@ fn tokens(path: &str) -> Result<Vec<Token>, String> {
 /// The length of the key at the start of a text.
 fn key_length(text: &str) -> Option<usize> {
     let Some(quote) = text.chars().next().filter(|c| matches!(c, '"' | '\'')) else {
-        return Some(text.find(|c| !is_bare(c)).unwrap_or(text.len()));
+        return Some(text.find(|c| !is_bare_letter(c)).unwrap_or(text.len()));
     };
     let mut is_escaped = false;
     let end = text.char_indices().skip(1).find(|(_, c)| {
@@ -297,7 +292,7 @@ fn key_length(text: &str) -> Option<usize> {
 
 /// The name that a key, quoted or not, stands for.
 fn name(key: &str) -> Option<String> {
-    if key.chars().all(is_bare) {
+    if is_bare(key) {
         return Some(key.to_owned());
     }
     let text = format!("{key} = 0");

@@ -10,7 +10,7 @@ use toml::de::DeTable;
 
 use super::document::{Document, table_name, without_indices};
 use crate::format::{Default, Key, Shape, TableFormat};
-use crate::names::{listing, nearest};
+use crate::names::{is_bare, listing, nearest};
 use value::did_you_mean;
 
 pub use value::Value;
@@ -283,8 +283,7 @@ impl<'a> Table<'a> {
     }
 
     fn path_of(&self, key: &str) -> String {
-        let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
-        let key = if bare { key.to_owned() } else { format!("{key:?}") };
+        let key = if is_bare(key) { key.to_owned() } else { format!("{key:?}") };
         if self.path.is_empty() { key } else { format!("{}.{key}", self.path) }
     }
 }
