@@ -4,6 +4,7 @@ use crate::capture::StudyError;
 use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
 use crate::capture::approach::terminal_rates::TerminalRatesError;
 use crate::capture::clearance::Exhausted;
+use crate::diagnostic::{Report, report_error};
 use crate::error::Error;
 use crate::scenario::{Approach, Case, PostCaptureControl, PostImpact, Scenario, Tracking, contact_name};
 use crate::simulate::PhaseError;
@@ -22,6 +23,16 @@ pub struct ScenarioKey {
 }
 
 impl StudyError {
+    /// The error at its key in the text of the scenario, which is called `file`.
+    ///
+    /// # Panics
+    /// For the scenario of another study.
+    #[must_use]
+    pub fn report(&self, scenario: &Scenario, text: &str, file: &str, help: Option<String>) -> Report {
+        let ScenarioKey { path, value } = self.key(scenario);
+        report_error(text, file, (&path, &value), &self.to_string(), help)
+    }
+
     /// The key to change, or the first of several.
     ///
     /// # Panics

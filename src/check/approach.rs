@@ -123,8 +123,12 @@ fn terminal_rates(scenario: &Scenario) -> Vec<Warning> {
     }
 }
 
-/// End effector poses that no configuration reaches. Whether the others are reached is found by the run.
+/// End effector poses that no configuration reaches, where the arms stretch towards them. (A joint trajectory to them is
+/// refused.)
 fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
+    if !matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. }) {
+        return Vec::new();
+    }
     let goals = scenario.approach.final_end_effector_poses.iter().flatten().enumerate();
     let far = goals.filter_map(|(i, goal)| {
         let Reach { distance, limit, .. } = Reach::new(scenario, i, goal.position()?).filter(Reach::is_exceeded)?;

@@ -1,8 +1,10 @@
-//! Warnings about overlaps along the planned path: the approach without tracking errors, in few steps.
+//! What the planned path shows, the approach without tracking errors, in few steps: overlaps, and why there is none.
 
 use super::number::short;
 use super::warning;
 use crate::capture::approach::ApproachTracking;
+use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
+use crate::capture::approach::terminal_rates::TerminalRatesError;
 use crate::capture::clearance::{Overlap, ineffective_ignores};
 use crate::capture::{Silent, StudyError, study};
 use crate::diagnostic::Warning;
@@ -22,11 +24,14 @@ const TOLERATED_DEPTH: f64 = 1e-3;
 
 /// One warning for each case in which bodies of given outlines overlap before the contact, and for pairs in `ignore`
 /// that are not compared anyway.
-pub(super) fn warnings(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
+///
+/// # Errors
+/// That of every run: goals that are not reached, or a start inside a target.
+pub(super) fn warnings(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, StudyError> {
     let ineffective = ineffective_ignores(scenario)
         .into_iter()
         .map(|(i, why)| warning(format!("clearance.ignore[{i}]"), why, "remove it, or name the pair that is meant"));
-    ineffective.chain(overlaps(scenario, robots)).collect()
+    Ok(ineffective.chain(overlaps(scenario, robots)?).collect())
 }
 
 /// That the search has ended early, at a time in s.
@@ -35,7 +40,7 @@ fn unfinished(time: f64, reason: &str) -> Warning {
     warning("approach", why, "`run` looks at all of it")
 }
 
-fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
+fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, StudyError> {
     let mut planned = scenario.clone();
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     planned.post_impact = None;
@@ -57,7 +62,7 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
         let steps = ApproachTracking::new(scenario, scenario.approach.duration).steps();
         if steps > MAX_STEPS {
             let why = format!("overlaps along the planned path were not looked for: it takes {steps} steps");
-            return vec![warning("approach", why, "`run` looks at all of it")];
+            return Ok(vec![warning("approach", why, "`run` looks at all of it")]);
         }
     } else {
         planned.approach.step = planned.approach.step.max(planned.approach.duration / STEPS);
@@ -73,17 +78,13 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
     let make = || choice.model(layout);
     let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
         Ok(result) => result,
-        Err(StudyError::ClearanceExhausted { what, .. }) => return vec![unfinished(what.time, &what.to_string())],
+        Err(StudyError::ClearanceExhausted { what, .. }) => return Ok(vec![unfinished(what.time, &what.to_string())]),
         Err(StudyError::RoughPath { time, path_error, .. }) => {
-            return vec![unfinished(time, &format!("the path is known to {path_error:.1e} rad or m alone"))];
+            return Ok(vec![unfinished(time, &format!("the path is known to {path_error:.1e} rad or m alone"))]);
         }
-        // of the start, so that every run stops there
-        Err(error @ StudyError::Inside { .. }) => {
-            let help = "choose another start of the target or of the robot";
-            return vec![warning(error.key(scenario).path, error.to_string(), help)];
-        }
+        Err(error) if is_of_every_run(&error) => return Err(error),
         // what else stops a run is reported by the run
-        Err(_) => return Vec::new(),
+        Err(_) => return Ok(Vec::new()),
     };
     let is_deep = |overlap: &&Overlap| match scenario.clearance.on_overlap {
         OnOverlap::Report => overlap.depth > TOLERATED_DEPTH,
@@ -106,5 +107,18 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Vec<Warning> {
             warnings.push(warning("approach", why, help));
         }
     }
-    warnings
+    Ok(warnings)
+}
+
+/// Whether an error of the planned path depends on neither steps nor the tracking law: it is that of the start, or of the
+/// design of the end, which is that of exact tracking.
+fn is_of_every_run(error: &StudyError) -> bool {
+    match error {
+        StudyError::Inside { .. } => true,
+        StudyError::InverseKinematics(InverseKinematicsError::Rates(error)) | StudyError::TerminalRates(error) => {
+            !matches!(error, TerminalRatesError::PhaseError(_))
+        }
+        StudyError::InverseKinematics(_) => true,
+        _ => false,
+    }
 }

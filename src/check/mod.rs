@@ -32,6 +32,8 @@ pub struct CheckReport {
     pub description: String,
     /// About the file, and about the layout that it names.
     pub warnings: Report,
+    /// Why every run of the scenario is refused: its values are valid one by one, but there is no such motion.
+    pub refusal: Option<Report>,
 }
 
 /// Checks TOML text of a layout or a scenario; the other arguments are those of [`Scenario::parse`].
@@ -59,6 +61,7 @@ pub fn inspect_with(
             Ok(CheckReport {
                 description: robot::description(&layout, robots),
                 warnings: layout_warnings(&layout, text, file),
+                refusal: None,
             })
         }
         Kind::Scenario => {
@@ -66,11 +69,18 @@ pub fn inspect_with(
             let warnings =
                 [names::warnings, approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
             let mut warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
-            warnings.extend(clearance::warnings(&scenario, robots));
+            let refusal = match clearance::warnings(&scenario, robots) {
+                Ok(found) => {
+                    warnings.extend(found);
+                    None
+                }
+                Err(error) => Some(error.report(&scenario, text, file, None)),
+            };
             let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
             Ok(CheckReport {
                 description: study::description(&scenario, robots),
                 warnings: report_warnings(text, file, &warnings).and(of_layout),
+                refusal,
             })
         }
     }

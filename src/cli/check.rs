@@ -25,10 +25,12 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     let inspection = inspect_with(&text, &file, folder, &robots.layouts(), robots)?;
     let warnings = inspection.warnings;
     let count = warnings.count();
-    print(&format!("{}\n{}", inspection.description, if count == 0 { "no warnings\n" } else { "" }));
+    let none = if count == 0 && inspection.refusal.is_none() { "no warnings\n" } else { "" };
+    print(&format!("{}\n{none}", inspection.description));
     if count > 0 {
         let noun = if count == 1 { "warning" } else { "warnings" };
         note(format_args!("{}\n\n{count} {noun}", warnings.render(color())));
     }
-    Ok(ExitCode::SUCCESS)
+    // `run` would say the same
+    inspection.refusal.map_or(Ok(ExitCode::SUCCESS), |refusal| Err(refusal.into()))
 }

@@ -5,10 +5,8 @@ use super::dynamics::Dynamics;
 use super::optional_outputs::{self, file_per_case};
 use super::progress::{Display, Progress};
 use super::terminal::{note, print};
-use crate::capture::scenario_key::ScenarioKey;
 use crate::capture::{Study, StudyError, study};
 use crate::check::help_with_gains;
-use crate::diagnostic::report_error;
 use crate::output::console::table;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
@@ -110,8 +108,7 @@ fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> Comm
     };
     let exit_code = if stopped.is_some_and(|(_, stopped)| !stopped.is_misuse()) { 1 } else { 2 };
     let help = stopped.and_then(|(phase, _)| help_with_gains(scenario, phase));
-    let ScenarioKey { path, value } = error.key(scenario);
-    let report = report_error(&source.text, &source.file, (&path, &value), &error.to_string(), help);
+    let report = error.report(scenario, &source.text, &source.file, help);
     CommandError::Computation { report, exit_code }
 }
 

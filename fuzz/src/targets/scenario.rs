@@ -13,7 +13,7 @@ fn read(bytes: &[u8]) -> Result<bool, String> {
     match check::inspect(&text, "study.toml", &path("scenarios"), SHIPPED) {
         Ok(checked) => {
             let _ = (checked.warnings.to_string(), checked.description);
-            Ok(true)
+            checked.refusal.map_or(Ok(true), |report| refused(&report))
         }
         Err(report) => refused(&report),
     }

@@ -244,8 +244,12 @@ fn end_effector_poses_out_of_reach() {
     let expected =
         ["`approach.final_end_effector_poses[0]` is [4.8, -1.0]", "out of reach, 4.827 m", "no pose of left"];
     one_warning(&steer("4.8"), 9, &expected);
+    // a joint trajectory to it is refused
     let designed = SCENARIO.replace("trajectory", "final_end_effector_poses = [[4.8, -1.0], [], []]\ntrajectory");
-    one_warning(&designed, 7, &expected);
+    let CheckReport { warnings, refusal, .. } = inspect_text(&designed);
+    let refusal = refusal.expect("a refusal").to_string();
+    assert!(refusal.contains("is out of reach: 4.8") && refusal.contains("it.toml:7:"), "{refusal}");
+    assert_eq!(warnings.to_string(), "");
     let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
 }
@@ -362,12 +366,11 @@ fn overlaps_that_fail_a_run_are_warned_of() {
 
 /// A run refuses it, whatever its phases are.
 #[test]
-fn targets_that_the_robot_starts_in_are_said() {
+fn targets_that_the_robot_starts_in_are_refused() {
     let text = fs::read_to_string(file("scenarios/elastic_rebound.toml")).expect("a scenario");
     assert!(text.contains("radius = 0.3"), "{text}");
-    let warnings =
-        |text: &str| inspect(text, "it.toml", &file("scenarios"), SHIPPED).expect("valid").warnings.to_string();
-    assert!(!warnings(&text).contains("inside target"), "{}", warnings(&text));
-    let shown = warnings(&text.replace("radius = 0.3", "radius = 30.0"));
+    let refusal = |text: &str| inspect(text, "it.toml", &file("scenarios"), SHIPPED).expect("valid").refusal;
+    assert_eq!(refusal(&text).map(|refusal| refusal.to_string()), None);
+    let shown = refusal(&text.replace("radius = 0.3", "radius = 30.0")).expect("a refusal").to_string();
     assert!(shown.contains("inside target `") && shown.contains("`target[0].position`"), "{shown}");
 }
