@@ -32,6 +32,7 @@ pub mod scalar;
 #[doc(hidden)]
 pub mod standalone;
 pub mod state;
+pub mod status;
 pub mod target;
 pub mod trajectory;
 #[doc(hidden)]

@@ -1,7 +1,7 @@
 //! Some instances of a batch, copied to where the compiler knows that nothing else is.
 
-use super::status::Status;
 use crate::scalar::Scalar;
+use crate::status::Status;
 
 /// The scalar of a batch: `f64`, or one that becomes vectors.
 pub trait Number: Scalar {

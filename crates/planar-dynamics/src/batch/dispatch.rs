@@ -1,8 +1,8 @@
 //! The instruction set of a batch, chosen when it runs.
 
 use super::block::{Number, Place};
-use super::status::Status;
 use crate::scalar::lane::Lane;
+use crate::status::Status;
 use multiversion::multiversion;
 use multiversion::target::match_target;
 

@@ -4,8 +4,8 @@ use super::arrays::{Accelerations, FullImpact, ReducedDynamics, ReducedImpact, S
 use super::block::{Number, Place};
 use super::dispatch::{Detected, Instructions, Kernel};
 use super::model::BatchModel;
-use super::status::Status;
 use crate::error::Error;
+use crate::status::Status;
 use crate::validate::length;
 use core::marker::PhantomData;
 

@@ -16,13 +16,12 @@ mod dispatch;
 mod functions;
 mod implement;
 mod model;
-mod status;
 
+pub use crate::status::Status;
 pub use arrays::{Accelerations, FullImpact, ReducedDynamics, ReducedImpact, States, StatesAfter, Targets};
 pub use dispatch::{AsBuilt, Avx2, Detected, Instructions};
 pub use functions::Batch;
 pub use model::BatchModel;
-pub use status::Status;
 
 /// For generated code alone.
 #[doc(hidden)]

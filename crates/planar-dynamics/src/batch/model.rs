@@ -2,7 +2,7 @@
 
 use super::arrays::{Accelerations, FullImpact, ReducedDynamics, ReducedImpact, States, StatesAfter, Targets};
 use super::block::{Number, Place};
-use super::status::Status;
+use crate::status::Status;
 
 /// A generated model of which batches can be computed: `Model<f64>`.
 ///

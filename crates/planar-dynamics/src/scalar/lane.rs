@@ -94,7 +94,11 @@ impl<const FUSED: bool> Scalar for Lane<FUSED> {
 
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        if FUSED { Self(std::primitive::f64::mul_add(self.0, factor.0, addend.0)) } else { self * factor + addend }
+        match FUSED {
+            #[cfg(any(feature = "batch", feature = "fused"))]
+            true => Self(std::primitive::f64::mul_add(self.0, factor.0, addend.0)),
+            _ => self * factor + addend,
+        }
     }
 
     fn sqrt(self) -> Self {

@@ -5,8 +5,8 @@ mod dual;
 pub(crate) mod far_angle;
 pub(crate) mod finite;
 mod float;
-#[cfg(feature = "batch")]
-pub(crate) mod lane;
+#[doc(hidden)]
+pub mod lane;
 mod number;
 mod portable;
 mod real;
