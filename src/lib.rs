@@ -118,6 +118,28 @@ pub use planar_dynamics::{
 
 #[cfg(feature = "build")]
 pub use planar_build as build;
+/// # Example
+/// ```
+/// use planar_capture::evaluator::{Batch, Status};
+/// use planar_capture::{graphs, layout::Layout};
+///
+/// const N: usize = 100;
+/// let layout = Layout::read("codegen/layouts/dual_arm_3r.toml".as_ref()).expect("a layout");
+/// let evaluator = graphs::find(&layout)?.evaluator;
+/// let robot = evaluator.model(&layout).expect("a layout of the graph's structure");
+///
+/// // the elements of each instance follow each other
+/// let (base_poses, joint_angles) = ([0.0; N * 3], [0.5; N * 6]);
+/// let (base_twists, joint_rates, joint_torques) = ([0.0; N * 3], [0.0; N * 6], [1.0; N * 6]);
+/// let inputs: [&[f64]; 5] = [&base_poses, &joint_angles, &base_twists, &joint_rates, &joint_torques];
+/// let (mut base, mut joints, mut statuses) = ([0.0; N * 3], [0.0; N * 6], [Status::Done; N]);
+/// // without the third output, the smallest pivot: the statuses tell whether that is too small
+/// let mut outputs = [Some(&mut base[..]), Some(&mut joints[..]), None];
+/// Batch::of(&robot).call("forward_dynamics", &inputs, &mut outputs, &mut statuses)?;
+/// assert!(statuses.iter().all(|status| *status == Status::Done));
+/// assert!(joints[0] != 0.0 && joints[0] == joints[N * 6 - 6]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[cfg(feature = "std")]
 pub use planar_build::evaluator;
 #[cfg(feature = "std")]

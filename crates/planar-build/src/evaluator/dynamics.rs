@@ -29,7 +29,7 @@ macro_rules! traits {
         fn $method(&self, base_pose: &[f64; 3], joint_angles: &[f64], into: &mut [element!($kind f64)]) -> Result<(), Error> {
             finite_configuration(base_pose, joint_angles)?;
             length("joint_angles", self.joints(), joint_angles.len())?;
-            self.call(&self.evaluator().functions.$method, &[base_pose, joint_angles], |results| {
+            self.call(self.evaluator().functions.$method, &[base_pose, joint_angles], |results| {
                 let values: Vec<f64> = results.elements(0).collect();
                 store(stringify!($method), &values, traits!(@flat $kind into))
             })
@@ -39,7 +39,7 @@ macro_rules! traits {
         fn $method(&self, state: &State<'_, f64>, into: &mut [element!($kind f64)]) -> Result<(), Error> {
             self.check(state)?;
             finite_state(state)?;
-            self.call(&self.evaluator().functions.$method, &of_state(state), |results| {
+            self.call(self.evaluator().functions.$method, &of_state(state), |results| {
                 let values: Vec<f64> = results.elements(0).collect();
                 store(stringify!($method), &values, traits!(@flat $kind into))
             })
@@ -117,7 +117,7 @@ impl ReducedDynamics<f64> for GraphModel {
     ) -> Result<(), Error> {
         self.check(state)?;
         finite_state(state)?;
-        self.call(&self.evaluator().functions.reduced_dynamics, &of_state(state), |results| {
+        self.call(self.evaluator().functions.reduced_dynamics, &of_state(state), |results| {
             pivot("the base inertia", results.scalar(3))?;
             let [inertia, bias, jacobian] = [0, 1, 2].map(|output| results.elements(output).collect::<Vec<_>>());
             store("generalized_inertia", &inertia, generalized_inertia)?;
@@ -149,7 +149,7 @@ impl ForwardDynamics<f64> for GraphModel {
         if function == 2 {
             length("end_effector_wrenches", self.arms(), wrenches.len())?;
         }
-        self.call(&self.evaluator().functions.forward_dynamics[function], &inputs[..count], |results| {
+        self.call(self.evaluator().functions.forward_dynamics[function], &inputs[..count], |results| {
             for (place, value) in joint_accelerations.iter_mut().zip(results.elements(1)) {
                 *place = value;
             }
@@ -167,7 +167,7 @@ impl MomentumAndEnergy<f64> for GraphModel {
     fn momentum(&self, state: &State<'_, f64>) -> Result<Momentum<f64>, Error> {
         self.check(state)?;
         finite_state(state)?;
-        self.call(&self.evaluator().functions.momentum, &of_state(state), |results| {
+        self.call(self.evaluator().functions.momentum, &of_state(state), |results| {
             let mut linear = results.elements(0);
             let linear_momentum = [(); 2].map(|()| linear.next().unwrap_or(f64::NAN));
             let (angular_momentum, kinetic_energy) = (results.scalar(1), results.scalar(2));
@@ -194,7 +194,7 @@ impl Impact<f64> for GraphModel {
         let [masses, inertias, contacts, twists] = by_arm(targets);
         let inputs: [&[f64]; 7] =
             [&state.base_pose, state.joint_angles, state.joint_rates, &masses, &inertias, &contacts, &twists];
-        self.call(&self.evaluator().functions.reduced_impact, &inputs, |results| {
+        self.call(self.evaluator().functions.reduced_impact, &inputs, |results| {
             pivot("the impact matrix G", results.scalar(3))?;
             let [matrix, momentum, rates] = [0, 1, 2].map(|output| results.elements(output).collect::<Vec<_>>());
             store("impact_matrix", &matrix, impact_matrix)?;
@@ -215,7 +215,7 @@ impl Impact<f64> for GraphModel {
         let [masses, inertias, contacts, twists] = by_arm(targets);
         let [pose, angles, twist, rates] = of_state(state);
         let inputs = [pose, angles, twist, rates, &masses, &inertias, &contacts, &twists];
-        self.call(&self.evaluator().functions.full_impact, &inputs, |results| {
+        self.call(self.evaluator().functions.full_impact, &inputs, |results| {
             pivot("the impact matrix G in full coordinates", results.scalar(4))?;
             let (base, after) = (triple(results, 2), results.elements(3).collect::<Vec<_>>());
             finite("base_twist_after", &base)?;

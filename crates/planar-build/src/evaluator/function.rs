@@ -1,34 +1,35 @@
 //! One function of a graph as a program.
 
+use super::argument::Argument;
 use super::execute::{Registers, execute, registers};
 use super::instruction::Register;
 use super::program::Program;
 use super::values::{Source, Value, Values};
-use crate::format::{Family, Graph};
+use crate::format::{Family, Function as GraphFunction, Graph};
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// The program of a function.
+/// A function of a graph.
 #[derive(Clone, Debug)]
-pub(super) struct Function {
+pub struct Function {
     /// Position of the function among those of the evaluator, and of its constants in a model.
-    pub index: usize,
-    pub program: Program,
-    /// The elements of each output.
-    outputs: Vec<Range<usize>>,
+    pub(super) index: usize,
+    pub(super) program: Program,
+    /// The elements of each output among those of the program.
+    pub(super) elements: Vec<Range<usize>>,
+    /// The position of the output `smallest_pivot`, where it has one.
+    pub(super) pivot: Option<usize>,
+    name: String,
+    inputs: Vec<Argument>,
+    outputs: Vec<Argument>,
 }
 
 thread_local! {
-    static REGISTERS: RefCell<Box<Registers<f64>>> = RefCell::new(registers());
+    static REGISTERS: RefCell<Box<Registers>> = RefCell::new(registers());
 }
 
 /// Executes a program in the registers of the thread.
-pub(super) fn run<R>(
-    program: &Program,
-    constants: &[f64],
-    inputs: &[&[f64]],
-    read: impl FnOnce(&Registers<f64>) -> R,
-) -> R {
+pub(super) fn run<R>(program: &Program, constants: &[f64], inputs: &[&[f64]], read: impl FnOnce(&Registers) -> R) -> R {
     REGISTERS.with_borrow_mut(|registers| {
         let mut rest = &mut registers[..];
         for part in std::iter::once(&constants).chain(inputs) {
@@ -36,7 +37,7 @@ pub(super) fn run<R>(
             place.copy_from_slice(part);
             rest = after;
         }
-        execute(&program.instructions, registers);
+        execute(program, registers);
         read(registers)
     })
 }
@@ -44,13 +45,13 @@ pub(super) fn run<R>(
 /// The results of a call, in the registers.
 pub(super) struct Results<'a> {
     function: &'a Function,
-    registers: &'a Registers<f64>,
+    registers: &'a Registers,
 }
 
 impl Results<'_> {
     /// The elements of an output, by its position.
     pub fn elements(&self, output: usize) -> impl Iterator<Item = f64> {
-        let registers: &[Register] = &self.function.program.outputs[self.function.outputs[output].clone()];
+        let registers: &[Register] = &self.function.program.outputs[self.function.elements[output].clone()];
         registers.iter().map(|register| self.registers[usize::from(*register)])
     }
 
@@ -61,45 +62,64 @@ impl Results<'_> {
 }
 
 impl Function {
+    /// As in the graph.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is computed from, in order.
+    #[must_use]
+    pub fn inputs(&self) -> &[Argument] {
+        &self.inputs
+    }
+
+    /// What it computes, in order. `smallest_pivot`, where there is one, is relative to its scale: at or below 8
+    /// roundings the others are those of a singular system.
+    #[must_use]
+    pub fn outputs(&self) -> &[Argument] {
+        &self.outputs
+    }
+
     /// Calls it; `read` takes what it wants of the results.
-    pub fn call<R>(&self, constants: &[f64], inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
+    pub(super) fn call<R>(&self, constants: &[f64], inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
         run(&self.program, constants, inputs, |registers| read(&Results { function: self, registers }))
     }
 
-    /// The program of the function of a name, with these inputs, and outputs with these numbers of elements.
+    /// That it has these inputs, and outputs with these numbers of elements.
     ///
     /// # Errors
     /// How it differs from that.
-    pub fn new(
-        graph: &Graph,
-        (name, index): (&str, usize),
-        inputs: &[&str],
-        outputs: &[(&str, usize)],
-    ) -> Result<Self, String> {
-        let functions = |family: &Family| family.functions.iter().position(|function| function.name == name);
-        let found = graph.families.iter().find_map(|family| Some((family, &family.functions[functions(family)?])));
-        let (family, function) = found.ok_or("it is missing")?;
-        if function.inputs != inputs {
-            return Err(format!("it has the inputs {}, expected {}", function.inputs.join(", "), inputs.join(", ")));
+    pub(super) fn check(&self, inputs: &[&str], outputs: &[(&str, usize)]) -> Result<(), String> {
+        let found: Vec<&str> = self.inputs.iter().map(|input| input.name.as_str()).collect();
+        if found != inputs {
+            return Err(format!("it has the inputs {}, expected {}", found.join(", "), inputs.join(", ")));
         }
-        let found: Vec<_> =
-            function.outputs.iter().map(|output| (output.name.as_str(), output.elements.len())).collect();
-        if found != outputs {
-            return Err(format!("it has the outputs {found:?}, expected {outputs:?}"));
-        }
+        let found: Vec<_> = self.outputs.iter().map(|output| (output.name.as_str(), output.rows())).collect();
+        if found == outputs { Ok(()) } else { Err(format!("it has the outputs {found:?}, expected {outputs:?}")) }
+    }
+
+    /// The program of a function of a family.
+    ///
+    /// # Errors
+    /// A name that is not known, or too many registers.
+    pub(super) fn new(graph: &Graph, family: &Family, function: &GraphFunction, index: usize) -> Result<Self, String> {
         let mut values = Values::default();
         let of_model = graph.parameters.iter().map(|parameter| &parameter.name);
         for (index, name) in of_model.chain(graph.constants.values.iter().map(|value| &value.name)).enumerate() {
             values.name(name.clone(), Value::Constant(Source::Model(index)));
         }
+        let mut inputs = Vec::with_capacity(function.inputs.len());
         let mut elements = 0;
-        for input in inputs {
+        for input in &function.inputs {
             let declared = graph.inputs.iter().find(|declared| declared.name == *input);
             let declared = declared.ok_or_else(|| format!("its input `{input}` is not declared"))?;
-            for index in 0..declared.shape.iter().product() {
+            let argument = Argument::new(declared);
+            for index in 0..argument.rows() {
                 values.name(declared.element(index), Value::Input(elements));
                 elements += 1;
             }
+            inputs.push(argument);
         }
         values.extend(&family.configuration.statements)?;
         values.extend(&function.statements)?;
@@ -112,6 +132,14 @@ impl Function {
             }
             ranges.push(start..wanted.len());
         }
-        Ok(Self { index, program: Program::new(&values, elements, &wanted)?, outputs: ranges })
+        Ok(Self {
+            index,
+            program: Program::new(&values, elements, &wanted)?,
+            elements: ranges,
+            pivot: function.outputs.iter().position(|output| output.name == "smallest_pivot"),
+            name: function.name.clone(),
+            inputs,
+            outputs: function.outputs.iter().map(Argument::new).collect(),
+        })
     }
 }

@@ -3,36 +3,46 @@
 /// The number of a register.
 pub(super) type Register = u16;
 
-/// An operation on registers, the first of which receive the result. Sums of products have a rounding for each product
-/// and one for the sum, as the operations that they replace.
+/// The registers of an instruction: those of the results, then those of the operands; what is left over is 0.
+pub(super) type Operands = [Register; 5];
+
+/// What an instruction computes. Sums of products have a rounding for each product and one for the sum, as the
+/// operations that they replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Instruction {
+pub(super) enum Kind {
     /// −a.
-    Neg([Register; 2]),
+    Neg,
     /// √a.
-    Sqrt([Register; 2]),
-    /// Sine and cosine of a.
-    SinCos([Register; 3]),
+    Sqrt,
+    /// Sine and cosine of a, two results.
+    SinCos,
     /// a + b.
-    Add([Register; 3]),
+    Add,
     /// a − b.
-    Sub([Register; 3]),
+    Sub,
     /// a b.
-    Mul([Register; 3]),
+    Mul,
     /// a / b.
-    Div([Register; 3]),
+    Div,
     /// The smaller of a and b.
-    Min([Register; 3]),
+    Min,
     /// The angle of (b, a).
-    Atan2([Register; 3]),
+    Atan2,
     /// a b + c.
-    MulAdd([Register; 4]),
+    MulAdd,
     /// a b − c.
-    MulSub([Register; 4]),
+    MulSub,
     /// c − a b.
-    SubMul([Register; 4]),
+    SubMul,
     /// a b + c d.
-    MulAddMul([Register; 5]),
+    MulAddMul,
     /// a b − c d.
-    MulSubMul([Register; 5]),
+    MulSubMul,
+}
+
+/// Instructions of one kind that follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Run {
+    pub kind: Kind,
+    pub count: u32,
 }

@@ -1,9 +1,10 @@
 //! A robot whose dynamics are those of a graph.
 
-use super::function::{Function, Results, run};
+use super::constants;
+use super::function::{Function, Results};
 use super::functions::Functions;
 use super::program::Program;
-use super::values::{Source, Value, Values};
+use super::values::{Value, Values};
 use crate::format::{Constants, Graph, Operand, Variable};
 use crate::graph::{self, GraphError};
 use planar_layout::layout::Layout;
@@ -15,7 +16,9 @@ use std::sync::Arc;
 pub struct Evaluator {
     structure: Structure,
     /// From the parameters to all that later programs read besides them.
-    constants: Program,
+    pub(super) constants: Program,
+    pub(super) all: Vec<Function>,
+    /// Where those of the traits are.
     pub(super) functions: Functions,
 }
 
@@ -47,14 +50,31 @@ impl Evaluator {
             Program::new(&values, graph.parameters.len(), &outputs?)
         });
         let constants = program.map_err(GraphError::Format)?;
-        let mut compiled = 0;
+        let all =
+            graph.families.iter().flat_map(|family| family.functions.iter().map(move |function| (family, function)));
+        let compiled = all.enumerate().map(|(index, (family, function))| {
+            let compiled = Function::new(graph, family, function, index);
+            compiled.map_err(|e| GraphError::Format(format!("`{}`: {e}", function.name)))
+        });
+        let all = compiled.collect::<Result<Vec<_>, _>>()?;
         let functions = Functions::new(&structure, &mut |name, inputs, outputs| {
-            let index = compiled;
-            compiled += 1;
-            Function::new(graph, (name, index), inputs, outputs)
+            let found = all.iter().find(|function| function.name() == name).ok_or_else(|| "it is missing".to_owned());
+            found
+                .and_then(|function| function.check(inputs, outputs).map(|()| function.index))
                 .map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
         })?;
-        Ok(Self { structure, constants, functions })
+        Ok(Self { structure, constants, all, functions })
+    }
+
+    /// All functions of the graph, in its order.
+    pub fn functions(&self) -> impl Iterator<Item = &Function> {
+        self.all.iter()
+    }
+
+    /// The function of a name.
+    #[must_use]
+    pub fn function(&self, name: &str) -> Option<&Function> {
+        self.all.iter().find(|function| function.name() == name)
     }
 
     /// The structure of the layouts that it has models of.
@@ -95,24 +115,18 @@ impl GraphModel {
     }
 
     fn set_constants(&mut self) {
-        let Evaluator { constants: program, functions, .. } = &*self.evaluator;
-        let numbers = |program: &Program, model: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            let number = |source: &Source| match source {
-                Source::Number(number) => *number,
-                Source::Model(index) => model(*index),
-            };
-            program.constants.iter().map(number).collect()
-        };
-        let literals = numbers(program, &|_| f64::NAN);
-        let from_parameters = run(program, &literals, &[&self.parameters], |registers| {
-            program.outputs.iter().map(|register| registers[usize::from(*register)]).collect::<Vec<f64>>()
-        });
-        let all = [&self.parameters[..], &from_parameters].concat();
-        self.constants = functions.all().map(|function| numbers(&function.program, &|index| all[index])).collect();
+        let Evaluator { constants: program, all: functions, .. } = &*self.evaluator;
+        let model = constants::of_model(program, &self.parameters);
+        self.constants = functions.iter().map(|function| constants::first(&function.program, &model)).collect();
     }
 
     /// Calls a function; `read` takes what it wants of the results.
-    pub(super) fn call<R>(&self, function: &Function, inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
-        function.call(&self.constants[function.index], inputs, read)
+    pub(super) fn call<R>(&self, function: usize, inputs: &[&[f64]], read: impl FnOnce(&Results<'_>) -> R) -> R {
+        self.evaluator.all[function].call(&self.constants[function], inputs, read)
+    }
+
+    /// What is in the first registers of a function.
+    pub(super) fn constants(&self, function: &Function) -> &[f64] {
+        &self.constants[function.index]
     }
 }

@@ -1,9 +1,10 @@
 //! A program: the statements that some outputs need, on registers.
 //!
-//! Registers are in this order: constants, inputs, and results, which share registers where one is not needed any more
-//! when the next is computed.
+//! Registers are in this order: constants, inputs, and results, which have those of inputs and other results where
+//! these are not needed any more. Constants stay.
 
-use super::instruction::{Instruction, Register};
+use super::instruction::{Kind, Operands, Register, Run};
+use super::schedule::{Wait, schedule};
 use super::values::{Source, Value, Values};
 use crate::format::Operation;
 
@@ -11,16 +12,21 @@ use crate::format::Operation;
 pub(super) const REGISTERS: usize = 1 << Register::BITS;
 
 /// Instructions, and where the numbers that they begin and end with are.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Program {
     /// What is in the first registers.
     pub constants: Vec<Source>,
-    pub instructions: Vec<Instruction>,
+    runs: Vec<Run>,
+    /// Of all instructions.
+    operands: Vec<Operands>,
     /// The registers of the outputs' elements.
     pub outputs: Vec<Register>,
+    /// The number of registers.
+    pub registers: usize,
 }
 
 /// A result that is being computed in place of one or several values.
+#[derive(Clone, Copy)]
 struct Step {
     /// With the product of an operand, or of both, as part of it.
     products: [bool; 2],
@@ -35,9 +41,10 @@ impl Program {
     pub fn new(values: &Values, inputs: usize, outputs: &[usize]) -> Result<Self, String> {
         let uses = uses(values, outputs);
         let steps = steps(values, &uses);
+        let steps: Vec<Step> = schedule(&waits(values, &steps)).into_iter().map(|index| steps[index]).collect();
         let mut registers = Registers::new(values, inputs, &uses);
         let last = last_uses(values, &steps, outputs);
-        let mut instructions = Vec::with_capacity(steps.len());
+        let mut program = Self { runs: Vec::new(), operands: Vec::with_capacity(steps.len()), ..Self::default() };
         for (now, step) in steps.iter().enumerate() {
             let operands: Vec<usize> = operands(values, step);
             let from: Vec<Register> = operands.iter().map(|value| registers.of(*value)).collect();
@@ -46,10 +53,33 @@ impl Program {
                 results(values, step.value).map(|value| registers.take(value)).collect::<Result<_, _>>()?;
             // the sine or the cosine alone may be wanted
             registers.free(results(values, step.value).filter(|value| last[*value] == usize::MAX));
-            instructions.push(instruction(values, step, &to, &from));
+            let (kind, from) = instruction(values, step, &from);
+            let mut of_instruction = to.into_iter().chain(from);
+            program.push(kind, [(); 5].map(|()| of_instruction.next().unwrap_or(0)));
         }
-        let outputs = outputs.iter().map(|value| registers.of(*value)).collect();
-        Ok(Self { constants: registers.constants, instructions, outputs })
+        program.outputs = outputs.iter().map(|value| registers.of(*value)).collect();
+        program.constants = registers.constants;
+        program.registers = registers.next;
+        Ok(program)
+    }
+
+    fn push(&mut self, kind: Kind, operands: Operands) {
+        self.operands.push(operands);
+        match self.runs.last_mut() {
+            Some(run) if run.kind == kind => run.count += 1,
+            _ => self.runs.push(Run { kind, count: 1 }),
+        }
+    }
+
+    /// The instructions: those of one kind that follow each other, with their registers.
+    #[inline]
+    pub fn runs(&self) -> impl Iterator<Item = (Kind, &[Operands])> {
+        let mut rest = self.operands.as_slice();
+        self.runs.iter().map(move |run| {
+            let (these, after) = rest.split_at(run.count as usize);
+            rest = after;
+            (run.kind, these)
+        })
     }
 }
 
@@ -95,6 +125,21 @@ fn steps(values: &Values, uses: &[usize]) -> Vec<Step> {
     }
     steps.retain(|step| !absorbed[step.value]);
     steps
+}
+
+/// What each step waits for.
+fn waits(values: &Values, steps: &[Step]) -> Vec<Wait> {
+    let mut step_of = vec![None; values.all.len()];
+    for (index, step) in steps.iter().enumerate() {
+        results(values, step.value).for_each(|value| step_of[value] = Some(index));
+    }
+    let wait = |step: &Step| {
+        let mut on: Vec<usize> = operands(values, step).into_iter().filter_map(|value| step_of[value]).collect();
+        on.sort_unstable();
+        on.dedup();
+        Wait { on, kind: kind(values, step) }
+    };
+    steps.iter().map(wait).collect()
 }
 
 /// The values that a step computes: a sine and a cosine, or one.
@@ -164,6 +209,7 @@ impl Registers {
         for (index, value) in needed() {
             if let Value::Input(element) = value {
                 registers.of[index] = Register::try_from(constants + element).ok();
+                registers.shared[index] = true;
             }
         }
         registers.next = constants + inputs;
@@ -197,28 +243,35 @@ impl Registers {
     }
 }
 
-fn instruction(values: &Values, step: &Step, to: &[Register], from: &[Register]) -> Instruction {
+/// What an instruction computes, and from which registers of those of the operands of a step.
+fn instruction(values: &Values, step: &Step, from: &[Register]) -> (Kind, Vec<Register>) {
+    let kind = kind(values, step);
+    let from = match (kind, from) {
+        (Kind::MulAdd | Kind::SubMul, &[c, a, b]) if !step.products[0] => vec![a, b, c],
+        _ => from.to_vec(),
+    };
+    (kind, from)
+}
+
+fn kind(values: &Values, step: &Step) -> Kind {
     let Value::Result { operation, .. } = values.all[step.value] else {
         unreachable!("a step computes a result");
     };
-    let result = to[0];
-    match (operation, step.products, from) {
-        (Operation::SinCos, _, &[a]) => Instruction::SinCos([result, to[1], a]),
-        (Operation::Neg, _, &[a]) => Instruction::Neg([result, a]),
-        (Operation::Sqrt, _, &[a]) => Instruction::Sqrt([result, a]),
-        (Operation::Add, [true, true], &[a, b, c, d]) => Instruction::MulAddMul([result, a, b, c, d]),
-        (Operation::Sub, [true, true], &[a, b, c, d]) => Instruction::MulSubMul([result, a, b, c, d]),
-        (Operation::Add, [true, false], &[a, b, c]) | (Operation::Add, [false, true], &[c, a, b]) => {
-            Instruction::MulAdd([result, a, b, c])
-        }
-        (Operation::Sub, [true, false], &[a, b, c]) => Instruction::MulSub([result, a, b, c]),
-        (Operation::Sub, [false, true], &[c, a, b]) => Instruction::SubMul([result, a, b, c]),
-        (Operation::Add, _, &[a, b]) => Instruction::Add([result, a, b]),
-        (Operation::Sub, _, &[a, b]) => Instruction::Sub([result, a, b]),
-        (Operation::Mul, _, &[a, b]) => Instruction::Mul([result, a, b]),
-        (Operation::Div, _, &[a, b]) => Instruction::Div([result, a, b]),
-        (Operation::Min, _, &[a, b]) => Instruction::Min([result, a, b]),
-        (Operation::Atan2, _, &[a, b]) => Instruction::Atan2([result, a, b]),
-        (operation, ..) => unreachable!("{operation:?} of {} operands", from.len()),
+    match (operation, step.products) {
+        (Operation::SinCos, _) => Kind::SinCos,
+        (Operation::Neg, _) => Kind::Neg,
+        (Operation::Sqrt, _) => Kind::Sqrt,
+        (Operation::Add, [true, true]) => Kind::MulAddMul,
+        (Operation::Sub, [true, true]) => Kind::MulSubMul,
+        (Operation::Add, [false, false]) => Kind::Add,
+        (Operation::Sub, [false, false]) => Kind::Sub,
+        (Operation::Add, _) => Kind::MulAdd,
+        (Operation::Sub, [true, false]) => Kind::MulSub,
+        (Operation::Sub, [false, true]) => Kind::SubMul,
+        (Operation::Mul, _) => Kind::Mul,
+        (Operation::Div, _) => Kind::Div,
+        (Operation::Min, _) => Kind::Min,
+        (Operation::Atan2, _) => Kind::Atan2,
+        (Operation::Copy, _) => unreachable!("a copy is another name of a value"),
     }
 }

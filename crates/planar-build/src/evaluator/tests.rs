@@ -1,7 +1,9 @@
+use super::constants;
 use super::execute::{execute, registers};
-use super::instruction::Instruction;
+use super::instruction::Kind;
+use super::lanes::{self, Lanes};
 use super::program::Program;
-use super::values::{Source, Value, Values};
+use super::values::{Value, Values};
 use crate::format::{Operand, Operation, Statement, Targets};
 use crate::graph;
 use planar_dynamics::scalar::Scalar;
@@ -9,11 +11,16 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::IndexedRandom;
 use rand::{RngExt, SeedableRng};
 use serde_json::{Value as Json, json};
+use std::cell::Cell;
 use std::collections::HashMap;
 
 /// The text of a shipped graph.
 fn shipped() -> String {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen/graphs/single_arm_2r.json");
+    text_of("single_arm_2r")
+}
+
+fn text_of(name: &str) -> String {
+    let path = format!("{}/../../codegen/graphs/{name}.json", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(path).expect("a graph")
 }
 
@@ -33,17 +40,28 @@ fn program(statements: &[Statement], inputs: usize, outputs: &[&str]) -> Program
     Program::new(&values, inputs, &outputs).expect("few registers")
 }
 
+/// Those of all instructions.
+fn kinds(program: &Program) -> Vec<Kind> {
+    program.runs().flat_map(|(kind, instructions)| vec![kind; instructions.len()]).collect()
+}
+
 fn run(program: &Program, inputs: &[f64]) -> Vec<f64> {
-    let mut file = registers::<f64>();
-    let numbers = program.constants.iter().map(|source| match source {
-        Source::Number(number) => *number,
-        Source::Model(_) => panic!("there is no model"),
-    });
-    for (place, number) in file.iter_mut().zip(numbers.chain(inputs.iter().copied())) {
-        *place = number;
-    }
-    execute(&program.instructions, &mut file);
+    let mut file = registers();
+    let numbers = constants::first(program, &[]).into_iter().chain(inputs.iter().copied());
+    file.iter_mut().zip(numbers).for_each(|(place, number)| *place = number);
+    execute(program, &mut file);
     program.outputs.iter().map(|register| file[usize::from(*register)]).collect()
+}
+
+/// The same for a block of instances that all have these inputs, of which the last is returned.
+fn run_block(program: &Program, inputs: &[f64]) -> Vec<f64> {
+    let mut file = vec![[(); 2].map(|()| Cell::new(Lanes([f64::NAN; 8]))); program.registers];
+    let numbers = constants::first(program, &[]).into_iter().chain(inputs.iter().copied());
+    for (register, number) in file.iter_mut().zip(numbers) {
+        *register = [(); 2].map(|()| Cell::new(Lanes([number; 8])));
+    }
+    lanes::execute(program, &file);
+    program.outputs.iter().map(|register| file[usize::from(*register)][1].get().0[7]).collect()
 }
 
 #[test]
@@ -58,9 +76,7 @@ fn products_that_one_sum_uses_are_part_of_it() {
         ["f", "add", "r", "e"],
     ]));
     let program = program(&all, 3, &["f"]);
-    let kinds: Vec<_> = program.instructions.iter().map(|instruction| format!("{instruction:?}")).collect();
-    let kinds: Vec<_> = kinds.iter().map(|text| text.split('(').next().unwrap_or_default()).collect();
-    assert_eq!(kinds, ["MulSubMul", "Mul", "Sub", "Add"], "`r` has two uses");
+    assert_eq!(kinds(&program), [Kind::MulSubMul, Kind::Mul, Kind::Sub, Kind::Add], "`r` has two uses");
     assert_eq!(run(&program, &[2.0, 3.0, 5.0]), [6.0 - 15.0 - 4.0 + 4.0]);
 }
 
@@ -70,7 +86,7 @@ fn a_product_with_itself_and_a_wanted_product_stay() {
     assert_eq!(run(&program(&all, 2, &["e", "p"]), &[2.0, 3.0]), [13.0, 6.0]);
     let all = statements(json!([["p", "mul", "x[0]", "x[1]"], ["s", "add", "p", "x[0]"]]));
     let program = program(&all, 2, &["s", "p"]);
-    assert!(matches!(program.instructions[..], [Instruction::Mul(_), Instruction::Add(_)]), "{program:?}");
+    assert_eq!(kinds(&program), [Kind::Mul, Kind::Add]);
 }
 
 #[test]
@@ -78,7 +94,7 @@ fn one_of_sine_and_cosine_may_be_wanted() {
     let all = statements(json!([[["s", "c"], "sin_cos", "x[0]"], ["y", "mul", "c", 2.0], ["z", "neg", "x[0]"]]));
     assert_eq!(run(&program(&all, 1, &["y", "z"]), &[0.0]), [2.0, -0.0]);
     assert_eq!(run(&program(&all, 1, &["s"]), &[0.0]), [0.0]);
-    assert!(program(&all, 1, &["z"]).instructions.len() == 1, "no sine for nothing");
+    assert_eq!(kinds(&program(&all, 1, &["z"])), [Kind::Neg], "no sine for nothing");
 }
 
 /// Random statements of all operations, computed one after the other under their names, have the same bits.
@@ -137,29 +153,39 @@ fn programs_compute_what_their_statements_say() {
         let wanted: Vec<&str> = names.iter().map(String::as_str).filter(|_| random.random_range(0..4) == 0).collect();
         let program = program(&all, 4, &wanted);
         let expected: Vec<f64> = wanted.iter().map(|name| known[*name]).collect();
-        for (found, expected) in run(&program, &inputs).iter().zip(&expected) {
-            assert!(
-                found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()),
-                "{found} {expected}"
-            );
+        for found in [run(&program, &inputs), run_block(&program, &inputs)] {
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!(
+                    found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan()),
+                    "{found} {expected}"
+                );
+            }
         }
     }
 }
 
-/// Those of forward dynamics are few: results share them.
+/// Those of forward dynamics are few: results share them, and have those of inputs.
 #[test]
 fn results_share_registers() {
     let graph = graph::read_any(&shipped()).expect("sound");
     let evaluator = super::Evaluator::new(&graph).expect("all functions");
-    let program = &evaluator.functions.forward_dynamics[0].program;
-    let last = program.instructions.iter().map(|instruction| format!("{instruction:?}"));
-    let last = last.flat_map(|text| {
-        let numbers = text.split(|c: char| !c.is_ascii_digit()).filter_map(|part| part.parse::<usize>().ok());
-        numbers.collect::<Vec<_>>()
-    });
-    let first = program.constants.len() + 3 + 2 + 3 + 2 + 2;
-    let results = last.max().unwrap_or(0) - first;
-    assert!(results < program.instructions.len() / 3, "{results} for {} instructions", program.instructions.len());
+    let program = &evaluator.function("forward_dynamics").expect("there").program;
+    let inputs = 3 + 2 + 3 + 2 + 2;
+    let others = program.registers - program.constants.len() - inputs;
+    let count = kinds(program).len();
+    assert!(others < count / 4, "{others} besides {inputs} for inputs, for {count} instructions");
+}
+
+/// Instructions that do not need each other follow each other, those of one kind above all.
+#[test]
+fn instructions_of_one_kind_follow_each_other() {
+    let graph = graph::read_any(&text_of("dual_arm_3r")).expect("sound");
+    let evaluator = super::Evaluator::new(&graph).expect("all functions");
+    let program = &evaluator.function("forward_dynamics").expect("there").program;
+    let (runs, count) = (program.runs().count(), kinds(program).len());
+    assert!(runs * 2 < count, "{runs} runs of {count} instructions");
+    let first = program.runs().next().expect("instructions");
+    assert_eq!((first.0, first.1.len()), (Kind::SinCos, 7), "what others wait for longest is first");
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod coordinates;
 mod equivalence;
 mod float;
 mod generic;
+mod graph_batches;
 mod graph_models;
 mod identities;
 mod integrators;
