@@ -1,15 +1,24 @@
 //! Calls a function of the paper's robot as often as asked for: `instructions FUNCTION CALLS`.
 
+use planar_build::evaluator::{self, Evaluator, GraphModel, Order};
+use planar_build::graph;
 use planar_capture::batch::{Accelerations, Batch, States, Status};
 use planar_capture::control::ProportionalDerivative;
-use planar_capture::error::Error;
+use planar_capture::dynamics::{ForwardDynamics, Impact};
 use planar_capture::formulation::derivative;
 use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
 use planar_capture::integrate::RungeKutta4;
-use planar_capture::state::{State, vector_length};
+use planar_capture::state::{Forces, State, vector_length};
+use planar_capture::target::Target;
 use planar_capture::trajectory::ConstantSetpoint;
+use planar_layout::layout::Layout;
 use std::hint::black_box;
+use std::path::Path;
 use std::process::ExitCode;
+use std::sync::Arc;
+
+/// Any error.
+type Problem = Box<dyn std::error::Error>;
 
 const POSE: [f64; 3] = [0.4, 1.0, -2.0];
 const ANGLES: [f64; JOINTS] = [0.3, -1.2, 0.7, 2.1, 1.4, -0.6];
@@ -33,7 +42,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(function: &str, calls: u32) -> Result<(), Error> {
+fn run(function: &str, calls: u32) -> Result<(), Problem> {
     let model = black_box(Model::<f64>::default());
     let inputs = (POSE, ANGLES, TWIST, RATES, TORQUES, TARGETS);
     match function {
@@ -64,13 +73,36 @@ fn run(function: &str, calls: u32) -> Result<(), Error> {
         }
         "runge_kutta_step" => steps(&model, calls)?,
         "batch_of_64" => batches(&model, calls)?,
+        "graph_forward_dynamics" => {
+            let (graph, mut joints) = (graph_model()?, [0.0; JOINTS]);
+            let state = State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES };
+            for _ in 0..calls {
+                black_box(graph.forward_dynamics(black_box(&state), &Forces::torques(&TORQUES), &mut joints)?);
+            }
+        }
+        "graph_full_impact" => {
+            let (graph, mut joints) = (graph_model()?, [0.0; JOINTS]);
+            let state = State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES };
+            let (masses, inertias, contacts, twists) = TARGETS;
+            let target = |arm: usize| Target {
+                mass: masses[arm],
+                inertia: inertias[arm],
+                contact: contacts[arm],
+                twist: twists[arm],
+            };
+            let targets = [Some(target(0)), Some(target(1))];
+            for _ in 0..calls {
+                black_box(graph.full_impact(black_box(&state), &targets, &mut joints)?);
+            }
+        }
+        "graph_batch_of_64" => graph_batches(calls)?,
         _ => eprintln!("there is no function {function}"),
     }
     Ok(())
 }
 
 /// Steps of the core's integrator under PD control.
-fn steps(model: &Model<f64>, calls: u32) -> Result<(), Error> {
+fn steps(model: &Model<f64>, calls: u32) -> Result<(), Problem> {
     let mut vector = [0.0; vector_length(JOINTS)];
     State { base_pose: POSE, joint_angles: &ANGLES, base_twist: TWIST, joint_rates: &RATES }.write(&mut vector)?;
     let mut workspace = [0.0; RungeKutta4::<f64>::WORKSPACE * vector_length(JOINTS)];
@@ -91,7 +123,7 @@ fn steps(model: &Model<f64>, calls: u32) -> Result<(), Error> {
 }
 
 /// Forward dynamics of 64 states at once.
-fn batches(model: &Model<f64>, calls: u32) -> Result<(), Error> {
+fn batches(model: &Model<f64>, calls: u32) -> Result<(), Problem> {
     let rows = |numbers: &[f64]| numbers.iter().flat_map(|number| [*number; 64]).collect::<Vec<_>>();
     let [poses, angles, twists, rates, torques] = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(rows);
     let states = States { base_poses: &poses, joint_angles: &angles, base_twists: &twists, joint_rates: &rates };
@@ -99,6 +131,31 @@ fn batches(model: &Model<f64>, calls: u32) -> Result<(), Error> {
     for _ in 0..calls {
         let mut found = Accelerations { base: &mut base, joints: &mut joints };
         Batch::new(model).forward_dynamics(&states, &torques, &mut found, black_box(&mut [Status::Done; 64]))?;
+        black_box(&mut base);
+    }
+    Ok(())
+}
+
+/// The robot's graph, evaluated.
+fn graph_model() -> Result<GraphModel, Problem> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen");
+    let text = std::fs::read_to_string(folder.join("graphs/dual_arm_3r.json"))?;
+    let evaluator = Arc::new(Evaluator::new(&graph::read_any(&text)?)?);
+    let layout = Layout::read(&folder.join("layouts/dual_arm_3r.toml")).map_err(|report| report.to_string())?;
+    evaluator.model(&layout).map_err(|_| "the layout has another structure".into())
+}
+
+/// As [`batches`], by the graph.
+fn graph_batches(calls: u32) -> Result<(), Problem> {
+    let model = graph_model()?;
+    let rows = |numbers: &[f64]| numbers.iter().flat_map(|number| [*number; 64]).collect::<Vec<_>>();
+    let inputs = [&POSE[..], &ANGLES, &TWIST, &RATES, &TORQUES].map(rows);
+    let inputs = inputs.each_ref().map(Vec::as_slice);
+    let (mut base, mut joints) = ([0.0; 3 * 64], [0.0; JOINTS * 64]);
+    for _ in 0..calls {
+        let mut outputs = [Some(&mut base[..]), Some(&mut joints[..]), None];
+        let batch = evaluator::Batch::of(&model).in_order(Order::Elements);
+        batch.call("forward_dynamics", black_box(&inputs), &mut outputs, &mut [Status::Done; 64])?;
         black_box(&mut base);
     }
     Ok(())
