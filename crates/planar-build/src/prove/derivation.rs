@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::Duration;
 use std::{env, fs};
 
 /// Interpreters to look for, best first.
@@ -12,6 +13,11 @@ const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12",
 
 /// The program that tells a new enough Python from an old one by its exit status.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
+
+/// The names of folders in which the package is being unpacked: this, then letters and digits.
+const UNPACKING: &str = ".unpacking-";
+/// No process unpacks for so long.
+const ABANDONED: Duration = Duration::from_secs(3600);
 
 /// No graph was derived.
 #[derive(Debug, thiserror::Error)]
@@ -114,7 +120,8 @@ fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationErro
     }
     let failed = |source| DerivationError::File { path: place.clone(), source };
     fs::create_dir_all(home).map_err(failed)?;
-    let building = tempfile::tempdir_in(home).map_err(failed)?;
+    remove_abandoned(home);
+    let building = tempfile::Builder::new().prefix(UNPACKING).tempdir_in(home).map_err(failed)?;
     let folder = building.path().join("codegen");
     fs::create_dir(&folder).map_err(failed)?;
     for (name, text) in files {
@@ -124,6 +131,20 @@ fn unpack(home: &Path, files: &[(&str, &str)]) -> Result<PathBuf, DerivationErro
         // otherwise another process was faster, with the same content
         Err(error) if !place.join("codegen").is_dir() => Err(failed(error)),
         _ => Ok(place),
+    }
+}
+
+/// Removes the folders that processes which were killed while they unpacked have left; unpacking takes milliseconds.
+fn remove_abandoned(home: &Path) {
+    let is_old = |entry: &fs::DirEntry| {
+        let age = entry.metadata().and_then(|data| data.modified()).ok().and_then(|time| time.elapsed().ok());
+        age.is_some_and(|age| age > ABANDONED)
+    };
+    let entries = fs::read_dir(home).into_iter().flatten().flatten();
+    let unpacking = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(UNPACKING));
+    for entry in unpacking.filter(is_old) {
+        // the next process tries again
+        let _ = fs::remove_dir_all(entry.path());
     }
 }
 
@@ -164,5 +185,31 @@ fn run(mut command: Command, python: &OsString, say: &mut dyn FnMut(&str)) -> Re
         Ok(())
     } else {
         Err(DerivationError::Failed { status: status.to_string(), output: output.join("\n") })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ABANDONED, UNPACKING, unpack};
+    use std::fs::{self, File};
+    use std::time::SystemTime;
+
+    #[test]
+    fn what_killed_processes_left_is_removed_and_nothing_else() {
+        let home = tempfile::tempdir().expect("a folder");
+        let folder = |name: &str| {
+            let folder = home.path().join(name);
+            fs::create_dir_all(folder.join("codegen")).expect("made");
+            folder
+        };
+        let [old, new, other] =
+            [format!("{UNPACKING}old"), format!("{UNPACKING}new"), "old".to_owned()].map(|n| folder(&n));
+        for path in [&old, &other] {
+            let long_ago = SystemTime::now() - 2 * ABANDONED;
+            File::open(path).expect("a folder").set_modified(long_ago).expect("set");
+        }
+        let package = unpack(home.path(), &[("__main__.py", "pass")]).expect("unpacked");
+        assert!(package.join("codegen/__main__.py").is_file());
+        assert!(!old.exists() && new.exists() && other.exists());
     }
 }
