@@ -23,9 +23,9 @@ pub enum TerminalRatesError {
     PhaseError(#[from] PhaseError),
     /// The terminal rates grew until their approach could not be tracked, or ended in a singular pose.
     #[error(
-        "the terminal joint rates for the wanted end effector twists grow without bound, to {largest_rate:.3e} rad/s in \
-         iteration {iteration}: the final pose is close to singular (generalized Jacobian: smallest/largest singular value \
-         {singularity_margin:.1e}). Choose other final_joint_angles, or final_end_effector_twists that the arms can \
+        "no terminal joint rates were found for the wanted end effector twists: in iteration {iteration}, at up to \
+         {largest_rate:.3e} rad/s, the approach ends in a pose that is close to singular (generalized Jacobian: \
+         smallest/largest singular value {singularity_margin:.1e}), or not at all. Choose other final_joint_angles, or final_end_effector_twists that the arms can \
          give{}",
         source.as_ref().map(|source| format!(" ({source})")).unwrap_or_default()
     )]
