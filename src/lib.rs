@@ -168,6 +168,8 @@ pub mod frames;
 #[cfg(feature = "std")]
 pub mod graphs;
 #[cfg(feature = "std")]
+pub mod laws;
+#[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "cli")]
 pub mod own_crate;

@@ -31,6 +31,7 @@ use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
+use crate::laws::{Laws, OwnLaws};
 use crate::owned::CloneModel;
 use crate::scalar::Real;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
@@ -248,17 +249,35 @@ pub fn study(
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
+    study_with(scenario, make, Laws::default(), sample, observer)
+}
+
+/// As [`study`], with laws of one's own in place of those that the scenario names.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn study_with(
+    scenario: &Scenario,
+    make: ModelFactory<'_>,
+    laws: Laws<'_>,
+    sample: f64,
+    observer: &mut dyn Observer,
+) -> Result<Study, StudyError> {
+    let about = |origin| OwnLaws { laws, scenario, origin };
     match Origin::of(scenario) {
         Some(origin) => {
-            study_about_origin(&origin.relative(scenario), make, sample, observer).map(|study| origin.absolute(study))
+            let relative = origin.relative(scenario);
+            let study = study_about_origin(&relative, make, about(origin.position()), sample, observer)?;
+            Ok(origin.absolute(study))
         }
-        None => study_about_origin(scenario, make, sample, observer),
+        None => study_about_origin(scenario, make, about([0.0; 2]), sample, observer),
     }
 }
 
 fn study_about_origin(
     scenario: &Scenario,
     make: ModelFactory<'_>,
+    own: OwnLaws<'_>,
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
@@ -277,16 +296,18 @@ fn study_about_origin(
         }
         None => None,
     };
-    let mut designed;
-    let scenario = match &inverse_kinematics {
-        Some(inverse_kinematics) => {
-            designed = scenario.clone();
-            designed.approach.final_joint_angles.clone_from(&inverse_kinematics.joint_angles);
-            &designed
+    let (mut designed, mut given): (Scenario, Scenario);
+    let (scenario, own) = match &inverse_kinematics {
+        Some(InverseKinematics { joint_angles, .. }) => {
+            (designed, given) = (scenario.clone(), own.scenario.clone());
+            designed.approach.final_joint_angles.clone_from(joint_angles);
+            given.approach.final_joint_angles.clone_from(joint_angles);
+            (&designed, OwnLaws { scenario: &given, ..own })
         }
-        None => scenario,
+        None => (scenario, own),
     };
-    let approach = ApproachTracking::new(scenario, sample);
+    let own = Some(own);
+    let approach = ApproachTracking::new(scenario, sample).with(own);
     let terminal_rates = match (&scenario.approach.end, &inverse_kinematics) {
         (FinalRates::EndEffectorTwists(_), Some(inverse_kinematics)) => Some(inverse_kinematics.rates.clone()),
         (FinalRates::EndEffectorTwists(wanted), None) if !by_end_effectors => {
@@ -307,7 +328,7 @@ fn study_about_origin(
         .cases
         .iter()
         .map(|case| {
-            let sequence = CaptureSequence { scenario, case, rates: &rates, make, sample };
+            let sequence = CaptureSequence { scenario, case, rates: &rates, make, sample, own };
             match scenario.contact.detection {
                 Detection::Time => sequence.contact_at_time(&approach, observer),
                 Detection::Event => sequence.contact_by_detection(observer),

@@ -20,6 +20,11 @@ impl Origin {
         (x != 0.0 || y != 0.0).then_some(Self([x, y]))
     }
 
+    /// [x, y], m, inertial frame.
+    pub(crate) fn position(self) -> [f64; 2] {
+        self.0
+    }
+
     /// The scenario with its positions counted from here.
     pub(crate) fn relative(self, scenario: &Scenario) -> Scenario {
         let mut scenario = scenario.clone();

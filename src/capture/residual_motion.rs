@@ -4,7 +4,6 @@ use crate::dynamics::AnyModel;
 use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scalar::Real;
-use crate::scenario::PostCaptureControl;
 use crate::simulate::bodies::{BodySums, bodies, inertia_about, with_bodies};
 use crate::simulate::system::Body;
 
@@ -30,14 +29,15 @@ pub struct ResidualMotion {
 }
 
 impl ResidualMotion {
-    /// Of the robot with merged targets and the bodies `held` beside it; `wheels` says which joints turn wheels.
+    /// Of the robot with merged targets and the bodies `held` beside it, under the law of this name; `wheels` says which
+    /// joints turn wheels.
     ///
     /// # Errors
     /// Those of the model.
     pub fn of(
         model: &AnyModel<f64>,
         held: &[Body],
-        control: &PostCaptureControl,
+        control: &'static str,
         state: &RobotState,
         wheels: &[bool],
     ) -> Result<Self, Error> {
@@ -51,7 +51,7 @@ impl ResidualMotion {
         let joints = || state.joint_rates.iter().zip(wheels);
         let [base_rate, ..] = state.base_twist;
         Ok(Self {
-            control: control.name(),
+            control,
             momentum: [angular, px, py],
             velocity: [px / mass, py / mass],
             inertia,

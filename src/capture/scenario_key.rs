@@ -147,6 +147,7 @@ fn of_phase(
 ) -> ScenarioKey {
     match (stopped.source, integration.integrator) {
         (Error::UnsupportedBodies { .. }, _) => key(format!("{table}.coordinates"), "full"),
+        (Error::ContinuousMemory, _) => key(format!("{table}.sample_time"), "none"),
         (Error::Tolerance { .. }, Integrator::Adaptive { tolerance }) => {
             key(format!("{table}.tolerance"), format!("{tolerance:e}"))
         }

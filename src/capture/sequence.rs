@@ -7,14 +7,17 @@ use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
 use crate::capture::contact_detection::{ContactDetection, signed_distance};
 use crate::capture::contact_pair::ContactPair;
 use crate::capture::impact::{ImpactSolution, solve_impact};
-use crate::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
+use crate::capture::post_capture::wheels;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::target_motion::TargetMotion;
 use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Observer, PATH_BOUND, StudyError};
 use crate::contact::ContactLaw;
+use crate::control::Control;
 use crate::error::Error;
+use crate::laws::{InertialFrame, OwnLaws, PostCaptureLaw, PostCaptureTask};
 use crate::owned::RobotState;
-use crate::scenario::{Case, Detection, OnOverlap, PostCaptureControl, PostImpact, Scenario, Target};
+use crate::scenario::{Case, Detection, OnOverlap, PostImpact, Scenario, Target};
+use crate::simulate::actuators::drive;
 use crate::simulate::event::{EndTime, Events};
 use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, PhaseError, Sample, Timing};
@@ -35,6 +38,8 @@ pub(crate) struct CaptureSequence<'a> {
     pub(crate) make: ModelFactory<'a>,
     /// Time between samples, s.
     pub(crate) sample: f64,
+    /// In place of the scenario's laws.
+    pub(crate) own: Option<OwnLaws<'a>>,
 }
 
 impl<'a> CaptureSequence<'a> {
@@ -109,7 +114,7 @@ impl<'a> CaptureSequence<'a> {
 
     /// The approach of this case, up to the first of the events.
     fn track(self, events: &mut dyn Events, observer: &mut dyn Observer) -> Result<Phase, StudyError> {
-        let approach = ApproachTracking::new(self.scenario, self.sample);
+        let approach = ApproachTracking::new(self.scenario, self.sample).with(self.own);
         observer.begin(&format!("approach of {}", self.case.name), approach.steps());
         let model = (self.make)();
         approach.track(&*model, self.rates, events, &mut || observer.step()).map_err(StudyError::Approach)
@@ -187,12 +192,18 @@ impl<'a> CaptureSequence<'a> {
             post_impact = post_impact.then(next);
             target_paths.extend(path);
         }
-        let residual_motion = match &after.control {
-            PostCaptureControl::None => None,
-            control => Some(moving.residual_motion(control, &post_impact)?),
-        };
+        let (law, _) = self.post_capture_law(after);
+        let residual_motion = if law.acts() { Some(moving.residual_motion(law, &post_impact)?) } else { None };
         let penetration = clearance.penetration();
         Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
+    }
+
+    /// The law of the motion after the impact, and one's own laws if it is one of these.
+    fn post_capture_law(self, after: &'a PostImpact) -> (&'a dyn PostCaptureLaw, Option<OwnLaws<'a>>) {
+        match self.own.and_then(|own| Some((own.laws.post_capture?, own))) {
+            Some((law, own)) => (law, Some(own)),
+            None => (&after.control, None),
+        }
     }
 
     fn clearance_error(self, error: ClearanceError, (table, phase): (&'static str, &Phase)) -> StudyError {
@@ -350,10 +361,24 @@ impl SequenceState<'_> {
         let Scenario { joint_limits, .. } = sequence.scenario;
         let (reach, start_error) = (sequence.scenario.reach(), [&error[0][..], &error[1]]);
         let system = System { joint_limits, reach, start_error, ..assembly.system() };
+        let (law, own) = sequence.post_capture_law(after);
+        let task = PostCaptureTask {
+            scenario: own.map_or(sequence.scenario, |own| own.scenario),
+            model: system.model,
+            wheels: &wheels,
+            angles: &self.angles,
+            since_impact: time,
+            timing,
+        };
         let mut simulate = |events: &mut dyn Events| {
-            let wanted = PostCaptureLaw { after, wheels: &wheels, angles: &self.angles };
-            run_post_capture(&system, wanted, state, &timing, events, &mut || observer.step())
-                .map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))
+            let mut drive = |law: &mut dyn Control<f64>| {
+                drive(&system, law, &after.actuation, state, &timing, events, &mut || observer.step())
+            };
+            let phase = law.control(&task, &mut |law| match own {
+                Some(OwnLaws { origin, .. }) => drive(&mut InertialFrame { law, origin }),
+                None => drive(law),
+            });
+            phase.map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))
         };
         let mut phase = simulate(&mut detection)?;
         clearance.add_evaluations(detection.evaluations());
@@ -381,10 +406,10 @@ impl SequenceState<'_> {
     }
 
     /// The residual motion at the end of a phase.
-    fn residual_motion(&self, control: &PostCaptureControl, phase: &Phase) -> Result<ResidualMotion, StudyError> {
+    fn residual_motion(&self, law: &dyn PostCaptureLaw, phase: &Phase) -> Result<ResidualMotion, StudyError> {
         let wheels = wheels(&self.sequence.scenario.layout, &self.attachments);
         let beside = self.assembly.pinned(&phase.end().bodies);
-        ResidualMotion::of(&*self.assembly.model, &beside, control, &self.state, &wheels)
+        ResidualMotion::of(&*self.assembly.model, &beside, law.name(), &self.state, &wheels)
             .map_err(|source| self.sequence.post_impact_error(phase.duration, source))
     }
 }

@@ -1,6 +1,7 @@
 //! Simulation of a phase under a control law with limited and sampled actuators.
 
 use crate::control::{Control, SampledControl, TorqueLimiter};
+use crate::error::Error;
 use crate::owned::RobotState;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
@@ -38,5 +39,9 @@ pub fn drive(
         Some(steps) => &mut SampledControl::new(law, steps, &mut held),
         None => law,
     };
-    simulate(system, law, initial, timing, events, tick)
+    if law.has_memory() && law.held_steps().is_none() {
+        return Err(PhaseError { time: 0.0, source: Error::ContinuousMemory });
+    }
+    let phase = simulate(system, law, initial, timing, events, tick)?;
+    Ok(Phase { singularity_margin: law.singularity_margin(), ..phase })
 }

@@ -197,12 +197,13 @@ impl PhaseError {
     /// Whether it was refused, rather than broken down.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
-        matches!(self.source, Error::UnsupportedBodies { .. } | Error::Steps { .. })
+        matches!(self.source, Error::UnsupportedBodies { .. } | Error::Steps { .. } | Error::ContinuousMemory)
     }
 
     fn hint(&self) -> &'static str {
         match self.source {
             Error::UnsupportedBodies { .. } => ", expected `coordinates = \"full\"`",
+            Error::ContinuousMemory => "",
             Error::Tolerance { .. } => " (a larger one may help)",
             Error::Steps { .. } => " (smaller gains of a control, a shorter step, or a fixed integrator, may help)",
             _ => " (a shorter step, or smaller gains of a control, may help)",

@@ -11,6 +11,7 @@ mod events;
 mod far_origin;
 mod figures;
 mod inverse_kinematics;
+mod laws;
 mod long_phases;
 mod long_steps;
 mod maximal_coordinates;

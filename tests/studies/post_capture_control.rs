@@ -2,11 +2,14 @@
 
 use crate::{run, scenario, summary};
 use planar_capture::capture::CaptureResult;
-use planar_capture::capture::post_capture::{PostCaptureLaw, run_post_capture, wheels};
+use planar_capture::capture::post_capture::wheels;
 use planar_capture::capture::residual_motion::ResidualMotion;
+use planar_capture::control::Control;
+use planar_capture::laws::{PostCaptureLaw, PostCaptureTask};
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
-use planar_capture::scenario::{Actuation, PostCaptureControl, PostImpact, Scenario};
+use planar_capture::scenario::{Actuation, PostCaptureControl, Scenario};
+use planar_capture::simulate::actuators::drive;
 use planar_capture::simulate::event::NoEvents;
 use planar_capture::simulate::stepper::Integration;
 use planar_capture::simulate::system::System;
@@ -150,15 +153,18 @@ fn stabilise_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>)
         base_gain: 0.7,
         base_torque_limit,
     };
-    let integration = Integration::default();
-    let after = PostImpact { duration: 4.0, step: 0.01, control, actuation: Actuation::default(), integration };
-    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration };
+    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration: Integration::default() };
     let start = RobotState::from_view(&s.state());
-    let expected = PostCaptureLaw { after: &after, wheels: &wheels, angles: &s.joint_angles };
-    let phase = run_post_capture(&System::alone(&*model), expected, &start, &timing, &mut NoEvents, &mut || ())
-        .expect("a phase");
+    let (system, scenario) = (System::alone(&*model), scenario("raina_shah_2017"));
+    let (model, angles) = (&*model, &s.joint_angles[..]);
+    let task = PostCaptureTask { scenario: &scenario, model, wheels: &wheels, angles, since_impact: 0.0, timing };
+    let mut run = |law: &mut dyn Control<f64>| {
+        drive(&system, law, &Actuation::default(), &start, &timing, &mut NoEvents, &mut || ())
+    };
+    let phase = control.control(&task, &mut run).expect("a phase");
     let end = phase.end().state.clone();
-    let residual = ResidualMotion::of(&*model, &[], &after.control, &end, &wheels).expect("a residual motion");
+    let residual =
+        ResidualMotion::of(model, &[], PostCaptureControl::name(&control), &end, &wheels).expect("a residual motion");
     (phase, residual, wheels)
 }
 

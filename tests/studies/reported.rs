@@ -93,7 +93,7 @@ fn the_largest_joint_rate_is_of_the_joints_without_wheels() {
         base_twist: [0.0; 3],
         joint_rates: rates.clone(),
     };
-    let found = ResidualMotion::of(&*model, &[], &PostCaptureControl::None, &state, &wheels).expect("a motion");
+    let found = ResidualMotion::of(&*model, &[], "none", &state, &wheels).expect("a motion");
     assert_close("largest", &[found.largest_joint_rate], &[0.3], 0.0);
     assert_eq!(found.wheel_rates, rates.iter().copied().filter(|rate| rate.abs() > 1.0).collect::<Vec<_>>());
 }

@@ -117,6 +117,9 @@ pub enum Error {
         /// How many there may be.
         most: f64,
     },
+    /// A law that remembers earlier calls, at every stage of a step.
+    #[error("the control law remembers what it was called with, and acts continuously: it needs a sample time")]
+    ContinuousMemory,
     /// Reduced coordinates of a system with more than the robot.
     #[error("reduced coordinates are for a robot alone, found {count} bodies or constraints beside it")]
     UnsupportedBodies {

@@ -6,16 +6,16 @@ pub mod exact_end;
 pub mod inverse_kinematics;
 pub mod terminal_rates;
 
-use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::capture::approach::exact_end::{ApproachEnd, exact_end};
-use crate::control::{ComputedTorque, Control, InverseDynamics, ProportionalDerivative};
+use crate::control::Control;
 use crate::dynamics::AnyModel;
+use crate::laws::{InertialFrame, OwnLaws, TrackingLaw, TrackingTask};
 use crate::owned::RobotState;
-use crate::scenario::{self, Scenario, Tracking};
+use crate::scenario::{self, Scenario};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
 use crate::simulate::system::System;
-use crate::simulate::{Phase, PhaseError, Timing, simulate};
+use crate::simulate::{Phase, PhaseError, Timing};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
 
 /// The approach of one scenario.
@@ -23,6 +23,7 @@ use crate::trajectory::{AnyTrajectory, PointToPoint};
 pub struct ApproachTracking<'a> {
     scenario: &'a Scenario,
     timing: Timing,
+    own: Option<OwnLaws<'a>>,
 }
 
 impl<'a> ApproachTracking<'a> {
@@ -30,7 +31,13 @@ impl<'a> ApproachTracking<'a> {
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
         let scenario::Approach { duration, step, integration, .. } = scenario.approach;
-        Self { scenario, timing: Timing { duration, step, sample, integration } }
+        Self { scenario, timing: Timing { duration, step, sample, integration }, own: None }
+    }
+
+    /// Tracked by another law than the scenario's, where there is one.
+    #[must_use]
+    pub(crate) fn with(self, own: Option<OwnLaws<'a>>) -> Self {
+        Self { own, ..self }
     }
 
     /// Number of steps.
@@ -51,33 +58,22 @@ impl<'a> ApproachTracking<'a> {
         events: &mut dyn Events,
         tick: &mut dyn FnMut(),
     ) -> Result<Phase, PhaseError> {
-        let trajectory = self.trajectory(rates);
-        let joints = model.joints();
-        let initial = &self.scenario.initial;
-        let actuation = &self.scenario.approach.actuation;
-        let mut drive = |law: &mut dyn Control<f64>| {
-            drive(&self.system(model), law, actuation, initial, &self.timing, events, tick)
+        let own = self.own.and_then(|own| Some((own, own.laws.tracking?)));
+        let (law, scenario): (&dyn TrackingLaw, _) = match own {
+            Some((own, law)) => (law, own.scenario),
+            None => (&self.scenario.approach.tracking, self.scenario),
         };
-        match &self.scenario.approach.tracking {
-            Tracking::InverseDynamics => self.by_inverse_dynamics(model, rates, events, tick),
-            Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
-                drive(&mut ProportionalDerivative { trajectory, proportional_gain, derivative_gain })
-            }
-            Tracking::ComputedTorque { proportional_gain, derivative_gain } => drive(&mut ComputedTorque {
-                trajectory,
-                proportional_gain,
-                derivative_gain,
-                generalized_inertia: &mut vec![0.0; joints * joints],
-                generalized_bias: &mut vec![0.0; joints],
-                generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
-            }),
-            Tracking::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
-                let mut end_effectors = EndEffectorFeedback::new(model, self.scenario)?;
-                let mut law = end_effectors.law([*pose_gain, *rate_gain], *singularity_threshold);
-                let phase = drive(&mut law)?;
-                Ok(Phase { singularity_margin: law.singularity_margin, ..phase })
-            }
-        }
+        let initial = if law.starts_on_trajectory() { self.start() } else { self.scenario.initial.clone() };
+        let system =
+            System { joint_limits: &self.scenario.joint_limits, reach: self.scenario.reach(), ..System::alone(model) };
+        let mut drive = |law: &mut dyn Control<f64>| {
+            drive(&system, law, &self.scenario.approach.actuation, &initial, &self.timing, events, tick)
+        };
+        let task = TrackingTask { scenario, model, trajectory: self.trajectory(rates), timing: self.timing };
+        law.track(&task, &mut |law| match own {
+            Some((OwnLaws { origin, .. }, _)) => drive(&mut InertialFrame { law, origin }),
+            None => drive(law),
+        })
     }
 
     /// Its end when it is tracked exactly, for a design: whatever the scenario's law and integrator are.
@@ -98,28 +94,6 @@ impl<'a> ApproachTracking<'a> {
             initial.joint_rates.fill(0.0);
         }
         initial
-    }
-
-    /// Simulates it with torques from inverse dynamics.
-    fn by_inverse_dynamics(
-        &self,
-        model: &AnyModel<f64>,
-        rates: &[f64],
-        events: &mut dyn Events,
-        tick: &mut dyn FnMut(),
-    ) -> Result<Phase, PhaseError> {
-        let joints = model.joints();
-        let mut law = InverseDynamics {
-            trajectory: self.trajectory(rates),
-            generalized_inertia: &mut vec![0.0; joints * joints],
-            generalized_bias: &mut vec![0.0; joints],
-            generalized_jacobian: &mut vec![0.0; 3 * model.arms() * joints],
-        };
-        simulate(&self.system(model), &mut law, &self.start(), &self.timing, events, tick)
-    }
-
-    fn system<'s>(&'s self, model: &'s AnyModel<f64>) -> System<'s> {
-        System { joint_limits: &self.scenario.joint_limits, reach: self.scenario.reach(), ..System::alone(model) }
     }
 
     fn trajectory<'r>(&'r self, final_rates: &'r [f64]) -> AnyTrajectory<'r, f64> {

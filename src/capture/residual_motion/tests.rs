@@ -16,7 +16,7 @@ fn the_whole_moves_as_its_bodies() {
     };
     let held = [Body { mass: 40.0, inertia: 5.0, pose: [0.3, 3.0, -2.0], twist: [0.4, 0.5, 0.6] }];
     let wheels = [false, false, true, true];
-    let found = ResidualMotion::of(&*model, &held, &PostCaptureControl::None, &state, &wheels).expect("a motion");
+    let found = ResidualMotion::of(&*model, &held, "none", &state, &wheels).expect("a motion");
     let all = bodies(&*model, &state.view(), &held).expect("bodies");
     let sum = |of: &dyn Fn(&Body) -> f64| all.iter().map(of).sum::<f64>();
     let mass = sum(&|body| body.mass);

@@ -1,6 +1,7 @@
 //! Control laws: joint torques, and the torque of a base actuator, from the state.
 
 mod computed_torque;
+mod estimated_state;
 mod inverse_dynamics;
 mod proportional_derivative;
 mod resolved_motion_rate;
@@ -9,6 +10,7 @@ mod stabilisation;
 mod torque_limiter;
 
 pub use computed_torque::ComputedTorque;
+pub use estimated_state::{EstimatedState, Estimator};
 pub use inverse_dynamics::InverseDynamics;
 pub use proportional_derivative::ProportionalDerivative;
 pub use resolved_motion_rate::{EndEffectorWorkspace, ResolvedMotionRate};
@@ -56,6 +58,19 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         Ok(())
     }
 
+    /// Whether the torques depend on earlier calls too, as those of a law with an estimator, a delay or noise do. Such a law
+    /// has to be sampled: it is called once per sample, and not for another solution of the same motion, which has its
+    /// torques.
+    fn has_memory(&self) -> bool {
+        false
+    }
+
+    /// The smallest ratio so far of the smallest to the largest singular value of a matrix that the law inverts; `None`
+    /// for one that inverts none.
+    fn singularity_margin(&self) -> Option<T> {
+        None
+    }
+
     /// Exchanges the torques that are held with those of the other solution.
     fn exchange_held(&mut self, _held: &mut [T]) {}
 
@@ -94,6 +109,14 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for
 
     fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
         (**self).sample_beside(time, model, state, held)
+    }
+
+    fn has_memory(&self) -> bool {
+        (**self).has_memory()
+    }
+
+    fn singularity_margin(&self) -> Option<T> {
+        (**self).singularity_margin()
     }
 
     fn exchange_held(&mut self, held: &mut [T]) {

@@ -134,6 +134,10 @@ fn acceleration<T: Real>(jacobian: &[T], state: &State<'_, T>, base_acceleration
 }
 
 impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> {
+    fn singularity_margin(&self) -> Option<T> {
+        self.singularity_margin
+    }
+
     fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let (joints, arms) = (model.joints(), model.arms());
         length("joint_torques", joints, torques.len())?;

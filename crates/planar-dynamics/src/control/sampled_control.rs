@@ -49,10 +49,21 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for SampledC
     }
 
     fn sample_beside(&mut self, time: T, model: &M, state: &State<'_, T>, held: &mut [T]) -> Result<(), Error> {
-        if self.steps_left == 0 { self.law.joint_torques(time, model, state, held) } else { Ok(()) }
+        if self.steps_left == 0 && !self.law.has_memory() {
+            self.law.joint_torques(time, model, state, held)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn singularity_margin(&self) -> Option<T> {
+        self.law.singularity_margin()
     }
 
     fn exchange_held(&mut self, held: &mut [T]) {
+        if self.law.has_memory() {
+            return;
+        }
         for (own, other) in self.held.iter_mut().zip(held) {
             core::mem::swap(own, other);
         }

@@ -44,6 +44,14 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for TorqueLi
         self.law.sample_beside(time, model, state, held)
     }
 
+    fn has_memory(&self) -> bool {
+        self.law.has_memory()
+    }
+
+    fn singularity_margin(&self) -> Option<T> {
+        self.law.singularity_margin()
+    }
+
     fn exchange_held(&mut self, held: &mut [T]) {
         self.law.exchange_held(held);
     }
