@@ -114,11 +114,10 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
 /// design of the end, which is that of exact tracking.
 fn is_of_every_run(error: &StudyError) -> bool {
     match error {
-        StudyError::Inside { .. } => true,
         StudyError::InverseKinematics(InverseKinematicsError::Rates(error)) | StudyError::TerminalRates(error) => {
             !matches!(error, TerminalRatesError::PhaseError(_))
         }
-        StudyError::InverseKinematics(_) => true,
+        StudyError::Inside { .. } | StudyError::InverseKinematics(_) => true,
         _ => false,
     }
 }

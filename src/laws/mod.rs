@@ -5,10 +5,12 @@
 //! make one for a phase, with its working space and its trajectory: any [`Trajectory`](crate::trajectory::Trajectory) may
 //! take the place of the scenario's, and an [`Estimator`](crate::control::Estimator) that of the state.
 
+mod end_effector_feedback;
 mod inertial_frame;
 mod post_capture;
 mod tracking;
 
+pub use end_effector_feedback::EndEffectorFeedback;
 pub(crate) use inertial_frame::InertialFrame;
 pub use post_capture::{PostCaptureLaw, PostCaptureTask};
 pub use tracking::{TrackingLaw, TrackingTask};

@@ -1,7 +1,7 @@
 //! Laws of the approach.
 
+use super::EndEffectorFeedback;
 use super::Run;
-use crate::capture::approach::end_effector_paths::EndEffectorFeedback;
 use crate::control::{ComputedTorque, InverseDynamics, ProportionalDerivative};
 use crate::dynamics::AnyModel;
 use crate::scenario::{Scenario, Tracking};

@@ -2,8 +2,8 @@
 
 use crate::{run, scenario, summary};
 use planar_capture::capture::Study;
-use planar_capture::capture::approach::end_effector_paths::EndEffectorFeedback;
 use planar_capture::control::Control;
+use planar_capture::laws::EndEffectorFeedback;
 use planar_capture::owned::{CloneModel, RobotState};
 use planar_capture::registry;
 use planar_capture::scenario::{Actuation, EndEffectorGoal, FinalRates, Scenario, Tracking};
