@@ -147,6 +147,8 @@ pub use planar_build::prove::{self as generate, evaluation, generic, owned, quan
 #[cfg(feature = "std")]
 pub use planar_layout::{diagnostic, format, layout, outline, structure};
 
+#[cfg(feature = "sweep")]
+pub mod campaign;
 #[cfg(feature = "std")]
 pub mod capture;
 #[cfg(feature = "std")]

@@ -47,6 +47,12 @@ impl<'a> Value<'a> {
         self.tree.as_str()
     }
 
+    /// `true` or `false`, if this is one; adds no problem.
+    #[must_use]
+    pub fn as_bool(&self) -> Option<bool> {
+        self.tree.as_bool()
+    }
+
     /// Whether this is an array.
     #[must_use]
     pub fn is_array(&self) -> bool {

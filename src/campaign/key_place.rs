@@ -1,0 +1,193 @@
+//! Where a key is in the tree of a scenario or layout. What is left at its default there is written out first.
+
+use super::key_path::Step;
+use crate::diagnostic::{listing, nearest};
+use crate::scenario::{PostCaptureControl, Scenario, Tracking};
+use toml::{Table, Value};
+
+/// Keys of tables and indices of lists.
+pub type Place = Vec<Step>;
+
+/// What no case can have another one of.
+const FIXED: [&str; 2] = ["name", "layout"];
+
+/// The place of a path, whose tables and lists are in the tree afterwards; the value may be absent.
+///
+/// # Errors
+/// What is wrong with the path.
+pub fn place(tree: &mut Table, path: &[Step], in_layout: bool, scenario: &Scenario) -> Result<Place, String> {
+    if let Some(Step::Name(last)) = path.last()
+        && FIXED.contains(&last.as_str())
+    {
+        return Err(format!("a `{last}` cannot vary"));
+    }
+    let mut place = Vec::new();
+    let mut rest = path;
+    let mut inner = tree;
+    loop {
+        let [Step::Name(key), after @ ..] = rest else {
+            return Err("a table has keys, not places: expected `.` and a key".to_owned());
+        };
+        place.push(Step::Name(key.clone()));
+        if after.is_empty() {
+            if inner.get(key).is_some_and(Value::is_table) || is_list_of_tables(inner.get(key)) {
+                return Err(format!("`{key}` is a table, expected `.` and a key in it"));
+            }
+            return Ok(place);
+        }
+        if let Step::Index(index) = after[0]
+            && !is_list_of_tables(inner.get(key))
+        {
+            return match after {
+                [_] => {
+                    write_out(inner, key, || default_list(path, in_layout, scenario), scenario)?;
+                    element(&inner[key], &mut place, index).map(|()| place)
+                }
+                [_, Step::Index(second)] => {
+                    let list = inner.get(key).ok_or_else(|| format!("`{key}` is not given"))?;
+                    element(list, &mut place, index)?;
+                    element(&list[index], &mut place, *second).map(|()| place)
+                }
+                _ => Err(format!("`{key}` is no list of tables")),
+            };
+        }
+        let value = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
+        rest = after;
+        inner = match value {
+            Value::Table(table) => table,
+            Value::Array(tables) if is_list(tables) => {
+                let index = index_in(tables, key, &after[0])?;
+                place.push(Step::Index(index));
+                rest = &after[1..];
+                if rest.is_empty() {
+                    return Err("it is a table, expected `.` and a key in it".to_owned());
+                }
+                match &mut tables[index] {
+                    Value::Table(table) => table,
+                    _ => return Err(format!("`{key}` is no list of tables")),
+                }
+            }
+            _ => return Err(format!("`{key}` is no table, expected no `.` after it")),
+        };
+    }
+}
+
+/// Puts a value at a place.
+pub fn set(tree: &mut Table, place: &Place, value: Value) {
+    let [Step::Name(first), rest @ ..] = &place[..] else { unreachable!("a place begins with a key") };
+    let mut slot = tree.entry(first.clone()).or_insert(Value::Boolean(false));
+    for step in rest {
+        slot = match (slot, step) {
+            (Value::Table(table), Step::Name(name)) => table.entry(name.clone()).or_insert(Value::Boolean(false)),
+            (Value::Array(items), Step::Index(index)) => &mut items[*index],
+            _ => unreachable!("a place in this tree"),
+        };
+    }
+    *slot = value;
+}
+
+fn is_list(items: &[Value]) -> bool {
+    !items.is_empty() && items.iter().all(Value::is_table)
+}
+
+fn is_list_of_tables(value: Option<&Value>) -> bool {
+    value.and_then(Value::as_array).is_some_and(|items| is_list(items))
+}
+
+/// The index of the table that a step names; links have no names.
+fn index_in(tables: &[Value], key: &str, step: &Step) -> Result<usize, String> {
+    let names: Vec<&str> = tables.iter().filter_map(|table| table.get("name")?.as_str()).collect();
+    match step {
+        Step::Index(index) if names.is_empty() && *index < tables.len() => Ok(*index),
+        Step::Index(index) if names.is_empty() => {
+            Err(format!("there is no `{key}[{index}]`, expected `{key}[0]` to `{key}[{}]`", tables.len() - 1))
+        }
+        Step::Index(_) => Err(format!("tables of `{key}` are named, expected {}", listing(&names, "or"))),
+        Step::Name(name) => names.iter().position(|known| known == name).ok_or_else(|| {
+            if names.is_empty() {
+                return format!("tables of `{key}` have no names, expected `{key}[0]`");
+            }
+            let near =
+                nearest(name, names.iter().copied()).map_or(String::new(), |near| format!(": did you mean `{near}`?"));
+            format!("there is no `{key}` of the name `{name}`, expected {}{near}", listing(&names, "or"))
+        }),
+    }
+}
+
+/// Makes the value of a key the list that it stands for: a number is one per joint, a missing key its default.
+fn write_out(
+    table: &mut Table,
+    key: &str,
+    default: impl FnOnce() -> Option<Vec<f64>>,
+    scenario: &Scenario,
+) -> Result<(), String> {
+    let list = match table.get(key) {
+        Some(Value::Array(_)) => return Ok(()),
+        Some(number @ (Value::Float(_) | Value::Integer(_))) => vec![number.clone(); scenario.layout.joints()],
+        Some(other) => return Err(format!("`{key}` is {}, expected a list", other.type_str())),
+        None => {
+            let default = default().ok_or_else(|| format!("`{key}` is not given, and has no list as its default"))?;
+            default.into_iter().map(Value::from).collect()
+        }
+    };
+    table.insert(key.to_owned(), Value::Array(list));
+    Ok(())
+}
+
+fn element(list: &Value, place: &mut Place, index: usize) -> Result<(), String> {
+    let count = list.as_array().map_or(0, Vec::len);
+    if index >= count {
+        return Err(format!("there is no element {index}: the list has {count}, counted from 0"));
+    }
+    place.push(Step::Index(index));
+    Ok(())
+}
+
+/// The list that a path, with an index at its end, stands for where its key is not given.
+fn default_list(path: &[Step], in_layout: bool, scenario: &Scenario) -> Option<Vec<f64>> {
+    let names: Vec<&str> = path
+        .iter()
+        .filter_map(|step| match step {
+            Step::Name(name) => Some(name.as_str()),
+            Step::Index(_) => None,
+        })
+        .collect();
+    if in_layout {
+        let (["arm", arm, "link", "com"], [_, _, _, Step::Index(link), ..]) = (&names[..], path) else { return None };
+        let arm = scenario.layout.arms.iter().find(|known| known.name == *arm)?;
+        return Some(arm.links.get(*link)?.com.to_vec());
+    }
+    let target = |name: &str| scenario.targets.iter().position(|target| target.name == name);
+    match names[..] {
+        ["initial", "base_pose"] => Some(scenario.initial.base_pose.to_vec()),
+        ["initial", "base_twist"] => Some(scenario.initial.base_twist.to_vec()),
+        ["initial", "joint_rates"] => Some(scenario.initial.joint_rates.clone()),
+        ["approach", gain] => match &scenario.approach.tracking {
+            Tracking::ProportionalDerivative { proportional_gain, derivative_gain }
+            | Tracking::ComputedTorque { proportional_gain, derivative_gain } => match gain {
+                "proportional_gain" => Some(proportional_gain.clone()),
+                "derivative_gain" => Some(derivative_gain.clone()),
+                _ => None,
+            },
+            Tracking::InverseDynamics | Tracking::ResolvedMotionRate { .. } => None,
+        },
+        ["post_impact", gain] => match (&scenario.post_impact.as_ref()?.control, gain) {
+            (PostCaptureControl::Hold { proportional_gain, .. }, "proportional_gain") => {
+                Some(proportional_gain.clone())
+            }
+            (
+                PostCaptureControl::Hold { derivative_gain, .. }
+                | PostCaptureControl::Damping { derivative_gain }
+                | PostCaptureControl::Stabilise { derivative_gain, .. },
+                "derivative_gain",
+            ) => Some(derivative_gain.clone()),
+            _ => None,
+        },
+        ["target", name, "twist"] => Some(scenario.targets[target(name)?].twist.to_vec()),
+        ["case", case, "target_twists", name] => {
+            let case = scenario.cases.iter().find(|known| known.name == case)?;
+            Some(case.target_twists[target(name)?].to_vec())
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,16 @@
+//! Campaigns: one case of a scenario many times, with values drawn from distributions.
+
+pub mod copula;
+pub mod distribution;
+pub mod key_path;
+mod key_place;
+pub mod normal;
+pub mod outputs;
+mod reader;
+pub mod sampling;
+pub mod sweep;
+pub mod uniform;
+pub mod variation;
+pub mod varied_value;
+
+pub use reader::Campaign;

@@ -1,0 +1,271 @@
+//! The numbers that a case leaves: the default ones, and groups of others.
+
+use crate::capture::impact::ImpactResult;
+use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::scenario::Scenario;
+use crate::simulate::Phase;
+use crate::simulate::conservation::ConservationErrors;
+use std::fmt;
+
+const POSE: [(&str, &str); 3] = [("yaw", "rad"), ("x", "m"), ("y", "m")];
+const TWIST: [(&str, &str); 3] = [("omega", "rad/s"), ("vx", "m/s"), ("vy", "m/s")];
+const IMPULSE: [(&str, &str); 3] = [("n", "N m s"), ("fx", "N s"), ("fy", "N s")];
+const FORCE: [(&str, &str); 3] = [("n", "N m"), ("fx", "N"), ("fy", "N")];
+const MOMENTUM: [(&str, &str); 3] = [("l", "N m s"), ("px", "N s"), ("py", "N s")];
+
+/// Outputs that a sweep has if it names them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputGroup {
+    /// Impulses over the duration of the contact.
+    MeanForces,
+    /// The state at the end of the approach.
+    ApproachEnd,
+    /// The state at the end of the post-impact motion.
+    PostImpactEnd,
+    /// The designed joint rates at the end of the approach.
+    TerminalRates,
+    /// Estimated errors of the paths, and drifts of the centre of mass.
+    PathErrors,
+    /// Impulses by the paper's equations.
+    Paper,
+}
+
+impl OutputGroup {
+    /// All of them with their names in sweeps.
+    pub const ALL: [(&'static str, Self); 6] = [
+        ("mean_forces", Self::MeanForces),
+        ("approach_end", Self::ApproachEnd),
+        ("post_impact_end", Self::PostImpactEnd),
+        ("terminal_rates", Self::TerminalRates),
+        ("path_errors", Self::PathErrors),
+        ("paper", Self::Paper),
+    ];
+}
+
+/// One number of a case.
+pub struct Output {
+    /// Unique in a sweep.
+    pub name: String,
+    /// SI; empty for a number without one.
+    pub unit: &'static str,
+    value: Value,
+}
+
+type Value = Box<dyn Fn(&Study, &CaseResult) -> Option<f64> + Send + Sync>;
+
+impl fmt::Debug for Output {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} [{}]", self.name, self.unit)
+    }
+}
+
+impl Output {
+    /// The number; `None` where the case has none.
+    #[must_use]
+    pub fn value(&self, study: &Study, case: &CaseResult) -> Option<f64> {
+        (self.value)(study, case).filter(|value| value.is_finite())
+    }
+}
+
+/// The outputs of a scenario's cases, in the order of their columns.
+#[must_use]
+pub fn outputs(scenario: &Scenario, groups: &[OutputGroup]) -> Vec<Output> {
+    let mut list = List::default();
+    let arms: Vec<&str> = scenario.layout.arms.iter().map(|arm| arm.name.as_str()).collect();
+    let joints: Vec<String> = scenario
+        .layout
+        .arms
+        .iter()
+        .flat_map(|arm| (1..=arm.links.len()).map(|k| format!("{}_joint{k}", arm.name)))
+        .collect();
+    let has = |group| groups.contains(&group);
+    list.one("contact_time", "s", |study, case| case.capture.as_ref().map(|_| case.approach(study).duration));
+    if has(OutputGroup::ApproachEnd) {
+        list.state("approach", &joints, |study, case| Some(case.approach(study)));
+    }
+    if has(OutputGroup::TerminalRates) {
+        let designed = |study: &Study, k: usize| Some(*study.terminal_rates.as_ref()?.joint_rates.get(k)?);
+        for (k, joint) in joints.iter().enumerate() {
+            list.one(&format!("{joint}_designed_rate"), "rad/s", move |study, _| designed(study, k));
+        }
+    }
+    list.drifts("approach", has(OutputGroup::PathErrors), |study, case| Some(case.approach(study)));
+    list.clearance();
+    if scenario.targets.is_empty() {
+        return list.0;
+    }
+    for (i, target) in scenario.targets.iter().enumerate() {
+        if let Some([x, y]) = target.position.filter(|_| scenario.contact.detection == crate::scenario::Detection::Time)
+        {
+            list.one(&format!("{}_miss", target.name), "m", move |_, case| {
+                let [_, at_x, at_y] = case.targets.get(i)?.pose;
+                Some(libm::hypot(at_x - x, at_y - y))
+            });
+        }
+        for contact in &target.contacts {
+            let arm = contact.arm;
+            list.one(&format!("{}_miss", arms[arm]), "m", move |_, case| miss(case, i, arm));
+        }
+    }
+    list.impact(scenario, &arms, &joints);
+    if has(OutputGroup::Paper) {
+        for (arm, name) in arms.iter().enumerate() {
+            let paper = move |case: &CaseResult| *case.capture.as_ref()?.impact.paper.as_ref()?.impulses.get(arm)?;
+            list.vector(&format!("{name}_paper_impulse"), IMPULSE, move |_, case| paper(case));
+        }
+    }
+    if let Some(duration) = scenario.contact.duration.filter(|_| has(OutputGroup::MeanForces)) {
+        for (arm, name) in arms.iter().enumerate() {
+            let force = move |part: f64| part / duration;
+            list.vector(&format!("{name}_mean_force"), FORCE, move |_, case| {
+                (*exact(case)?.impulses.get(arm)?).map(|impulse| impulse.map(force))
+            });
+        }
+    }
+    list.drifts("post_impact", has(OutputGroup::PathErrors), |_, case| Some(&captured(case)?.post_impact));
+    if has(OutputGroup::PostImpactEnd) {
+        list.state("end", &joints, |_, case| Some(&captured(case)?.post_impact));
+    }
+    list.one("penetration", "m", |_, case| Some(captured(case)?.penetration));
+    list.one("later_impacts", "", |_, case| {
+        captured(case).map(|capture| f64::from(u32::try_from(capture.later_impacts.len()).unwrap_or(u32::MAX)))
+    });
+    list.one("residual_rigid_rate", "rad/s", |_, case| Some(captured(case)?.residual_motion.as_ref()?.rigid_rate));
+    list.one("residual_base_rate", "rad/s", |_, case| Some(captured(case)?.residual_motion.as_ref()?.base_rate));
+    list.one("residual_largest_joint_rate", "rad/s", |_, case| {
+        Some(captured(case)?.residual_motion.as_ref()?.largest_joint_rate)
+    });
+    list.0
+}
+
+/// Whether every contact that is to hold was made; `None` where none is to hold.
+#[must_use]
+pub fn is_captured(scenario: &Scenario, case: &CaseResult) -> Option<bool> {
+    let kinds = &scenario.cases.iter().find(|known| known.name == case.name)?.kinds;
+    let planned = scenario.targets.iter().zip(kinds).flat_map(|(target, kinds)| target.contacts.iter().zip(kinds));
+    let mut to_hold = planned.filter(|(_, kind)| kind.is_some_and(crate::contact::ContactKind::holds)).peekable();
+    to_hold.peek()?;
+    Some(to_hold.all(|(contact, _)| contacts(case).any(|made| made.contact.arm == contact.arm)))
+}
+
+fn captured(case: &CaseResult) -> Option<&CaptureResult> {
+    case.capture.as_ref()
+}
+
+fn exact(case: &CaseResult) -> Option<&ImpactResult> {
+    Some(&captured(case)?.impact.exact)
+}
+
+/// Of all impacts of a case.
+fn contacts(case: &CaseResult) -> impl Iterator<Item = &crate::capture::impact::ContactResult> {
+    let impacts = captured(case).into_iter().flat_map(|capture| {
+        std::iter::once(&capture.impact).chain(capture.later_impacts.iter().map(|later| &later.impact))
+    });
+    impacts.flat_map(|impact| &impact.contacts)
+}
+
+/// How far an end effector was from its contact point, or at least from its target where it made no contact.
+fn miss(case: &CaseResult, target: usize, arm: usize) -> Option<f64> {
+    let made = contacts(case).find(|made| made.contact.arm == arm && made.contact.target == target);
+    let closest = case.closest.iter().find(|pair| pair.arm == arm && pair.target == target);
+    made.map(|made| made.contact.miss).or(closest.map(|pair| pair.distance))
+}
+
+#[derive(Default)]
+struct List(Vec<Output>);
+
+impl List {
+    fn one(
+        &mut self,
+        name: &str,
+        unit: &'static str,
+        value: impl Fn(&Study, &CaseResult) -> Option<f64> + Send + Sync + 'static,
+    ) {
+        self.0.push(Output { name: name.to_owned(), unit, value: Box::new(value) });
+    }
+
+    /// Outputs `owner_part`.
+    fn vector(
+        &mut self,
+        owner: &str,
+        parts: [(&str, &'static str); 3],
+        value: impl Fn(&Study, &CaseResult) -> Option<[f64; 3]> + Copy + Send + Sync + 'static,
+    ) {
+        for (i, (part, unit)) in parts.into_iter().enumerate() {
+            self.one(&format!("{owner}_{part}"), unit, move |study, case| value(study, case).map(|vector| vector[i]));
+        }
+    }
+
+    /// The last state of a phase.
+    fn state(
+        &mut self,
+        when: &str,
+        joints: &[String],
+        phase: impl for<'a> Fn(&'a Study, &'a CaseResult) -> Option<&'a Phase> + Copy + Send + Sync + 'static,
+    ) {
+        self.vector(&format!("{when}_base"), POSE, move |study, case| Some(phase(study, case)?.end().state.base_pose));
+        self.vector(&format!("{when}_base"), TWIST, move |study, case| {
+            Some(phase(study, case)?.end().state.base_twist)
+        });
+        for (k, joint) in joints.iter().enumerate() {
+            self.one(&format!("{when}_{joint}_angle"), "rad", move |study, case| {
+                phase(study, case)?.end().state.joint_angles.get(k).copied()
+            });
+            self.one(&format!("{when}_{joint}_rate"), "rad/s", move |study, case| {
+                phase(study, case)?.end().state.joint_rates.get(k).copied()
+            });
+        }
+    }
+
+    /// The audit of a phase.
+    fn drifts(
+        &mut self,
+        when: &str,
+        all: bool,
+        phase: impl for<'a> Fn(&'a Study, &'a CaseResult) -> Option<&'a Phase> + Copy + Send + Sync + 'static,
+    ) {
+        let mut drift = |name: &str, value: fn(&ConservationErrors) -> f64| {
+            self.one(&format!("{when}_{name}"), "", move |study, case| Some(value(&phase(study, case)?.drift)));
+        };
+        drift("momentum_drift", |drift| drift.momentum_drift);
+        drift("energy_error", |drift| drift.energy_error);
+        if all {
+            drift("center_of_mass_drift", |drift| drift.center_of_mass_drift);
+            self.one(&format!("{when}_path_error"), "rad or m", move |study, case| {
+                Some(phase(study, case)?.path_error)
+            });
+        }
+    }
+
+    fn clearance(&mut self) {
+        self.one("least_distance", "m", |_, case| Some(case.clearance.least_shown()?.distance));
+        self.one("least_distance_time", "s", |_, case| Some(case.clearance.least_shown()?.time));
+        self.one("first_overlap", "s", |_, case| Some(case.clearance.overlaps.first()?.span[0]));
+    }
+
+    /// The exact solution of the first impact.
+    fn impact(&mut self, scenario: &Scenario, arms: &[&str], joints: &[String]) {
+        for (k, joint) in joints.iter().enumerate() {
+            self.one(&format!("{joint}_rate_after"), "rad/s", move |_, case| {
+                exact(case)?.joint_rates_after.get(k).copied()
+            });
+        }
+        self.vector("base_after", TWIST, |_, case| Some(exact(case)?.base_twist_after));
+        for (i, target) in scenario.targets.iter().enumerate() {
+            self.vector(&format!("{}_after", target.name), TWIST, move |_, case| {
+                captured(case)?.impact.target_twists.get(i).copied()
+            });
+        }
+        for (arm, name) in arms.iter().enumerate() {
+            let impulse = move |case: &CaseResult| *exact(case)?.impulses.get(arm)?;
+            self.vector(&format!("{name}_impulse"), IMPULSE, move |_, case| impulse(case));
+            self.one(&format!("{name}_impulse_magnitude"), "N s", move |_, case| {
+                let [_, fx, fy] = impulse(case)?;
+                Some(libm::hypot(fx, fy))
+            });
+        }
+        self.vector("momentum_jump", MOMENTUM, |_, case| Some(exact(case)?.momentum_jump));
+        self.one("kinetic_energy_before", "J", |_, case| Some(exact(case)?.kinetic_energy_before));
+        self.one("kinetic_energy_after", "J", |_, case| Some(exact(case)?.kinetic_energy_after));
+    }
+}

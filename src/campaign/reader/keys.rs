@@ -1,0 +1,65 @@
+//! The keys that vary, each tried with a value of its distribution.
+
+use super::super::distribution::Distribution;
+use super::super::key_path::{KeyPath, Step};
+use super::super::variation::{Unusable, Variation};
+use super::super::varied_value::VariedValue;
+use crate::diagnostic::Table;
+use crate::scenario::{Scenario, ScenarioSource};
+
+/// Reads the paths, and sets each of them once, alone, to the median of its distribution.
+pub(super) fn keys(
+    tables: &[Table<'_>],
+    distributions: &[Option<Distribution>],
+    (scenario, source): (&Scenario, &ScenarioSource),
+    case: &str,
+) -> Option<(Vec<KeyPath>, Variation)> {
+    let medians: Vec<VariedValue> = distributions
+        .iter()
+        .map(|known| known.as_ref().map_or(VariedValue::Number(1.0), |distribution| distribution.quantile(0.5)))
+        .collect();
+    let mut paths = Vec::new();
+    let mut is_valid = true;
+    for ((table, median), distribution) in tables.iter().zip(&medians).zip(distributions) {
+        let path = table.require("key", "the path of a key of the scenario, or after `layout.` of its layout");
+        let path = path.and_then(|value| {
+            let text = value.text("the path of a key")?;
+            let refuse = |why: &str| value.reject(why);
+            let path = KeyPath::parse(text).map_err(|why| refuse(&why)).ok()?;
+            check_case(&path, case).map_err(|why| refuse(&why)).ok()?;
+            let variation = Variation::new(scenario, source, case, &[(path.clone(), median.clone())]);
+            let variation = variation.map_err(|Unusable { why, .. }| refuse(&why)).ok()?;
+            // without its distribution there is no value to try
+            if distribution.is_some()
+                && let Err(report) = variation.scenario(std::slice::from_ref(median))
+            {
+                let problems: Vec<String> = report.sentences().collect();
+                refuse(&format!("with {median}, the median of its distribution, {}", problems.join("; ")));
+                return None;
+            }
+            Some(path)
+        });
+        is_valid &= path.is_some();
+        paths.extend(path);
+    }
+    if !is_valid {
+        return None;
+    }
+    let all: Vec<_> = paths.iter().cloned().zip(medians).collect();
+    let variation = Variation::new(scenario, source, case, &all).map_err(|Unusable { key, why }| {
+        if let Some(value) = tables[key].get("key") {
+            value.reject(&why);
+        }
+    });
+    Some((paths, variation.ok()?))
+}
+
+/// Only one case is computed.
+fn check_case(path: &KeyPath, case: &str) -> Result<(), String> {
+    match &path.0[..] {
+        [Step::Name(first), Step::Name(other), ..] if first == "case" && other != case => {
+            Err(format!("the sweep computes the case `{case}`, expected a key of that"))
+        }
+        _ => Ok(()),
+    }
+}

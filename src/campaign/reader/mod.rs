@@ -1,0 +1,234 @@
+//! Sweeps from TOML. Every key that varies is tried once before anything is computed.
+
+mod collect;
+mod distribution;
+mod keys;
+
+use super::copula::Copula;
+use super::distribution::Distribution;
+use super::sampling::{MOST_DIMENSIONS, Sampling};
+use super::sweep::{Sweep, Varied};
+use super::variation::Variation;
+use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
+use crate::scenario::{Scenario, ScenarioSource, Source};
+use std::path::{Path, PathBuf};
+
+const CASES: NumberRule = NumberRule::positive("a number of cases", "").at_most(MOST_CASES);
+const SEED: NumberRule = NumberRule::non_negative("a seed", "").at_most(LARGEST_SEED);
+const RANK: NumberRule = NumberRule::any("a rank correlation between -1 and 1", "");
+const MOST_CASES: f64 = 1e9;
+/// What a number of 64 bits counts without a gap.
+const LARGEST_SEED: f64 = 9_007_199_254_740_992.0;
+const DEFAULT_BLOCK: u64 = 1000;
+
+const KEYS: [&str; 10] =
+    ["name", "scenario", "case", "cases", "seed", "sampling", "block", "vary", "correlation", "collect"];
+const NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
+
+/// A sweep with what it varies.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// What varies.
+    pub sweep: Sweep,
+    /// Its file.
+    pub source: Source,
+    /// The scenario, with all its cases.
+    pub scenario: Scenario,
+    /// Its files.
+    pub scenario_source: ScenarioSource,
+    /// The texts of the cases.
+    pub variation: Variation,
+}
+
+impl Campaign {
+    /// Reads a sweep file, the scenario that it names, and that one's layout; `layouts` are those known by name.
+    ///
+    /// # Errors
+    /// All that is wrong with them.
+    pub fn read(path: &Path, layouts: &[(&str, &str)]) -> Result<Self, Report> {
+        let text = read_text(path, "TOML")?;
+        let file = path.display().to_string();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let read = |root: &Table<'_>| read_root(root, folder, layouts);
+        let (sweep, scenario, scenario_source, variation) = read_document(&text, &file, &KEYS, read)?;
+        Ok(Self { sweep, source: Source { text, file }, scenario, scenario_source, variation })
+    }
+}
+
+type Read = (Sweep, Scenario, ScenarioSource, Variation);
+
+fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Option<Read> {
+    let name = root.require("name", NAME).and_then(|value| file_name(&value));
+    let scenario = root.require("scenario", "the path of a scenario file").and_then(|value| {
+        let path = value.text("the path of a scenario file")?;
+        // collecting the components drops `./`
+        let path: PathBuf = folder.join(path).components().collect();
+        Scenario::read_with_source(&path, layouts).map_err(|report| value.adopt(report)).ok()
+    });
+    let case = scenario.as_ref().and_then(|(scenario, _)| case(root, scenario));
+    let sampling = read_or(root, "sampling", Sampling::Random, |value| value.choice(&Sampling::ALL));
+    let seed = root.require("seed", "a whole number, from which all values are drawn").and_then(|v| whole(&v, &SEED));
+    let block = read_or(root, "block", DEFAULT_BLOCK, |value| whole(value, &CASES));
+    let tables = root.require("vary", "at least one `[[vary]]` with a key and a distribution").and_then(|value| {
+        let tables = value.tables(&["key", "distribution"])?;
+        if tables.is_empty() {
+            value.expected("at least one `[[vary]]`", None);
+        }
+        (!tables.is_empty()).then_some(tables)
+    })?;
+    let distributions: Vec<_> = tables
+        .iter()
+        .map(|table| table.require("distribution", distribution::EXPECTED).and_then(|v| distribution::distribution(&v)))
+        .collect();
+    let cases = sampling.and_then(|sampling| cases(root, sampling, &tables, &distributions));
+    let (scenario, scenario_source) = scenario?;
+    let case = case?;
+    let (paths, variation) = keys::keys(&tables, &distributions, (&scenario, &scenario_source), &case)?;
+    let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
+    let copula = read_or(root, "correlation", None, |value| correlations(value, &keys, sampling?));
+    let collect = collect::collect(root, cases, &scenario);
+    let distributions: Vec<Distribution> = distributions.into_iter().collect::<Option<_>>()?;
+    let sweep = Sweep {
+        name: name?,
+        case,
+        cases: cases?,
+        seed: seed?,
+        sampling: sampling?,
+        block: block?,
+        varied: keys.into_iter().zip(distributions).map(|(key, distribution)| Varied { key, distribution }).collect(),
+        copula: copula?,
+        collect: collect?,
+    };
+    Some((sweep, scenario, scenario_source, variation))
+}
+
+/// The case that is computed.
+fn case(root: &Table<'_>, scenario: &Scenario) -> Option<String> {
+    let names: Vec<&str> = scenario.cases.iter().map(|case| case.name.as_str()).collect();
+    let Some(value) = root.get("case") else {
+        if let [only] = names[..] {
+            return Some(only.to_owned());
+        }
+        let names = crate::diagnostic::listing(&names, "or");
+        return root.require("case", &format!("one of the scenario's cases, {names}")).and(None);
+    };
+    let found = names.iter().find(|name| value.as_str() == Some(name));
+    if found.is_none() {
+        value.expected_one_of(&names, Some("these are the cases of the scenario"));
+    }
+    found.map(|name| (*name).to_owned())
+}
+
+/// The number of cases; of a grid that of all combinations.
+fn cases(
+    root: &Table<'_>,
+    sampling: Sampling,
+    tables: &[Table<'_>],
+    distributions: &[Option<Distribution>],
+) -> Option<u64> {
+    if sampling != Sampling::Grid {
+        if sampling == Sampling::Sobol && tables.len() > MOST_DIMENSIONS {
+            tables[MOST_DIMENSIONS].reject(
+                &format!("{} keys vary, expected at most {MOST_DIMENSIONS} by Sobol's sequence", tables.len()),
+                "this is one more",
+            );
+        }
+        return root.require("cases", "the number of cases").and_then(|value| whole(&value, &CASES));
+    }
+    let mut combinations: u64 = 1;
+    for (table, distribution) in tables.iter().zip(distributions) {
+        let choices = distribution.as_ref()?.choices();
+        if choices.is_none()
+            && let Some(value) = table.get("distribution")
+        {
+            value.reject("a grid combines single values, expected `{ choice = [...] }`");
+        }
+        combinations = combinations.saturating_mul(choices? as u64);
+    }
+    #[allow(clippy::cast_precision_loss, reason = "a comparison of magnitudes")]
+    if combinations as f64 > MOST_CASES {
+        root.reject(&format!("the grid has {combinations} combinations, expected at most {MOST_CASES:e}"), "by `vary`");
+        return None;
+    }
+    if let Some(value) = root.get("cases")
+        && whole(&value, &CASES)? != combinations
+    {
+        value.reject(&format!("the grid has {combinations} combinations, expected that number or no such key"));
+    }
+    Some(combinations)
+}
+
+fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Option<Option<Copula>> {
+    let tables = value.tables(&["keys", "rank"])?;
+    if !sampling.can_correlate() {
+        value.reject(&format!(
+            "the sampling `{}` keeps keys independent, expected `random` or `latin_hypercube`",
+            sampling.name()
+        ));
+        return None;
+    }
+    let names: Vec<&str> = keys.iter().map(String::as_str).collect();
+    let pairs = every(tables.iter().map(|table| {
+        let pair = table.require("keys", "two keys that vary").and_then(|value| {
+            let items = value.items("two keys that vary")?;
+            let indices = every(items.iter().map(|item| {
+                let index = names.iter().position(|name| item.as_str() == Some(name));
+                if index.is_none() {
+                    item.expected_one_of(&names, Some("these are the keys that vary"));
+                }
+                index
+            }))?;
+            let pair = <[usize; 2]>::try_from(indices).ok().filter(|[a, b]| a != b);
+            if pair.is_none() {
+                value.expected("two different keys", None);
+            }
+            pair
+        });
+        let rank = table.require("rank", &RANK.to_string()).and_then(|value| {
+            let rank = value.number(&RANK)?;
+            if rank.abs() >= 1.0 {
+                value.expected(&RANK.to_string(), None);
+            }
+            (rank.abs() < 1.0).then_some(rank)
+        });
+        Some((pair?, rank?))
+    }))?;
+    let repeated = |i: usize| pairs[..i].iter().any(|(pair, _)| pair.iter().all(|key| pairs[i].0.contains(key)));
+    if let Some(i) = (0..pairs.len()).find(|i| repeated(*i)) {
+        tables[i].reject("two keys have one rank correlation", "this is the second");
+        return None;
+    }
+    match Copula::new(&pairs) {
+        Ok(copula) => Some(Some(copula)),
+        Err(_) => {
+            value.reject("no variables have all of these rank correlations together, expected smaller ones");
+            None
+        }
+    }
+}
+
+/// A whole number in the range of a rule.
+fn whole(value: &Value<'_>, rule: &NumberRule) -> Option<u64> {
+    let number = value.number(rule)?;
+    if number.fract() != 0.0 {
+        value.expected(&format!("{rule}, a whole number"), None);
+        return None;
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the rules begin at 0")]
+    Some(number as u64)
+}
+
+fn read_or<T>(table: &Table<'_>, key: &str, default: T, read: impl FnOnce(&Value<'_>) -> Option<T>) -> Option<T> {
+    table.get(key).map_or(Some(default), |value| read(&value))
+}
+
+/// A name that can be part of a file's name on any system.
+fn file_name(value: &Value<'_>) -> Option<String> {
+    let name = value.text(NAME)?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
+        value.expected(&format!("{NAME}, at most 100 of them"), None);
+        return None;
+    }
+    Some(name.to_owned())
+}

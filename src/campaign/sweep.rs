@@ -1,0 +1,92 @@
+//! A sweep as plain data.
+
+use super::copula::Copula;
+use super::distribution::Distribution;
+use super::outputs::OutputGroup;
+use super::sampling::{KeySampling, Sampling};
+use super::varied_value::VariedValue;
+
+/// One case of a scenario, many times with other values.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// Names the results; usable as a file name.
+    pub name: String,
+    /// The case of the scenario that is computed.
+    pub case: String,
+    /// Their number, at least one.
+    pub cases: u64,
+    /// Of all that is drawn.
+    pub seed: u64,
+    /// How the cases are spread.
+    pub sampling: Sampling,
+    /// The number of cases in a file.
+    pub block: u64,
+    /// What varies, in the order of the columns.
+    pub varied: Vec<Varied>,
+    /// Rank correlations; `None` where there are none.
+    pub copula: Option<Copula>,
+    /// What is kept beside the default outputs.
+    pub collect: Collect,
+}
+
+/// A key that varies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied {
+    /// Its path.
+    pub key: String,
+    /// Of its values.
+    pub distribution: Distribution,
+}
+
+/// The `[collect]` table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collect {
+    /// Outputs beyond the default ones.
+    pub outputs: Vec<OutputGroup>,
+    /// Cases whose time series are kept, sorted.
+    pub series: Vec<u64>,
+    /// Time between their rows, s.
+    pub sample: f64,
+}
+
+/// Draws the values of any case.
+#[derive(Clone, Debug)]
+pub struct Draw<'a> {
+    sweep: &'a Sweep,
+    samplings: Vec<KeySampling>,
+}
+
+impl<'a> Draw<'a> {
+    /// Of a sweep.
+    #[must_use]
+    pub fn new(sweep: &'a Sweep) -> Self {
+        let keys: Vec<_> =
+            sweep.varied.iter().map(|varied| (varied.key.as_str(), varied.distribution.choices())).collect();
+        Self { sweep, samplings: KeySampling::of_keys(sweep.sampling, sweep.seed, sweep.cases, &keys) }
+    }
+
+    /// The values of a case, in the order of the keys.
+    #[must_use]
+    pub fn values(&self, case: u64) -> Vec<VariedValue> {
+        let mut numbers: Vec<f64> = self.samplings.iter().map(|sampling| sampling.number(case)).collect();
+        if let Some(copula) = &self.sweep.copula {
+            copula.mix(&mut numbers);
+        }
+        let varied = self.sweep.varied.iter().zip(numbers);
+        varied.map(|(varied, number)| varied.distribution.quantile(number)).collect()
+    }
+}
+
+impl Sweep {
+    /// The number of files of cases.
+    #[must_use]
+    pub fn blocks(&self) -> u64 {
+        self.cases.div_ceil(self.block)
+    }
+
+    /// The cases of a file.
+    #[must_use]
+    pub fn cases_of(&self, block: u64) -> std::ops::Range<u64> {
+        block * self.block..((block + 1) * self.block).min(self.cases)
+    }
+}

@@ -1,0 +1,174 @@
+//! The texts of scenario and layout with other values at some keys: written once with places for these, filled for every
+//! case, and read by the same readers as files.
+
+use super::key_path::{KeyPath, Step};
+use super::key_place::{Place, place, set};
+use super::varied_value::VariedValue;
+use crate::diagnostic::Report;
+use crate::layout::Layout;
+use crate::scenario::{Scenario, ScenarioSource};
+use std::ops::Range;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table, Value};
+
+/// The name of the file that a case's scenario names as its layout.
+pub const LAYOUT_FILE: &str = "layout.toml";
+
+/// A scenario of one case, and which of its values vary.
+#[derive(Clone, Debug)]
+pub struct Variation {
+    scenario: Template,
+    layout: Template,
+    layout_name: String,
+}
+
+/// The texts of one case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseTexts {
+    /// TOML of the scenario.
+    pub scenario: String,
+    /// TOML of its layout.
+    pub layout: String,
+}
+
+/// A key that cannot vary.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unusable {
+    /// Its index.
+    pub key: usize,
+    /// The reason.
+    pub why: String,
+}
+
+impl Variation {
+    /// Of a scenario, the texts that it was read from, and the keys with values that they may have. Only the case of this
+    /// name stays.
+    ///
+    /// # Errors
+    /// The first key that names nothing.
+    pub fn new(
+        scenario: &Scenario,
+        source: &ScenarioSource,
+        case: &str,
+        keys: &[(KeyPath, VariedValue)],
+    ) -> Result<Self, Unusable> {
+        let tree = |text: &str| -> Table {
+            text.strip_prefix('\u{feff}').unwrap_or(text).parse().expect("a text that was read before")
+        };
+        let (mut of_scenario, mut of_layout) = (tree(&source.scenario.text), tree(&source.layout.text));
+        of_scenario.insert("layout".to_owned(), scenario.layout.name.as_str().into());
+        if let Some(Value::Array(cases)) = of_scenario.get_mut("case") {
+            cases.retain(|table| table.get("name").and_then(Value::as_str) == Some(case));
+        }
+        let mut places: Vec<(bool, Place)> = Vec::new();
+        for (key, (path, value)) in keys.iter().enumerate() {
+            let refused = |why| Unusable { key, why };
+            let in_layout = matches!(&path.0[..], [Step::Name(first), _, ..] if first == "layout");
+            let (tree, path) = match in_layout {
+                true => (&mut of_layout, &path.0[1..]),
+                false => (&mut of_scenario, &path.0[..]),
+            };
+            let place = place(tree, path, in_layout, scenario).map_err(refused)?;
+            let contains = |(other_tree, other): &&(bool, Place)| {
+                *other_tree == in_layout && (other.starts_with(&place) || place.starts_with(other))
+            };
+            if let Some(other) = places.iter().position(|place| contains(&place)) {
+                return Err(refused(format!("it is part of `{}`, which varies, too", keys[other].0)));
+            }
+            set(tree, &place, value.to_toml());
+            places.push((in_layout, place));
+        }
+        let of = |wanted: bool, tree: &Table| {
+            let of_tree = places.iter().enumerate().filter(|(_, (in_layout, _))| *in_layout == wanted);
+            Template::new(tree, of_tree.map(|(key, (_, place))| (key, place)))
+        };
+        // a layout that does not vary keeps its text
+        let layout = match places.iter().any(|(in_layout, _)| *in_layout) {
+            true => of(true, &of_layout),
+            false => Template { text: source.layout.text.clone(), places: Vec::new() },
+        };
+        Ok(Self { scenario: of(false, &of_scenario), layout, layout_name: scenario.layout.name.clone() })
+    }
+
+    /// The scenario of a case with these values, one per key.
+    ///
+    /// # Errors
+    /// What the readers of scenarios and layouts refuse.
+    pub fn scenario(&self, values: &[VariedValue]) -> Result<Scenario, Report> {
+        let [scenario, layout] = [&self.scenario, &self.layout].map(|template| template.fill(values));
+        Scenario::parse(&scenario, "scenario.toml", Path::new(""), &[(&self.layout_name, &layout)])
+    }
+
+    /// Texts for files of a case, the scenario naming its layout by [`LAYOUT_FILE`].
+    #[must_use]
+    pub fn texts(&self, values: &[VariedValue]) -> CaseTexts {
+        let scenario = self.scenario.fill(values);
+        let mut tree: Table = scenario.parse().expect("a text of this program");
+        tree.insert("layout".to_owned(), format!("./{LAYOUT_FILE}").into());
+        CaseTexts { scenario: text_of(&tree), layout: self.layout.fill(values) }
+    }
+
+    /// Whether values of the layout vary.
+    #[must_use]
+    pub fn varies_layout(&self) -> bool {
+        !self.layout.places.is_empty()
+    }
+
+    /// The layout with these values.
+    ///
+    /// # Errors
+    /// What the reader of layouts refuses.
+    pub fn layout(&self, values: &[VariedValue]) -> Result<Layout, Report> {
+        Layout::parse(&self.layout.fill(values), LAYOUT_FILE)
+    }
+}
+
+/// A text with places for values.
+#[derive(Clone, Debug)]
+struct Template {
+    text: String,
+    /// In order, with the indices of their keys.
+    places: Vec<(Range<usize>, usize)>,
+}
+
+impl Template {
+    fn new<'p>(tree: &Table, places: impl Iterator<Item = (usize, &'p Place)>) -> Self {
+        let text = text_of(tree);
+        let (parsed, _) = DeTable::parse_recoverable(&text);
+        let mut places: Vec<_> = places.map(|(key, place)| (span(parsed.get_ref(), place), key)).collect();
+        places.sort_by_key(|(span, _)| span.start);
+        drop(parsed);
+        Self { text, places }
+    }
+
+    fn fill(&self, values: &[VariedValue]) -> String {
+        let mut filled = String::with_capacity(self.text.len() + 16 * self.places.len());
+        let mut from = 0;
+        for (span, key) in &self.places {
+            filled.push_str(&self.text[from..span.start]);
+            filled.push_str(&values[*key].to_string());
+            from = span.end;
+        }
+        filled.push_str(&self.text[from..]);
+        filled
+    }
+}
+
+fn text_of(tree: &Table) -> String {
+    toml::to_string(tree).expect("a tree of TOML has a text")
+}
+
+/// Where the value at a place is in the text.
+fn span(root: &DeTable<'_>, place: &Place) -> Range<usize> {
+    let mut found: Option<&Spanned<DeValue<'_>>> = None;
+    for step in place {
+        found = match (found.map(Spanned::get_ref), step) {
+            (None, Step::Name(name)) => root.get(name.as_str()),
+            (Some(DeValue::Table(table)), Step::Name(name)) => table.get(name.as_str()),
+            (Some(DeValue::Array(items)), Step::Index(index)) => items.get(*index),
+            _ => None,
+        };
+    }
+    found.expect("a place in the tree that the text was written from").span()
+}
