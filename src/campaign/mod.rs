@@ -1,12 +1,16 @@
 //! Campaigns: one case of a scenario many times, with values drawn from distributions.
 
+pub mod block_file;
 pub mod copula;
 pub mod distribution;
 pub mod key_path;
 mod key_place;
+pub mod manifest;
 pub mod normal;
 pub mod outputs;
 mod reader;
+pub mod row;
+pub mod run;
 pub mod sampling;
 pub mod sweep;
 pub mod uniform;

@@ -20,6 +20,17 @@ pub enum Dynamics {
 }
 
 impl Dynamics {
+    /// The implementation of an engine's name; the fastest one for another.
+    #[cfg(feature = "sweep")]
+    pub fn of_name(name: &str) -> Self {
+        match name {
+            "generated" => Self::Generated,
+            "graph" => Self::Graph,
+            "generic" => Self::Generic,
+            _ => Self::Auto,
+        }
+    }
+
     /// What computes a layout, which is in `file`; where the option does not say it, a line does, unless `quiet`.
     pub fn choose(self, layout: &Layout, file: &str, robots: Robots<'_>, quiet: bool) -> Result<Choice, CommandError> {
         match self {

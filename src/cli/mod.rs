@@ -26,6 +26,8 @@ mod progress;
 mod reproduce;
 mod run;
 mod schema;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod template;
 mod terminal;
 
@@ -53,6 +55,8 @@ struct CommandLine {
 enum Command {
     /// Compute a scenario: the approach, and for every case the impact and the post-impact motion.
     Run(run::Arguments),
+    #[cfg(feature = "sweep")]
+    Sweep(sweep::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
@@ -156,6 +160,8 @@ pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
     let robots = Robots::with(robots);
     let result = match CommandLine::parse().command {
         Command::Run(arguments) => run::run(&arguments, robots),
+        #[cfg(feature = "sweep")]
+        Command::Sweep(arguments) => sweep::run(&arguments, robots),
         Command::Eval(arguments) => eval::run(&arguments, robots),
         Command::Compare(arguments) => compare::run(&arguments, robots),
         Command::Generate(arguments) => generate::run(&arguments, robots),

@@ -47,7 +47,7 @@ const MCAP: OptionalOutput = OptionalOutput {
 };
 
 /// The flags of `run` that request them.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Default, clap::Args)]
 pub struct Flags {
     /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
     #[arg(long)]

@@ -20,7 +20,7 @@ pub struct Display {
     pub quiet: bool,
     /// Seconds between two lines of progress where the standard error is no terminal.
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
-    progress: Duration,
+    pub progress: Duration,
 }
 
 fn seconds(text: &str) -> Result<Duration, String> {

@@ -50,6 +50,33 @@ pub struct Arguments {
     optional_outputs: optional_outputs::Flags,
 }
 
+/// What another command chooses of a run.
+#[cfg(feature = "sweep")]
+pub struct RunOptions {
+    /// The folder for the results, which is this command's own.
+    pub out: PathBuf,
+    /// The implementation of the dynamics.
+    pub dynamics: Dynamics,
+    /// Whether to write report.html.
+    pub report: bool,
+    /// How progress is shown.
+    pub display: Display,
+}
+
+/// Runs a scenario file for another command.
+#[cfg(feature = "sweep")]
+pub fn run_file(
+    scenario: &Path,
+    RunOptions { out, dynamics, report, display }: RunOptions,
+    robots: Robots<'_>,
+) -> Result<ExitCode, CommandError> {
+    let scenario = scenario.to_owned();
+    let optional_outputs = optional_outputs::Flags::default();
+    let arguments =
+        Arguments { scenario, out: Some(out), force: true, dynamics, report, sample: None, display, optional_outputs };
+    run(&arguments, robots)
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }

@@ -16,7 +16,7 @@ pub struct OutputError {
 
 impl OutputError {
     /// For results of a function about `path`.
-    pub(super) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
         move |source| Self { path: path.to_owned(), source }
     }
 }

@@ -10,6 +10,7 @@ use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
 use super::variation::Variation;
 use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
+use crate::layout::Layout;
 use crate::scenario::{Scenario, ScenarioSource, Source};
 use std::path::{Path, PathBuf};
 
@@ -52,6 +53,22 @@ impl Campaign {
         let read = |root: &Table<'_>| read_root(root, folder, layouts);
         let (sweep, scenario, scenario_source, variation) = read_document(&text, &file, &KEYS, read)?;
         Ok(Self { sweep, source: Source { text, file }, scenario, scenario_source, variation })
+    }
+}
+
+impl Campaign {
+    /// A layout for the choice of what computes the cases: what varies has the first value that is not 0, so that code
+    /// for it computes all of them.
+    #[must_use]
+    pub fn general_layout(&self) -> Layout {
+        let value = |varied: &Varied| {
+            let values = (1..8).map(|i| varied.distribution.quantile(f64::from(i) / 8.0));
+            let general = values.clone().find(|value| value.number() != Some(0.0));
+            general.unwrap_or_else(|| varied.distribution.quantile(0.5))
+        };
+        let values: Vec<_> = self.sweep.varied.iter().map(value).collect();
+        // where these do not fit together, the scenario's own
+        self.variation.layout(&values).unwrap_or_else(|_| self.scenario.layout.clone())
     }
 }
 

@@ -1,0 +1,162 @@
+//! `manifest.json`: what the files of a folder were computed with. Other files of the same sweep join them only where all
+//! of it is the same.
+
+use super::reader::Campaign;
+use crate::engine::Engine;
+use crate::layout::sha256;
+use crate::output::atomic_file::write_text;
+use crate::output::output_error::OutputError;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+/// The file's name.
+pub const MANIFEST: &str = "manifest.json";
+
+/// What can be changed from one command to the next, for samplings that can grow.
+const CASES: &str = "cases";
+
+/// Why a folder does not take the files of a sweep.
+#[derive(Debug, thiserror::Error)]
+pub enum ManifestError {
+    /// It has something else in it.
+    #[error("{folder} has `{found}`, and is not the folder of a sweep: choose another one with --out")]
+    Foreign {
+        /// The folder.
+        folder: String,
+        /// A file in it.
+        found: String,
+    },
+    /// Its manifest is not one of a sweep.
+    #[error("{folder}/{MANIFEST} is not the manifest of a sweep: choose another folder with --out")]
+    Unreadable {
+        /// The folder.
+        folder: String,
+    },
+    /// It has files of another sweep, or of this one before a change.
+    #[error(
+        "{folder} has results that were computed with something else:\n{}\nChoose another folder with --out, or undo the \
+         change", .changes.iter().map(|change| format!("  {change}")).collect::<Vec<_>>().join("\n")
+    )]
+    Changed {
+        /// The folder.
+        folder: String,
+        /// What is different, one line each.
+        changes: Vec<String>,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// The manifest of a campaign that an engine computes.
+#[must_use]
+pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
+    let tree = |text: &str| -> Value {
+        let table: toml::Table = text.strip_prefix('\u{feff}').unwrap_or(text).parse().expect("a text that was read");
+        serde_json::to_value(table).expect("TOML has the values of JSON")
+    };
+    let sources = &campaign.scenario_source;
+    let [mut sweep, scenario, layout] =
+        [&campaign.source.text, &sources.scenario.text, &sources.layout.text].map(|text| tree(text));
+    if let Some(table) = sweep.as_object_mut() {
+        table.remove(CASES);
+    }
+    json!({
+        "sweep_name": campaign.sweep.name,
+        "version": env!("CARGO_PKG_VERSION"),
+        "engine": engine.name(),
+        "sweep_sha256": sha256(&sweep.to_string()),
+        "scenario_sha256": sha256(&scenario.to_string()),
+        "layout_sha256": sha256(&layout.to_string()),
+        CASES: campaign.sweep.cases,
+        "sweep": sweep,
+        "scenario": scenario,
+        "layout": layout,
+    })
+}
+
+/// Writes the manifest to a folder that is empty or has the same; with more cases in place of one with fewer, where
+/// the sampling can grow.
+///
+/// # Errors
+/// [`ManifestError`].
+pub fn claim(folder: &Path, campaign: &Campaign, engine: Engine) -> Result<(), ManifestError> {
+    let wanted = manifest(campaign, engine);
+    let shown = || folder.display().to_string();
+    let path = folder.join(MANIFEST);
+    match fs::read(&path) {
+        Ok(bytes) => {
+            let found: Value = serde_json::from_slice(&bytes).unwrap_or_default();
+            if !found["sweep_sha256"].is_string() {
+                return Err(ManifestError::Unreadable { folder: shown() });
+            }
+            let mut changes = Vec::new();
+            differences("", &found, &wanted, &mut changes);
+            let cases = found[CASES].as_u64().unwrap_or_default();
+            let grown = campaign.sweep.sampling.can_grow() && cases <= campaign.sweep.cases;
+            changes.retain(|(path, _)| !path.ends_with("_sha256") && !(path == CASES && grown));
+            if !changes.is_empty() {
+                let mut changes: Vec<String> =
+                    changes.into_iter().map(|(path, change)| format!("{path}: {change}")).collect();
+                if changes.iter().any(|change| change.starts_with("cases: ")) {
+                    let why = if campaign.sweep.sampling.can_grow() { "there are files of more" } else { CANNOT_GROW };
+                    changes.push(format!("({why})"));
+                }
+                return Err(ManifestError::Changed { folder: shown(), changes });
+            }
+        }
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+            if let Some(found) = first_name(folder) {
+                return Err(ManifestError::Foreign { folder: shown(), found });
+            }
+        }
+        Err(error) => return Err(OutputError::at(&path)(error).into()),
+    }
+    let text = serde_json::to_string_pretty(&wanted).expect("a tree has a text");
+    Ok(write_text(&path, &format!("{text}\n"))?)
+}
+
+const CANNOT_GROW: &str = "only the samplings `random` and `sobol` can have more cases later";
+
+/// The engine that the files of a folder were computed with, by its name.
+#[must_use]
+pub fn engine_of(folder: &Path) -> Option<String> {
+    let found: Value = serde_json::from_slice(&fs::read(folder.join(MANIFEST)).ok()?).ok()?;
+    found["engine"].as_str().map(str::to_owned)
+}
+
+/// The first name in a folder that is not hidden.
+fn first_name(folder: &Path) -> Option<String> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| !name.starts_with('.'))
+        .collect();
+    names.sort();
+    names.into_iter().next()
+}
+
+/// The paths of values that differ, and how.
+fn differences(path: &str, found: &Value, wanted: &Value, changes: &mut Vec<(String, String)>) {
+    match (found, wanted) {
+        (Value::Object(found), Value::Object(wanted)) => {
+            let keys = found.keys().chain(wanted.keys().filter(|key| !found.contains_key(*key)));
+            for key in keys {
+                let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                let value = |tree: &serde_json::Map<String, Value>| tree.get(key).cloned().unwrap_or_default();
+                differences(&inner, &value(found), &value(wanted), changes);
+            }
+        }
+        (Value::Array(found), Value::Array(wanted)) if found.len() == wanted.len() => {
+            for (i, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+                differences(&format!("{path}[{i}]"), found, wanted, changes);
+            }
+        }
+        _ if found == wanted => {}
+        _ => {
+            let shown = |value: &Value| if value.is_null() { "nothing".to_owned() } else { value.to_string() };
+            changes.push((path.to_owned(), format!("was {}, is {}", shown(found), shown(wanted))));
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Computes the files of a sweep that are missing, on several threads.
+//!
+//! Threads take cases in order, whatever file these are in: there are never more open files than threads. Whoever computes
+//! the last case of a file writes it.
+
+use super::block_file::{self, CASES, SERIES, TIMING};
+use super::outputs::{Output, outputs};
+use super::reader::Campaign;
+use super::row::{CaseRunner, Row, Status};
+use super::sweep::Draw;
+use crate::engine::Choice;
+use crate::output::atomic_file::{StagedFile, create_folder};
+use crate::output::output_error::OutputError;
+use crate::output::time_series::write_csv;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+/// A part of the files: those whose number is I − 1 modulo N.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1.
+    pub number: u64,
+    /// How many there are.
+    pub of: u64,
+}
+
+impl Shard {
+    /// All files.
+    pub const WHOLE: Self = Self { number: 1, of: 1 };
+}
+
+/// What has been done so far; threads write it, and the display reads it.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// Cases that are computed.
+    pub computed: AtomicU64,
+    /// By status, in the order of [`Status::ALL`].
+    pub by_status: [AtomicU64; Status::ALL.len()],
+    /// Set to end early.
+    pub is_interrupted: AtomicBool,
+}
+
+/// What a run is to do.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Files that are missing, in order.
+    pub blocks: Vec<u64>,
+    /// Their cases.
+    pub cases: u64,
+    /// Cases in files that are there.
+    pub present: u64,
+}
+
+impl Plan {
+    /// The files of a shard that are missing in a folder, or have not all of their cases.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn new(campaign: &Campaign, folder: &Path, shard: Shard) -> Result<Self, OutputError> {
+        for inner in [CASES, TIMING, SERIES] {
+            if inner != SERIES || !campaign.sweep.collect.series.is_empty() {
+                create_folder(&folder.join(inner))?;
+            }
+        }
+        let sweep = &campaign.sweep;
+        let count = |block: u64| {
+            let cases = sweep.cases_of(block);
+            cases.end - cases.start
+        };
+        let (mut blocks, mut present) = (Vec::new(), 0);
+        for block in (0..sweep.blocks()).filter(|block| block % shard.of == shard.number - 1) {
+            if block_file::is_complete(&block_file::path(folder, block), count(block)) {
+                present += count(block);
+            } else {
+                blocks.push(block);
+            }
+        }
+        let cases = blocks.iter().map(|block| count(*block)).sum();
+        Ok(Self { blocks, cases, present })
+    }
+}
+
+/// The rows of files that are not complete.
+#[derive(Default)]
+struct Queue {
+    /// The next file of the plan, and the next case in it.
+    next: (usize, u64),
+    open: HashMap<u64, Vec<Row>>,
+    failure: Option<OutputError>,
+}
+
+/// Computes the files of a plan; ends early where the tally says so, after the cases that are under way.
+///
+/// # Errors
+/// [`OutputError`], after the cases that are under way.
+pub fn run(
+    campaign: &Campaign,
+    choice: &Choice,
+    folder: &Path,
+    plan: &Plan,
+    threads: usize,
+    tally: &Tally,
+) -> Result<(), OutputError> {
+    let outputs = outputs(&campaign.scenario, &campaign.sweep.collect.outputs);
+    let queue = Mutex::new(Queue::default());
+    thread::scope(|scope| {
+        for _ in 0..threads.max(1) {
+            scope.spawn(|| {
+                let worker = Worker { campaign, choice, folder, plan, tally, outputs: &outputs, queue: &queue };
+                worker.work();
+            });
+        }
+    });
+    queue.into_inner().unwrap_or_else(PoisonError::into_inner).failure.map_or(Ok(()), Err)
+}
+
+struct Worker<'a> {
+    campaign: &'a Campaign,
+    choice: &'a Choice,
+    folder: &'a Path,
+    plan: &'a Plan,
+    tally: &'a Tally,
+    outputs: &'a [Output],
+    queue: &'a Mutex<Queue>,
+}
+
+impl Worker<'_> {
+    fn work(&self) {
+        let sweep = &self.campaign.sweep;
+        let runner = CaseRunner {
+            draw: Draw::new(sweep),
+            variation: &self.campaign.variation,
+            choice: self.choice,
+            outputs: self.outputs,
+        };
+        while !self.tally.is_interrupted.load(Ordering::Relaxed) {
+            let Some((block, case)) = self.take() else { return };
+            let done = self.compute(&runner, case).and_then(|row| self.add(block, row));
+            if let Err(failure) = done {
+                self.lock().failure.get_or_insert(failure);
+                return;
+            }
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Queue> {
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The next file and case; `None` where there is none, or no file can be written.
+    fn take(&self) -> Option<(u64, u64)> {
+        let mut queue = self.lock();
+        if queue.failure.is_some() {
+            return None;
+        }
+        let (place, offset) = queue.next;
+        let block = *self.plan.blocks.get(place)?;
+        let cases = self.campaign.sweep.cases_of(block);
+        let case = cases.start + offset;
+        queue.next = if case + 1 < cases.end { (place, offset + 1) } else { (place + 1, 0) };
+        Some((block, case))
+    }
+
+    fn compute(&self, runner: &CaseRunner<'_>, case: u64) -> Result<Row, OutputError> {
+        let collect = &self.campaign.sweep.collect;
+        if collect.series.binary_search(&case).is_err() {
+            // rows that nobody reads
+            return Ok(runner.run(case, f64::INFINITY, &mut |_, _, _| {}));
+        }
+        let path = self.folder.join(SERIES).join(format!("{case:06}.csv"));
+        let mut written = Ok(());
+        let row = runner.run(case, collect.sample, &mut |scenario, study, result| {
+            written = StagedFile::new(&path, |to| write_csv(scenario, study, result, to)).and_then(StagedFile::commit);
+        });
+        written.map(|()| row)
+    }
+
+    /// Adds a row to its file, and writes that if it is the last one.
+    fn add(&self, block: u64, row: Row) -> Result<(), OutputError> {
+        let of_status = Status::ALL.iter().zip(&self.tally.by_status).find(|((_, status), _)| *status == row.status);
+        if let Some((_, count)) = of_status {
+            count.fetch_add(1, Ordering::Relaxed);
+        }
+        self.tally.computed.fetch_add(1, Ordering::Relaxed);
+        let sweep = &self.campaign.sweep;
+        let cases = sweep.cases_of(block);
+        let complete = {
+            let mut queue = self.lock();
+            let rows = queue.open.entry(block).or_default();
+            rows.push(row);
+            if rows.len() as u64 == cases.end - cases.start { queue.open.remove(&block) } else { None }
+        };
+        let Some(mut rows) = complete else { return Ok(()) };
+        rows.sort_by_key(|row| row.case);
+        block_file::write(self.folder, block, sweep, self.outputs, &rows)
+    }
+}

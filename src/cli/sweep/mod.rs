@@ -1,0 +1,114 @@
+//! `planar-capture sweep SWEEP.toml`: one case of a scenario many times, with values drawn from distributions.
+
+mod progress;
+mod replay;
+
+use super::dynamics::Dynamics;
+use super::progress::Display;
+use super::terminal::{note, print};
+use super::{CommandError, file_error};
+use crate::campaign::Campaign;
+use crate::campaign::manifest::claim;
+use crate::campaign::row::Status;
+use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
+use crate::engine::Choice;
+use crate::output::atomic_file::create_folder;
+use crate::registry::Robots;
+use progress::Progress;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::thread;
+
+/// As shells report a command that SIGINT has ended.
+const INTERRUPTED: u8 = 130;
+
+/// Compute one case of a scenario many times, with values drawn from distributions.
+///
+/// Files of cases that are there already are not computed again: a sweep that was interrupted goes on.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// The sweep file.
+    sweep: PathBuf,
+    /// Folder for manifest.json, cases/, timing/ and series/ [default: results/NAME, NAME the sweep's].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Compute every Nth file of cases only, from the Ith on: for several machines and one folder.
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// Run the case of this index alone, as `run` does, into DIR/replay/INDEX.
+    #[arg(long, value_name = "INDEX", conflicts_with = "shard")]
+    replay: Option<u64>,
+    /// With --replay: write report.html, an animation with plots, too.
+    #[arg(long, requires = "replay")]
+    report: bool,
+    /// The implementation of the dynamics.
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
+    dynamics: Dynamics,
+    /// Threads that compute cases [default: one for each processor].
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<NonZero<usize>>,
+    #[command(flatten)]
+    display: Display,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let wrong = || "expected I/N with 1 ≤ I ≤ N, for example 2/8".to_owned();
+    let (number, of) = text.split_once('/').ok_or_else(wrong)?;
+    let [number, of]: [u64; 2] = [number.parse().map_err(|_| wrong())?, of.parse().map_err(|_| wrong())?];
+    if (1..=of).contains(&number) { Ok(Shard { number, of }) } else { Err(wrong()) }
+}
+
+/// Computes the files that are missing; exit code 0 whatever became of single cases.
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let campaign = Campaign::read(&arguments.sweep, &robots.layouts())?;
+    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
+    if let Some(case) = arguments.replay {
+        return replay::replay(&campaign, case, &folder, arguments, robots);
+    }
+    let file = &campaign.scenario_source.scenario.file;
+    let choice = choose(&campaign, arguments.dynamics, robots, arguments.display.quiet)?;
+    let at_folder = |error| file_error(&campaign.source.file)(error);
+    create_folder(&folder)?;
+    claim(&folder, &campaign, choice.engine).map_err(at_folder)?;
+    let plan = Plan::new(&campaign, &folder, arguments.shard.unwrap_or(Shard::WHOLE))?;
+    let tally = Arc::<Tally>::default();
+    let interrupted = Arc::clone(&tally);
+    // where there is no handler, the signal ends the process at once: files are whole all the same
+    let _ = ctrlc::set_handler(move || interrupted.is_interrupted.store(true, Ordering::Relaxed));
+    let threads = arguments.threads.or(thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let progress = Progress::new(arguments.display, plan.cases, &tally);
+    let result = run_plan(&campaign, &choice, &folder, &plan, threads, &tally);
+    progress.finish();
+    result?;
+    print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
+    if tally.is_interrupted.load(Ordering::Relaxed) {
+        note(format_args!("interrupted: the same command goes on with {file}"));
+        return Ok(ExitCode::from(INTERRUPTED));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What computes the cases: chosen for a layout whose numbers that vary are as different from 0 as in the cases.
+fn choose(campaign: &Campaign, dynamics: Dynamics, robots: Robots<'_>, quiet: bool) -> Result<Choice, CommandError> {
+    let layout = campaign.general_layout();
+    dynamics.choose(&layout, &campaign.scenario_source.scenario.file, robots, quiet)
+}
+
+/// How many cases ended how.
+fn sentence(campaign: &Campaign, plan: &Plan, tally: &Tally) -> String {
+    let computed = tally.computed.load(Ordering::Relaxed);
+    let mut parts: Vec<String> = Status::ALL
+        .iter()
+        .zip(&tally.by_status)
+        .map(|((name, _), count)| (name, count.load(Ordering::Relaxed)))
+        .filter(|(_, count)| *count > 0)
+        .map(|(name, count)| format!("{count} {}", name.replace('_', " ")))
+        .collect();
+    if plan.present > 0 {
+        parts.push(format!("{} were there before", plan.present));
+    }
+    format!("{}: {computed} of {} cases computed: {}", campaign.sweep.name, campaign.sweep.cases, parts.join(", "))
+}
