@@ -50,7 +50,7 @@
 //! Without default features the crate is the core: `no_std`, without allocation and panics, generic over the
 //! [scalar](scalar::Scalar). Feature `std` adds files, scenarios and simulation, `build` the generation of modules for
 //! other crates, `urdf` layouts from URDF files and back, `fmu` FMUs for co-simulation, `cli` (the default) the command
-//! line, `figures` figures as SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun,
+//! line, `sweep` (another default) campaigns, `figures` figures as SVG and PNG, `parquet` time series as Parquet, `mcap` recordings for Foxglove and Rerun,
 //! `lanes` SIMD lanes as scalars, `batch` many instances at once.
 //!
 //! # Example
@@ -67,6 +67,7 @@
 //! ```
 //!
 //! Derivatives: `docs/derivatives.md`; directional ones by [dual numbers](scalar::Dual).
+#![cfg_attr(not(test), warn(clippy::disallowed_methods, reason = "results have the same bits on every processor"))]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 /// The examples of the documents.

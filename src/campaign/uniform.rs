@@ -6,7 +6,7 @@
 use rand::Rng;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 /// The numbers of one seed and name.
 #[derive(Clone, Debug)]
@@ -16,12 +16,12 @@ impl UniformStream {
     /// `purpose` tells streams of the same name apart.
     #[must_use]
     pub fn new(seed: u64, purpose: &str, name: &str) -> Self {
-        let mut hash = Sha256::new();
+        let mut hash = Hash::new();
         hash.update(seed.to_le_bytes());
         hash.update((purpose.len() as u64).to_le_bytes());
         hash.update(purpose);
         hash.update(name);
-        Self(hash.finalize().into())
+        Self(hash.finalize())
     }
 
     /// 64 random bits.

@@ -159,6 +159,6 @@ impl Assembly {
 
 /// A vector rotated by an angle, rad.
 pub(crate) fn rotated([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (sin, cos) = angle.sin_cos();
+    let (sin, cos) = libm::sincos(angle);
     [cos * x - sin * y, sin * x + cos * y]
 }

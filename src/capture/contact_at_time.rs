@@ -49,7 +49,7 @@ pub fn contact_at_time(
             let normal = || rotated(target.outline.signed_distance(rotated(*point, -target.yaw)).normal, target.yaw);
             let law = ContactLaw::new(*kind, normal, case.restitutions[i]);
             let offset = [end_effectors[*arm][1] - x, end_effectors[*arm][2] - y];
-            let miss = (offset[0] - point[0]).hypot(offset[1] - point[1]);
+            let miss = libm::hypot(offset[0] - point[0], offset[1] - point[1]);
             contacts.push(ImpactContact { target: i, arm: *arm, law, offset, miss });
         }
     }

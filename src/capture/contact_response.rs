@@ -42,7 +42,7 @@ pub fn response(
     let [end_effector_omega, end_effector_x, end_effector_y] = end_effectors[touch.arm];
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
     let relative = [end_effector_omega - omega, end_effector_x - (vx - omega * ry), end_effector_y - (vy + omega * rx)];
-    let speed = relative[1].hypot(relative[2]);
+    let speed = libm::hypot(relative[1], relative[2]);
     let along_velocity = || (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]);
     let direction = touch.law.bounce().map(|(normal, _)| normal).or_else(along_velocity);
     let (pose, angles) = (&before.base_pose, &before.joint_angles);
@@ -58,7 +58,7 @@ pub fn response(
             Some(_) => along.map(|part| part * of_both.effective_mass(along)),
             None => of_both.stopping_impulse(along),
         };
-        fx.hypot(fy)
+        libm::hypot(fx, fy)
     };
     Ok(ContactResponse {
         relative_twist: relative,

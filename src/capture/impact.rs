@@ -65,7 +65,7 @@ impl ImpactResult {
     /// Magnitude of [fx, fy] per arm, N s.
     #[must_use]
     pub fn impulse_magnitudes(&self) -> Vec<Option<f64>> {
-        self.impulses.iter().map(|impulse| impulse.map(|[_, fx, fy]| fx.hypot(fy))).collect()
+        self.impulses.iter().map(|impulse| impulse.map(|[_, fx, fy]| libm::hypot(fx, fy))).collect()
     }
 }
 
@@ -225,7 +225,7 @@ fn balance(
     let jump = [end.angular_momentum - start.angular_momentum, px, py];
     let relative = |jump: f64, scale: f64| if scale == 0.0 { 0.0 } else { jump / scale };
     let angular = relative(jump[0].abs(), Real::maximum(start_sizes[0], end_sizes[0]));
-    let linear = relative(px.hypot(py), Real::maximum(start_sizes[1], end_sizes[1]));
+    let linear = relative(libm::hypot(px, py), Real::maximum(start_sizes[1], end_sizes[1]));
     let per_arm = |value: &dyn Fn(usize, &ImpactContact) -> [f64; 3]| {
         let contact = |arm| contacts.iter().enumerate().find(|(_, contact)| contact.arm == arm);
         (0..assembly.model.arms()).map(|arm| contact(arm).map(|(i, contact)| value(i, contact))).collect()

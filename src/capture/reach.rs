@@ -27,7 +27,7 @@ impl Reach {
         let (start, mass) = (sums.center_of_mass(), sums.mass);
         let momentum = model.momentum(initial).ok()?.linear_momentum;
         let center_of_mass = [0, 1].map(|i: usize| start[i] + momentum[i] / mass * scenario.approach.duration);
-        let distance = (x - center_of_mass[0]).hypot(y - center_of_mass[1]);
+        let distance = libm::hypot(x - center_of_mass[0], y - center_of_mass[1]);
         Some(Self { center_of_mass, distance, limit: arm.reach_from_base() + base_distance_limit(layout) })
     }
 
@@ -41,9 +41,9 @@ impl Reach {
 fn base_distance_limit(layout: &Layout) -> f64 {
     let mut moment = 0.0;
     for arm in &layout.arms {
-        let mut joint_distance = arm.mount[0].hypot(arm.mount[1]);
+        let mut joint_distance = libm::hypot(arm.mount[0], arm.mount[1]);
         for link in &arm.links {
-            moment += link.mass * (joint_distance + link.com[0].hypot(link.com[1]));
+            moment += link.mass * (joint_distance + libm::hypot(link.com[0], link.com[1]));
             joint_distance += link.length;
         }
     }

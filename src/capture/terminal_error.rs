@@ -32,8 +32,8 @@ impl TerminalError {
     fn at(goal: &EndEffectorGoal, pose: &[f64; 3], reach: f64) -> Option<Self> {
         let parts: Vec<f64> = goal.errors(pose).map(|(_, error)| error).collect();
         let (yaw, distance) = match parts.as_slice() {
-            [x, y] => (None, x.hypot(*y)),
-            [yaw, x, y] => (Some(yaw.abs()), x.hypot(*y)),
+            [x, y] => (None, libm::hypot(*x, *y)),
+            [yaw, x, y] => (Some(yaw.abs()), libm::hypot(*x, *y)),
             _ => return None,
         };
         let reached = distance <= TOLERANCE * reach && yaw.is_none_or(|yaw| yaw <= TOLERANCE);

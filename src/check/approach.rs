@@ -111,7 +111,7 @@ fn terminal_rates(scenario: &Scenario) -> Vec<Warning> {
         FinalRates::EndEffectorTwists(twists) => {
             let twists = twists.iter().map(|twist| twist.map(|part| part.unwrap_or(0.0)));
             let fast = twists.zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
-                omega.abs() > MAX_RATE || vx.hypot(*vy) > MAX_RATE * arm.reach_from_base()
+                omega.abs() > MAX_RATE || libm::hypot(*vx, *vy) > MAX_RATE * arm.reach_from_base()
             });
             fast.map(|(index, (_, arm))| {
                 let why = format!("faster than {}, stretched, turning once a second", arm.name);

@@ -17,7 +17,7 @@ pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
 }
 
 fn far_mount(layout: &Layout, i: usize, arm: &Arm) -> Option<Warning> {
-    let (distance, radius) = (arm.mount[0].hypot(arm.mount[1]), layout.base.radius_of_gyration());
+    let (distance, radius) = (libm::hypot(arm.mount[0], arm.mount[1]), layout.base.radius_of_gyration());
     // an unlikely base has a warning of its own
     (has_size(layout) && distance > MAX_MOUNT_DISTANCE * radius).then(|| {
         let why = format!(

@@ -17,7 +17,7 @@ pub(super) fn check(link: &Link, path: &str) -> Option<Warning> {
 }
 
 fn unbalanced(wheel: &Link, path: &str) -> Option<Warning> {
-    (wheel.com[0].hypot(wheel.com[1]) > 0.0).then(|| {
+    (libm::hypot(wheel.com[0], wheel.com[1]) > 0.0).then(|| {
         let why = "a wheel (a link of length 0) whose COM is not on its axle";
         warning(format!("{path}.com"), why, "a balanced wheel has com = [0, 0]; other links have a length")
     })

@@ -48,7 +48,7 @@ fn off_outline(scenario: &Scenario, target: &Target) -> Option<Warning> {
     let ([x, y], distance) = distances.find(|(_, distance)| distance.abs() > MAX_OFFSET * target.outline.reach())?;
     let why = match target.outline {
         Outline::Disc { radius, .. } => {
-            format!("{} m from the COM, but the radius is {} m", short(x.hypot(y)), short(radius))
+            format!("{} m from the COM, but the radius is {} m", short(libm::hypot(x, y)), short(radius))
         }
         _ if distance > 0.0 => format!("{} m outside the outline", short(distance)),
         _ => format!("{} m inside the outline", short(-distance)),
@@ -60,7 +60,7 @@ fn off_outline(scenario: &Scenario, target: &Target) -> Option<Warning> {
 fn large_inertia(target: &Target) -> Option<Warning> {
     // the larger of outline and contact point, either of which may be in the wrong unit
     let [x, y] = target.contacts[0].point;
-    let size = target.outline.reach().max(x.hypot(y));
+    let size = target.outline.reach().max(libm::hypot(x, y));
     let ring = target.mass * size * size;
     (target.inertia > ring * (1.0 + 1e-9)).then(|| {
         let why = format!("more than a ring of its mass and size has, {} kg m²: mass · radius²", short(ring));

@@ -88,7 +88,7 @@ fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result
         let name = &arm.name;
         write!(out, "  end effector of {name}: ({x:.4}, {y:.4}) m, {omega:.4} rad/s, ({vx:.4}, {vy:.4}) m/s")?;
         if let Some((target, [wanted_x, wanted_y])) = wanted_contact(scenario, i) {
-            let miss = (x - wanted_x).hypot(y - wanted_y);
+            let miss = libm::hypot(x - wanted_x, y - wanted_y);
             write!(out, "; misses the contact point of {target} by {miss:.4} m")?;
         }
         writeln!(out)?;
@@ -205,7 +205,7 @@ fn impulses_of_case(
                 (Detection::Time, None) => String::new(),
             };
             let [_, fx, fy] = result.impulse;
-            let (exact, kind) = (fx.hypot(fy), law.kind().name());
+            let (exact, kind) = (libm::hypot(fx, fy), law.kind().name());
             let force = scenario.contact.duration.map(|duration| format!("{:.3}", exact / duration));
             let row = format!(
                 "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {:>14}",

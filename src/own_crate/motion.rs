@@ -41,7 +41,7 @@ fn side(arm: usize) -> f64 {
 /// An arm bent like an elbow, that points away from the base.
 fn bent(arm: &Arm, side: f64) -> Vec<f64> {
     let [x, y] = arm.mount;
-    let outwards = y.atan2(x) - arm.mount_angle;
+    let outwards = libm::atan2(y, x) - arm.mount_angle;
     let outwards = outwards - 2.0 * PI * (outwards / (2.0 * PI)).round();
     let angle = |joint: usize| match joint {
         0 => outwards + 0.6 * side,

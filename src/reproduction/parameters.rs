@@ -62,7 +62,7 @@ fn targets(run: &Run) -> String {
                 target.inertia,
                 point(place, 4)
             ),
-            number((place[0] - x).hypot(place[1] - y), 4),
+            number(libm::hypot(place[0] - x, place[1] - y), 4),
         ]);
     }
     table(&["", "Table 2", "ours", "apart [m]"], &rows)
@@ -94,11 +94,11 @@ fn end_effectors(runs: &[Run; 3]) -> String {
         rows.push(row);
     }
     let mut row = vec!["end effector 1 from the base COM".to_owned(), String::new(), String::new()];
-    row.push(number(last[0][0].hypot(last[0][1]), 4));
+    row.push(number(libm::hypot(last[0][0], last[0][1]), 4));
     row.extend(runs.iter().map(|run| {
         let [x, y] = end_effector(end(run), 0);
         let [_, base_x, base_y] = end(run).state.base_pose;
-        number((x - base_x).hypot(y - base_y), 4)
+        number(libm::hypot(x - base_x, y - base_y), 4)
     }));
     rows.push(row);
     table(&[&["[m]", "Table 4, initial", "ours, initial", "Table 4, final"][..], &READINGS].concat(), &rows)

@@ -239,7 +239,7 @@ impl<'a> EventLocator<'a> {
 /// The number of bisections that reduce a bracket to the tolerance.
 #[allow(clippy::cast_possible_truncation, reason = "54 at most, for the accuracy is above rounding")]
 fn bisections(length: f64, tolerance: f64) -> i32 {
-    (length / tolerance).log2().ceil().max(0.0) as i32
+    libm::log2(length / tolerance).ceil().max(0.0) as i32
 }
 
 #[cfg(test)]

@@ -105,12 +105,12 @@ fn arm(
             Some(next) => next.position,
             None => with_exact_zeros(step.plane.project(&end.position).0, end.position.norm()),
         };
-        let length = outward[0].hypot(outward[1]);
+        let length = libm::hypot(outward[0], outward[1]);
         let along = direction(outward); // 0 for a length of 0: the frame's own x axis
         let [offset] = with_exact_zeros([wrapped(step.turn + along - inboard)], 1.0);
         if k == 0 {
             let from_com = [0, 1].map(|i| step.position[i] - base.com[i]);
-            let scale = step.position[0].hypot(step.position[1]).max(base.com[0].hypot(base.com[1]));
+            let scale = libm::hypot(step.position[0], step.position[1]).max(libm::hypot(base.com[0], base.com[1]));
             (mount, mount_angle) = (with_exact_zeros(from_com, scale), offset);
         }
         let com = in_rotated_axes(planar_body.com, along);
@@ -118,7 +118,7 @@ fn arm(
             length,
             mass: planar_body.mass,
             inertia: planar_body.inertia,
-            com: with_exact_zeros(com, length.max(com[0].hypot(com[1]))),
+            com: with_exact_zeros(com, length.max(libm::hypot(com[0], com[1]))),
             outline: None,
         });
         joints.push(ImportedJoint {

@@ -53,7 +53,8 @@ pub(super) fn remarks(bodies: &[PlanarBody]) -> Vec<Remark> {
     let lowest = bodies.iter().map(|body| body.height).fold(f64::INFINITY, f64::min);
     let apart = bodies.iter().filter(|_| highest - lowest > MAX_HEIGHT_DIFFERENCE);
     let heights = apart.map(|body| format!("`{}` {:?} m", body.link, body.height));
-    let skew = bodies.iter().filter(|body| body.products[0].hypot(body.products[1]) > MAX_PRODUCT * body.inertia);
+    let skew =
+        bodies.iter().filter(|body| libm::hypot(body.products[0], body.products[1]) > MAX_PRODUCT * body.inertia);
     let products = skew.map(|body| format!("`{}` {:?} kg m²", body.link, body.products));
     let [height_fact, product_fact] = [
         "the robot would leave the plane: centres of mass are at different heights along its normal",

@@ -40,18 +40,18 @@ impl Plane {
     /// Angle between an axis and the normal, rad, and whether it points against the normal.
     pub(super) fn tilt(&self, axis: &Vector3<f64>) -> (f64, bool) {
         let along = self.normal.dot(axis);
-        (self.normal.cross(axis).norm().atan2(along.abs()), along < 0.0)
+        (libm::atan2(self.normal.cross(axis).norm(), along.abs()), along < 0.0)
     }
 }
 
 /// Direction of a planar vector, rad.
 pub(super) fn direction([x, y]: [f64; 2]) -> f64 {
-    y.atan2(x)
+    libm::atan2(y, x)
 }
 
 /// Components of a planar vector in axes that are rotated by `angle`; exact at 0.
 pub(super) fn in_rotated_axes([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (sine, cosine) = angle.sin_cos();
+    let (sine, cosine) = libm::sincos(angle);
     [cosine * x + sine * y, cosine * y - sine * x]
 }
 

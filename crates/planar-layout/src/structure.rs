@@ -93,7 +93,7 @@ const SMALLEST_DISTANCE: f64 = 1e-6;
 fn first_mounts_coincide(layout: &Layout) -> bool {
     let [first, second, ..] = layout.arms.as_slice() else { return false };
     let [[x, y], [other_x, other_y]] = [first.mount, second.mount];
-    (x - other_x).hypot(y - other_y) <= SMALLEST_DISTANCE * (x.hypot(y) + other_x.hypot(other_y))
+    libm::hypot(x - other_x, y - other_y) <= SMALLEST_DISTANCE * (libm::hypot(x, y) + libm::hypot(other_x, other_y))
 }
 
 /// The arms, links and structural properties other than zero, in words.

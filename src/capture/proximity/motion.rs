@@ -70,9 +70,9 @@ impl MotionBound {
     fn of_body(rates: &[f64], accelerations: &[f64]) -> Self {
         Self {
             yaw_rate: rates[0],
-            speed: rates[1].hypot(rates[2]),
+            speed: libm::hypot(rates[1], rates[2]),
             yaw_acceleration: accelerations[0],
-            acceleration: accelerations[1].hypot(accelerations[2]),
+            acceleration: libm::hypot(accelerations[1], accelerations[2]),
         }
     }
 }
@@ -152,7 +152,7 @@ impl FrameKinematics<'_> {
         let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);
         bounds.clear();
         for (k, frame) in self.frames.iter().enumerate() {
-            let distance = frame.pose[1].hypot(frame.pose[2]);
+            let distance = libm::hypot(frame.pose[1], frame.pose[2]);
             let parent = frame.parent.map_or_else(MotionBound::default, |parent| bounds[parent]);
             let bound = match frame.motion {
                 FrameMotion::Base => body(0),
@@ -161,12 +161,13 @@ impl FrameKinematics<'_> {
                 FrameMotion::Target(target) => match self.targets {
                     TargetMotion::Free(bodies) => {
                         let [omega, vx, vy] = bodies[target].twist;
-                        MotionBound { yaw_rate: omega.abs(), speed: (vx - bx).hypot(vy - by), ..MotionBound::default() }
+                        let speed = libm::hypot(vx - bx, vy - by);
+                        MotionBound { yaw_rate: omega.abs(), speed, ..MotionBound::default() }
                     }
                     TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
                         TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
                         TargetPlacement::Merged { arm, offset: [x, y], .. } => {
-                            bounds[self.end_effector(k, arm)].carried(x.hypot(y), [0.0; 2])
+                            bounds[self.end_effector(k, arm)].carried(libm::hypot(x, y), [0.0; 2])
                         }
                     },
                 },

@@ -67,7 +67,7 @@ impl PathWorkspace {
     ) -> f64 {
         let at = self.states_at(motions, interval, time);
         let [[_, ax, ay], [_, bx, by]] = frames.map(|frame| self.states[at].1[frame].pose);
-        (ax - bx).hypot(ay - by)
+        libm::hypot(ax - bx, ay - by)
     }
 
     /// Two parts of bodies with these frames at a time within the interval.

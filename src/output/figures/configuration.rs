@@ -57,7 +57,8 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
         Snapshot { title: Some(title), series, ..Snapshot::default() }
     };
     let events = impacts(study, case);
-    let magnitudes = events.iter().flat_map(|event| &event.solution.contacts).map(|c| c.impulse[1].hypot(c.impulse[2]));
+    let magnitudes =
+        events.iter().flat_map(|event| &event.solution.contacts).map(|c| libm::hypot(c.impulse[1], c.impulse[2]));
     let largest = magnitudes.fold(0.0, f64::max);
     let reach = scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max);
     let length_per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };

@@ -54,12 +54,12 @@ pub(super) fn pin(position: [f64; 2]) -> Series {
 
 /// An arrow from a point; `None` if it has no length.
 pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Series> {
-    let length = along[0].hypot(along[1]);
+    let length = libm::hypot(along[0], along[1]);
     if length < 1e-9 {
         return None;
     }
     let to = [from[0] + along[0], from[1] + along[1]];
-    let angle = along[1].atan2(along[0]);
+    let angle = libm::atan2(along[1], along[0]);
     let barb = |turn: f64| point([angle + turn, to[0], to[1]], [-HEAD * length, 0.0]).into();
     let points = vec![from.into(), to.into(), barb(0.5), to.into(), barb(-0.5)];
     Some(Series::line(label, Colour::BLACK, Dash::Solid, OUTLINE_WIDTH, points))

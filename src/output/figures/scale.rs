@@ -52,7 +52,7 @@ pub(super) fn scale(range: &AxisRange, values: impl Iterator<Item = f64>) -> Sca
 /// 1, 2 or 5 times a power of ten that gives four to eight ticks.
 fn round_step(span: f64) -> f64 {
     let raw = span / 5.0;
-    let power = 10_f64.powf(raw.log10().floor());
+    let power = libm::pow(10_f64, libm::log10(raw).floor());
     let factor = match raw / power {
         ..1.5 => 1.0,
         ..3.5 => 2.0,

@@ -108,7 +108,7 @@ fn pointer(target: &FreeTarget, frame: &BoundingBox) -> Option<Series> {
     let within = frame.widened([-0.02 * frame.side(); 2]);
     let head = [0, 1].map(|i| target.centre[i].clamp(within.low[i], within.high[i]));
     let direction = [0, 1].map(|i| target.centre[i] - frame.centre()[i]);
-    let distance = direction[0].hypot(direction[1]);
+    let distance = libm::hypot(direction[0], direction[1]);
     let along = direction.map(|part| length * part / distance);
     let outline = target.series.first()?;
     let arrow = arrow(outline.label.as_deref()?, [head[0] - along[0], head[1] - along[1]], along)?;

@@ -41,7 +41,7 @@ fn contact(scenario: &Scenario, event: &ImpactEvent<'_>, result: &ContactResult)
     value["holds"] = json!(law.kind().holds());
     value["literal_impulse"] = json!(event.solution.paper.as_ref().and_then(|paper| paper.impulses[arm]));
     // along the inward normal of a bounce
-    value["closing_speed"] = json!(law.bounce().map_or(vx.hypot(vy), |([x, y], _)| -(vx * x + vy * y)));
+    value["closing_speed"] = json!(law.bounce().map_or(libm::hypot(vx, vy), |([x, y], _)| -(vx * x + vy * y)));
     value
 }
 
@@ -103,7 +103,7 @@ pub(super) fn constraint_openings(study: &Study, result: &CaseResult, capture: &
             let opening = |i: usize| {
                 let [now_yaw, now_x, now_y] = pose(i);
                 let rotation = if rigid { (now_yaw - yaw).abs() } else { 0.0 };
-                (i >= event.after).then(|| digits((now_x - x).hypot(now_y - y).max(rotation)))
+                (i >= event.after).then(|| digits(libm::hypot(now_x - x, now_y - y).max(rotation)))
             };
             let column = (0..samples.len()).map(opening);
             openings.push(json!({"target": target, "arm": arm, "open": column.collect::<Vec<_>>()}));

@@ -58,7 +58,7 @@ impl<'a> ImpactChannels<'a> {
         let entity = |(i, arm): (usize, &Arm)| {
             let [_, x, y] = event.before.end_effector_poses[i];
             let [_, fx, fy] = exact.impulses[i]?;
-            let magnitude = fx.hypot(fy);
+            let magnitude = libm::hypot(fx, fy);
             let length = if largest > 0.0 { LONGEST * reach * magnitude / largest } else { 0.0 };
             Some(SceneEntity {
                 timestamp: Some(timestamp(event.time)),
@@ -66,7 +66,7 @@ impl<'a> ImpactChannels<'a> {
                 id: arm.name.clone(),
                 lifetime: Some(Duration::new(LIFETIME, 0)),
                 arrows: vec![ArrowPrimitive {
-                    pose: Some(pose([fy.atan2(fx), x, y])),
+                    pose: Some(pose([libm::atan2(fy, fx), x, y])),
                     shaft_length: 0.7 * length,
                     shaft_diameter: 0.06 * length,
                     head_length: 0.3 * length,

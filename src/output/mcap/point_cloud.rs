@@ -18,7 +18,7 @@ pub(super) fn outline(visual: &Visual) -> PointCloud {
     let mut data = Vec::new();
     for line in visual.shape.lines() {
         for (from, to) in line.iter().zip(line.iter().skip(1)) {
-            let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+            let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
             let points = (length / (SPACING * visual.thickness)).ceil().min(MAX_POINTS);
             for i in 0..points as u32 {
                 let part = f64::from(i) / points;

@@ -25,6 +25,6 @@ pub(super) fn transforms(frames: &[Frame], row: &TimeSeriesRow<'_>) -> FrameTran
 
 /// A pose [yaw, x, y] in space; z is the normal of the plane.
 pub(super) fn pose([yaw, x, y]: [f64; 3]) -> Pose {
-    let (sin, cos) = (yaw / 2.0).sin_cos();
+    let (sin, cos) = libm::sincos(yaw / 2.0);
     Pose { position: Some(Vector3 { x, y, z: 0.0 }), orientation: Some(Quaternion { x: 0.0, y: 0.0, z: sin, w: cos }) }
 }

@@ -14,7 +14,7 @@ const LARGEST: f64 = 1e6;
 /// Rejects a position [x, y] where its digits do not resolve the robot.
 pub(super) fn check_distance(value: &Value<'_>, [x, y]: [f64; 2], layout: Option<&Layout>) {
     let reach = reach(layout);
-    let (distance, limit) = (x.hypot(y), FARTHEST * reach);
+    let (distance, limit) = (libm::hypot(x, y), FARTHEST * reach);
     if reach > 0.0 && distance > limit {
         value.reject(&format!(
             "{distance:.3e} m from the inertial origin, where 16 digits do not resolve positions of the robot, expected at \

@@ -179,7 +179,7 @@ fn outline(table: &Table<'_>) -> Option<Outline> {
 /// Whether the origin is inside the convex hull of the corners, as every COM is: no half plane through it is empty.
 fn surround_origin(corners: &[[f64; 2]]) -> bool {
     let mut directions: Vec<f64> =
-        corners.iter().filter(|[x, y]| x.hypot(*y) > 0.0).map(|[x, y]| y.atan2(*x)).collect();
+        corners.iter().filter(|[x, y]| libm::hypot(*x, *y) > 0.0).map(|[x, y]| libm::atan2(*y, *x)).collect();
     directions.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (directions.first(), directions.last()) else { return false };
     let between = directions.windows(2).map(|pair| pair[1] - pair[0]);

@@ -139,7 +139,7 @@ impl Layout {
     #[must_use]
     pub fn reach(&self) -> f64 {
         let [x, y] = self.default_base_size();
-        let base = self.base.outline.as_ref().map_or(0.5 * x.hypot(y), Outline::reach);
+        let base = self.base.outline.as_ref().map_or(0.5 * libm::hypot(x, y), Outline::reach);
         let outline = |link: &Link| link.outline.as_ref().map_or(link.length, Outline::reach);
         let arm = |arm: &Arm| arm.reach_from_base() + arm.links.iter().map(outline).fold(0.0, f64::max);
         self.arms.iter().map(arm).fold(base, f64::max)
@@ -301,7 +301,7 @@ impl Arm {
     /// The largest distance of the end effector from the base COM, in m.
     #[must_use]
     pub fn reach_from_base(&self) -> f64 {
-        self.mount[0].hypot(self.mount[1]) + self.reach()
+        libm::hypot(self.mount[0], self.mount[1]) + self.reach()
     }
 
     fn from_table(table: &Table<'_>) -> Option<Self> {

@@ -70,7 +70,7 @@ impl Outline {
     /// A rectangle with sides of this size along axes turned by the angle (rad) about its centre; m.
     #[must_use]
     pub fn rectangle([cx, cy]: [f64; 2], [width, height]: [f64; 2], angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = libm::sincos(angle);
         let corner = |[a, b]: [f64; 2]| {
             let (x, y) = (0.5 * a * width, 0.5 * b * height);
             [cx + cos * x - sin * y, cy + sin * x + cos * y]
@@ -127,7 +127,7 @@ impl Outline {
         let arc = |[cx, cy]: [f64; 2], radius: f64, from: f64, chords: u32, turn: f64| {
             (0..=chords).map(move |i| {
                 let angle = from + turn * f64::from(i) / f64::from(chords);
-                [cx + radius * angle.cos(), cy + radius * angle.sin()]
+                [cx + radius * libm::cos(angle), cy + radius * libm::sin(angle)]
             })
         };
         match self {
@@ -135,7 +135,7 @@ impl Outline {
             Self::Capsule { ends: [a, b], radius: 0.0 } => vec![*a, *b],
             Self::Capsule { ends: [a, b], radius } => {
                 let [dx, dy] = minus(*b, *a);
-                let across = dy.atan2(dx) - FRAC_PI_2;
+                let across = libm::atan2(dy, dx) - FRAC_PI_2;
                 arc(*b, *radius, across, 24, PI).chain(arc(*a, *radius, across + PI, 24, PI)).collect()
             }
             Self::Polygon { corners } => corners.clone(),
@@ -156,13 +156,13 @@ impl Outline {
 /// The largest distance of the points from the origin.
 #[must_use]
 pub fn farthest(points: &[[f64; 2]]) -> f64 {
-    points.iter().fold(0.0, |most, [x, y]| x.hypot(*y).max(most))
+    points.iter().fold(0.0, |most, [x, y]| libm::hypot(*x, *y).max(most))
 }
 
 /// The signed distance from the circle of this radius about a point.
 fn away_from(center: [f64; 2], point: [f64; 2], radius: f64) -> SignedDistance {
     let [x, y] = minus(point, center);
-    let distance = x.hypot(y);
+    let distance = libm::hypot(x, y);
     let normal = if distance > 0.0 { [x / distance, y / distance] } else { [1.0, 0.0] };
     SignedDistance { distance: distance - radius, normal }
 }
@@ -182,10 +182,10 @@ fn polygon_distance(corners: &[[f64; 2]], point: [f64; 2]) -> SignedDistance {
     let mut nearest = SignedDistance { distance: f64::INFINITY, normal: [1.0, 0.0] };
     for (a, b) in edges(corners) {
         let (along, to) = (minus(b, a), minus(point, a));
-        let length = along[0].hypot(along[1]);
+        let length = libm::hypot(along[0], along[1]);
         let part = (dot(to, along) / (length * length)).clamp(0.0, 1.0);
         let away = [to[0] - part * along[0], to[1] - part * along[1]];
-        let distance = away[0].hypot(away[1]);
+        let distance = libm::hypot(away[0], away[1]);
         if distance < nearest.distance {
             // the normal points away from the nearest corner; on the outline it is that of the edge
             at_corner = (part <= 0.0 || part >= 1.0) && distance > 1e-9 * length;

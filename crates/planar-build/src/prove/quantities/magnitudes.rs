@@ -43,13 +43,13 @@ impl Magnitudes {
         let (mut end_effectors, mut last, mut column) = (Vec::new(), Vec::new(), 3);
         for arm in &layout.arms {
             let mut angle = yaw + arm.mount_angle.abs();
-            let mut levers = vec![(0, arm.mount[0].hypot(arm.mount[1]))];
+            let mut levers = vec![(0, libm::hypot(arm.mount[0], arm.mount[1]))];
             let mut end = [0.0; 2];
             for link in &arm.links {
                 levers.push((column, 0.0));
                 angle += instant.state.joint_angles.get(column - 3).map_or(0.0, |angle| angle.abs());
                 column += 1;
-                let com = link.com[0].hypot(link.com[1]);
+                let com = libm::hypot(link.com[0], link.com[1]);
                 let reach: Vec<_> = levers.iter().map(|(column, lever)| (*column, lever + com)).collect();
                 bodies.push(point(link.mass, link.inertia, &reach, angle));
                 for (_, lever) in &mut levers {

@@ -306,7 +306,7 @@ impl<'a> SizesAt<'a> {
         for ((arm, target), [length, com]) in layout.arms.iter().zip(&instant.targets).zip(&self.magnitudes.last) {
             inertias.extend(bodies.by_ref().take(arm.links.len()));
             if let (Some(target), Some([mass, inertia])) = (target, inertias.last_mut()) {
-                let lever = length + com + target.contact[0].hypot(target.contact[1]);
+                let lever = length + com + libm::hypot(target.contact[0], target.contact[1]);
                 *inertia += target.inertia + (*mass + target.mass) * lever * lever;
                 *mass += target.mass;
             }
