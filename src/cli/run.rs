@@ -7,6 +7,7 @@ use super::progress::{Display, Progress};
 use super::terminal::{note, print};
 use crate::capture::{Study, StudyError, study};
 use crate::check::help_with_gains;
+use crate::engine::Choice;
 use crate::output::console::table;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
@@ -55,8 +56,8 @@ pub struct Arguments {
 pub struct RunOptions {
     /// The folder for the results, which is this command's own.
     pub out: PathBuf,
-    /// The implementation of the dynamics.
-    pub dynamics: Dynamics,
+    /// What computes the dynamics.
+    pub choice: Choice,
     /// Whether to write report.html.
     pub report: bool,
     /// How progress is shown.
@@ -67,14 +68,14 @@ pub struct RunOptions {
 #[cfg(feature = "sweep")]
 pub fn run_file(
     scenario: &Path,
-    RunOptions { out, dynamics, report, display }: RunOptions,
+    RunOptions { out, choice, report, display }: RunOptions,
     robots: Robots<'_>,
 ) -> Result<ExitCode, CommandError> {
     let scenario = scenario.to_owned();
-    let optional_outputs = optional_outputs::Flags::default();
+    let (dynamics, optional_outputs) = (Dynamics::Auto, optional_outputs::Flags::default());
     let arguments =
         Arguments { scenario, out: Some(out), force: true, dynamics, report, sample: None, display, optional_outputs };
-    run(&arguments, robots)
+    run_by(&arguments, robots, Some(choice))
 }
 
 fn positive(text: &str) -> Result<f64, String> {
@@ -84,6 +85,11 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// Computes the study, writes its files and prints its table; exit code 1 if the audit fails.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    run_by(arguments, robots, None)
+}
+
+/// The same, by what another command has chosen to compute the dynamics.
+fn run_by(arguments: &Arguments, robots: Robots<'_>, chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
     let (scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
@@ -96,7 +102,10 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         ));
     }
     let file = &source.scenario.file;
-    let choice = arguments.dynamics.choose(&scenario.layout, file, robots, arguments.display.quiet)?;
+    let choice = match chosen {
+        Some(choice) => choice,
+        None => arguments.dynamics.choose(&scenario.layout, file, robots, arguments.display.quiet)?,
+    };
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);

@@ -25,6 +25,8 @@ mod rendering;
 mod result_folder;
 mod run;
 mod study_errors;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod urdf;
 mod urdf_xml;
 

@@ -68,7 +68,6 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     if let Some(case) = arguments.replay {
         return replay::replay(&campaign, case, &folder, arguments, robots);
     }
-    let file = &campaign.scenario_source.scenario.file;
     let choice = choose(&campaign, arguments.dynamics, robots, arguments.display.quiet)?;
     let at_folder = |error| file_error(&campaign.source.file)(error);
     create_folder(&folder)?;
@@ -85,7 +84,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     result?;
     print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
     if tally.is_interrupted.load(Ordering::Relaxed) {
-        note(format_args!("interrupted: the same command goes on with {file}"));
+        note("interrupted: the same command goes on from here");
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)

@@ -1,6 +1,6 @@
 //! `--replay INDEX`: one case of a sweep as a scenario of its own.
 
-use super::Arguments;
+use super::{Arguments, choose};
 use crate::campaign::Campaign;
 use crate::campaign::manifest::engine_of;
 use crate::campaign::sweep::Draw;
@@ -39,12 +39,12 @@ pub fn replay(
             note(format_args!("{} = {value}", varied.key));
         }
     }
-    // of another layout of the structure another engine may be the fastest
+    // by what computed the others: of a number that is 0 in this case alone there may be other code
     let dynamics = match arguments.dynamics {
         Dynamics::Auto => engine_of(folder).map_or(Dynamics::Auto, |name| Dynamics::of_name(&name)),
         chosen => chosen,
     };
-    let options =
-        RunOptions { out: own.join("results"), dynamics, report: arguments.report, display: arguments.display };
+    let choice = choose(campaign, dynamics, robots, arguments.display.quiet)?;
+    let options = RunOptions { out: own.join("results"), choice, report: arguments.report, display: arguments.display };
     run::run_file(&scenario, options, robots)
 }

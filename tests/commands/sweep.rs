@@ -1,0 +1,315 @@
+//! `planar-capture sweep`: the same bytes however a sweep was computed, resumption, failed cases, refusals.
+
+use crate::command;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use planar_proof::{file, said};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// Twelve cases in files of four.
+const SWEEP: &str = r#"
+    name = "small"
+    scenario = "scenario.toml"
+    cases = 12
+    seed = 1
+    block = 4
+    sampling = "SAMPLING"
+    [[vary]]
+    key = "target.target1.mass"
+    distribution = { normal = { mean = 10.0, std = 1.0 }, min = 5.0 }
+    [[vary]]
+    key = "layout.arm.arm1.link[0].mass"
+    distribution = { choice = [9.0, 10.0] }
+    [[vary]]
+    key = "approach.proportional_gain[2]"
+    distribution = { uniform = { min = 40.0, max = 60.0 } }
+"#;
+
+/// A folder with a scenario and a sweep.
+struct Workplace(TempDir);
+
+impl Workplace {
+    fn new(sweep: &str) -> Self {
+        let folder = TempDir::new().expect("a folder");
+        let text = fs::read_to_string(file("scenarios/sweeps/capture.toml")).expect("the scenario");
+        let short = text.replace("duration = 50.0", "duration = 2.0");
+        assert_ne!(short, text);
+        fs::write(folder.path().join("scenario.toml"), short).expect("written");
+        let place = Self(folder);
+        place.write(sweep);
+        place
+    }
+
+    fn sampled(sampling: &str) -> Self {
+        Self::new(&SWEEP.replace("SAMPLING", sampling))
+    }
+
+    fn write(&self, sweep: &str) {
+        fs::write(self.path("sweep.toml"), sweep).expect("written");
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Exit code, standard output and standard error.
+    fn sweep(&self, out: &str, more: &[&str]) -> (i32, String, String) {
+        let mut command = command();
+        command.arg("sweep").arg(self.path("sweep.toml")).arg("--out").arg(self.path(out)).args(more);
+        said(command.output().expect("it runs"))
+    }
+
+    fn computed(&self, out: &str, more: &[&str]) -> BTreeMap<PathBuf, Vec<u8>> {
+        let (code, _, err) = self.sweep(out, more);
+        assert_eq!(code, 0, "{err}");
+        self.cases(out)
+    }
+
+    /// The rows of a file of cases.
+    fn rows(&self, out: &str, block: usize) -> Vec<BTreeMap<String, Field>> {
+        let file = fs::File::open(self.path(out).join("cases").join(FILES[block])).expect("a file");
+        let reader = SerializedFileReader::new(file).expect("Parquet");
+        let rows = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row"));
+        rows.map(|row| row.get_column_iter().map(|(name, field)| (name.clone(), field.clone())).collect()).collect()
+    }
+
+    /// The bytes of the files of cases.
+    fn cases(&self, out: &str) -> BTreeMap<PathBuf, Vec<u8>> {
+        let folder = self.path(out).join("cases");
+        let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+        let visible =
+            entries.filter(|path| !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.')));
+        visible.map(|path| (path.file_name().expect("a name").into(), fs::read(&path).expect("a file"))).collect()
+    }
+}
+
+fn times(folder: &Path) -> usize {
+    fs::read_dir(folder.join("timing")).expect("a folder").count()
+}
+
+#[test]
+fn bytes_do_not_depend_on_threads_shards_or_engine() {
+    for sampling in ["random", "latin_hypercube", "sobol"] {
+        let place = Workplace::sampled(sampling);
+        let one = place.computed("one", &["--threads", "1"]);
+        assert_eq!(one.keys().map(|name| name.to_string_lossy()).collect::<Vec<_>>(), FILES);
+        assert_eq!(times(&place.path("one")), 3);
+        assert_eq!(place.computed("two", &["--threads", "2"]), one, "{sampling}");
+        for shard in ["2/3", "3/3"] {
+            let (code, _, err) = place.sweep("shards", &["--shard", shard]);
+            assert_eq!(code, 0, "{err}");
+        }
+        assert_eq!(place.cases("shards").keys().map(|name| name.to_string_lossy()).collect::<Vec<_>>(), FILES[1..]);
+        assert_eq!(place.computed("shards", &["--shard", "1/3"]), one);
+        assert_eq!(place.computed("graph", &["--dynamics", "graph"]), one);
+        let manifest = |out: &str| fs::read_to_string(place.path(out).join("manifest.json")).expect("a manifest");
+        assert_ne!(manifest("graph"), manifest("one"));
+        assert_eq!(manifest("shards"), manifest("one"));
+    }
+}
+
+const FILES: [&str; 3] = ["000000.parquet", "000001.parquet", "000002.parquet"];
+
+/// glibc chooses its functions by the processor; other ones are to change nothing.
+#[test]
+fn bytes_do_not_depend_on_the_processors_instructions() {
+    let place = Workplace::sampled("random");
+    let all = place.computed("all", &[]);
+    let mut command = command();
+    command.env("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2");
+    command.arg("sweep").arg(place.path("sweep.toml")).arg("--out").arg(place.path("few"));
+    assert!(command.output().expect("it runs").status.success());
+    assert_eq!(place.cases("few"), all);
+}
+
+#[test]
+fn a_killed_sweep_goes_on_with_whole_files() {
+    let place = Workplace::sampled("random");
+    let whole = place.computed("whole", &[]);
+    let mut child = command();
+    child.arg("sweep").arg(place.path("sweep.toml")).arg("--out").arg(place.path("killed")).stderr(Stdio::null());
+    let mut child = child.stdout(Stdio::null()).spawn().expect("it runs");
+    let first = place.path("killed").join("cases").join(FILES[0]);
+    let begin = Instant::now();
+    while !first.exists() && begin.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("over");
+    for (name, bytes) in place.cases("killed") {
+        assert_eq!(bytes, whole[&name], "a file that is there is whole");
+    }
+    // neither a file of other rows nor half a file is taken for one that is done
+    fs::copy(place.path("whole").join("cases").join(FILES[1]), first).expect("copied");
+    let half = place.path("killed").join("cases").join(FILES[2]);
+    fs::write(half, &whole[Path::new(FILES[2])][..100]).expect("written");
+    let resumed = place.computed("killed", &[]);
+    assert_eq!(resumed[Path::new(FILES[2])], whole[Path::new(FILES[2])]);
+    assert_eq!(fs::read_dir(place.path("killed").join("cases")).expect("a folder").count(), 3, "nothing temporary");
+}
+
+#[test]
+fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
+    for (sampling, can_grow) in [("random", true), ("sobol", true), ("latin_hypercube", false)] {
+        let place = Workplace::sampled(sampling);
+        let text = SWEEP.replace("SAMPLING", sampling);
+        place.write(&text.replace("cases = 12", "cases = 10"));
+        place.computed("out", &[]);
+        place.write(&text);
+        let (code, _, err) = place.sweep("out", &[]);
+        if can_grow {
+            assert_eq!(code, 0, "{err}");
+            assert_eq!(place.cases("out"), place.computed("at_once", &[]), "{sampling}");
+        } else {
+            assert_eq!(code, 2);
+            assert!(err.contains("cases: was 10, is 12") && err.contains("only the samplings"), "{err}");
+        }
+        place.write(&text.replace("cases = 12", "cases = 9"));
+        assert_eq!(place.sweep("out", &[]).0, 2, "fewer cases");
+        place.write(&text.replace("std = 1.0", "std = 1.5"));
+        let (code, _, err) = place.sweep("out", &[]);
+        assert_eq!(code, 2);
+        assert!(err.contains("sweep.vary[0].distribution.normal.std: was 1.0, is 1.5"), "{err}");
+        place.write(&format!("# a comment\n{}", if can_grow { &text } else { "" }));
+        if can_grow {
+            assert_eq!(place.sweep("out", &[]).0, 0, "a comment changes nothing");
+            let (code, _, err) = place.sweep("out", &["--dynamics", "graph"]);
+            assert!(code == 2 && err.contains(r#"engine: was "generated", is "graph""#), "{err}");
+        }
+    }
+    let place = Workplace::sampled("random");
+    fs::create_dir(place.path("taken")).expect("a folder");
+    fs::write(place.path("taken").join("notes.txt"), "mine").expect("written");
+    let (code, _, err) = place.sweep("taken", &[]);
+    assert!(code == 2 && err.contains("notes.txt"), "{err}");
+}
+
+#[test]
+fn a_failed_case_is_a_row() {
+    let place = Workplace::new(
+        r#"
+        name = "failing"
+        scenario = "scenario.toml"
+        seed = 1
+        sampling = "grid"
+        [[vary]]
+        key = "target.target1.mass"
+        distribution = { choice = [10.0, -1.0, 11.0, 12.0] }
+        "#,
+    );
+    let (code, out, err) = place.sweep("out", &[]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("4 of 4 cases computed: 3 done, 1 refused"), "{out}");
+    let rows = place.rows("out", 0);
+    let status = |row: &BTreeMap<String, Field>| row["status"].to_string();
+    assert_eq!(rows.iter().map(status).collect::<Vec<_>>(), [r#""done""#, r#""refused""#, r#""done""#, r#""done""#]);
+    assert!(
+        rows[1]["message"].to_string().contains("`target[0].mass` is -1.0, expected a mass in kg"),
+        "{:?}",
+        rows[2]
+    );
+    assert_eq!([&rows[1]["arm1_impulse_fx"], &rows[1]["captured"]], [&Field::Null; 2], "absent, not NaN");
+    assert_eq!([&rows[3]["captured"], &rows[3]["message"]], [&Field::Bool(true), &Field::Null]);
+    assert_eq!(rows[3]["case"], Field::Long(3));
+}
+
+#[test]
+fn a_replay_is_the_row_of_its_case() {
+    // what computes a layout with a zero alone is not what computes all cases: that of the case is the first
+    let zero = SWEEP.replace("link[0].mass", "link[0].com[1]").replace("[9.0, 10.0]", "[0.0, 0.0, 0.01]");
+    let place = Workplace::new(&zero.replace("SAMPLING", "random"));
+    place.computed("out", &[]);
+    let (code, _, err) = place.sweep("out", &["--replay", "7", "--report"]);
+    assert_eq!(code, 0, "{err}");
+    let replay = place.path("out").join("replay").join("000007");
+    for name in ["scenario.toml", "layout.toml", "results/summary.json", "results/report.html"] {
+        assert!(replay.join(name).exists(), "{name}");
+    }
+    assert!(err.contains("target.target1.mass = "), "{err}");
+    let summary = fs::read(replay.join("results/summary.json")).expect("a summary");
+    let case = &serde_json::from_slice::<serde_json::Value>(&summary).expect("JSON")["cases"][0];
+    let row = &place.rows("out", 1)[3];
+    let exact = &case["impact"]["exact"];
+    for (name, value) in [
+        ("arm1_impulse_fx", &exact["impulses"][0][1]),
+        ("target2_after_omega", &exact["target_twists_after"][1][0]),
+        ("arm2_joint3_rate_after", &exact["joint_rates_after"][5]),
+        ("approach_momentum_drift", &case["approach"]["momentum_drift"]),
+        ("post_impact_energy_error", &case["post_impact"]["energy_error"]),
+        ("least_distance", &case["clearance"]["besides_contacts"]["least_distance"]),
+    ] {
+        assert_eq!(row[name], Field::Double(value.as_f64().expect("a number")), "{name}");
+    }
+    let (code, _, err) = place.sweep("out", &["--replay", "12"]);
+    assert!(code == 2 && err.contains("expected 0 to 11"), "{err}");
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupt_ends_a_sweep_within_a_case() {
+    let place = Workplace::new(&SWEEP.replace("SAMPLING", "random").replace("cases = 12", "cases = 100000"));
+    let mut child = command();
+    child.arg("sweep").arg(place.path("sweep.toml")).arg("--out").arg(place.path("out")).stderr(Stdio::null());
+    let mut child = child.stdout(Stdio::null()).spawn().expect("it runs");
+    let first = place.path("out").join("cases").join(FILES[0]);
+    while !first.exists() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(killed.expect("it runs").success());
+    let begin = Instant::now();
+    assert_eq!(child.wait().expect("over").code(), Some(130));
+    assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
+}
+
+#[test]
+fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
+    const DISTRIBUTION: &str = "{ uniform = { min = 1.0, max = 2.0 } }";
+    let wrong_keys = [
+        ("target.target1.mas", "did you mean `mass`?"),
+        ("target.tarjet1.mass", "did you mean `target1`?"),
+        ("target.target1", "it is a table"),
+        ("target.target1.name", "a `name` cannot vary"),
+        ("target[0].mass", "tables of `target` are named"),
+        ("layout.arm.arm1.link[9].mass", "expected `link[0]` to `link[2]`"),
+        ("approach.duration[0]", "approach.duration"),
+        ("approach.proportional_gain[6]", "there is no element 6"),
+        ("approach..duration", "expected a key before"),
+        ("case.case1.target_twists.target1[0]", "the sweep computes the case `case2`"),
+        ("post_impact.damping_gain[0]", "is not given"),
+    ];
+    let place = Workplace::sampled("random");
+    for (key, expected) in wrong_keys {
+        place.write(&format!(
+            "name = 'a'\nscenario = 'scenario.toml'\ncases = 2\nseed = 1\n[[vary]]\nkey = '{key}'\ndistribution = {DISTRIBUTION}\n"
+        ));
+        let (code, _, err) = place.sweep("out", &[]);
+        assert!(code == 2 && err.contains("sweep.toml:6:7") && err.contains(expected), "{key}: {err}");
+    }
+    let wrong_distributions = [
+        ("{ normal = { mean = 1.0, std = -1.0 } }", "std"),
+        ("{ normal = { mean = 1.0 } }", "missing key"),
+        ("{ gauss = { mean = 1.0, std = 1.0 } }", "unknown key"),
+        ("{ uniform = { min = 2.0, max = 1.0 } }", "expected a `min` below `max`"),
+        ("{ uniform = { min = 1.0, max = 2.0 }, min = 3.0 }", "its bounds leave nothing of it"),
+        ("{ triangular = { min = 1.0, mode = 3.0, max = 2.0 } }", "`min` ≤ `mode` ≤ `max`"),
+        ("{ lognormal = { mean = -1.0, std = 1.0 } }", "greater than 0"),
+        ("{ choice = [] }", "at least one"),
+        ("{ choice = [1.0, 'a'] }", "at least one number, or text"),
+        ("{ choice = [1.0], max = 2.0 }", "a choice has no bounds"),
+    ];
+    for (distribution, expected) in wrong_distributions {
+        place.write(&format!(
+            "name = 'a'\nscenario = 'scenario.toml'\ncases = 2\nseed = 1\n[[vary]]\nkey = 'target.target1.mass'\ndistribution = {distribution}\n"
+        ));
+        let (code, _, err) = place.sweep("out", &[]);
+        assert!(code == 2 && err.contains("sweep.toml:") && err.contains(expected), "{distribution}: {err}");
+    }
+    assert!(!place.path("out").exists(), "nothing was written");
+}
