@@ -9,6 +9,7 @@ pub mod manifest;
 pub mod normal;
 pub mod outputs;
 mod reader;
+pub mod report;
 pub mod row;
 pub mod run;
 pub mod sampling;

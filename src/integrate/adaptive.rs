@@ -1,6 +1,7 @@
-//! Verner's pair of orders 9 and 8 with adaptive steps, by the crate `differential-equations`, which only this file
+//! Verner's pair of orders 9 and 8 with adaptive steps, by the crate `differential-equations`, which only this folder
 //! uses.
 
+use super::entries::Entries;
 use crate::error::Error;
 use differential_equations::error::Error as SolverError;
 use differential_equations::interpolate::Interpolation;
@@ -13,7 +14,7 @@ use std::fmt;
 pub type Derivative<'a> = dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error> + 'a;
 
 /// 16 stages, 26 with those of the interpolant.
-type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Vec<f64>, 9, 16, 26>;
+type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Entries, 9, 16, 26>;
 
 /// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
 ///
@@ -58,7 +59,7 @@ impl Adaptive {
         self.end = end.max(time + 4.0 * least);
         self.solver.h0 = self.next_step.min(self.end - time); // 0: the solver estimates one
         let problem = Problem::new(derivative);
-        let result = self.solver.init(&problem, time, self.end, &x.to_vec());
+        let result = self.solver.init(&problem, time, self.end, &Entries(x.to_vec()));
         self.next_step = self.solver.h();
         problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))
     }
@@ -81,7 +82,7 @@ impl Adaptive {
         let wanted = time.min(self.end);
         let rounding = 4.0 * f64::EPSILON * self.end.abs();
         if wanted > self.solver.t() + rounding && from + rounding >= self.solver.t() {
-            let mut x = self.solver.y().clone();
+            let mut x = self.solver.y().0.clone();
             if restore(&mut x)? {
                 self.start(self.solver.t(), self.end, &x, derivative)?;
             }
@@ -99,11 +100,11 @@ impl Adaptive {
     pub fn interpolate(&mut self, time: f64, into: &mut [f64]) -> Result<(), Error> {
         let (before, now) = (self.solver.t_prev(), self.solver.t());
         if time >= now || before >= now {
-            into.copy_from_slice(self.solver.y());
+            into.copy_from_slice(&self.solver.y().0);
             return Ok(());
         }
         let x = self.solver.interpolate(time.max(before)).map_err(|_| self.stuck())?;
-        into.copy_from_slice(&x);
+        into.copy_from_slice(&x.0);
         Ok(())
     }
 
@@ -154,7 +155,7 @@ impl<'a, 'd> Problem<'a, 'd> {
     }
 
     /// The error of f, or `None` as the error of the solver.
-    fn result<X>(self, result: Result<X, SolverError<f64, Vec<f64>>>) -> Result<(), Option<Error>> {
+    fn result<X>(self, result: Result<X, SolverError<f64, Entries>>) -> Result<(), Option<Error>> {
         match (self.failure.get(), result) {
             (Some(failure), _) => Err(Some(failure)),
             (None, Err(_)) => Err(None),
@@ -163,8 +164,8 @@ impl<'a, 'd> Problem<'a, 'd> {
     }
 }
 
-impl ODE<f64, Vec<f64>> for Problem<'_, '_> {
-    fn diff(&self, time: f64, x: &Vec<f64>, rate: &mut Vec<f64>) {
+impl ODE<f64, Entries> for Problem<'_, '_> {
+    fn diff(&self, time: f64, Entries(x): &Entries, Entries(rate): &mut Entries) {
         if self.failure.get().is_some() {
             return rate.fill(0.0);
         }

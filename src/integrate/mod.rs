@@ -3,6 +3,8 @@
 
 #[cfg(feature = "std")]
 pub mod adaptive;
+#[cfg(feature = "std")]
+mod entries;
 
 #[cfg(feature = "std")]
 pub use adaptive::Adaptive;

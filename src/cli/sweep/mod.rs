@@ -9,10 +9,11 @@ use super::terminal::{note, print};
 use super::{CommandError, file_error};
 use crate::campaign::Campaign;
 use crate::campaign::manifest::claim;
+use crate::campaign::report::{page, report};
 use crate::campaign::row::Status;
 use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
 use crate::engine::Choice;
-use crate::output::atomic_file::create_folder;
+use crate::output::atomic_file::{create_folder, write_text};
 use crate::registry::Robots;
 use progress::Progress;
 use std::num::NonZero;
@@ -41,8 +42,8 @@ pub struct Arguments {
     /// Run the case of this index alone, as `run` does, into DIR/replay/INDEX.
     #[arg(long, value_name = "INDEX", conflicts_with = "shard")]
     replay: Option<u64>,
-    /// With --replay: write report.html, an animation with plots, too.
-    #[arg(long, requires = "replay")]
+    /// Write DIR/report.html too: percentiles, failures, sensitivities, extremes. With --replay: that of the run.
+    #[arg(long)]
     report: bool,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
@@ -83,11 +84,22 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     progress.finish();
     result?;
     print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
+    if arguments.report {
+        write_report(&campaign, arguments, &folder)?;
+    }
     if tally.is_interrupted.load(Ordering::Relaxed) {
         note("interrupted: the same command goes on from here");
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Of all files that are there, whoever computed them.
+fn write_report(campaign: &Campaign, arguments: &Arguments, folder: &Path) -> Result<(), CommandError> {
+    let words = ["planar-capture", "sweep", &*arguments.sweep.to_string_lossy(), "--out", &*folder.to_string_lossy()];
+    let command = format!("{} --replay", shlex::try_join(words).unwrap_or_default());
+    let page = page(&report(campaign, folder)?, &command);
+    Ok(write_text(&folder.join("report.html"), &page)?)
 }
 
 /// What computes the cases: chosen for a layout whose numbers that vary are as different from 0 as in the cases.

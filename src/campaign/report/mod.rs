@@ -1,0 +1,153 @@
+//! The report on a sweep: percentiles, failures, sensitivities, and the cases to look at.
+
+mod columns;
+mod page;
+pub mod statistics;
+
+use crate::campaign::reader::Campaign;
+use crate::campaign::row::Status;
+use crate::output::output_error::OutputError;
+use columns::{Column, Columns};
+use statistics::{Percentile, PercentileRanks, correlation, first_order, ranks};
+use std::collections::HashMap;
+use std::path::Path;
+
+pub use page::page;
+
+/// The percentiles of an output, in hundredths.
+pub const PERCENTILES: [u8; 5] = [5, 25, 50, 75, 95];
+
+/// Most failures that are listed.
+const LISTED: usize = 20;
+
+/// What there is to say about a sweep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SweepReport {
+    /// The sweep's name.
+    pub name: String,
+    /// Rows that were read.
+    pub cases: usize,
+    /// Rows by status, those that occur.
+    pub statuses: Vec<(String, usize)>,
+    /// Case, status and message of the first failures.
+    pub failures: Vec<(u64, String, String)>,
+    /// Keys that vary with numbers.
+    pub keys: Vec<String>,
+    /// Outputs that vary.
+    pub outputs: Vec<OutputReport>,
+    /// Whether keys are independent, as first-order indices suppose.
+    pub is_independent: bool,
+}
+
+/// One output.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OutputReport {
+    /// As in the files.
+    pub name: String,
+    /// SI.
+    pub unit: String,
+    /// How many cases have it.
+    pub count: usize,
+    /// In the order of [`PERCENTILES`].
+    pub percentiles: Vec<Percentile>,
+    /// The cases with the smallest and the largest value, and these.
+    pub extremes: [(u64, f64); 2],
+    /// Rank correlation with each key.
+    pub correlations: Vec<Option<f64>>,
+    /// First-order index of each key; empty where keys are correlated.
+    pub first_order: Vec<Option<f64>>,
+}
+
+/// Reads the files of a sweep that are there.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, OutputError> {
+    let columns = Columns::of(folder)?;
+    let names = columns.names()?;
+    let place = |name: &str| names.iter().position(|(known, _)| known == name);
+    let numbers = |name: &str| -> Result<Vec<Option<f64>>, OutputError> {
+        Ok(match place(name).map(|place| columns.column(place)).transpose()? {
+            Some(Column::Numbers(numbers)) => numbers,
+            _ => Vec::new(),
+        })
+    };
+    let texts = |name: &str| -> Result<Vec<Option<String>>, OutputError> {
+        Ok(match place(name).map(|place| columns.column(place)).transpose()? {
+            Some(Column::Texts(texts)) => texts,
+            _ => Vec::new(),
+        })
+    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices of cases")]
+    let cases: Vec<u64> = numbers("case")?.into_iter().map(|case| case.unwrap_or_default() as u64).collect();
+    let (statuses, messages) = (texts("status")?, texts("message")?);
+    let is = |status: &Option<String>, name: &str| status.as_deref() == Some(name);
+    let counts = Status::ALL
+        .iter()
+        .map(|(name, _)| ((*name).to_owned(), statuses.iter().filter(|status| is(status, name)).count()));
+    let failures = statuses.iter().enumerate().filter(|(_, status)| !is(status, Status::Done.name())).take(LISTED);
+    let failures = failures.map(|(row, status)| {
+        let message = messages.get(row).cloned().flatten().unwrap_or_default();
+        (cases[row], status.clone().unwrap_or_default(), message)
+    });
+    let mut keys = Vec::new();
+    for varied in &campaign.sweep.varied {
+        let values: Option<Vec<f64>> = numbers(&varied.key)?.into_iter().collect();
+        keys.extend(values.filter(|values| !values.is_empty()).map(|values| (varied.key.clone(), values)));
+    }
+    let is_independent = campaign.sweep.copula.is_none();
+    let mut of_count = HashMap::new();
+    let mut outputs = Vec::new();
+    let first = place("captured").unwrap_or_default();
+    for (name, unit) in &names[first.min(names.len())..] {
+        let values = numbers(name)?;
+        let rows: Vec<usize> = (0..values.len()).filter(|row| values[*row].is_some()).collect();
+        let values: Vec<f64> = values.into_iter().flatten().collect();
+        let found = OutputReport { name: name.clone(), unit: unit.clone(), ..OutputReport::default() };
+        outputs.extend(found.of(&cases, (&rows, &values), &keys, is_independent, &mut of_count));
+    }
+    Ok(SweepReport {
+        name: campaign.sweep.name.clone(),
+        cases: cases.len(),
+        statuses: counts.filter(|(_, count)| *count > 0).collect(),
+        failures: failures.collect(),
+        keys: keys.into_iter().map(|(key, _)| key).collect(),
+        outputs,
+        is_independent,
+    })
+}
+
+impl OutputReport {
+    /// Of values of some rows; `None` where they do not vary.
+    fn of(
+        self,
+        cases: &[u64],
+        (rows, values): (&[usize], &[f64]),
+        keys: &[(String, Vec<f64>)],
+        is_independent: bool,
+        of_count: &mut HashMap<usize, Vec<PercentileRanks>>,
+    ) -> Option<Self> {
+        let smallest = (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+        let largest = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
+        if values[smallest].total_cmp(&values[largest]).is_eq() {
+            return None;
+        }
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let at = of_count.entry(values.len()).or_insert_with(|| {
+            PERCENTILES.iter().map(|p| PercentileRanks::new(values.len(), f64::from(*p) / 100.0)).collect()
+        });
+        let of_values = ranks(values);
+        let of_keys: Vec<Vec<f64>> =
+            keys.iter().map(|(_, all)| ranks(&rows.iter().map(|row| all[*row]).collect::<Vec<_>>())).collect();
+        let first_order = of_keys.iter().filter(|_| is_independent).map(|key| first_order(key, values)).collect();
+        Some(Self {
+            count: values.len(),
+            percentiles: at.iter().map(|percentile| percentile.of(&sorted)).collect(),
+            extremes: [smallest, largest].map(|i| (cases[rows[i]], values[i])),
+            correlations: of_keys.iter().map(|key| correlation(key, &of_values)).collect(),
+            first_order,
+            ..self
+        })
+    }
+}
