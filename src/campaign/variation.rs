@@ -47,6 +47,9 @@ impl Variation {
     ///
     /// # Errors
     /// The first key that names nothing.
+    ///
+    /// # Panics
+    /// Where the texts are not those of the scenario.
     pub fn new(
         scenario: &Scenario,
         source: &ScenarioSource,
@@ -65,10 +68,7 @@ impl Variation {
         for (key, (path, value)) in keys.iter().enumerate() {
             let refused = |why| Unusable { key, why };
             let in_layout = matches!(&path.0[..], [Step::Name(first), _, ..] if first == "layout");
-            let (tree, path) = match in_layout {
-                true => (&mut of_layout, &path.0[1..]),
-                false => (&mut of_scenario, &path.0[..]),
-            };
+            let (tree, path) = if in_layout { (&mut of_layout, &path.0[1..]) } else { (&mut of_scenario, &path.0[..]) };
             let place = place(tree, path, in_layout, scenario).map_err(refused)?;
             let contains = |(other_tree, other): &&(bool, Place)| {
                 *other_tree == in_layout && (other.starts_with(&place) || place.starts_with(other))
@@ -84,9 +84,10 @@ impl Variation {
             Template::new(tree, of_tree.map(|(key, (_, place))| (key, place)))
         };
         // a layout that does not vary keeps its text
-        let layout = match places.iter().any(|(in_layout, _)| *in_layout) {
-            true => of(true, &of_layout),
-            false => Template { text: source.layout.text.clone(), places: Vec::new() },
+        let layout = if places.iter().any(|(in_layout, _)| *in_layout) {
+            of(true, &of_layout)
+        } else {
+            Template { text: source.layout.text.clone(), places: Vec::new() }
         };
         Ok(Self { scenario: of(false, &of_scenario), layout, layout_name: scenario.layout.name.clone() })
     }
@@ -101,6 +102,9 @@ impl Variation {
     }
 
     /// Texts for files of a case, the scenario naming its layout by [`LAYOUT_FILE`].
+    ///
+    /// # Panics
+    /// Never: a scenario's text has a tree.
     #[must_use]
     pub fn texts(&self, values: &[VariedValue]) -> CaseTexts {
         let scenario = self.scenario.fill(values);

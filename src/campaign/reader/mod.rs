@@ -102,7 +102,7 @@ fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Optio
     let case = case?;
     let (paths, variation) = keys::keys(&tables, &distributions, (&scenario, &scenario_source), &case)?;
     let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
-    let copula = read_or(root, "correlation", None, |value| correlations(value, &keys, sampling?));
+    let copula = read_or(root, "correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
     let collect = collect::collect(root, cases, &scenario);
     let distributions: Vec<Distribution> = distributions.into_iter().collect::<Option<_>>()?;
     let sweep = Sweep {
@@ -175,7 +175,7 @@ fn cases(
     Some(combinations)
 }
 
-fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Option<Option<Copula>> {
+fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Option<Copula> {
     let tables = value.tables(&["keys", "rank"])?;
     if !sampling.can_correlate() {
         value.reject(&format!(
@@ -215,13 +215,8 @@ fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Optio
         tables[i].reject("two keys have one rank correlation", "this is the second");
         return None;
     }
-    match Copula::new(&pairs) {
-        Ok(copula) => Some(Some(copula)),
-        Err(_) => {
-            value.reject("no variables have all of these rank correlations together, expected smaller ones");
-            None
-        }
-    }
+    let why = "no variables have all of these rank correlations together, expected smaller ones";
+    Copula::new(&pairs).map_err(|_| value.reject(why)).ok()
 }
 
 /// A whole number in the range of a rule.

@@ -9,7 +9,7 @@ pub(super) fn strokes(points: &[(f64, f64)], points_per_unit: [f64; 2], dash: Da
     let (mut index, mut strokes, mut stroke) = (0, Vec::new(), Vec::from_iter(points.first().copied()));
     for pair in points.windows(2) {
         let [(mut x, mut y), (end_x, end_y)] = [pair[0], pair[1]];
-        let distance = |x, y| f64::hypot((end_x - x) * points_per_unit[0], (end_y - y) * points_per_unit[1]);
+        let distance = |x, y| libm::hypot((end_x - x) * points_per_unit[0], (end_y - y) * points_per_unit[1]);
         let mut length = distance(x, y);
         while length >= remaining {
             let part = remaining / length;
