@@ -1,21 +1,20 @@
-//! Keys of varied values: dotted paths of TOML, tables of a list by their names, elements of a list by their index.
-//!
-//! `target.target1.inertia`, `target."my.t".mass`, `layout.arm.arm1.link[0].com[1]`.
+//! Paths of values that vary: [`find_key`] has their notation.
 
+use crate::format::{Shape, ShapeAt, Step};
+use crate::scenario::{KeyFile, find_key};
 use std::fmt::{self, Display, Formatter};
 
-/// One part of a path.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Step {
-    /// A key of a table, or the name of a table in a list.
-    Name(String),
-    /// The place in a list.
-    Index(usize),
-}
+/// What no case can have another one of.
+const FIXED: [&str; 2] = ["name", "layout"];
 
-/// A path from the root of a scenario, at least one name.
+/// The path of a single value of a scenario or of its layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct KeyPath(pub Vec<Step>);
+pub struct KeyPath {
+    /// The file that has it.
+    pub file: KeyFile,
+    /// From that file's root, at least one.
+    pub steps: Vec<Step>,
+}
 
 impl KeyPath {
     /// Reads a path.
@@ -23,61 +22,45 @@ impl KeyPath {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let mut steps = Vec::new();
-        let mut rest = text;
-        loop {
-            let (name, after) = name(rest)?;
-            steps.push(Step::Name(name));
-            rest = after;
-            while let Some(inner) = rest.strip_prefix('[') {
-                let (index, after) = inner.split_once(']').ok_or("a `[` without its `]`")?;
-                let index = index.parse().map_err(|_| format!("`[{index}]` is no index, expected `[0]`, `[1]` …"))?;
-                steps.push(Step::Index(index));
-                rest = after;
-            }
-            if rest.is_empty() {
-                return Ok(Self(steps));
-            }
-            rest = rest.strip_prefix('.').ok_or_else(|| format!("expected `.` or `[` before `{rest}`"))?;
+        let (file, place) = find_key(text).map_err(|error| error.why)?;
+        match (place.steps.last(), place.shape) {
+            (Some(Step::Key(last)), _) if FIXED.contains(&last.as_str()) => Err(format!("a `{last}` cannot vary")),
+            (_, ShapeAt::Whole(shape)) if !shape.is_scalar() => Err(match shape {
+                Shape::Table(_) | Shape::Tables(_) | Shape::ByName(..) => {
+                    "it is a table, expected `.` and a key in it".to_owned()
+                }
+                _ => format!("it is {}, expected one element of it: `{text}[0]`", shape.wanted()),
+            }),
+            _ => Ok(Self { file, steps: place.steps }),
         }
+    }
+
+    /// The names on it, those of keys and of tables.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        let names = self.steps.iter().filter_map(|step| match step {
+            Step::Key(name) | Step::Named(name) => Some(name.as_str()),
+            Step::Index(_) => None,
+        });
+        names.collect()
     }
 }
 
 impl Display for KeyPath {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for (i, step) in self.0.iter().enumerate() {
+        let mut point = "";
+        if self.file == KeyFile::Layout {
+            f.write_str("layout")?;
+            point = ".";
+        }
+        for step in &self.steps {
             match step {
-                Step::Index(index) => write!(f, "[{index}]")?,
-                Step::Name(name) => {
-                    let dot = if i == 0 { "" } else { "." };
-                    let quote = if name.is_empty() || !name.chars().all(is_bare) { "\"" } else { "" };
-                    write!(f, "{dot}{quote}{name}{quote}")?;
-                }
+                Step::Index(_) => write!(f, "{step}")?,
+                Step::Key(_) | Step::Named(_) => write!(f, "{point}{step}")?,
             }
+            point = ".";
         }
         Ok(())
-    }
-}
-
-fn is_bare(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_' || c == '-'
-}
-
-/// A name at the start of a text, and the text after it.
-fn name(text: &str) -> Result<(String, &str), String> {
-    for quote in ['"', '\''] {
-        if let Some(quoted) = text.strip_prefix(quote) {
-            let (name, rest) = quoted.split_once(quote).ok_or_else(|| format!("a `{quote}` without a second one"))?;
-            return Ok((name.to_owned(), rest));
-        }
-    }
-    let end = text.find(|c| !is_bare(c)).unwrap_or(text.len());
-    match text.split_at(end) {
-        ("", "") => Err("a key is missing at its end".to_owned()),
-        ("", rest) => {
-            Err(format!("expected a key before `{rest}`; other than letters, digits, `_` and `-` stand in quotes"))
-        }
-        (name, rest) => Ok((name.to_owned(), rest)),
     }
 }
 
@@ -87,16 +70,33 @@ mod tests {
 
     #[test]
     fn paths_are_read_and_shown() {
-        for path in ["approach.duration", "target.\"my.t\".mass", "layout.arm.arm1.link[0].com[1]", "case.a-1.x[2]"] {
+        for path in [
+            "approach.duration",
+            "approach.proportional_gain",
+            "target.\"my.t\".mass",
+            "layout.arm.arm1.link[0].com[1]",
+            "case.a-1.target_twists.x[2]",
+        ] {
             assert_eq!(KeyPath::parse(path).expect("a path").to_string(), path);
         }
         assert_eq!(KeyPath::parse("target.'t'.mass").expect("a path").to_string(), "target.t.mass");
     }
 
     #[test]
-    fn malformed_paths_are_refused() {
-        for path in ["", "a.", ".a", "a..b", "a[", "a[x]", "a[-1]", "a]", "a[0]b", "\"a", "a b", "[0]"] {
-            assert!(KeyPath::parse(path).is_err(), "{path}");
+    fn paths_that_lead_to_no_single_value_are_refused() {
+        for (path, why) in [
+            ("", "expected a key"),
+            ("approach.dration", "did you mean `approach.duration`?"),
+            ("approach", "it is a table"),
+            ("target.t", "it is a table"),
+            ("case.c.target_twists", "it is a table"),
+            ("initial.joint_angles", "expected one element of it: `initial.joint_angles[0]`"),
+            ("initial.base_pose", "expected one element"),
+            ("target.t.name", "a `name` cannot vary"),
+            ("layout", "a `layout` cannot vary"),
+        ] {
+            let error = KeyPath::parse(path).expect_err(path);
+            assert!(error.contains(why), "{path}: {error}");
         }
     }
 }

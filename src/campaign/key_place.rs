@@ -1,84 +1,63 @@
 //! Where a key is in the tree of a scenario or layout. What is left at its default there is written out first.
 
-use super::key_path::Step;
+use super::key_path::KeyPath;
 use crate::diagnostic::{listing, nearest};
-use crate::scenario::{PostCaptureControl, Scenario, Tracking};
+use crate::format::Step;
+use crate::scenario::{KeyFile, PostCaptureControl, Scenario, Tracking};
 use toml::{Table, Value};
 
 /// Keys of tables and indices of lists.
 pub type Place = Vec<Step>;
 
-/// What no case can have another one of.
-const FIXED: [&str; 2] = ["name", "layout"];
-
 /// The place of a path, whose tables and lists are in the tree afterwards; the value may be absent.
 ///
 /// # Errors
-/// What is wrong with the path.
-pub fn place(tree: &mut Table, path: &[Step], in_layout: bool, scenario: &Scenario) -> Result<Place, String> {
-    if let Some(Step::Name(last)) = path.last()
-        && FIXED.contains(&last.as_str())
-    {
-        return Err(format!("a `{last}` cannot vary"));
-    }
+/// What there is not in this tree.
+///
+/// # Panics
+/// Where the tree is not that of a file of its format.
+pub fn place(tree: &mut Table, path: &KeyPath, scenario: &Scenario) -> Result<Place, String> {
     let mut place = Vec::new();
-    let mut rest = path;
+    let mut rest = &path.steps[..];
     let mut inner = tree;
     loop {
-        let [Step::Name(key), after @ ..] = rest else {
-            return Err("a table has keys, not places: expected `.` and a key".to_owned());
-        };
-        place.push(Step::Name(key.clone()));
-        if after.is_empty() {
-            if inner.get(key).is_some_and(Value::is_table) || is_list_of_tables(inner.get(key)) {
-                return Err(format!("`{key}` is a table, expected `.` and a key in it"));
+        let [Step::Key(key), after @ ..] = rest else { unreachable!("tables have keys") };
+        place.push(Step::Key(key.clone()));
+        let Some(next) = after.first() else { return Ok(place) };
+        if let Step::Key(_) = next {
+            rest = after;
+            let table = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
+            inner = table.as_table_mut().expect("a table, by the format");
+            continue;
+        }
+        if !is_list_of_tables(inner.get(key)) {
+            if let Step::Named(name) = next {
+                return Err(format!("there is no `{key}` of the name `{name}`, there is none at all"));
+            }
+            write_out(inner, key, || default_list(path, scenario), scenario)?;
+            let mut list = &inner[key];
+            for step in after {
+                let Step::Index(index) = *step else { unreachable!("lists have elements") };
+                element(list, &mut place, index)?;
+                list = &list[index];
             }
             return Ok(place);
         }
-        if let Step::Index(index) = after[0]
-            && !is_list_of_tables(inner.get(key))
-        {
-            return match after {
-                [_] => {
-                    write_out(inner, key, || default_list(path, in_layout, scenario), scenario)?;
-                    element(&inner[key], &mut place, index).map(|()| place)
-                }
-                [_, Step::Index(second)] => {
-                    let list = inner.get(key).ok_or_else(|| format!("`{key}` is not given"))?;
-                    element(list, &mut place, index)?;
-                    element(&list[index], &mut place, *second).map(|()| place)
-                }
-                _ => Err(format!("`{key}` is no list of tables")),
-            };
-        }
-        let value = inner.entry(key.clone()).or_insert_with(|| Value::Table(Table::new()));
-        rest = after;
-        inner = match value {
-            Value::Table(table) => table,
-            Value::Array(tables) if is_list(tables) => {
-                let index = index_in(tables, key, &after[0])?;
-                place.push(Step::Index(index));
-                rest = &after[1..];
-                if rest.is_empty() {
-                    return Err("it is a table, expected `.` and a key in it".to_owned());
-                }
-                match &mut tables[index] {
-                    Value::Table(table) => table,
-                    _ => return Err(format!("`{key}` is no list of tables")),
-                }
-            }
-            _ => return Err(format!("`{key}` is no table, expected no `.` after it")),
-        };
+        let tables = inner.get_mut(key).and_then(Value::as_array_mut).expect("a list of tables");
+        let index = index_in(tables, key, next)?;
+        place.push(Step::Index(index));
+        rest = &after[1..];
+        inner = tables[index].as_table_mut().expect("a list of tables");
     }
 }
 
 /// Puts a value at a place.
 pub fn set(tree: &mut Table, place: &Place, value: Value) {
-    let [Step::Name(first), rest @ ..] = &place[..] else { unreachable!("a place begins with a key") };
+    let [Step::Key(first), rest @ ..] = &place[..] else { unreachable!("a place begins with a key") };
     let mut slot = tree.entry(first.clone()).or_insert(Value::Boolean(false));
     for step in rest {
         slot = match (slot, step) {
-            (Value::Table(table), Step::Name(name)) => table.entry(name.clone()).or_insert(Value::Boolean(false)),
+            (Value::Table(table), Step::Key(name)) => table.entry(name.clone()).or_insert(Value::Boolean(false)),
             (Value::Array(items), Step::Index(index)) => &mut items[*index],
             _ => unreachable!("a place in this tree"),
         };
@@ -103,10 +82,7 @@ fn index_in(tables: &[Value], key: &str, step: &Step) -> Result<usize, String> {
             Err(format!("there is no `{key}[{index}]`, expected `{key}[0]` to `{key}[{}]`", tables.len() - 1))
         }
         Step::Index(_) => Err(format!("tables of `{key}` are named, expected {}", listing(&names, "or"))),
-        Step::Name(name) => names.iter().position(|known| known == name).ok_or_else(|| {
-            if names.is_empty() {
-                return format!("tables of `{key}` have no names, expected `{key}[0]`");
-            }
+        Step::Key(name) | Step::Named(name) => names.iter().position(|known| known == name).ok_or_else(|| {
             let near =
                 nearest(name, names.iter().copied()).map_or(String::new(), |near| format!(": did you mean `{near}`?"));
             format!("there is no `{key}` of the name `{name}`, expected {}{near}", listing(&names, "or"))
@@ -144,16 +120,12 @@ fn element(list: &Value, place: &mut Place, index: usize) -> Result<(), String> 
 }
 
 /// The list that a path, with an index at its end, stands for where its key is not given.
-fn default_list(path: &[Step], in_layout: bool, scenario: &Scenario) -> Option<Vec<f64>> {
-    let names: Vec<&str> = path
-        .iter()
-        .filter_map(|step| match step {
-            Step::Name(name) => Some(name.as_str()),
-            Step::Index(_) => None,
-        })
-        .collect();
-    if in_layout {
-        let (["arm", arm, "link", "com"], [_, _, _, Step::Index(link), ..]) = (&names[..], path) else { return None };
+fn default_list(path: &KeyPath, scenario: &Scenario) -> Option<Vec<f64>> {
+    let names = path.names();
+    if path.file == KeyFile::Layout {
+        let (["arm", arm, "link", "com"], [_, _, _, Step::Index(link), ..]) = (&names[..], &path.steps[..]) else {
+            return None;
+        };
         let arm = scenario.layout.arms.iter().find(|known| known.name == *arm)?;
         return Some(arm.links.get(*link)?.com.to_vec());
     }

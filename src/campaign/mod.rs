@@ -5,6 +5,7 @@ pub mod copula;
 pub mod distribution;
 pub mod key_path;
 mod key_place;
+mod keys;
 pub mod manifest;
 pub mod normal;
 pub mod outputs;
@@ -18,4 +19,5 @@ pub mod uniform;
 pub mod variation;
 pub mod varied_value;
 
+pub use keys::FORMAT;
 pub use reader::Campaign;

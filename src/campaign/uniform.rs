@@ -3,10 +3,10 @@
 //! A stream is the `ChaCha8` key stream of the SHA-256 of seed and name; two of its 32-bit words are one number. Neither
 //! the order of draws nor other streams have a part in it.
 
+use hmac_sha256::Hash;
 use rand::Rng;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
-use hmac_sha256::Hash;
 
 /// The numbers of one seed and name.
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ pub(super) fn unit(interval: u64) -> f64 {
 mod tests {
     use super::UniformStream;
 
-    /// The SHA-256 and the `ChaCha8` key stream of two other implementations (Python's hashlib, and ChaCha written after
+    /// The SHA-256 and the `ChaCha8` key stream of two other implementations (Python's hashlib, and `ChaCha` written after
     /// RFC 8439 with 8 rounds and a 64-bit counter).
     #[test]
     fn numbers_are_known_and_do_not_depend_on_order() {

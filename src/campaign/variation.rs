@@ -1,12 +1,13 @@
 //! The texts of scenario and layout with other values at some keys: written once with places for these, filled for every
 //! case, and read by the same readers as files.
 
-use super::key_path::{KeyPath, Step};
+use super::key_path::KeyPath;
 use super::key_place::{Place, place, set};
 use super::varied_value::VariedValue;
 use crate::diagnostic::Report;
+use crate::format::Step;
 use crate::layout::Layout;
-use crate::scenario::{Scenario, ScenarioSource};
+use crate::scenario::{KeyFile, Scenario, ScenarioSource};
 use std::ops::Range;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
@@ -64,32 +65,34 @@ impl Variation {
         if let Some(Value::Array(cases)) = of_scenario.get_mut("case") {
             cases.retain(|table| table.get("name").and_then(Value::as_str) == Some(case));
         }
-        let mut places: Vec<(bool, Place)> = Vec::new();
+        let mut places: Vec<(KeyFile, Place)> = Vec::new();
         for (key, (path, value)) in keys.iter().enumerate() {
             let refused = |why| Unusable { key, why };
-            let in_layout = matches!(&path.0[..], [Step::Name(first), _, ..] if first == "layout");
-            let (tree, path) = if in_layout { (&mut of_layout, &path.0[1..]) } else { (&mut of_scenario, &path.0[..]) };
-            let place = place(tree, path, in_layout, scenario).map_err(refused)?;
-            let contains = |(other_tree, other): &&(bool, Place)| {
-                *other_tree == in_layout && (other.starts_with(&place) || place.starts_with(other))
+            let tree = match path.file {
+                KeyFile::Scenario => &mut of_scenario,
+                KeyFile::Layout => &mut of_layout,
             };
-            if let Some(other) = places.iter().position(|place| contains(&place)) {
+            let place = place(tree, path, scenario).map_err(refused)?;
+            let overlaps = |(file, other): &(KeyFile, Place)| {
+                *file == path.file && (other.starts_with(&place) || place.starts_with(other))
+            };
+            if let Some(other) = places.iter().position(overlaps) {
                 return Err(refused(format!("it is part of `{}`, which varies, too", keys[other].0)));
             }
             set(tree, &place, value.to_toml());
-            places.push((in_layout, place));
+            places.push((path.file, place));
         }
-        let of = |wanted: bool, tree: &Table| {
-            let of_tree = places.iter().enumerate().filter(|(_, (in_layout, _))| *in_layout == wanted);
+        let of = |wanted: KeyFile, tree: &Table| {
+            let of_tree = places.iter().enumerate().filter(|(_, (file, _))| *file == wanted);
             Template::new(tree, of_tree.map(|(key, (_, place))| (key, place)))
         };
         // a layout that does not vary keeps its text
-        let layout = if places.iter().any(|(in_layout, _)| *in_layout) {
-            of(true, &of_layout)
+        let layout = if places.iter().any(|(file, _)| *file == KeyFile::Layout) {
+            of(KeyFile::Layout, &of_layout)
         } else {
             Template { text: source.layout.text.clone(), places: Vec::new() }
         };
-        Ok(Self { scenario: of(false, &of_scenario), layout, layout_name: scenario.layout.name.clone() })
+        Ok(Self { scenario: of(KeyFile::Scenario, &of_scenario), layout, layout_name: scenario.layout.name.clone() })
     }
 
     /// The scenario of a case with these values, one per key.
@@ -168,8 +171,8 @@ fn span(root: &DeTable<'_>, place: &Place) -> Range<usize> {
     let mut found: Option<&Spanned<DeValue<'_>>> = None;
     for step in place {
         found = match (found.map(Spanned::get_ref), step) {
-            (None, Step::Name(name)) => root.get(name.as_str()),
-            (Some(DeValue::Table(table)), Step::Name(name)) => table.get(name.as_str()),
+            (None, Step::Key(name)) => root.get(name.as_str()),
+            (Some(DeValue::Table(table)), Step::Key(name)) => table.get(name.as_str()),
             (Some(DeValue::Array(items)), Step::Index(index)) => items.get(*index),
             _ => None,
         };

@@ -1,48 +1,43 @@
-//! Whether a TOML file is a layout or a scenario, by its top-level keys.
+//! Which kind of file a TOML text is, by its top-level keys.
 
 use crate::diagnostic::{Report, nearest, reject_document};
-use crate::{layout, scenario};
+use crate::file_format::FileFormat;
 use toml::de::DeTable;
 
-/// The key that both have at their top level.
-const OF_BOTH: &str = "name";
+/// The key that all have at their top level.
+const OF_ALL: &str = "name";
 
-/// Keys that only layouts, and that only scenarios, have at their top level.
-fn keys() -> [Vec<&'static str>; 2] {
-    [layout::FORMAT.names(), scenario::FORMAT.names()]
-        .map(|names| names.into_iter().filter(|name| *name != OF_BOTH).collect())
+/// The keys at the top level of a kind of file, without that of all.
+fn keys(format: FileFormat) -> Vec<&'static str> {
+    format.table().names().into_iter().filter(|name| *name != OF_ALL).collect()
 }
 
-/// What a file describes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// A robot.
-    Layout,
-    /// A motion of a robot.
-    Scenario,
-}
-
-impl Kind {
-    /// The kind with more of its keys in the text, which may be broken and its keys misspelt.
-    pub(super) fn of(text: &str, file: &str) -> Result<Self, Report> {
-        let (tree, errors) = DeTable::parse_recoverable(text.trim_start_matches('\u{feff}'));
-        let known @ [layouts, _] = &keys();
-        let meant = |key: &str| nearest(key, known.iter().flatten().copied());
-        let keys: Vec<_> = tree.get_ref().keys().filter_map(|key| meant(key.get_ref())).collect();
-        let of_layouts = keys.iter().filter(|key| layouts.contains(key)).count();
-        match 2 * of_layouts {
-            // the layout's reader reports invalid TOML
-            0 if keys.is_empty() && !errors.is_empty() => Ok(Self::Layout),
-            0 if keys.is_empty() => Err(neither(text, file)),
-            twice if twice >= keys.len() => Ok(Self::Layout),
-            _ => Ok(Self::Scenario),
-        }
+/// The kind with most of its keys in the text, which may be broken and its keys misspelt; of several the first.
+pub(super) fn kind(text: &str, file: &str) -> Result<FileFormat, Report> {
+    let (tree, errors) = DeTable::parse_recoverable(text.trim_start_matches('\u{feff}'));
+    let known: Vec<_> = FileFormat::ALL.iter().map(|format| (*format, keys(*format))).collect();
+    let meant = |key: &str| nearest(key, known.iter().flat_map(|(_, keys)| keys.iter().copied()));
+    let given: Vec<_> = tree.get_ref().keys().filter_map(|key| meant(key.get_ref())).collect();
+    // a layout's reader reports invalid TOML
+    if given.is_empty() && errors.is_empty() {
+        return Err(none_of_them(text, file));
     }
+    let count = |keys: &[&str]| given.iter().filter(|key| keys.contains(key)).count();
+    // the last of the largest is the first
+    let best = known.iter().rev().max_by_key(|(_, keys)| count(keys));
+    Ok(best.map_or(FileFormat::Layout, |(format, _)| *format))
 }
 
-fn neither(text: &str, file: &str) -> Report {
-    let known = [vec![OF_BOTH], keys().concat()].concat();
-    let message = "this is neither a layout, which has `name`, `[base]` and `[[arm]]`, nor a scenario, which has \
-                   `name`, `layout`, `[initial]` and `[approach]`";
-    reject_document(text, file, &known, message, "none of these keys is here")
+fn none_of_them(text: &str, file: &str) -> Report {
+    let keys = FileFormat::ALL.iter().flat_map(|format| keys(*format));
+    let mut known: Vec<_> = [OF_ALL].into_iter().chain(keys).collect();
+    let all = known.clone();
+    let mut at = 0..;
+    known.retain(|key| !all[..at.next().unwrap_or_default()].contains(key));
+    let sweep = if cfg!(feature = "sweep") { ", nor a sweep, which has `name`, `scenario` and `[[vary]]`" } else { "" };
+    let message = format!(
+        "this is neither a layout, which has `name`, `[base]` and `[[arm]]`, nor a scenario, which has `name`, `layout`, \
+         `[initial]` and `[approach]`{sweep}"
+    );
+    reject_document(text, file, &known, &message, "none of these keys is here")
 }

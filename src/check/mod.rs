@@ -1,4 +1,4 @@
-//! Descriptions of layouts and scenarios and warnings about unlikely numbers in them: `planar-capture check`.
+//! Descriptions of layouts, scenarios and sweeps, and warnings about unlikely numbers in them: `planar-capture check`.
 //!
 //! Errors are found by the readers. A warning is about a valid number that is probably not what was meant; each has a
 //! threshold, a named constant, that no realistic robot comes near.
@@ -15,13 +15,19 @@ mod pose;
 mod robot;
 mod stiffness;
 mod study;
+#[cfg(feature = "sweep")]
+mod sweep;
 mod targets;
 
+#[cfg(feature = "sweep")]
+use crate::campaign::Campaign;
+use crate::capture::StudyError;
 use crate::diagnostic::{Report, Warning, report_warnings};
+use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
 use crate::scenario::Scenario;
-use kind::Kind;
+use kind::kind;
 use std::path::Path;
 pub use stiffness::help_with_gains;
 
@@ -36,10 +42,10 @@ pub struct CheckReport {
     pub refusal: Option<Report>,
 }
 
-/// Checks TOML text of a layout or a scenario; the other arguments are those of [`Scenario::parse`].
+/// Checks TOML text of a layout, a scenario or a sweep; the other arguments are those of [`Scenario::parse`].
 ///
 /// # Errors
-/// Those of [`Layout::parse`] and [`Scenario::parse`].
+/// Those of [`Layout::parse`], [`Scenario::parse`], and the reader of sweeps.
 pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<CheckReport, Report> {
     inspect_with(text, file, folder, shipped, Robots::SHIPPED)
 }
@@ -55,8 +61,8 @@ pub fn inspect_with(
     shipped: &[(&str, &str)],
     robots: Robots<'_>,
 ) -> Result<CheckReport, Report> {
-    match Kind::of(text, file)? {
-        Kind::Layout => {
+    match kind(text, file)? {
+        FileFormat::Layout => {
             let layout = Layout::parse(text, file)?;
             Ok(CheckReport {
                 description: robot::description(&layout, robots),
@@ -64,26 +70,52 @@ pub fn inspect_with(
                 refusal: None,
             })
         }
-        Kind::Scenario => {
+        FileFormat::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let warnings =
-                [names::warnings, approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
-            let mut warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(&scenario)).collect();
-            let refusal = match clearance::warnings(&scenario, robots) {
-                Ok(found) => {
-                    warnings.extend(found);
-                    None
-                }
-                Err(error) => Some(error.report(&scenario, text, file, None)),
-            };
-            let of_layout = layout_warnings(&scenario.layout, &source.text, &source.file);
+            let (warnings, refusal) = scenario_findings(&scenario, robots);
             Ok(CheckReport {
                 description: study::description(&scenario, robots),
-                warnings: report_warnings(text, file, &warnings).and(of_layout),
-                refusal,
+                warnings: scenario_warnings(&scenario, &warnings, [(text, file), (&source.text, &source.file)]),
+                refusal: refusal.map(|error| error.report(&scenario, text, file, None)),
+            })
+        }
+        #[cfg(feature = "sweep")]
+        FileFormat::Sweep => {
+            let campaign = Campaign::parse(text, file, folder, shipped)?;
+            let Campaign { scenario, scenario_source: sources, .. } = &campaign;
+            let (mut warnings, refusal) = scenario_findings(scenario, robots);
+            // with the values that vary it may be another one
+            warnings.extend(
+                refusal.map(|error| {
+                    warning(error.key(scenario).path, error.to_string(), "so it is before anything varies")
+                }),
+            );
+            let texts = [&sources.scenario, &sources.layout].map(|source| (&*source.text, &*source.file));
+            Ok(CheckReport {
+                description: sweep::description(&campaign),
+                warnings: scenario_warnings(scenario, &warnings, texts),
+                refusal: None,
             })
         }
     }
+}
+
+/// Warnings about a scenario, and why every run of it is refused.
+fn scenario_findings(scenario: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, Option<StudyError>) {
+    let warnings = [names::warnings, approach::warnings, pose::warnings, stiffness::warnings, targets::warnings];
+    let mut warnings: Vec<_> = warnings.into_iter().flat_map(|check| check(scenario)).collect();
+    match clearance::warnings(scenario, robots) {
+        Ok(found) => {
+            warnings.extend(found);
+            (warnings, None)
+        }
+        Err(error) => (warnings, Some(error)),
+    }
+}
+
+/// The report of warnings about a scenario, and of those about its layout; the texts are theirs, with their files.
+fn scenario_warnings(scenario: &Scenario, warnings: &[Warning], [(text, file), layout]: [(&str, &str); 2]) -> Report {
+    report_warnings(text, file, warnings).and(layout_warnings(&scenario.layout, layout.0, layout.1))
 }
 
 fn layout_warnings(layout: &Layout, text: &str, file: &str) -> Report {

@@ -1,4 +1,4 @@
-//! `planar-capture check FILE.toml`: describes a layout or scenario and warns of unlikely numbers.
+//! `planar-capture check FILE.toml`: describes a layout, scenario or sweep and warns of unlikely numbers.
 
 use super::terminal::{note, print};
 use super::{CommandError, color, layout};
@@ -7,13 +7,13 @@ use crate::registry::Robots;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// Describe a layout or a scenario, and warn of unusual values.
+/// Describe a layout, a scenario or a sweep, and warn of unusual values.
 ///
 /// The description goes to the standard output, warnings and errors to the standard error. Exit code 2 for errors,
 /// else 0.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The file, a layout or a scenario; or the name of a shipped layout.
+    /// The file, a layout, a scenario or a sweep; or the name of a shipped layout.
     #[arg(value_name = "FILE")]
     file: String,
 }

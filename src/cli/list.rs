@@ -41,16 +41,13 @@ pub fn run(_: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> 
 fn collect(all: &mut Vec<(Vec<String>, Vec<Choice>)>, path: &str, table: &'static TableFormat) {
     for key in table.keys {
         let path = format!("{path}{}", key.name);
-        match key.shape {
-            Shape::Choice(choices) | Shape::OneOrList(&Shape::Choice(choices), _) => {
-                let choices = choices();
-                match all.iter_mut().find(|(_, known)| *known == choices) {
-                    Some((keys, _)) => keys.push(path),
-                    None => all.push((vec![path], choices)),
-                }
+        if let Shape::Table(inner) | Shape::Tables(inner) = key.shape {
+            collect(all, &format!("{path}."), inner);
+        } else if let Some(choices) = key.shape.choices() {
+            match all.iter_mut().find(|(_, known)| *known == choices) {
+                Some((keys, _)) => keys.push(path),
+                None => all.push((vec![path], choices)),
             }
-            Shape::Table(inner) | Shape::Tables(inner) => collect(all, &format!("{path}."), inner),
-            _ => {}
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `planar-capture schema layout|scenario`: prints a JSON Schema.
+//! `planar-capture schema layout|scenario|sweep`: prints a JSON Schema.
 
 use super::{CommandError, write_new};
 use crate::file_format::FileFormat;

@@ -1,11 +1,11 @@
-//! `planar-capture template layout|scenario`: prints a file to start from.
+//! `planar-capture template layout|scenario|sweep`: prints a file to start from.
 
 use super::{CommandError, write_new};
 use crate::file_format::FileFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Print a commented layout or scenario to start from, with every key; it is valid as it stands.
+/// Print a commented layout, scenario or sweep to start from, with every key; it is valid as it stands.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The kind of file.

@@ -1,6 +1,6 @@
 //! JSON Schema of a file, for editors.
 
-use super::{FileFormat, about};
+use super::{FileFormat, about, default};
 use crate::format::{Bound, Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use serde_json::{Map, Value, json};
 
@@ -46,7 +46,10 @@ fn of_key(variants: &[&'static Key]) -> Value {
     let parts: Vec<_> = parts.iter().map(String::as_str).filter(|part| !part.is_empty()).collect();
     extend(&mut schema, json!({ "description": parts.join("\n\n") }));
     match variants {
-        [Key { default: Default::Number(number), .. }] => extend(&mut schema, json!({ "default": number })),
+        [key @ Key { default: Default::Number(_), .. }] => {
+            let number: Option<Value> = default(key).and_then(|text| text.parse().ok());
+            extend(&mut schema, json!({ "default": number }));
+        }
         [Key { default: Default::Choice(name), .. }] => extend(&mut schema, json!({ "default": name })),
         [Key { default: Default::Zeros, shape: Shape::Vector(components), .. }] => {
             extend(&mut schema, json!({ "default": vec![0.0; components.len()] }));
@@ -61,6 +64,7 @@ fn of_shape(shape: &'static Shape) -> Value {
         Shape::Text(_) => json!({ "type": "string" }),
         Shape::Choice(choices) => of_choices(&choices()),
         Shape::Number(rule) => of_number(rule),
+        Shape::Scalar(rule) => json!({ "anyOf": [of_number(rule), { "type": "string" }, { "type": "boolean" }] }),
         Shape::Vector(components) => of_vector(components),
         Shape::OneOf(vectors) => json!({ "anyOf": vectors.iter().map(|vector| of_vector(vector)).collect::<Vec<_>>() }),
         Shape::List(item, count) => of_list(item, *count),
@@ -78,7 +82,7 @@ fn of_choices(choices: &[Choice]) -> Value {
 }
 
 fn of_number(rule: &NumberRule) -> Value {
-    let mut schema = json!({ "type": "number" });
+    let mut schema = json!({ "type": if rule.is_whole() { "integer" } else { "number" } });
     for (bound, keys) in
         rule.bounds().into_iter().zip([["minimum", "exclusiveMinimum"], ["maximum", "exclusiveMaximum"]])
     {
@@ -102,7 +106,9 @@ fn of_list(item: &'static Shape, count: Count) -> Value {
     let mut schema = json!({ "type": "array", "items": of_shape(item) });
     match count {
         Count::Exactly(count) => extend(&mut schema, json!({ "minItems": count, "maxItems": count })),
-        Count::Joints | Count::Arms | Count::Contacts => extend(&mut schema, json!({ "minItems": 1 })),
+        Count::AtLeastOne | Count::Joints | Count::Arms | Count::Contacts => {
+            extend(&mut schema, json!({ "minItems": 1 }));
+        }
         Count::Any => {}
     }
     schema

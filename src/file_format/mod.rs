@@ -1,4 +1,4 @@
-//! The files that people write, layouts and scenarios, as their tables of keys describe them: a reference in Markdown, a
+//! The files that people write, layouts, scenarios and sweeps, as their tables of keys describe them: a reference in Markdown, a
 //! JSON Schema for editors, and a commented file to start from.
 //!
 //! It never contains: a key.
@@ -8,8 +8,10 @@ mod reference;
 mod template;
 mod wrap;
 
+#[cfg(feature = "sweep")]
+use crate::campaign;
 use crate::diagnostic::listing;
-use crate::format::{Key, Shape, TableFormat, With, units};
+use crate::format::{Key, NumberRule, Shape, TableFormat, With, units};
 use crate::{layout, scenario};
 pub(crate) use wrap::wrap;
 
@@ -20,11 +22,19 @@ pub enum FileFormat {
     Layout,
     /// A study.
     Scenario,
+    /// A study many times.
+    #[cfg(feature = "sweep")]
+    Sweep,
 }
 
 impl FileFormat {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Layout, Self::Scenario];
+    pub const ALL: &[Self] = &[
+        Self::Layout,
+        Self::Scenario,
+        #[cfg(feature = "sweep")]
+        Self::Sweep,
+    ];
 
     /// Its name: `layout`.
     #[must_use]
@@ -32,6 +42,8 @@ impl FileFormat {
         match self {
             Self::Layout => "layout",
             Self::Scenario => "scenario",
+            #[cfg(feature = "sweep")]
+            Self::Sweep => "sweep",
         }
     }
 
@@ -41,6 +53,8 @@ impl FileFormat {
         match self {
             Self::Layout => &layout::FORMAT,
             Self::Scenario => &scenario::FORMAT,
+            #[cfg(feature = "sweep")]
+            Self::Sweep => &campaign::FORMAT,
         }
     }
 
@@ -102,6 +116,7 @@ fn default(key: &Key) -> Option<String> {
     use crate::format::Default;
     Some(match key.default {
         Default::Required | Default::Nothing => return None,
+        Default::Number(number) if key.shape.rule().is_some_and(NumberRule::is_whole) => number.to_string(),
         Default::Number(number) => format!("{number:?}"),
         Default::Choice(name) => format!("\"{name}\""),
         Default::Zeros => "zeros".to_owned(),

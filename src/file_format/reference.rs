@@ -35,9 +35,9 @@ fn section(page: &mut String, path: &str, table: &'static TableFormat, done: &mu
     }
     for name in table.names() {
         let key = table.key(name).expect("a key of the table");
-        if let Shape::Choice(choices) | Shape::OneOrList(&Shape::Choice(choices), _) = key.shape {
+        if let Some(choices) = key.shape.choices() {
             page.extend(["\n| `", name, "` | meaning |\n|---|---|\n"]);
-            for Choice { name, doc } in choices() {
+            for Choice { name, doc } in choices {
                 page.extend(["| `\"", name, "\"` | ", doc, " |\n"]);
             }
         }
@@ -67,6 +67,10 @@ fn value(shape: &Shape, path: &str) -> String {
     match shape {
         Shape::Text(what) => format!("text: {what}"),
         Shape::Choice(_) => "one of those below".to_owned(),
+        Shape::Number(rule) if rule.is_whole() => {
+            let [least, most] = rule.bounds().map(|bound| bound.map_or(0.0, |bound| bound.value));
+            format!("whole number, {least} to {most}")
+        }
         Shape::Number(rule) => {
             let [least, most] = rule.bounds().map(|bound| bound.map(|bound| (bound.value, bound.is_excluded)));
             match (least, most) {
@@ -79,6 +83,7 @@ fn value(shape: &Shape, path: &str) -> String {
                 _ => "number".to_owned(),
             }
         }
+        Shape::Scalar(_) => "number, text, `true` or `false`".to_owned(),
         Shape::Vector(components) => {
             let names: Vec<_> = components.iter().map(NumberRule::what).collect();
             format!("[{}]", names.join(", "))

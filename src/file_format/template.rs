@@ -64,12 +64,8 @@ fn is_inline(key: &Key) -> bool {
 
 /// A key with what it means.
 fn entry(lines: &mut Vec<String>, variants: &[&'static Key], given: bool) {
-    let choices = match variants[0].shape {
-        Shape::Choice(choices) | Shape::OneOrList(&Shape::Choice(choices), _) => {
-            choices().iter().map(|choice| format!("\"{}\"", choice.name)).collect::<Vec<_>>().join(", ")
-        }
-        _ => String::new(),
-    };
+    let choices = variants[0].shape.choices().unwrap_or_default();
+    let choices = choices.iter().map(|choice| format!("\"{}\"", choice.name)).collect::<Vec<_>>().join(", ");
     let parts = [variants[0].doc.to_owned(), choices]
         .into_iter()
         .chain(variants.iter().map(|key| about(key)))

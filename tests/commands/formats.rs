@@ -1,13 +1,17 @@
 //! The tables of keys: themselves, paths to keys, and what is written from them: reference, schemas, templates.
 
 use crate::said;
+use planar_capture::campaign::Campaign;
+use planar_capture::diagnostic::Report;
 use planar_capture::file_format::FileFormat;
-use planar_capture::format::{Default, Key, Shape, ShapeAt, Step, TableFormat, With};
+use planar_capture::format::{Default, Example, Key, Shape, ShapeAt, Step, TableFormat, With};
+use planar_capture::registry::SHIPPED;
 use planar_capture::scenario::{KeyFile, find_key};
 use planar_capture::{layout, scenario};
 use planar_proof::file;
 use serde_json::Value;
 use std::fs;
+use std::path::Path;
 use tempfile::TempDir;
 
 /// With this variable the written files are written.
@@ -28,16 +32,39 @@ fn tables(root: &'static TableFormat) -> Vec<&'static TableFormat> {
     all
 }
 
-fn choices(key: &Key) -> Vec<&'static str> {
-    match &key.shape {
-        Shape::Choice(of) | Shape::OneOrList(Shape::Choice(of), _) => of().iter().map(|choice| choice.name).collect(),
-        _ => Vec::new(),
+/// Those that have a header in a template, each once.
+fn tables_with_headers(root: &'static TableFormat) -> Vec<&'static TableFormat> {
+    let inner = root.keys.iter().filter_map(|key| match (key.shape, key.example) {
+        (_, Example::Start(_) | Example::Comment(_)) => None,
+        (Shape::Table(table) | Shape::Tables(table), _) => Some(table),
+        _ => None,
+    });
+    [root].into_iter().chain(inner.flat_map(tables_with_headers)).collect()
+}
+
+/// What the reader of a kind of file has against a text.
+fn report(format: FileFormat, text: &str, folder: &Path) -> Option<Report> {
+    match format {
+        FileFormat::Layout => layout::Layout::parse(text, "t.toml").err(),
+        FileFormat::Scenario => scenario::Scenario::parse(text, "t.toml", folder, SHIPPED).err(),
+        FileFormat::Sweep => Campaign::parse(text, "t.toml", folder, SHIPPED).err(),
     }
+}
+
+/// A folder with the files that templates name.
+fn folder() -> TempDir {
+    let folder = TempDir::new().expect("a folder");
+    fs::write(folder.path().join("scenario.toml"), FileFormat::Scenario.template()).expect("written");
+    folder
+}
+
+fn choices(key: &Key) -> Vec<&'static str> {
+    key.shape.choices().unwrap_or_default().iter().map(|choice| choice.name).collect()
 }
 
 #[test]
 fn tables_of_keys_agree_with_themselves() {
-    for table in [&layout::FORMAT, &scenario::FORMAT].into_iter().flat_map(tables) {
+    for table in FileFormat::ALL.iter().flat_map(|format| tables(format.table())) {
         let names = table.names();
         assert!(table.one_of.iter().all(|name| names.contains(name)), "{}", table.doc);
         for (i, name) in names.iter().enumerate() {
@@ -140,7 +167,7 @@ fn wrong_paths_name_the_nearest() {
 
 #[test]
 fn reference_and_schemas_are_fresh() {
-    for format in FileFormat::ALL {
+    for format in FileFormat::ALL.iter().copied() {
         let name = format.name();
         let files = [
             (format!("docs/reference/{name}.md"), format.reference()),
@@ -160,7 +187,7 @@ fn reference_and_schemas_are_fresh() {
 #[test]
 fn templates_are_valid_and_run() {
     let folder = TempDir::new().expect("a folder");
-    for format in FileFormat::ALL {
+    for format in FileFormat::ALL.iter().copied() {
         let name = format.name();
         let path = folder.path().join(format!("{name}.toml"));
         let path = path.to_str().expect("a path");
@@ -198,6 +225,8 @@ fn broken(schema: &Value, value: &Value, path: &str, problems: &mut Vec<String>)
         Some("array") => value.is_array(),
         Some("string") => value.is_string(),
         Some("number") => value.is_number(),
+        Some("integer") => value.is_u64(),
+        Some("boolean") => value.is_boolean(),
         _ => schema["anyOf"].is_array(),
     };
     if !is_of_type {
@@ -261,11 +290,13 @@ fn broken(schema: &Value, value: &Value, path: &str, problems: &mut Vec<String>)
 
 #[test]
 fn every_tracked_file_fits_its_schema() {
-    let folders = |name| match name {
-        "layout" => &["codegen/layouts", "codegen/structures"][..],
-        _ => &["scenarios"],
+    let is_sweep = |text: &str| text.contains("\n[[vary]]\n");
+    let folders = |format| match format {
+        FileFormat::Layout => &["codegen/layouts", "codegen/structures"][..],
+        FileFormat::Scenario => &["scenarios", "scenarios/sweeps"],
+        FileFormat::Sweep => &["scenarios/sweeps"],
     };
-    for format in FileFormat::ALL {
+    for format in FileFormat::ALL.iter().copied() {
         let schema: Value = serde_json::from_str(&format.schema()).expect("JSON");
         let problems = |text: &str| {
             let value = toml::from_str::<Value>(text).expect("TOML");
@@ -273,13 +304,13 @@ fn every_tracked_file_fits_its_schema() {
             broken(&schema, &value, "", &mut problems);
             problems
         };
-        let paths = folders(format.name()).iter().flat_map(|folder| fs::read_dir(file(folder)).expect("a folder"));
+        let paths = folders(format).iter().flat_map(|folder| fs::read_dir(file(folder)).expect("a folder"));
         let paths = paths
             .map(|entry| entry.expect("an entry").path())
             .filter(|path| path.extension().is_some_and(|e| e == "toml"));
-        let texts: Vec<_> =
-            paths.map(|path| fs::read_to_string(path).expect("a file")).chain([format.template()]).collect();
-        assert!(texts.len() > 7);
+        let texts = paths.map(|path| fs::read_to_string(path).expect("a file")).chain([format.template()]);
+        let texts: Vec<_> = texts.filter(|text| is_sweep(text) == (format == FileFormat::Sweep)).collect();
+        assert!(texts.len() > if format == FileFormat::Sweep { 1 } else { 7 });
         for text in &texts {
             assert_eq!(problems(text), Vec::<String>::new(), "{text}");
         }
@@ -306,6 +337,13 @@ fn every_tracked_file_fits_its_schema() {
                 ("name = \"my_study\"", "name = 5", ".name: the type of 5"),
                 ("# restitution = 0.0", "restitution = 2", ".target[0].restitution: the range of 2"),
             ],
+            FileFormat::Sweep => [
+                ("cases = 1000", "cases = 1.5", ".cases: the type of 1.5"),
+                ("seed = 1\n", "", ": no seed"),
+                ("{ normal = { mean = 10.0, std = 1.0 }, min", "{ min", ".vary[0].distribution: the alternatives"),
+                ("std = 1.0", "std = 0", ".vary[0].distribution.normal.std: the range of 0"),
+                ("# sampling = \"random\"", "sampling = \"sobel\"", ".sampling: \"sobel\" is no choice"),
+            ],
         };
         for (from, to, problem) in wrong {
             let text = format.template();
@@ -319,12 +357,11 @@ fn every_tracked_file_fits_its_schema() {
 /// Every key stands in the template, with a value that the reader takes where its condition holds.
 #[test]
 fn every_line_of_a_template_can_be_switched_on() {
-    for format in FileFormat::ALL {
+    let folder = folder();
+    for format in FileFormat::ALL.iter().copied() {
         let text = format.template();
         let is_entry = |line: &str| line.strip_prefix("# ").is_some_and(|rest| is_header(rest) || is_assignment(rest));
-        for table in
-            tables(format.table()).into_iter().filter(|table| table.one_of != planar_capture::outline::FORMAT.one_of)
-        {
+        for table in tables_with_headers(format.table()) {
             for name in table.names() {
                 let written = [format!("\n{name} = "), format!("\n# {name} = "), format!("{name}]")];
                 assert!(written.iter().any(|written| text.contains(written)), "no {name} in\n{text}");
@@ -338,20 +375,20 @@ fn every_line_of_a_template_can_be_switched_on() {
             if let Some(rest) = lines[header].strip_prefix("# ").filter(|rest| is_header(rest)) {
                 lines[header] = rest.to_owned();
             }
-            let report = match format {
-                FileFormat::Layout => layout::Layout::parse(&lines.join("\n"), "t.toml").err(),
-                FileFormat::Scenario => {
-                    let shipped = planar_capture::registry::SHIPPED;
-                    scenario::Scenario::parse(&lines.join("\n"), "t.toml", std::path::Path::new(""), shipped).err()
-                }
-            };
+            let report = report(format, &lines.join("\n"), folder.path());
             // what remains is a condition of the key, or one that excludes another: no wrong type, no unknown key
             let shown = report.map(|report| report.to_string()).unwrap_or_default();
             assert!(!shown.contains("unknown key") && !shown.contains("not valid TOML"), "{line}: {shown}");
             let refused =
                 ["is there too", "only `tracking", "expected `control`", "expected `control =", "acts on the base"];
-            let refused =
-                refused.into_iter().chain(["bounces", "without control", "longer than the phase", "to move on"]);
+            let refused = refused.into_iter().chain([
+                "bounces",
+                "without control",
+                "longer than the phase",
+                "to move on",
+                "keys that vary",
+                "missing key `correlation",
+            ]);
             assert!(shown.is_empty() || refused.into_iter().any(|part| shown.contains(part)), "{line}: {shown}");
         }
     }
@@ -368,6 +405,7 @@ fn is_assignment(line: &str) -> bool {
 /// No value under any key makes a reader panic: each is read or reported.
 #[test]
 fn any_value_of_any_key_is_read_or_reported() {
+    let folder = folder();
     let values = [
         "true",
         "1",
@@ -390,7 +428,7 @@ fn any_value_of_any_key_is_read_or_reported() {
         "{ target1 = [[], 1] }",
     ]);
     let values: Vec<_> = values.collect();
-    for format in FileFormat::ALL {
+    for format in FileFormat::ALL.iter().copied() {
         let lines: Vec<_> = format.template().lines().map(str::to_owned).collect();
         let text = |lines: &[String]| lines.join("\n");
         for (at, line) in lines.iter().enumerate() {
@@ -406,16 +444,10 @@ fn any_value_of_any_key_is_read_or_reported() {
                     }
                     let text =
                         text(&lines).replace("\ntracking = \"computed_torque\"", &format!("\ntracking = \"{law}\""));
-                    let report = match format {
-                        FileFormat::Layout => layout::Layout::parse(&text, "t.toml").err(),
-                        FileFormat::Scenario => {
-                            let shipped = planar_capture::registry::SHIPPED;
-                            scenario::Scenario::parse(&text, "t.toml", std::path::Path::new(""), shipped).err()
-                        }
-                    };
+                    let report = report(format, &text, folder.path());
                     assert!(report.is_none_or(|report| report.count() > 0));
                 }
-                if format == FileFormat::Layout {
+                if format != FileFormat::Scenario {
                     break;
                 }
             }

@@ -279,17 +279,19 @@ fn an_interrupt_ends_a_sweep_within_a_case() {
 fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
     const DISTRIBUTION: &str = "{ uniform = { min = 1.0, max = 2.0 } }";
     let wrong_keys = [
-        ("target.target1.mas", "did you mean `mass`?"),
+        ("target.target1.mas", "did you mean `target.target1.mass`?"),
         ("target.tarjet1.mass", "did you mean `target1`?"),
         ("target.target1", "it is a table"),
         ("target.target1.name", "a `name` cannot vary"),
-        ("target[0].mass", "tables of `target` are named"),
+        ("target[0].mass", "these tables have names"),
         ("layout.arm.arm1.link[9].mass", "expected `link[0]` to `link[2]`"),
-        ("approach.duration[0]", "approach.duration"),
+        ("approach.duration[0]", "which has no elements"),
         ("approach.proportional_gain[6]", "there is no element 6"),
-        ("approach..duration", "expected a key before"),
+        ("approach..duration", "expected a key at `.duration`"),
+        ("limits.joint_rates[0]", "is not given"),
+        ("initial.joint_angles", "expected one element of it"),
         ("case.case1.target_twists.target1[0]", "the sweep computes the case `case2`"),
-        ("post_impact.damping_gain[0]", "is not given"),
+        ("post_impact.derivative_gain[0]", "is not given"),
     ];
     let place = Workplace::sampled("random");
     for (key, expected) in wrong_keys {

@@ -1,10 +1,11 @@
 //! The keys that vary, each tried with a value of its distribution.
 
 use super::super::distribution::Distribution;
-use super::super::key_path::{KeyPath, Step};
+use super::super::key_path::KeyPath;
 use super::super::variation::{Unusable, Variation};
 use super::super::varied_value::VariedValue;
 use crate::diagnostic::Table;
+use crate::format::Step;
 use crate::scenario::{Scenario, ScenarioSource};
 
 /// Reads the paths, and sets each of them once, alone, to the median of its distribution.
@@ -21,9 +22,8 @@ pub(super) fn keys(
     let mut paths = Vec::new();
     let mut is_valid = true;
     for ((table, median), distribution) in tables.iter().zip(&medians).zip(distributions) {
-        let path = table.require("key", "the path of a key of the scenario, or after `layout.` of its layout");
-        let path = path.and_then(|value| {
-            let text = value.text("the path of a key")?;
+        let path = table.require("key").and_then(|value| {
+            let text = value.text()?;
             let refuse = |why: &str| value.reject(why);
             let path = KeyPath::parse(text).map_err(|why| refuse(&why)).ok()?;
             check_case(&path, case).map_err(|why| refuse(&why)).ok()?;
@@ -56,8 +56,8 @@ pub(super) fn keys(
 
 /// Only one case is computed.
 fn check_case(path: &KeyPath, case: &str) -> Result<(), String> {
-    match &path.0[..] {
-        [Step::Name(first), Step::Name(other), ..] if first == "case" && other != case => {
+    match &path.steps[..] {
+        [Step::Key(first), Step::Named(other), ..] if first == "case" && other != case => {
             Err(format!("the sweep computes the case `{case}`, expected a key of that"))
         }
         _ => Ok(()),

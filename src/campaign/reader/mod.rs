@@ -6,25 +6,14 @@ mod keys;
 
 use super::copula::Copula;
 use super::distribution::Distribution;
+use super::keys::{FORMAT, MOST_CASES};
 use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
 use super::variation::Variation;
-use crate::diagnostic::{NumberRule, Report, Table, Value, every, read_document, read_text};
+use crate::diagnostic::{Report, Table, Value, every, listing, read_document, read_text};
 use crate::layout::Layout;
 use crate::scenario::{Scenario, ScenarioSource, Source};
 use std::path::{Path, PathBuf};
-
-const CASES: NumberRule = NumberRule::positive("a number of cases", "").at_most(MOST_CASES);
-const SEED: NumberRule = NumberRule::non_negative("a seed", "").at_most(LARGEST_SEED);
-const RANK: NumberRule = NumberRule::any("a rank correlation between -1 and 1", "");
-const MOST_CASES: f64 = 1e9;
-/// What a number of 64 bits counts without a gap.
-const LARGEST_SEED: f64 = 9_007_199_254_740_992.0;
-const DEFAULT_BLOCK: u64 = 1000;
-
-const KEYS: [&str; 10] =
-    ["name", "scenario", "case", "cases", "seed", "sampling", "block", "vary", "correlation", "collect"];
-const NAME: &str = "a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)";
 
 /// A sweep with what it varies.
 #[derive(Clone, Debug)]
@@ -50,13 +39,21 @@ impl Campaign {
         let text = read_text(path, "TOML")?;
         let file = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
-        let read = |root: &Table<'_>| read_root(root, folder, layouts);
-        let (sweep, scenario, scenario_source, variation) = read_document(&text, &file, &KEYS, read)?;
-        Ok(Self { sweep, source: Source { text, file }, scenario, scenario_source, variation })
+        Self::parse(&text, &file, folder, layouts)
     }
-}
 
-impl Campaign {
+    /// Reads a sweep from TOML text; `file` is the name that problems are reported under, and the path of the scenario is
+    /// relative to `folder`.
+    ///
+    /// # Errors
+    /// All that is wrong with the content, and with the files of scenario and layout.
+    pub fn parse(text: &str, file: &str, folder: &Path, layouts: &[(&str, &str)]) -> Result<Self, Report> {
+        let read = |root: &Table<'_>| read_root(root, folder, layouts);
+        let (sweep, scenario, scenario_source, variation) = read_document(text, file, &FORMAT, read)?;
+        let source = Source { text: text.to_owned(), file: file.to_owned() };
+        Ok(Self { sweep, source, scenario, scenario_source, variation })
+    }
+
     /// A layout for the choice of what computes the cases: what varies has the first value that is not 0, so that code
     /// for it computes all of them.
     #[must_use]
@@ -75,38 +72,33 @@ impl Campaign {
 type Read = (Sweep, Scenario, ScenarioSource, Variation);
 
 fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Option<Read> {
-    let name = root.require("name", NAME).and_then(|value| file_name(&value));
-    let scenario = root.require("scenario", "the path of a scenario file").and_then(|value| {
-        let path = value.text("the path of a scenario file")?;
+    let name = root.file_name("name");
+    let scenario = root.require("scenario").and_then(|value| {
+        let path = value.text()?;
         // collecting the components drops `./`
         let path: PathBuf = folder.join(path).components().collect();
         Scenario::read_with_source(&path, layouts).map_err(|report| value.adopt(report)).ok()
     });
     let case = scenario.as_ref().and_then(|(scenario, _)| case(root, scenario));
-    let sampling = read_or(root, "sampling", Sampling::Random, |value| value.choice(&Sampling::ALL));
-    let seed = root.require("seed", "a whole number, from which all values are drawn").and_then(|v| whole(&v, &SEED));
-    let block = read_or(root, "block", DEFAULT_BLOCK, |value| whole(value, &CASES));
-    let tables = root.require("vary", "at least one `[[vary]]` with a key and a distribution").and_then(|value| {
-        let tables = value.tables(&["key", "distribution"])?;
-        if tables.is_empty() {
-            value.expected("at least one `[[vary]]`", None);
-        }
-        (!tables.is_empty()).then_some(tables)
-    })?;
-    let distributions: Vec<_> = tables
-        .iter()
-        .map(|table| table.require("distribution", distribution::EXPECTED).and_then(|v| distribution::distribution(&v)))
-        .collect();
+    let sampling = root.choice("sampling", &Sampling::ALL);
+    let seed = root.whole("seed");
+    let block = root.whole("block");
+    let tables = root.tables("vary")?;
+    let distribution = |table: &Table<'_>| {
+        let value = table.require_as("distribution", &table.wanted("distribution"))?;
+        distribution::distribution(&value)
+    };
+    let distributions: Vec<_> = tables.iter().map(distribution).collect();
     let cases = sampling.and_then(|sampling| cases(root, sampling, &tables, &distributions));
     let (scenario, scenario_source) = scenario?;
     let case = case?;
     let (paths, variation) = keys::keys(&tables, &distributions, (&scenario, &scenario_source), &case)?;
     let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
-    let copula = read_or(root, "correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
+    let copula = root.read_or("correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
     let collect = collect::collect(root, cases, &scenario);
     let distributions: Vec<Distribution> = distributions.into_iter().collect::<Option<_>>()?;
     let sweep = Sweep {
-        name: name?,
+        name: name?.to_owned(),
         case,
         cases: cases?,
         seed: seed?,
@@ -126,8 +118,8 @@ fn case(root: &Table<'_>, scenario: &Scenario) -> Option<String> {
         if let [only] = names[..] {
             return Some(only.to_owned());
         }
-        let names = crate::diagnostic::listing(&names, "or");
-        return root.require("case", &format!("one of the scenario's cases, {names}")).and(None);
+        let wanted = format!("one of the scenario's cases, {}", listing(&names, "or"));
+        return root.require_as("case", &wanted).and(None);
     };
     let found = names.iter().find(|name| value.as_str() == Some(name));
     if found.is_none() {
@@ -150,7 +142,7 @@ fn cases(
                 "this is one more",
             );
         }
-        return root.require("cases", "the number of cases").and_then(|value| whole(&value, &CASES));
+        return root.whole("cases");
     }
     let mut combinations: u64 = 1;
     for (table, distribution) in tables.iter().zip(distributions) {
@@ -162,13 +154,12 @@ fn cases(
         }
         combinations = combinations.saturating_mul(choices? as u64);
     }
-    #[allow(clippy::cast_precision_loss, reason = "a comparison of magnitudes")]
-    if combinations as f64 > MOST_CASES {
-        root.reject(&format!("the grid has {combinations} combinations, expected at most {MOST_CASES:e}"), "by `vary`");
+    if combinations > MOST_CASES.into() {
+        root.reject(&format!("the grid has {combinations} combinations, expected at most {MOST_CASES}"), "by `vary`");
         return None;
     }
     if let Some(value) = root.get("cases")
-        && whole(&value, &CASES)? != combinations
+        && value.whole()? != combinations
     {
         value.reject(&format!("the grid has {combinations} combinations, expected that number or no such key"));
     }
@@ -176,7 +167,7 @@ fn cases(
 }
 
 fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Option<Copula> {
-    let tables = value.tables(&["keys", "rank"])?;
+    let tables = value.tables()?;
     if !sampling.can_correlate() {
         value.reject(&format!(
             "the sampling `{}` keeps keys independent, expected `random` or `latin_hypercube`",
@@ -186,8 +177,8 @@ fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Optio
     }
     let names: Vec<&str> = keys.iter().map(String::as_str).collect();
     let pairs = every(tables.iter().map(|table| {
-        let pair = table.require("keys", "two keys that vary").and_then(|value| {
-            let items = value.items("two keys that vary")?;
+        let pair = table.require("keys").and_then(|value| {
+            let items = value.items(&value.wanted())?;
             let indices = every(items.iter().map(|item| {
                 let index = names.iter().position(|name| item.as_str() == Some(name));
                 if index.is_none() {
@@ -201,10 +192,10 @@ fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Optio
             }
             pair
         });
-        let rank = table.require("rank", &RANK.to_string()).and_then(|value| {
-            let rank = value.number(&RANK)?;
+        let rank = table.require("rank").and_then(|value| {
+            let rank = value.number()?;
             if rank.abs() >= 1.0 {
-                value.expected(&RANK.to_string(), None);
+                value.expected(&value.wanted(), None);
             }
             (rank.abs() < 1.0).then_some(rank)
         });
@@ -217,30 +208,4 @@ fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Optio
     }
     let why = "no variables have all of these rank correlations together, expected smaller ones";
     Copula::new(&pairs).map_err(|_| value.reject(why)).ok()
-}
-
-/// A whole number in the range of a rule.
-fn whole(value: &Value<'_>, rule: &NumberRule) -> Option<u64> {
-    let number = value.number(rule)?;
-    if number.fract() != 0.0 {
-        value.expected(&format!("{rule}, a whole number"), None);
-        return None;
-    }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the rules begin at 0")]
-    Some(number as u64)
-}
-
-fn read_or<T>(table: &Table<'_>, key: &str, default: T, read: impl FnOnce(&Value<'_>) -> Option<T>) -> Option<T> {
-    table.get(key).map_or(Some(default), |value| read(&value))
-}
-
-/// A name that can be part of a file's name on any system.
-fn file_name(value: &Value<'_>) -> Option<String> {
-    let name = value.text(NAME)?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-    if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
-        value.expected(&format!("{NAME}, at most 100 of them"), None);
-        return None;
-    }
-    Some(name.to_owned())
 }

@@ -1,6 +1,6 @@
 //! The keys of `[limits]`, `[contact]`, `[clearance]` and `[[case]]`.
 
-use super::rules::{FILE_NAME, LARGEST_ANGLE, TWIST};
+use super::rules::{LARGEST_ANGLE, TWIST};
 use super::target::{KINDS, RESTITUTION};
 use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use crate::scenario::{Detection, OnOverlap};
@@ -71,7 +71,7 @@ pub(super) static CLEARANCE: TableFormat = TableFormat {
 pub(super) static CASE: TableFormat = TableFormat {
     doc: "A variant of the capture. Its tables have the names of targets as keys; they replace the targets' own values.",
     keys: &[
-        Key::required("name", FILE_NAME, "of its files").start("\"case1\""),
+        Key::required("name", Shape::FILE_NAME, "of its files").start("\"case1\""),
         Key::optional(
             "target_twists",
             Shape::ByName(&TWIST, "target"),

@@ -8,14 +8,14 @@ mod rules;
 mod target;
 
 use crate::format::{Count, Default, Key, Shape, TableFormat};
-use rules::{FILE_NAME, JOINT_ANGLE, JOINT_RATE, POSE, TWIST};
+use rules::{JOINT_ANGLE, JOINT_RATE, POSE, TWIST};
 
 /// A scenario file.
 pub static FORMAT: TableFormat = TableFormat {
     doc: "A robot, its initial state, the approach of its arms, its targets, and the motion after the impact. SI units, \
           radians, inertial axes; twists are [ω, vx, vy], poses [yaw, x, y].",
     keys: &[
-        Key::required("name", FILE_NAME, "the name of the results' folder").start("\"my_study\""),
+        Key::required("name", Shape::FILE_NAME, "the name of the results' folder").start("\"my_study\""),
         Key::required(
             "layout",
             Shape::Text("a shipped layout's name or the path of a layout file"),

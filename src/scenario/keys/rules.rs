@@ -10,9 +10,6 @@ const LARGEST_RATE: f64 = 1e9;
 /// That of light, m/s: no body of mechanics is faster.
 const LARGEST_VELOCITY: f64 = 299_792_458.0;
 
-pub(super) const FILE_NAME: Shape =
-    Shape::Text("a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)");
-
 const X: NumberRule = NumberRule::any("x", "m");
 const Y: NumberRule = NumberRule::any("y", "m");
 const YAW: NumberRule = NumberRule::any("yaw", "rad");

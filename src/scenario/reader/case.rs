@@ -1,6 +1,5 @@
 //! Reads `[[case]]`: the contact kinds of each variant of a capture.
 
-use super::file_name;
 use super::target::{NO_BOUNCE, NO_NORMAL, bounces_at_com, contact_kinds};
 use crate::diagnostic::{Table, Value, every};
 use crate::scenario::{Case, Detection, Target};
@@ -12,7 +11,7 @@ pub(super) fn case<'a>(
     targets: Option<&[Target]>,
     detection: Detection,
 ) -> Option<Case> {
-    let name = table.require("name").and_then(|value| file_name(&value));
+    let name = table.file_name("name");
     let names = names?;
     let default = targets.map(|targets| Case::of_targets("", targets));
     let target_twists = of_targets(table, "target_twists", names, |i, value| match value {
@@ -46,7 +45,7 @@ pub(super) fn case<'a>(
         None => Some(None),
     });
     Some(Case {
-        name: name?,
+        name: name?.to_owned(),
         target_twists: target_twists?,
         kinds: kinds?,
         restitutions: restitutions?,

@@ -83,7 +83,7 @@ impl Scenario {
         shipped: &[(&str, &str)],
     ) -> Result<(Self, Source), Report> {
         read_document(text, file, &FORMAT, |root| {
-            let name = root.require("name").and_then(|value| file_name(&value));
+            let name = root.file_name("name");
             let (layout, source) =
                 root.require("layout").and_then(|value| find_layout(&value, folder, shipped)).unzip();
             let joints = Joints { layout: layout.as_ref() };
@@ -108,7 +108,7 @@ impl Scenario {
                 }
                 limits::check_initial(table, initial, limits.as_deref().unwrap_or_default());
             }
-            let capture = capture::capture(root, layout.as_ref(), name.as_deref())?;
+            let capture = capture::capture(root, layout.as_ref(), name)?;
             let clearance = root.read_or("clearance", ClearanceRules::default(), |value| {
                 let targets = capture.targets.iter().map(|target| target.name.as_str());
                 let bodies = frames(layout.as_ref()?, targets).into_iter();
@@ -116,7 +116,7 @@ impl Scenario {
                 clearance::clearance(&value.table()?, &names)
             });
             let scenario = Self {
-                name: name?,
+                name: name?.to_owned(),
                 layout: layout?,
                 initial: initial?,
                 joint_limits: limits?,
@@ -164,17 +164,6 @@ fn duration_and_step(table: &Table<'_>) -> Option<(f64, f64)> {
         value.reject(&why);
     }
     None
-}
-
-/// A name that can be part of a file's name on any system.
-fn file_name(value: &Value<'_>) -> Option<String> {
-    let name = value.text()?;
-    let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-    if !name.chars().all(allowed) || name.starts_with('.') || name.len() > 100 {
-        value.expected(&format!("{}, at most 100 of them", value.wanted()), None);
-        return None;
-    }
-    Some(name.to_owned())
 }
 
 /// The layout that a scenario names, and the text that it was read from.

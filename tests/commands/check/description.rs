@@ -1,4 +1,4 @@
-//! `check`: descriptions of layouts and scenarios.
+//! `check`: descriptions of layouts, scenarios and sweeps.
 
 use super::{LAYOUT, SCENARIO, check, inspect_text};
 use planar_capture::check::{CheckReport, inspect};
@@ -54,6 +54,24 @@ fn description_of_a_scenario() {
     // a base of 500 kg and 80 kg m², 39 kg on it, all moving as one with 2 m/s
     let moving = inspect_text(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
     assert!(moving.contains("1078, 0] N m s, N s; 1078 J\n"), "{moving}");
+}
+
+#[test]
+fn description_of_a_sweep() {
+    // its scenario has warnings
+    let (code, out, err) = check(&["uncertain_capture.toml"], &file("scenarios/sweeps"));
+    assert!(code == 0 && err.contains("capture.toml:12:8"), "{err}");
+    for expected in [
+        "uncertain_capture: a sweep\n",
+        "scenario            capture, its case case2\n",
+        "cases               1000, latin_hypercube, in 1 file\n",
+        // 10 ± 1.645, and uniform
+        "varies              target.target1.mass: 10 (8.355 to 11.64 in 90 % of the cases)\n",
+        "varies              case.case2.target_twists.target1[0]: 0 (-0.18 to 0.18 in 90 % of the cases)\n",
+        "varies              approach.proportional_gain[2]: 40.0, 49.0, 60.0\n",
+    ] {
+        assert!(out.contains(expected), "no `{expected}` in\n{out}");
+    }
 }
 
 /// The number of the paper's robot, from its equations of motion: the damping of the stiffest joint motion.

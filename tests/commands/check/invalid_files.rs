@@ -104,7 +104,7 @@ fn broken_files() -> Vec<(&'static str, Vec<u8>, &'static [&'static str], usize)
     let bare = LAYOUT.find("[[arm.link]]").map_or("", |end| &LAYOUT[..end]);
     let windows = format!("\u{feff}{}", LAYOUT.replace("mass = 500.0", "mass = -1").replace('\n', "\r\n"));
     vec![
-        ("empty", Vec::new(), &[":1:1", "neither a layout", "`[[arm]]`", "`layout`"], 1),
+        ("empty", Vec::new(), &[":1:1", "neither a layout", "`[[arm]]`", "`layout`", "nor a sweep"], 1),
         ("a name alone", b"name = \"robot\"".to_vec(), &[":1:1", "neither a layout", "nor a scenario"], 1),
         ("something else", b"[package]\nname = \"x\"".to_vec(), &[":1:2", "`package`", "neither a layout"], 2),
         ("JSON", b"{\"name\": \"robot\"}".to_vec(), &[":1:1", "not valid TOML", "write lines `key = value`"], 1),

@@ -14,6 +14,8 @@ pub struct Choice {
 pub enum Count {
     /// Any number.
     Any,
+    /// Any number but none.
+    AtLeastOne,
     /// One per joint.
     Joints,
     /// One per arm.
@@ -30,6 +32,7 @@ impl Count {
     pub fn words(self) -> String {
         match self {
             Self::Any => "any number of them".to_owned(),
+            Self::AtLeastOne => "at least one".to_owned(),
             Self::Joints => "one per joint".to_owned(),
             Self::Arms => "one per arm".to_owned(),
             Self::Contacts => "one per arm that touches it".to_owned(),

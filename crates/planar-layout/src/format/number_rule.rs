@@ -19,6 +19,7 @@ pub struct NumberRule {
     wrong_unit: Option<WrongUnit>,
     range: Option<Range>,
     below: Option<f64>,
+    is_whole: bool,
 }
 
 /// An end of the range of a number.
@@ -66,7 +67,16 @@ impl NumberRule {
     /// Any finite number; `what` is the name with its article, "a mass", and `unit` empty for a number without one.
     #[must_use]
     pub const fn any(what: &'static str, unit: &'static str) -> Self {
-        Self { what, unit, minimum: Minimum::None, largest: LARGEST, wrong_unit: None, range: None, below: None }
+        Self {
+            what,
+            unit,
+            minimum: Minimum::None,
+            largest: LARGEST,
+            wrong_unit: None,
+            range: None,
+            below: None,
+            is_whole: false,
+        }
     }
 
     /// A finite number greater than zero.
@@ -79,6 +89,14 @@ impl NumberRule {
     #[must_use]
     pub const fn non_negative(what: &'static str, unit: &'static str) -> Self {
         Self { minimum: Minimum::Zero, ..Self::any(what, unit) }
+    }
+
+    /// A whole number in a range, which messages say; `what` is its name, "a number of cases".
+    ///
+    /// The ends are whole and not negative.
+    #[must_use]
+    pub const fn whole(what: &'static str, least: f64, most: f64) -> Self {
+        Self { is_whole: true, ..Self::any(what, "").within(least, most) }
     }
 
     /// Rejects magnitudes above `radians` as degrees.
@@ -129,6 +147,12 @@ impl NumberRule {
         self.unit
     }
 
+    /// Whether it may be a whole number only.
+    #[must_use]
+    pub const fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
     /// The least and the largest number it may be; `None` where only the size of numbers limits it.
     #[must_use]
     pub fn bounds(&self) -> [Option<Bound>; 2] {
@@ -166,6 +190,7 @@ impl NumberRule {
         };
         let outside = self.range.filter(|range| !(range.least..=range.most).contains(&number));
         match (self.wrong_unit, outside) {
+            _ if self.is_whole && number.fract() != 0.0 => hint(None),
             _ if too_small || self.below.is_some_and(|below| number >= below) => hint(None),
             (Some(WrongUnit { limit, unit, factor }), _) if number.abs() > limit => {
                 let converted = number * factor;
@@ -194,6 +219,9 @@ impl Display for NumberRule {
         };
         let unit = if self.unit.is_empty() { String::new() } else { format!(" in {}", self.unit) };
         write!(f, "{}{unit}{range}", self.what)?;
+        if let (true, Some(Range { least, most, .. })) = (self.is_whole, self.range) {
+            write!(f, ", a whole number from {least} to {most}")?;
+        }
         match self.below {
             Some(below) => write!(f, " and less than {below}"),
             None => Ok(()),

@@ -43,6 +43,8 @@ pub enum Shape {
     Choice(fn() -> Vec<Choice>),
     /// A number.
     Number(NumberRule),
+    /// A number, a text, or `true` or `false`; with the rule of the number.
+    Scalar(NumberRule),
     /// A list with one number for each component, `[x, y]`.
     Vector(&'static [NumberRule]),
     /// One of several such lists, by their lengths; one without components is `[]`.
@@ -142,6 +144,10 @@ impl Key {
 }
 
 impl Shape {
+    /// A name that can be part of a file's name on any system.
+    pub const FILE_NAME: Self =
+        Self::Text("a name that files can have (ASCII letters, digits, `-`, `_` and `.`, not `.` first)");
+
     /// A description for messages, as it reads after "expected".
     #[must_use]
     pub fn wanted(&self) -> String {
@@ -149,6 +155,7 @@ impl Shape {
             Self::Text(what) => (*what).to_owned(),
             Self::Choice(choices) => listing(&names(*choices), "or"),
             Self::Number(rule) => rule.to_string(),
+            Self::Scalar(rule) => format!("{rule}, a text, or `true` or `false`"),
             Self::Vector(components) => form(components),
             Self::OneOf(vectors) => {
                 let forms: Vec<_> = vectors.iter().map(|vector| form(vector)).collect();
@@ -162,11 +169,31 @@ impl Shape {
         }
     }
 
+    /// What can be chosen, also for each element of a list; `None` where it is no choice.
+    #[must_use]
+    pub fn choices(&self) -> Option<Vec<Choice>> {
+        match self {
+            Self::Choice(choices) => Some(choices()),
+            Self::List(item, _) | Self::OneOrList(item, _) => item.choices(),
+            _ => None,
+        }
+    }
+
+    /// Whether one scalar, not a list or a table, is a value of it.
+    #[must_use]
+    pub fn is_scalar(&self) -> bool {
+        match self {
+            Self::Text(_) | Self::Choice(_) | Self::Number(_) | Self::Scalar(_) => true,
+            Self::OneOrList(item, _) => item.is_scalar(),
+            _ => false,
+        }
+    }
+
     /// The rule of a number, also of one that holds for all elements of a list.
     #[must_use]
     pub fn rule(&self) -> Option<&NumberRule> {
         match self {
-            Self::Number(rule) => Some(rule),
+            Self::Number(rule) | Self::Scalar(rule) => Some(rule),
             Self::OneOrList(item, _) => item.rule(),
             _ => None,
         }

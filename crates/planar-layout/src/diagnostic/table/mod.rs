@@ -139,6 +139,16 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// A whole number, or its default.
+    #[must_use]
+    pub fn whole(&self, key: &str) -> Option<u64> {
+        match self.entry(key).default {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it keeps the key's rule")]
+            Default::Number(default) => self.read_or(key, default as u64, Value::whole),
+            _ => self.require(key)?.whole(),
+        }
+    }
+
     /// A number, or nothing where it is not given.
     #[must_use]
     #[allow(clippy::option_option, reason = "None where it is invalid, Some(None) where it is not given")]
@@ -150,6 +160,19 @@ impl<'a> Table<'a> {
     #[must_use]
     pub fn text(&self, key: &str) -> Option<&'a str> {
         self.require(key)?.text()
+    }
+
+    /// A name that must be given and can be part of a file's name on any system, [`Shape::FILE_NAME`].
+    #[must_use]
+    pub fn file_name(&self, key: &str) -> Option<&'a str> {
+        let value = self.require(key)?;
+        let name = value.text()?;
+        let allowed = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        let is_valid = name.chars().all(allowed) && !name.starts_with('.') && name.len() <= 100;
+        if !is_valid {
+            value.expected(&format!("{}, at most 100 of them", value.wanted()), None);
+        }
+        is_valid.then_some(name)
     }
 
     /// A vector, or zeros where that is its default.

@@ -119,6 +119,17 @@ impl<'a> Value<'a> {
         self.number_of(self.shape.and_then(Shape::rule).expect(OTHER_SHAPE))
     }
 
+    /// A number that can only be whole and is not negative.
+    ///
+    /// # Panics
+    /// See [`wanted`](Self::wanted).
+    #[must_use]
+    pub fn whole(&self) -> Option<u64> {
+        let rule = self.shape.and_then(Shape::rule).filter(|rule| rule.is_whole()).expect(OTHER_SHAPE);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers are not negative")]
+        self.number_of(rule).map(|number| number as u64)
+    }
+
     fn number_of(&self, quantity: &NumberRule) -> Option<f64> {
         let number = match self.tree {
             DeValue::Float(float) => float.as_str().parse().ok(),

@@ -1,0 +1,34 @@
+//! The description of a sweep: what is computed how many times, and what varies.
+
+use super::number::{count, short};
+use crate::campaign::Campaign;
+use crate::campaign::distribution::{Distribution, Kind};
+use std::fmt::{self, Write};
+
+pub(super) fn description(campaign: &Campaign) -> String {
+    let mut text = String::new();
+    write(&mut text, campaign).expect("writing to a String does not fail");
+    text
+}
+
+fn write(out: &mut String, campaign: &Campaign) -> fmt::Result {
+    let (sweep, scenario) = (&campaign.sweep, &campaign.scenario);
+    writeln!(out, "{}: a sweep\n", sweep.name)?;
+    writeln!(out, "  scenario            {}, its case {}", scenario.name, sweep.case)?;
+    writeln!(out, "  robot               {}", scenario.layout.name)?;
+    let blocks = usize::try_from(sweep.blocks()).unwrap_or(usize::MAX);
+    writeln!(out, "  cases               {}, {}, in {}", sweep.cases, sweep.sampling.name(), count(blocks, "file"))?;
+    for varied in &sweep.varied {
+        writeln!(out, "  varies              {}: {}", varied.key, values(&varied.distribution))?;
+    }
+    Ok(())
+}
+
+/// Its choices, or some of its quantiles.
+fn values(distribution: &Distribution) -> String {
+    if let Kind::Choice(values) = &distribution.kind {
+        return values.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    }
+    let at = |probability| distribution.quantile(probability).number().map_or_else(String::new, short);
+    format!("{} ({} to {} in 90 % of the cases)", at(0.5), at(0.05), at(0.95))
+}
