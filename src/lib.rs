@@ -177,6 +177,8 @@ pub mod output;
 #[cfg(feature = "cli")]
 pub mod own_crate;
 #[cfg(feature = "std")]
+mod plain_text;
+#[cfg(feature = "std")]
 pub mod python_package;
 #[cfg(feature = "std")]
 pub mod registry;

@@ -3,39 +3,30 @@
 use super::number::{point, short};
 use crate::engine::Choice;
 use crate::layout::Layout;
+use crate::plain_text::Column::{Left, Right};
+use crate::plain_text::{Table, entry};
 use crate::registry::{self, Robots};
 use crate::simulate::bodies::{BodySums, bodies, inertia_about};
 use crate::state::State;
 use crate::structure::in_words;
-use std::fmt::{self, Write};
 
 pub(super) fn description(layout: &Layout, robots: Robots<'_>) -> String {
-    let mut text = String::new();
-    write(&mut text, layout, robots).expect("writing to a String does not fail");
-    text
-}
-
-fn write(out: &mut String, layout: &Layout, robots: Robots<'_>) -> fmt::Result {
-    writeln!(out, "{}: a layout, sha256 {}\n", layout.name, digest(layout))?;
-    writeln!(out, "  degrees of freedom  {}", freedom(layout))?;
+    let mut out = format!("{}: a layout, sha256 {}\n\n", layout.name, digest(layout));
+    out += &entry("degrees of freedom", &freedom(layout));
     let (all, base) = (layout.mass(), &layout.base);
-    writeln!(out, "  mass                {} kg, {} % of it in the base", short(all), short(100.0 * base.mass / all))?;
-    writeln!(
-        out,
-        "  base                {} kg, {} kg m², radius of gyration {} m",
-        short(base.mass),
-        short(base.inertia),
-        short(base.radius_of_gyration())
-    )?;
+    let [mass, share] = [all, 100.0 * base.mass / all].map(short);
+    out += &entry("mass", &format!("{mass} kg, {share} % of it in the base"));
+    let [mass, inertia, radius] = [base.mass, base.inertia, base.radius_of_gyration()].map(short);
+    out += &entry("base", &format!("{mass} kg, {inertia} kg m², radius of gyration {radius} m"));
     let zeros = vec![0.0; layout.joints()];
     let state = State { base_pose: [0.0; 3], joint_angles: &zeros, base_twist: [0.0; 3], joint_rates: &zeros };
     if let Ok(bodies) = bodies(&*registry::generic(layout), &state, &[]) {
         let inertia = short(inertia_about(&bodies, BodySums::new(bodies.iter().copied()).center_of_mass()));
-        writeln!(out, "  inertia             {inertia} kg m² about the robot's COM, all joint angles 0")?;
+        out += &entry("inertia", &format!("{inertia} kg m² about the robot's COM, all joint angles 0"));
     }
-    writeln!(out, "  structure           {}", in_words(layout))?;
-    writeln!(out, "  generated code      {}\n", code(layout, robots))?;
-    arms(out, layout)
+    out += &entry("structure", &in_words(layout));
+    out += &entry("generated code", &code(layout, robots));
+    out + "\n" + &arms(layout)
 }
 
 /// The first 12 digits of the hash.
@@ -65,22 +56,20 @@ pub(super) fn code(layout: &Layout, robots: Robots<'_>) -> String {
     }
 }
 
-fn arms(out: &mut String, layout: &Layout) -> fmt::Result {
-    let row = |cells: [&str; 6]| {
-        let [name, links, mass, length, reach, mount] = cells;
-        format!("  {name:<16} {links:>5} {mass:>10} {length:>10} {reach:>17}  {mount}\n")
-    };
-    out.write_str(&row(["arm", "links", "mass [kg]", "length [m]", "from base COM [m]", "mount [m, rad]"]))?;
+fn arms(layout: &Layout) -> String {
+    let mut table = Table::new(&[
+        Left("arm"),
+        Right("links"),
+        Right("mass [kg]"),
+        Right("length [m]"),
+        Right("from base COM [m]"),
+        Left("mount [m, rad]"),
+    ]);
     for arm in &layout.arms {
         let angle = if arm.mount_angle == 0.0 { String::new() } else { format!(" at {}", short(arm.mount_angle)) };
-        out.write_str(&row([
-            &arm.name,
-            &arm.links.len().to_string(),
-            &short(arm.mass()),
-            &short(arm.reach()),
-            &short(arm.reach_from_base()),
-            &format!("{}{angle}", point(arm.mount)),
-        ]))?;
+        let [mass, length, reach] = [arm.mass(), arm.reach(), arm.reach_from_base()].map(short);
+        let mount = format!("{}{angle}", point(arm.mount));
+        table.row([arm.name.clone(), arm.links.len().to_string(), mass, length, reach, mount]);
     }
-    Ok(())
+    table.text()
 }

@@ -7,60 +7,52 @@ use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::contact_reach;
 use crate::contact::ContactKind;
+use crate::plain_text::Column::{Left, Right};
+use crate::plain_text::{Table, entry, wrap};
 use crate::registry::{self, Robots};
 use crate::scenario::{
     Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, PostCaptureControl, Scenario, Tracking,
     contact_name,
 };
 use crate::simulate::Timing;
-use std::fmt::{self, Write};
 
 pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
-    let mut text = String::new();
-    write(&mut text, scenario, robots).expect("writing to a String does not fail");
-    text
-}
-
-fn write(out: &mut String, scenario: &Scenario, robots: Robots<'_>) -> fmt::Result {
     let (layout, approach) = (&scenario.layout, &scenario.approach);
-    writeln!(out, "{}: a scenario\n", scenario.name)?;
-    let [mass, digest, freedom] = [short(layout.mass()), digest(layout), freedom(layout)];
-    writeln!(out, "  robot               {}, {mass} kg, sha256 {digest}", layout.name)?;
-    writeln!(out, "  degrees of freedom  {freedom}")?;
-    writeln!(out, "  generated code      {}", code(layout, robots))?;
-    writeln!(out, "  start               {}", start(scenario))?;
-    writeln!(out, "  approach            {}", steps(approach.duration, approach.step))?;
-    writeln!(out, "  trajectory          {}", trajectory(scenario))?;
-    match &approach.final_end_effector_poses {
-        Some(goals) if by_end_effectors(scenario) => writeln!(out, "  end effectors       to {}", goal_poses(goals))?,
-        Some(goals) => writeln!(out, "  final angles        to be designed, for {}", goal_poses(goals))?,
-        None => writeln!(out, "  largest turn        {}", turn(scenario))?,
-    }
-    writeln!(out, "  tracking            {}", tracking(scenario))?;
+    let mut out = format!("{}: a scenario\n\n", scenario.name);
+    let [mass, digest] = [short(layout.mass()), digest(layout)];
+    out += &entry("robot", &format!("{}, {mass} kg, sha256 {digest}", layout.name));
+    out += &entry("degrees of freedom", &freedom(layout));
+    out += &entry("generated code", &code(layout, robots));
+    out += &entry("start", &start(scenario));
+    out += &entry("approach", &steps(approach.duration, approach.step));
+    out += &entry("trajectory", &trajectory(scenario));
+    out += &match &approach.final_end_effector_poses {
+        Some(goals) if by_end_effectors(scenario) => entry("end effectors", &format!("to {}", goal_poses(goals))),
+        Some(goals) => entry("final angles", &format!("to be designed, for {}", goal_poses(goals))),
+        None => entry("largest turn", &turn(scenario)),
+    };
+    out += &entry("tracking", &tracking(scenario));
     if let Some(FinalPose { arms, margin }) = final_pose(scenario) {
         let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
-        let margin = short(margin);
-        writeln!(
-            out,
-            "  final pose          generalized Jacobian of {}: smallest/largest singular value {margin}",
-            names.join(", ")
-        )?;
+        let (names, margin) = (names.join(", "), short(margin));
+        let what = format!("generalized Jacobian of {names}: smallest/largest singular value {margin}");
+        out += &entry("final pose", &what);
     }
     if let Some(after) = &scenario.post_impact {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
-        writeln!(out, "  afterwards          {}, of {mass} kg together", steps(after.duration, after.step))?;
+        out += &entry("afterwards", &format!("{}, of {mass} kg together", steps(after.duration, after.step)));
         if after.control != PostCaptureControl::None {
-            let actuation = actuation(&after.actuation);
+            let (law, actuation) = (post_capture_law(&after.control), actuation(&after.actuation));
             let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
                 format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
             });
-            writeln!(out, "  control afterwards  {}{mode}{actuation}", post_capture_law(&after.control))?;
+            out += &entry("control afterwards", &format!("{law}{mode}{actuation}"));
         }
-        targets(out, scenario)?;
-        cases(out, scenario)?;
+        out += &targets(scenario);
+        out += &cases(scenario);
     }
-    Ok(())
+    out
 }
 
 fn steps(duration: f64, step: f64) -> String {
@@ -175,44 +167,42 @@ fn gains(values: &[f64]) -> String {
     }
 }
 
-fn targets(out: &mut String, scenario: &Scenario) -> fmt::Result {
-    let row = |cells: [&str; 7]| {
-        let [name, arm, mass, inertia, contact, position, reach] = cells;
-        let row = format!("  {name:<12} {arm:<10} {mass:>9} {inertia:>16}  {contact:<14} {position:<14} {reach}");
-        format!("{}\n", row.trim_end())
-    };
-    let head = ["target", "arm", "mass [kg]", "inertia [kg m²]", "contact [m]", "position [m]", "from robot's COM [m]"];
-    write!(out, "\n{}", row(head))?;
+fn targets(scenario: &Scenario) -> String {
+    let mut table = Table::new(&[
+        Left("target"),
+        Left("arm"),
+        Right("mass [kg]"),
+        Right("inertia [kg m²]"),
+        Left("contact [m]"),
+        Left("position [m]"),
+        Left("from robot's COM [m]"),
+    ]);
     for target in &scenario.targets {
-        let names = target.contacts.iter().map(|contact| scenario.layout.arms[contact.arm].name.as_str());
-        let arm = names.collect::<Vec<_>>().join(", ");
-        let contact = match scenario.contact.detection {
-            Detection::Time => {
-                target.contacts.iter().map(|contact| point(contact.point)).collect::<Vec<_>>().join(", ")
-            }
-            Detection::Event => "detected".to_owned(),
-        };
+        let mut contacts = target.contacts.iter().map(|contact| {
+            let at = match scenario.contact.detection {
+                Detection::Time => point(contact.point),
+                Detection::Event => "detected".to_owned(),
+            };
+            (scenario.layout.arms[contact.arm].name.clone(), at)
+        });
+        let (arm, contact) = contacts.next().unwrap_or_default();
         let reach = contact_reach(scenario, target);
         let reach = reach.map(|reach| format!("{} of at most {}", short(reach.distance), short(reach.limit)));
-        out.write_str(&row([
-            &target.name,
-            &arm,
-            &short(target.mass),
-            &short(target.inertia),
-            &contact,
-            &target.position.map(point).unwrap_or_default(),
-            &reach.unwrap_or_default(),
-        ]))?;
+        let position = target.position.map(point).unwrap_or_default();
+        let [mass, inertia] = [target.mass, target.inertia].map(short);
+        table.row([target.name.clone(), arm, mass, inertia, contact, position, reach.unwrap_or_default()]);
+        for (arm, contact) in contacts {
+            let none = String::new;
+            table.more([none(), arm, none(), none(), contact, none(), none()]);
+        }
     }
-    Ok(())
+    format!("\n{}", table.text())
 }
 
-fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
-    writeln!(
-        out,
-        "\n  {}, target twists [ω, vx, vy] in rad/s, m/s, and what the contacts do",
-        count(scenario.cases.len(), "case")
-    )?;
+fn cases(scenario: &Scenario) -> String {
+    let number = count(scenario.cases.len(), "case");
+    let width = scenario.cases.iter().map(|case| case.name.len()).fold(12, usize::max);
+    let mut out = format!("\n  {number}, target twists [ω, vx, vy] in rad/s, m/s, and what the contacts do\n");
     for case in &scenario.cases {
         let each = scenario.targets.iter().zip(&case.target_twists).zip(case.kinds.iter().zip(&case.restitutions));
         let targets: Vec<_> = each
@@ -220,9 +210,10 @@ fn cases(out: &mut String, scenario: &Scenario) -> fmt::Result {
                 format!("{} {} {}", target.name, list(twist), contacts(kinds, *restitution))
             })
             .collect();
-        writeln!(out, "  {:<12} {}", case.name, targets.join(", "))?;
+        let (first, next) = (format!("  {:<width$}", case.name), " ".repeat(2 + width));
+        out.extend(wrap(&first, &next, &targets.join(", ")).iter().flat_map(|line| [line.as_str(), "\n"]));
     }
-    Ok(())
+    out
 }
 
 /// `rigid`, or `rigid and pin`, or `bounce (0.5)`.

@@ -7,19 +7,26 @@ use crate::engine::{Choice, Engine};
 use crate::eval::to_json;
 use crate::layout::Layout;
 use crate::output::result_folder::ResultFolder;
+use crate::plain_text::Column::{Left, Right};
+use crate::plain_text::{Table, sentence};
 use crate::quantity::Quantity;
 use crate::registry::Robots;
-use std::fmt::{self, Write};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Compare the derived dynamics with the generic implementation at random states, quantity by quantity.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture compare dual_arm_3r
+  planar-capture compare mine.toml --samples 1000 --seed 7";
+
+/// Compare the derived dynamics with the generic implementation at random states.
 ///
-/// Those are the compiled code of the layout's structure, else its graph, which is derived first where there is none.
+/// Derived are the compiled code of the layout's structure, else its graph, which is derived first where there is none.
 /// Errors are relative to the natural size of each entry: the sum of the magnitudes of its terms. The worst state of
 /// each quantity is written for `eval`. Exit code 1 if an error exceeds its bound.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
@@ -56,7 +63,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     folder.commit(staged, &format!("{}.toml", file_name(Quantity::ALL[0])))?;
     let code = if comparison.agrees() { ExitCode::SUCCESS } else { ExitCode::from(1) };
     print(&format!(
-        "{}Worst states in {shown}; replay: planar-capture eval {shown}/QUANTITY.toml {shown}/QUANTITY.json\n",
+        "{}Worst states in {shown}; replay one there:\nplanar-capture eval QUANTITY.toml QUANTITY.json\n",
         table(&comparison, (&layout.name, &choice), arguments),
     ));
     for refusal in &comparison.refusals {
@@ -105,34 +112,23 @@ fn objection(folder: &Path, names: &[String], layout: &Layout) -> Option<String>
     Some(format!("holds the comparison of `{}`, not of `{}`", other.name, layout.name))
 }
 
-fn table(comparison: &Comparison, of: (&str, &Choice), arguments: &Arguments) -> String {
-    let mut text = String::new();
-    write_table(&mut text, comparison, of, arguments).expect("writing to a String does not fail");
-    text
-}
-
 /// One line per quantity.
-fn write_table(
-    out: &mut String,
-    comparison: &Comparison,
-    (name, choice): (&str, &Choice),
-    arguments: &Arguments,
-) -> fmt::Result {
+fn table(comparison: &Comparison, (name, choice): (&str, &Choice), arguments: &Arguments) -> String {
     let (states, samples, seed) = (comparison.states, arguments.samples, arguments.seed);
     let (engine, origin) = (choice.engine.name(), &choice.origin);
-    writeln!(
-        out,
-        "{name}: {engine} ({origin}) against generic at {states} states, {samples} of each regime, seed {seed}\n"
-    )?;
-    writeln!(out, "{:<28} {:>9} {:>9}  {:<14} {:>6}", "quantity", "error", "bound", "regime", "state")?;
+    let mut table = Table::new(&[Left("quantity"), Right("error"), Right("bound"), Left("regime"), Right("state")]);
     for LargestError { difference, regime, index, .. } in &comparison.largest_errors {
-        let (quantity, error, bound) = (difference.quantity.row().name, difference.error, difference.bound());
-        let over = if difference.ratio() <= 1.0 { "" } else { "  over its bound" };
-        writeln!(out, "{quantity:<28} {error:>9.1e} {bound:>9.1e}  {:<14} {index:>6}{over}", regime.name())?;
+        let [error, bound] = [difference.error, difference.bound()].map(|value| format!("{value:.1e}"));
+        let quantity = difference.quantity.row().name.to_owned();
+        table.row([quantity, error, bound, regime.name().to_owned(), index.to_string()]);
+        if difference.ratio() > 1.0 {
+            table.note("over its bound");
+        }
     }
+    let of = format!(
+        "{name}: {engine} ({origin}) against generic at {states} states, {samples} of each regime, seed {seed}"
+    );
     let both = comparison.refusals.iter().filter(|r| r.generated.is_some() && r.generic.is_some()).count();
-    if both > 0 {
-        writeln!(out, "\n{both} states have no result by either implementation.")?;
-    }
-    writeln!(out)
+    let none = if both == 0 { String::new() } else { format!("\n{both} states have no result by either of them.\n") };
+    format!("{}\n{}{none}\n", sentence("", &of), table.text())
 }

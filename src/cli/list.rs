@@ -2,15 +2,17 @@
 
 use super::{CommandError, write_new};
 use crate::engine;
-use crate::file_format::wrap;
 use crate::format::{Choice, Shape, TableFormat};
 use crate::layout::Layout;
+use crate::plain_text::wrap;
 use crate::registry::Robots;
 use crate::scenario;
 use std::process::ExitCode;
 
-/// List the robots that this program knows by name, with what computes them, and the names that scenarios choose from:
-/// trajectories, control laws, integrators, kinds of contacts.
+/// List what this program knows by name.
+///
+/// Those are robots, with what computes them, and the names that scenarios choose from: trajectories, control laws,
+/// integrators, kinds of contacts.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {}
 

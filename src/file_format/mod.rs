@@ -6,14 +6,12 @@
 mod json_schema;
 mod reference;
 mod template;
-mod wrap;
 
 #[cfg(feature = "sweep")]
 use crate::campaign;
 use crate::diagnostic::listing;
 use crate::format::{Key, NumberRule, Shape, TableFormat, With, units};
 use crate::{layout, scenario};
-pub(crate) use wrap::wrap;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

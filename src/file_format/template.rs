@@ -1,7 +1,8 @@
 //! A commented file to start from, which is valid as it stands.
 
-use super::{FileFormat, about, default, wrap};
+use super::{FileFormat, about, default};
 use crate::format::{Default, Example, Key, Shape, TableFormat};
+use crate::plain_text::wrap;
 
 /// The whole file.
 pub fn template(file: FileFormat) -> String {

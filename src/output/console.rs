@@ -1,120 +1,126 @@
 //! The table that `run` prints: approach, impulses, balances and residual motion of every case.
 
 use super::impacts::impacts;
+use super::printed_impulses::are_comparable;
 use crate::capture::clearance::{LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::plain_text::Column::{Left, Right};
+use crate::plain_text::{Column, Table, sentence};
 use crate::scenario::{Case, Detection, PostCaptureControl, Scenario, Tracking};
 use crate::simulate::Phase;
 use crate::simulate::conservation::ConservationErrors;
-use std::fmt::{self, Write};
 
 /// Distance of an end effector from its wanted contact point above which it is reported, m.
 const REPORTED_MISS: f64 = 1e-4;
 
+/// Distance of an end effector from its contact point up to which that is hit, m: what four decimals do not show.
+const HIT: f64 = 5e-5;
+
 /// Number of overlaps of a case that are printed.
 const SHOWN_OVERLAPS: usize = 3;
 
-/// The results of a study in words and columns.
+/// The results of a study in words and columns, at most 100 characters wide where names are not longer than those.
 #[must_use]
 pub fn table(scenario: &Scenario, study: &Study) -> String {
-    let mut text = String::new();
-    // writing to a String does not fail
-    let _ = write_table(&mut text, scenario, study);
-    text
-}
-
-fn write_table(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
-    approach(out, scenario, study)?;
+    let mut out = approach(scenario, study);
     if study.cases.iter().any(|case| case.capture.is_some()) {
-        impulses(out, scenario, study)?;
-        balances(out, study)?;
-        post_impact(out, scenario, study)?;
-        residual_motion(out, study)?;
+        out += &impulses(scenario, study);
+        out += &balances(scenario, study);
+        out += &post_impact(scenario, study);
+        out += &residual_motion(study);
     }
-    clearance(out, study)?;
-    closest_approaches(out, scenario, study)?;
-    thinned(out, study)
+    out + &clearance(study) + &closest_approaches(scenario, study) + &thinned(study)
 }
 
 /// Says that figures and report do not show all samples of a long phase.
-fn thinned(out: &mut String, study: &Study) -> fmt::Result {
+fn thinned(study: &Study) -> String {
     let after = study.cases.iter().filter_map(|case| Some((&case.name, &case.capture.as_ref()?.post_impact)));
     let own = study.cases.iter().filter_map(|case| Some((&case.name, case.approach.as_ref()?)));
     let approach = "approach".to_owned();
-    for (name, phase) in std::iter::once((&approach, &study.approach)).chain(own).chain(after) {
-        let (shown, all) = (phase.samples.len(), phase.sample_count());
-        if shown < all {
-            writeln!(out, "\n{name}: figures and report show {shown} of {all} samples")?;
-        }
-    }
-    Ok(())
+    let phases = std::iter::once((&approach, &study.approach)).chain(own).chain(after);
+    let phases = phases.map(|(name, phase)| (name, phase.samples.len(), phase.sample_count()));
+    phases
+        .filter(|(_, shown, all)| shown < all)
+        .map(|(name, shown, all)| format!("\n{name}: figures and report show {shown} of {all} samples\n"))
+        .collect()
 }
 
-fn approach(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
+fn approach(scenario: &Scenario, study: &Study) -> String {
     let phase = &study.approach;
     let end = phase.end();
-    writeln!(out, "{} on {}", scenario.name, scenario.layout.name)?;
+    let mut out = format!("{} on {}\n", scenario.name, scenario.layout.name);
     if let Some(found) = &study.inverse_kinematics {
-        writeln!(
-            out,
-            "  final joint angles found in {} iterations [rad]: {}\n  (end effectors miss by {:.1e}; {})",
+        out += &line(&format!(
+            "final joint angles found in {} iterations [rad]: {} (end effectors miss by {:.1e}; {})",
             found.iterations,
             list(&found.joint_angles, 6),
             found.residual,
             redundancy(found.spare_joints)
-        )?;
+        ));
     }
     if let Some(found) = &study.terminal_rates {
-        writeln!(
-            out,
-            "  final joint rates found in {} iterations [rad/s]: {}\n  (generalized Jacobian at the final pose: \
+        out += &line(&format!(
+            "final joint rates found in {} iterations [rad/s]: {} (generalized Jacobian at the final pose: \
              smallest/largest singular value {:.3})",
             found.iterations,
             list(&found.joint_rates, 6),
             found.singularity_margin
-        )?;
+        ));
     }
-    let [yaw, x, y] = end.state.base_pose;
     let condition = match scenario.contact.detection {
         Detection::Time => "",
         Detection::Event => ", if there were no contact",
     };
-    writeln!(out, "\nAfter the approach of {} s{condition}", phase.duration)?;
-    writeln!(out, "  base: yaw {yaw:.6} rad, x {x:.6} m, y {y:.6} m")?;
-    let end_effectors = end.end_effector_poses.iter().zip(&end.end_effector_twists);
-    for (i, (arm, ([_, x, y], [omega, vx, vy]))) in scenario.layout.arms.iter().zip(end_effectors).enumerate() {
-        let name = &arm.name;
-        write!(out, "  end effector of {name}: ({x:.4}, {y:.4}) m, {omega:.4} rad/s, ({vx:.4}, {vy:.4}) m/s")?;
-        if let Some((target, [wanted_x, wanted_y])) = wanted_contact(scenario, i) {
-            let miss = libm::hypot(x - wanted_x, y - wanted_y);
-            write!(out, "; misses the contact point of {target} by {miss:.4} m")?;
-        }
-        writeln!(out)?;
-        if let Some(error) = study.terminal_errors.get(i).and_then(Option::as_ref) {
-            let head =
-                if error.reached { "misses the wanted pose by" } else { "DID NOT REACH the wanted pose: misses it by" };
-            writeln!(out, "    {head} {error}")?;
-        }
-    }
+    let [yaw, x, y] = end.state.base_pose.map(|part| fixed(part, 6));
+    out += &format!("\nAfter the approach of {} s{condition}\n", phase.duration);
+    out += &line(&format!("base: yaw {yaw} rad, x {x} m, y {y} m"));
+    out += &end_effectors(scenario, study);
     if let Some(margin) = phase.singularity_margin {
-        writeln!(out, "  generalized Jacobian in the approach: smallest/largest singular value at least {margin:.4}")?;
+        out += &line(&format!(
+            "generalized Jacobian in the approach: smallest/largest singular value at least {margin:.4}"
+        ));
         if let Tracking::ResolvedMotionRate { singularity_threshold, .. } = scenario.approach.tracking
             && margin < singularity_threshold
         {
-            writeln!(
-                out,
-                "  (damped below {singularity_threshold}: the path passes a singular pose or leads to a pose out of reach)"
-            )?;
+            out += &line(&format!(
+                "(damped below {singularity_threshold}: the path passes a singular pose or leads to a pose out of reach)"
+            ));
         }
     }
-    limits(out, "  ", phase)?;
+    out.extend(limits(phase).iter().map(|text| line(text)));
     let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
-    writeln!(
-        out,
-        "  momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, centre-of-mass drift {center_of_mass_drift:.1e}"
-    )
+    out + &line(&format!(
+        "momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, \
+         centre-of-mass drift {center_of_mass_drift:.1e}"
+    ))
+}
+
+/// Where the end effectors are at the end of the approach, and what they should have met there.
+fn end_effectors(scenario: &Scenario, study: &Study) -> String {
+    let end = study.approach.end();
+    let mut table = Table::new(&[
+        Left("end effector"),
+        Left("at [m]"),
+        Left("velocity [m/s]"),
+        Right("rate [rad/s]"),
+        Left("contact point"),
+    ]);
+    let point = |point: [f64; 2]| format!("({})", list(&point, 4));
+    let poses = end.end_effector_poses.iter().zip(&end.end_effector_twists);
+    for (i, (arm, ([_, x, y], [omega, vx, vy]))) in scenario.layout.arms.iter().zip(poses).enumerate() {
+        let wanted = wanted_contact(scenario, i).map(|(target, [wanted_x, wanted_y])| {
+            let miss = (x - wanted_x).hypot(y - wanted_y);
+            if miss < HIT { format!("{target}: hit") } else { format!("{target}: missed by {miss:.4} m") }
+        });
+        table.row([arm.name.clone(), point([*x, *y]), point([*vx, *vy]), fixed(*omega, 4), wanted.unwrap_or_default()]);
+        if let Some(error) = study.terminal_errors.get(i).and_then(Option::as_ref) {
+            let head = if error.reached { "wanted pose reached, within" } else { "wanted pose NOT REACHED: missed by" };
+            table.note(format!("{head} {error}"));
+        }
+    }
+    table.text()
 }
 
 /// The target that an arm is to touch at the end of the approach, and the expected place of its contact point [x, y],
@@ -128,16 +134,19 @@ fn wanted_contact(scenario: &Scenario, arm: usize) -> Option<(&str, [f64; 2])> {
 }
 
 /// Times at the torque limits, and violations of the joint limits, of a phase that has such limits.
-fn limits(out: &mut String, indent: &str, phase: &Phase) -> fmt::Result {
-    if !phase.saturation.joints.is_empty() {
-        writeln!(out, "{indent}joint torques at their limits for [s]: {}", list(&phase.saturation.joints, 3))?;
+fn limits(phase: &Phase) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let at_limits = &phase.saturation.joints;
+    if at_limits.iter().any(|time| *time > 0.0) {
+        sentences.push(format!("joint torques at their limits for [s]: {}", list(at_limits, 3)));
+    } else if !at_limits.is_empty() {
+        sentences.push("joint torques never at their limits".to_owned());
     }
-    let Some(violations) = &phase.limit_violations else { return Ok(()) };
-    let sentences = violations.sentences();
-    if sentences.is_empty() {
-        return writeln!(out, "{indent}all joints within their limits");
+    if let Some(violations) = &phase.limit_violations {
+        let found = violations.sentences();
+        sentences.extend(if found.is_empty() { vec!["all joints within their limits".to_owned()] } else { found });
     }
-    sentences.iter().try_for_each(|sentence| writeln!(out, "{indent}{sentence}"))
+    sentences
 }
 
 /// Compares the number of joints with the number of prescribed coordinates.
@@ -149,203 +158,215 @@ fn redundancy(spare_joints: isize) -> String {
     }
 }
 
-fn impulses(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
-    writeln!(out, "\nImpulse on the robot at each contact, |[fx, fy]| [N s]")?;
-    let printed = scenario.cases.iter().any(|case| case.printed_impulses.iter().any(Option::is_some));
-    let detected = scenario.contact.detection == Detection::Event;
-    let column = match (detected, printed) {
-        (true, _) => "at [s]",
-        (false, true) => "as printed",
-        (false, false) => "",
-    };
-    let force = if scenario.contact.duration.is_some() { "mean force [N]" } else { "" };
-    let head = format!(
-        "  {:<16} {:<10} {:<7} {:>10} {:>10} {column:>11} {force:>14}",
-        "case", "arm", "kind", "exact", "paper eqs."
-    );
-    writeln!(out, "{}", head.trim_end())?;
+fn impulses(scenario: &Scenario, study: &Study) -> String {
+    let printed = are_comparable(scenario) && scenario.contact.detection == Detection::Time;
+    let mut table = Table::new(&[
+        Left("case"),
+        Left("arm"),
+        Left("target"),
+        Left("kind"),
+        Right("exact"),
+        Right("paper eqs."),
+        Right("as printed"),
+        Right("at [s]"),
+        Right("mean force [N]"),
+    ]);
     for (case, result) in scenario.cases.iter().zip(&study.cases) {
         let Some(capture) = &result.capture else { continue };
-        impulses_of_case(out, scenario, study, (case, result))?;
+        impulses_of_case(&mut table, scenario, study, (case, result), printed);
         if capture.impact.contacts.is_empty() {
-            writeln!(out, "  {:<16} no contact", case.name)?;
+            table.note(format!("{}: no contact", case.name));
         }
         // a target that one arm touches is where the end effector puts it
         let missed = capture.impact.contacts.iter().filter(|result| result.contact.miss > REPORTED_MISS);
         for ImpactContact { target, arm, miss, .. } in missed.map(|result| result.contact) {
             let (arm, target) = (&scenario.layout.arms[arm].name, &scenario.targets[target].name);
-            writeln!(
-                out,
-                "  {:<16} the end effector of {arm} is {miss:.4} m from its contact point on {target}",
-                case.name
-            )?;
+            table.note(format!("the end effector of {arm} is {miss:.4} m from its contact point on {target}"));
         }
     }
-    if printed && !detected {
-        writeln!(out, "  (as printed: the scenario's printed_impulses, for comparison only; see README)")?;
+    let mut out = format!("\nImpulse on the robot at each contact, |[fx, fy]| [N s]\n{}", table.text());
+    if printed {
+        out += &line("(as printed: in Table 5 of the paper, which does not follow from its equations; for comparison)");
     }
-    Ok(())
+    out
 }
 
 fn impulses_of_case(
-    out: &mut String,
+    table: &mut Table,
     scenario: &Scenario,
     study: &Study,
     (case, result): (&Case, &CaseResult),
-) -> fmt::Result {
+    printed: bool,
+) {
     for event in impacts(study, result) {
         let literal = event.solution.paper.as_ref().map(ImpactResult::impulse_magnitudes);
         for result in &event.solution.contacts {
             let ImpactContact { target, arm, law, .. } = result.contact;
             let literal = literal.as_ref().and_then(|arms| arms[arm]);
-            let literal = literal.map_or_else(|| "-".to_owned(), |value| format!("{value:.5}"));
-            let last = match (scenario.contact.detection, case.printed_impulses[target]) {
-                (Detection::Event, _) => format!("{:.4}", event.time),
-                (Detection::Time, Some(printed)) => format!("{printed:.4}"),
-                (Detection::Time, None) => String::new(),
-            };
+            let printed = case.printed_impulses[target].filter(|_| printed);
             let [_, fx, fy] = result.impulse;
-            let (exact, kind) = (libm::hypot(fx, fy), law.kind().name());
-            let force = scenario.contact.duration.map(|duration| format!("{:.3}", exact / duration));
-            let row = format!(
-                "  {:<16} {:<10} {kind:<7} {exact:>10.5} {literal:>10} {last:>11} {:>14}",
-                case.name,
-                scenario.layout.arms[arm].name,
-                force.unwrap_or_default()
-            );
-            writeln!(out, "{}", row.trim_end())?;
+            let exact = libm::hypot(fx, fy);
+            let force = scenario.contact.duration.map(|duration| fixed(exact / duration, 3));
+            table.row([
+                case.name.clone(),
+                scenario.layout.arms[arm].name.clone(),
+                scenario.targets[target].name.clone(),
+                law.kind().name().to_owned(),
+                fixed(exact, 5),
+                literal.map(|value| fixed(value, 5)).unwrap_or_default(),
+                printed.map(|value| fixed(value, 4)).unwrap_or_default(),
+                time_of(scenario, event.time),
+                force.unwrap_or_default(),
+            ]);
         }
     }
-    Ok(())
+}
+
+/// The time of an impact, s, where impacts are found by detection; else it is the end of the approach.
+fn time_of(scenario: &Scenario, time: f64) -> String {
+    if scenario.contact.detection == Detection::Event { fixed(time, 4) } else { String::new() }
 }
 
 /// The least distance of each case and its overlaps.
-fn clearance(out: &mut String, study: &Study) -> fmt::Result {
-    writeln!(out, "\nLeast distance of bodies that are not joined, besides planned contacts; negative: depth")?;
-    writeln!(out, "  {:<16} {:>12} {:>10}  between", "case", "distance [m]", "time [s]")?;
+fn clearance(study: &Study) -> String {
+    let mut table = Table::new(&[Left("case"), Right("distance [m]"), Right("at [s]"), Left("between")]);
     for CaseResult { name, clearance, stopped, .. } in &study.cases {
         match clearance.least_shown() {
             Some(LeastDistance { distance, time, bodies: [a, b] }) => {
-                let distance = if distance.abs() < 1e-5 { format!("{distance:.2e}") } else { format!("{distance:.6}") };
-                writeln!(out, "  {name:<16} {distance:>12} {time:>10.3}  {a} and {b}")?;
+                let distance = if distance.abs() < 1e-5 { format!("{distance:.2e}") } else { fixed(*distance, 6) };
+                table.row([name.clone(), distance, fixed(*time, 3), format!("{a} and {b}")]);
             }
-            None => writeln!(out, "  {name:<16} all bodies are joined")?,
+            None => table.note(format!("{name}: all bodies are joined")),
         }
         let shown = clearance.overlaps.iter().take(SHOWN_OVERLAPS);
-        shown.map(Overlap::sentence).try_for_each(|sentence| writeln!(out, "    {sentence}"))?;
+        shown.map(Overlap::sentence).for_each(|sentence| table.note(sentence));
         match clearance.overlaps.len().saturating_sub(SHOWN_OVERLAPS) {
             0 => {}
-            1 => writeln!(out, "    and a later overlap, see summary.json")?,
-            more => writeln!(out, "    and {more} later overlaps, see summary.json")?,
+            1 => table.note("and a later overlap, see summary.json"),
+            more => table.note(format!("and {more} later overlaps, see summary.json")),
         }
         if let Some(time) = stopped {
-            writeln!(out, "    the case ends with this overlap, at {time:.3} s (clearance.on_overlap)")?;
+            table.note(format!("the case ends with this overlap, at {time:.3} s (clearance.on_overlap)"));
         }
     }
-    Ok(())
-}
-
-/// End effectors that did not meet their targets, where contacts are found by detection.
-fn closest_approaches(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
-    for case in &study.cases {
-        for pair in &case.closest {
-            let (arm, target) = (&scenario.layout.arms[pair.arm].name, &scenario.targets[pair.target].name);
-            writeln!(
-                out,
-                "\n{}: the end effector of {arm} never meets {target}; the smallest distance is {:.4} m, at {:.2} s",
-                case.name, pair.distance, pair.time
-            )?;
-        }
-    }
-    Ok(())
-}
-
-fn balances(out: &mut String, study: &Study) -> fmt::Result {
-    writeln!(out, "\nRobot and targets together, before and after the impact")?;
-    writeln!(
-        out,
-        "  {:<16} {:<6} {:>14} {:>14} {:>26}",
-        "case", "model", "energy before", "energy after", "momentum jump [l, px, py]"
-    )?;
-    for case in &study.cases {
-        for event in impacts(study, case) {
-            balance(out, case, "exact", &event.solution.exact)?;
-            if let Some(literal) = &event.solution.paper {
-                balance(out, case, "paper", literal)?;
-            }
-        }
-    }
-    writeln!(out, "  (J; N m s, N s)")
-}
-
-fn balance(out: &mut String, case: &CaseResult, model: &str, result: &ImpactResult) -> fmt::Result {
-    let [l, px, py] = result.momentum_jump;
-    writeln!(
-        out,
-        "  {:<16} {:<6} {:>14.6} {:>14.6}   {:>9.1e} {:>9.1e} {:>9.1e}",
-        case.name, model, result.kinetic_energy_before, result.kinetic_energy_after, l, px, py
+    format!(
+        "\nLeast distance of bodies that are not joined, besides planned contacts; negative: depth\n{}",
+        table.text()
     )
 }
 
-fn post_impact(out: &mut String, scenario: &Scenario, study: &Study) -> fmt::Result {
+/// End effectors that did not meet their targets, where contacts are found by detection.
+fn closest_approaches(scenario: &Scenario, study: &Study) -> String {
+    let pairs = study.cases.iter().flat_map(|case| case.closest.iter().map(move |pair| (&case.name, pair)));
+    let sentences = pairs.map(|(case, pair)| {
+        let (arm, target) = (&scenario.layout.arms[pair.arm].name, &scenario.targets[pair.target].name);
+        let (distance, time) = (fixed(pair.distance, 4), fixed(pair.time, 2));
+        format!(
+            "\n{case}: the end effector of {arm} never meets {target};\n  \
+             the smallest distance is {distance} m, at {time} s\n"
+        )
+    });
+    sentences.collect()
+}
+
+fn balances(scenario: &Scenario, study: &Study) -> String {
+    let mut table = Table::new(&[
+        Left("case"),
+        Right("at [s]"),
+        Left("model"),
+        Right("energy before [J]"),
+        Right("after [J]"),
+        Right("jump of l [N m s]"),
+        Right("px [N s]"),
+        Right("py [N s]"),
+    ]);
+    for case in &study.cases {
+        for event in impacts(study, case) {
+            let models = [("exact", Some(&event.solution.exact)), ("paper", event.solution.paper.as_ref())];
+            for (model, result) in models.into_iter().filter_map(|(model, result)| Some((model, result?))) {
+                let [l, px, py] = result.momentum_jump.map(|part| format!("{part:.1e}"));
+                let [before, after] =
+                    [result.kinetic_energy_before, result.kinetic_energy_after].map(|energy| fixed(energy, 6));
+                let time = time_of(scenario, event.time);
+                table.row([case.name.clone(), time, model.to_owned(), before, after, l, px, py]);
+            }
+        }
+    }
+    format!("\nEnergy and momentum of robot and targets together, before and after the impact\n{}", table.text())
+}
+
+fn post_impact(scenario: &Scenario, study: &Study) -> String {
     let control = match scenario.post_impact.as_ref().map(|after| &after.control) {
         None | Some(PostCaptureControl::None) => "no torques".to_owned(),
         Some(control) => format!("control `{}`", control.name()),
     };
-    writeln!(out, "\nAfter the impact, {control}")?;
-    let [momentum, energy, motion] = ["momentum drift", "energy error", "COM drift"];
-    writeln!(out, "  {:<16} {:>10} {momentum:>15} {energy:>13} {motion:>10}", "case", "time [s]")?;
+    let columns: [Column; 5] =
+        [Left("case"), Right("time [s]"), Right("momentum drift"), Right("energy error"), Right("COM drift")];
+    let mut table = Table::new(&columns);
     for case in &study.cases {
         let Some(CaptureResult { post_impact, .. }) = &case.capture else { continue };
         let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = post_impact.drift;
-        writeln!(
-            out,
-            "  {:<16} {:>10} {momentum_drift:>15.1e} {energy_error:>13.1e} {center_of_mass_drift:>10.1e}",
-            case.name, post_impact.duration
-        )?;
+        let [momentum, energy, motion] =
+            [momentum_drift, energy_error, center_of_mass_drift].map(|error| format!("{error:.1e}"));
+        table.row([case.name.clone(), post_impact.duration.to_string(), momentum, energy, motion]);
         let [open, opening] = post_impact.constraint_errors;
         if open > 0.0 {
-            writeln!(out, "    constraints open by {open:.1e} (rad, m) at most, at a rate of {opening:.1e} 1/s")?;
+            table.note(format!("constraints open by {open:.1e} (rad, m) at most, at a rate of {opening:.1e} 1/s"));
         }
-        limits(out, "    ", post_impact)?;
+        limits(post_impact).into_iter().for_each(|sentence| table.note(sentence));
     }
-    Ok(())
+    format!("\nAfter the impact, {control}\n{}", table.text())
 }
 
-fn residual_motion(out: &mut String, study: &Study) -> fmt::Result {
+fn residual_motion(study: &Study) -> String {
+    let mut table = Table::new(&[
+        Left("case"),
+        Right("base rate"),
+        Right("l/I"),
+        Right("joint rates"),
+        Right("l [N m s]"),
+        Right("px [N s]"),
+        Right("py [N s]"),
+    ]);
     let each = study.cases.iter().filter_map(|case| {
         let capture = case.capture.as_ref()?;
         Some((case, &capture.post_impact, capture.residual_motion.as_ref()?))
     });
     let each: Vec<_> = each.collect();
     if each.is_empty() {
-        return Ok(());
+        return String::new();
     }
-    writeln!(out, "\nResidual motion: rates [rad/s], momentum about the common COM of robot and targets [N m s, N s]")?;
-    let [case, base, rigid, joints, l, px, py] = ["case", "base rate", "l/I", "joint rates", "l", "px", "py"];
-    writeln!(out, "  {case:<16} {base:>10} {rigid:>10} {joints:>11} {l:>10} {px:>10} {py:>10}")?;
     for (case, phase, residual) in each {
-        let [l, px, py] = residual.momentum;
-        writeln!(
-            out,
-            "  {:<16} {:>10.6} {:>10.6} {:>11.1e} {l:>10.6} {px:>10.6} {py:>10.6}",
-            case.name, residual.base_rate, residual.rigid_rate, residual.largest_joint_rate
-        )?;
+        let [l, px, py] = residual.momentum.map(|part| fixed(part, 6));
+        let [base, rigid] = [residual.base_rate, residual.rigid_rate].map(|rate| fixed(rate, 6));
+        table.row([case.name.clone(), base, rigid, format!("{:.1e}", residual.largest_joint_rate), l, px, py]);
         if !residual.wheel_rates.is_empty() {
-            writeln!(out, "    wheels turn at {} rad/s", list(&residual.wheel_rates, 6))?;
+            table.note(format!("wheels turn at {} rad/s", list(&residual.wheel_rates, 6)));
         }
         let end = phase.end();
         if end.base_torque.is_some() {
-            writeln!(
-                out,
-                "    base torque: {:.6} N m s taken, {:.6} J of work, {:.3} s at its limit",
-                -end.work.base_impulse, end.work.base_work, phase.saturation.base
-            )?;
+            let [taken, work] = [-end.work.base_impulse, end.work.base_work].map(|part| fixed(part, 6));
+            let limited = fixed(phase.saturation.base, 3);
+            table.note(format!("base torque: {taken} N m s taken, {work} J of work, {limited} s at its limit"));
         }
     }
-    Ok(())
+    format!("\nResidual motion: rates [rad/s], momentum about the common COM of robot and targets\n{}", table.text())
+}
+
+/// A sentence in the block of a heading.
+fn line(text: &str) -> String {
+    sentence("  ", text)
+}
+
+/// With this number of decimals; zero has no sign.
+fn fixed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.chars().all(|c| c == '0' || c == '.') => size.to_owned(),
+        _ => text,
+    }
 }
 
 fn list(values: &[f64], digits: usize) -> String {
-    values.iter().map(|value| format!("{value:.digits$}")).collect::<Vec<_>>().join(", ")
+    values.iter().map(|value| fixed(*value, digits)).collect::<Vec<_>>().join(", ")
 }

@@ -10,6 +10,7 @@ pub mod impacts;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 pub mod output_error;
+mod printed_impulses;
 mod replacement;
 pub mod result_folder;
 pub mod run_folder;

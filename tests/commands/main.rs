@@ -27,6 +27,7 @@ mod run;
 mod study_errors;
 #[cfg(feature = "sweep")]
 mod sweep;
+mod terminal;
 mod urdf;
 mod urdf_xml;
 

@@ -245,7 +245,7 @@ fn a_goal_out_of_reach_is_reported_with_its_distance() {
     assert!(!far.reached && (0.01..0.2).contains(&far.distance), "{far:?}");
     assert!(study.approach.singularity_margin.is_some_and(|margin| margin < 0.04));
     let shown = planar_capture::output::console::table(&scenario, &study);
-    assert!(shown.contains("DID NOT REACH the wanted pose: misses it by") && shown.contains("damped below"), "{shown}");
+    assert!(shown.contains("wanted pose NOT REACHED: missed by") && shown.contains("damped below"), "{shown}");
 }
 
 /// The law at one state of any robot: `ṫ = ṫ_d + (K + k)(t_d − t) + K k e` in the controlled rows, `θ̈ = −k θ̇` in

@@ -97,7 +97,7 @@ pub(super) static CASE: TableFormat = TableFormat {
             "printed_impulses",
             Shape::ByName(&IMPULSE, "target"),
             Default::Nothing,
-            "published magnitudes, shown for comparison and used for nothing else",
+            "the paper's magnitudes, shown beside those of its robot and used for nothing else",
         )
         .example("{ target1 = 0.0873 }"),
     ],
