@@ -7,11 +7,17 @@ use crate::registry::Robots;
 use std::path::Path;
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture check scenarios/raina_shah_2017.toml
+  planar-capture check dual_arm_3r";
+
 /// Describe a layout, a scenario or a sweep, and warn of unusual values.
 ///
 /// The description goes to the standard output, warnings and errors to the standard error. Exit code 2 for errors,
 /// else 0.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The file, a layout, a scenario or a sweep; or the name of a shipped layout.
     #[arg(value_name = "FILE")]

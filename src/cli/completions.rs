@@ -1,25 +1,35 @@
 //! `planar-capture completions SHELL` and `planar-capture man`: the command line described to other programs.
 
-use super::{CommandError, CommandLine, write_new};
-use clap::{Command, CommandFactory};
+use super::help::command_line;
+use super::{CommandError, write_new};
+use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::path::Path;
 use std::process::ExitCode;
 
+const COMPLETIONS: &str = "\
+Examples:
+  planar-capture completions bash > ~/.local/share/bash-completion/completions/planar-capture
+  planar-capture completions fish > ~/.config/fish/completions/planar-capture.fish
+  planar-capture completions zsh > FOLDER_OF_FPATH/_planar-capture";
+
+const PAGES: &str = "\
+Examples:
+  planar-capture man | man -l -
+  planar-capture man run > planar-capture-run.1";
+
 /// Print completions of this command line for a shell.
-///
-/// bash: `planar-capture completions bash > ~/.local/share/bash-completion/completions/planar-capture`;
-/// fish: `… fish > ~/.config/fish/completions/planar-capture.fish`;
-/// zsh: `… zsh` into a file `_planar-capture` in a folder of `fpath`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = COMPLETIONS)]
 pub struct Completions {
     /// The shell.
     shell: Shell,
 }
 
-/// Print a manual page, of the whole command line or of one command: `planar-capture man | man -l -`.
+/// Print a manual page, of the whole command line or of one command.
 #[derive(Debug, clap::Args)]
+#[command(after_help = PAGES)]
 pub struct Manual {
     /// The command [default: all].
     command: Option<String>,
@@ -28,14 +38,14 @@ pub struct Manual {
 /// Prints the completions.
 pub fn completions(arguments: &Completions) -> Result<ExitCode, CommandError> {
     let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut CommandLine::command(), program(), &mut text);
+    clap_complete::generate(arguments.shell, &mut command_line(), program(), &mut text);
     write_new(None, &String::from_utf8_lossy(&text))?;
     Ok(ExitCode::SUCCESS)
 }
 
 /// Prints the page.
 pub fn manual(arguments: &Manual) -> Result<ExitCode, CommandError> {
-    let mut all = CommandLine::command().name(program());
+    let mut all = command_line().name(program());
     // commands know their whole names then
     all.build();
     let page = match &arguments.command {
@@ -58,5 +68,5 @@ fn program() -> String {
     let own = std::env::args_os().next();
     let name =
         own.as_deref().and_then(|path| Path::new(path).file_stem()).map(|name| name.to_string_lossy().into_owned());
-    name.unwrap_or_else(|| CommandLine::command().get_name().to_owned())
+    name.unwrap_or_else(|| command_line().get_name().to_owned())
 }

@@ -13,12 +13,17 @@ use indicatif::ProgressBar;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Derive the equations of a layout into your cache folder, where `run`, `eval` and `compare` find them.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture derive mine.toml";
+
+/// Derive the equations of a layout into your cache folder.
 ///
-/// They serve every layout of the same arms, links and exact zeros. The first run makes a Python environment with CasADi
+/// There `run`, `eval` and `compare` find them. They serve every layout of the same arms, links and exact zeros. The first run makes a Python environment with CasADi
 /// in the same folder (Python 3.11 or newer, network); later ones use it. The derived functions are compared with the
 /// generic implementation before they are kept.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,

@@ -31,27 +31,27 @@ impl Dynamics {
         }
     }
 
-    /// What computes a layout, which is in `file`; where the option does not say it, a line does, unless `quiet`.
-    pub fn choose(self, layout: &Layout, file: &str, robots: Robots<'_>, quiet: bool) -> Result<Choice, CommandError> {
+    /// What computes a layout, which is in `file`.
+    pub fn choose(self, layout: &Layout, file: &str, robots: Robots<'_>) -> Result<Choice, CommandError> {
         match self {
             Self::Auto => {
                 let (choice, unusable) = Choice::fastest(layout, robots);
                 if let Some(why) = unusable {
                     note(format_args!("warning: {why}"));
                 }
-                if !quiet {
-                    note(format_args!(
-                        "dynamics: {}, {}{}",
-                        choice.engine.name(),
-                        choice.origin,
-                        faster(choice.engine)
-                    ));
-                }
                 Ok(choice)
             }
             Self::Generated => Choice::generated(layout, robots).map_err(file_error(file)),
             Self::Graph => Choice::graph(layout).map_err(file_error(file)),
             Self::Generic => Ok(Choice::generic()),
+        }
+    }
+
+    /// A line about what was chosen, where the option does not say it; it begins with `of`.
+    pub fn announce(self, choice: &Choice, of: &str) {
+        if self == Self::Auto {
+            let (engine, origin, faster) = (choice.engine.name(), &choice.origin, faster(choice.engine));
+            note(format_args!("{of}dynamics: {engine}, {origin}{faster}"));
         }
     }
 }

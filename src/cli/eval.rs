@@ -12,11 +12,17 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::process::ExitCode;
 
-/// Compute every quantity of a robot at given states, as a JSON array on the standard output.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture eval dual_arm_3r states.json > results.json
+  planar-capture eval mine.toml - < states.json | jq '.[].kinetic_energy'";
+
+/// Compute every quantity of a robot at given states, as JSON.
 ///
-/// Each result is written as soon as its state is read. An invalid state ends the command with exit code 2; the array
-/// is then closed after the results of the states before it.
+/// The standard output is an array with a result for each state, written as soon as the state is read. An invalid state ends
+/// the command with exit code 2; the array is then closed after the results of the states before it.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,
@@ -30,7 +36,9 @@ pub struct Arguments {
 /// Evaluates the states one by one.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
-    let model = arguments.dynamics.choose(&layout, &arguments.layout, robots, false)?.model(&layout);
+    let choice = arguments.dynamics.choose(&layout, &arguments.layout, robots)?;
+    arguments.dynamics.announce(&choice, "");
+    let model = choice.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")
     } else {

@@ -6,8 +6,13 @@ use crate::urdf;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture export dual_arm_3r --out dual_arm_3r.urdf";
+
 /// Write a layout as a URDF that Pinocchio and MuJoCo load with the same dynamics.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,

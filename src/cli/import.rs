@@ -7,11 +7,18 @@ use crate::urdf::{self, ImportOptions};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Import a URDF as a layout: a tree of links with parallel revolute joints, as a free-floating robot in their plane.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture import robot.urdf --out robot.toml
+  planar-capture import robot.urdf --tip left_tool --tip right_tool | planar-capture check /dev/stdin";
+
+/// Import a URDF as a layout.
 ///
-/// The root link is the base and every chain of joints on it an arm; fixed joints merge links. The head of the layout
-/// lists joints and omissions; notes and warnings also go to the standard error.
+/// A tree of links with parallel revolute joints becomes a free-floating robot in their plane. The root link is the base and
+/// every chain of joints on it an arm; fixed joints merge links. The head of the layout lists joints and omissions; notes
+/// and warnings also go to the standard error.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The URDF file.
     urdf: PathBuf,

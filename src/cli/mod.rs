@@ -17,6 +17,7 @@ mod eval;
 mod export;
 mod file_format;
 mod generate;
+mod help;
 mod import;
 mod layout;
 mod list;
@@ -45,7 +46,7 @@ use std::process::ExitCode;
 
 /// Planar dynamics of free-floating multi-arm space robots: approach, impact, post-impact.
 #[derive(Debug, Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(version, arg_required_else_help = true, max_term_width = 100, disable_help_subcommand = true)]
 struct CommandLine {
     #[command(subcommand)]
     command: Command,
@@ -53,7 +54,6 @@ struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Compute a scenario: the approach, and for every case the impact and the post-impact motion.
     Run(run::Arguments),
     #[cfg(feature = "sweep")]
     Sweep(sweep::Arguments),
@@ -158,7 +158,7 @@ pub fn main() -> ExitCode {
 #[must_use]
 pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
     let robots = Robots::with(robots);
-    let result = match CommandLine::parse().command {
+    let result = match help::parse().command {
         Command::Run(arguments) => run::run(&arguments, robots),
         #[cfg(feature = "sweep")]
         Command::Sweep(arguments) => sweep::run(&arguments, robots),

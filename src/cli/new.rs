@@ -15,11 +15,17 @@ use std::io::Write;
 use std::path::{Component, Path, PathBuf, absolute};
 use std::process::ExitCode;
 
-/// Write a crate with a robot of your own: its compiled code, this whole command line, a first scenario, a test.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture new my_robot
+  planar-capture new my_robot --layout mine.toml";
+
+/// Write a crate with a robot of your own.
 ///
-/// It builds without Python and without this program. A graph is copied from a shipped robot of the same arms, links and
+/// It has the robot's compiled code, this whole command line, a first scenario and a test. It builds without Python and without this program. A graph is copied from a shipped robot of the same arms, links and
 /// exact zeros; for any other structure it is derived, as by `generate`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The folder of the crate, absent or empty.
     #[arg(value_name = "DIR")]

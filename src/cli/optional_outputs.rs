@@ -50,13 +50,13 @@ const MCAP: OptionalOutput = OptionalOutput {
 #[derive(Debug, Default, clap::Args)]
 pub struct Flags {
     /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     figures: bool,
     /// Write DIR/CASE.parquet too: the time series in binary; needs a build with the feature `parquet`.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     parquet: bool,
     /// Write DIR/CASE.mcap too, for Foxglove and Rerun; needs a build with the feature `mcap`.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     mcap: bool,
 }
 

@@ -16,10 +16,10 @@ const TICK: Duration = Duration::from_millis(100);
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct Display {
     /// Show no progress, and not which implementation computes the dynamics.
-    #[arg(short, long)]
+    #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
     /// Seconds between two lines of progress where the standard error is no terminal.
-    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds, help_heading = "Messages")]
     pub progress: Duration,
 }
 

@@ -5,10 +5,15 @@ use super::progress::Display;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Write the report on the reproduction of the paper: its tables and figures beside the computed ones.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture reproduce --out docs";
+
+/// Write the report on the reproduction of the paper.
 ///
-/// Writes FOLDER/reproduction.md and the figures it shows; needs a build with the feature `figures`.
+/// It has the paper's tables and figures beside the computed ones. Writes FOLDER/reproduction.md and the figures it shows; needs a build with the feature `figures`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// Folder of the report.
     #[arg(long, value_name = "FOLDER")]

@@ -5,11 +5,18 @@ use crate::file_format::FileFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Print the JSON Schema of a file, by which editors complete its keys and complain of wrong ones.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture schema scenario --out scenario.json";
+
+/// Print the JSON Schema of layouts or scenarios for editors.
+///
+/// By it they complete keys and complain of wrong ones.
 ///
 /// Editors with Taplo, as VS Code with "Even Better TOML", use it for a file that starts with the line
 /// `#:schema ./scenario.json`, the path of the schema.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The kind of file.
     #[arg(value_name = "KIND")]

@@ -5,8 +5,15 @@ use crate::file_format::FileFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Print a commented layout, scenario or sweep to start from, with every key; it is valid as it stands.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture template scenario --out mine.toml";
+
+/// Print a commented layout, scenario or sweep to start from.
+///
+/// It has every key, and is valid as it stands.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The kind of file.
     #[arg(value_name = "KIND")]

@@ -111,7 +111,7 @@ fn end_effectors(scenario: &Scenario, study: &Study) -> String {
     let poses = end.end_effector_poses.iter().zip(&end.end_effector_twists);
     for (i, (arm, ([_, x, y], [omega, vx, vy]))) in scenario.layout.arms.iter().zip(poses).enumerate() {
         let wanted = wanted_contact(scenario, i).map(|(target, [wanted_x, wanted_y])| {
-            let miss = (x - wanted_x).hypot(y - wanted_y);
+            let miss = libm::hypot(x - wanted_x, y - wanted_y);
             if miss < HIT { format!("{target}: hit") } else { format!("{target}: missed by {miss:.4} m") }
         });
         table.row([arm.name.clone(), point([*x, *y]), point([*vx, *vy]), fixed(*omega, 4), wanted.unwrap_or_default()]);

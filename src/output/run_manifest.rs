@@ -63,6 +63,12 @@ impl RunManifest {
         }
     }
 
+    /// Hash of the scenario's text.
+    #[must_use]
+    pub fn scenario_sha256(&self) -> String {
+        sha256(&self.scenario_toml)
+    }
+
     /// Its keys and values.
     #[must_use]
     pub fn to_json(&self) -> Value {
@@ -72,7 +78,7 @@ impl RunManifest {
         json!({
             "version": env!("CARGO_PKG_VERSION"),
             "command": self.command,
-            "scenario_sha256": sha256(&self.scenario_toml),
+            "scenario_sha256": self.scenario_sha256(),
             "layout_sha256": self.layout_sha256,
             "integrator": of_phases(&|phase| json!(phase.integrator)),
             "steps": of_phases(&|phase| json!(phase.steps)),

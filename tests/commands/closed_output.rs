@@ -121,3 +121,28 @@ fn a_product_that_is_lost_is_an_error() {
         assert!(err.contains("joint_angles"), "{out:?}: {err}");
     }
 }
+
+/// With `--format json` the standard output is the product of a run: a full disk loses it; a closed pipe changes nothing.
+#[test]
+fn summaries_that_are_lost_are_an_error() {
+    let folder = TempDir::new().expect("a folder");
+    let [poor, good] = approaches(folder.path());
+    let out = folder.path().join("results").display().to_string();
+    let json = |scenarios: &[&str], to: Unwritable| {
+        let mut arguments = vec!["run", "--format", "json", "--out", &out, "--force"];
+        arguments.extend(scenarios);
+        printing_to(to, &arguments)
+    };
+    for (scenario, expected) in [(&poor, 1), (&good, 0)] {
+        assert_eq!(json(&[scenario], Unwritable::Closed).0, expected);
+        let (code, err) = json(&[scenario], Unwritable::Full);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("cannot write to standard output"), "{err}");
+        assert!(Path::new(&out).join("summary.json").exists());
+        fs::remove_dir_all(&out).expect("removed");
+    }
+    assert_eq!(json(&[&poor, &good], Unwritable::Closed).0, 1);
+    let (code, err) = json(&[&good, &poor], Unwritable::Full);
+    assert_eq!((code, err.matches("cannot write to standard output").count()), (2, 1), "{err}");
+    assert!(Path::new(&out).join("poor/summary.json").exists(), "the files are complete");
+}

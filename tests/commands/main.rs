@@ -24,6 +24,7 @@ mod progress;
 mod rendering;
 mod result_folder;
 mod run;
+mod several;
 mod study_errors;
 #[cfg(feature = "sweep")]
 mod sweep;

@@ -17,14 +17,21 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Derive the equations of a layout and write them as a module in Rust or C for your own program or firmware, or as an
-/// FMU for other simulators.
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture generate mine.toml --out mine.rs
+  planar-capture generate dual_arm_3r --language c --out dual_arm_3r.c
+  planar-capture generate dual_arm_3r --fmu --out dual_arm_3r.fmu";
+
+/// Write the equations of a layout as a module in Rust or C, or as an FMU.
 ///
-/// docs/c.md describes the modules in C, docs/fmu.md the FMU.
+/// Modules are for your own program or firmware, FMUs for other simulators; docs/c.md describes the modules in C,
+/// docs/fmu.md the FMU.
 ///
 /// The first run makes a Python environment with CasADi in the user's cache folder (Python 3.11 or newer, network);
 /// later ones use it. The derived functions are compared with the generic implementation before a file is written.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The layout: a path, or the name of a shipped one.
     layout: String,

@@ -1,54 +1,74 @@
-//! `planar-capture run SCENARIO.toml`: simulates a scenario and writes its results.
+//! `planar-capture run SCENARIO.toml ...`: simulates scenarios and writes their results.
+
+mod product;
+mod task;
 
 use super::CommandError;
 use super::dynamics::Dynamics;
-use super::optional_outputs::{self, file_per_case};
-use super::progress::{Display, Progress};
-use super::terminal::{note, print};
-use crate::capture::{Study, StudyError, study};
-use crate::check::help_with_gains;
+use super::optional_outputs;
+use super::progress::Display;
+use super::terminal::note;
 use crate::engine::Choice;
-use crate::output::console::table;
-use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::{SUMMARY, objection};
-use crate::output::run_manifest::RunManifest;
-use crate::output::summary::summary;
-use crate::output::time_series::write_csv;
+use crate::output::run_folder::objection;
 use crate::registry::Robots;
-use crate::scenario::{Scenario, Source};
-use serde_json::Value;
-use std::env::consts::EXE_SUFFIX;
-use std::io::Write;
+use crate::scenario::{Scenario, ScenarioSource};
+use product::{Format, Product};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use task::Task;
 
 /// Time between two rows where it is not given, s.
 const DEFAULT_SAMPLE: f64 = 0.05;
 
+/// What stands for the standard input.
+const STANDARD_INPUT: &str = "-";
+
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture run scenarios/raina_shah_2017.toml --report
+  planar-capture run scenarios/*.toml --out results/today
+  planar-capture run mine.toml -q --format json | jq '.cases[].impact.exact.impulse_magnitudes'
+  sed 's/mass = 10.0/mass = 20.0/' mine.toml | planar-capture run - --out results/heavier
+
+Exit code: 0 done; 1 a computation broke down or the audit objects; 2 unsuitable input, or results that cannot be \
+written. Of several scenarios it is the greatest; all of them are read, and their folders looked at, before the first \
+is computed.";
+
+/// Compute scenarios: the approach, and for every case the impact and the motion after it.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// The scenario file.
-    scenario: PathBuf,
-    /// Folder for summary.json and the CSV time series [default: results/NAME, NAME the scenario's].
-    #[arg(long, value_name = "DIR")]
+    /// The scenario files; `-` for the standard input, where paths to layouts are relative to the working folder.
+    #[arg(required = true, value_name = "SCENARIO")]
+    scenarios: Vec<PathBuf>,
+    /// Folder for summary.json, the CSV time series and all else; of several scenarios for a folder each, of their names
+    /// [default: results/NAME, NAME the scenario's].
+    #[arg(long, value_name = "DIR", help_heading = "Results")]
     out: Option<PathBuf>,
     /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     force: bool,
-    /// The implementation of the dynamics.
-    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
-    dynamics: Dynamics,
+    /// What the standard output is: a table, or summary.json, of several scenarios an array of them.
+    #[arg(long, value_enum, default_value_t = Format::Table, help_heading = "Results")]
+    format: Format,
     /// Write report.html too: an animation with plots that opens in any browser, without a network.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     report: bool,
-    /// Time between two rows of the CSV time series, s; at least one step of the scenario [default: 0.05].
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
-    sample: Option<f64>,
-    #[command(flatten)]
-    display: Display,
     #[command(flatten)]
     optional_outputs: optional_outputs::Flags,
+    /// Time between two rows of the CSV time series, s; at least one step of the scenario [default: 0.05].
+    #[arg(long, value_name = "SECONDS", value_parser = positive, help_heading = "Results")]
+    sample: Option<f64>,
+    /// The implementation of the dynamics.
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
+    dynamics: Dynamics,
+    #[command(flatten)]
+    display: Display,
+    /// Say what is read, how it is integrated, how long that takes, and which files are written.
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "Messages")]
+    verbose: bool,
 }
 
 /// What another command chooses of a run.
@@ -78,111 +98,142 @@ pub fn run_file(
     run_by(&arguments, robots, Some(choice))
 }
 
+/// What another command chooses of a run.
+#[cfg(feature = "sweep")]
+pub struct RunOptions {
+    /// The folder for the results, which is this command's own.
+    pub out: PathBuf,
+    /// What computes the dynamics.
+    pub choice: Choice,
+    /// Whether to write report.html.
+    pub report: bool,
+    /// How progress is shown.
+    pub display: Display,
+}
+
+/// Runs a scenario file for another command.
+#[cfg(feature = "sweep")]
+pub fn run_file(
+    scenario: &Path,
+    RunOptions { out, choice, report, display }: RunOptions,
+    robots: Robots<'_>,
+) -> Result<ExitCode, CommandError> {
+    let arguments = Arguments {
+        scenarios: vec![scenario.to_owned()],
+        out: Some(out),
+        force: true,
+        format: Format::Table,
+        report,
+        optional_outputs: optional_outputs::Flags::default(),
+        sample: None,
+        dynamics: Dynamics::of_name(choice.engine.name()),
+        display,
+        verbose: false,
+    };
+    run_by(&arguments, robots, Some(choice))
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }
 }
 
-/// Computes the study, writes its files and prints its table; exit code 1 if the audit fails.
+/// The greatest exit code so far; what it is of was said.
+struct ExitCodes(u8);
+
+impl ExitCodes {
+    fn add(&mut self, code: u8) {
+        self.0 = self.0.max(code);
+    }
+
+    /// The value, or its error on the standard error.
+    fn take<T>(&mut self, result: Result<T, CommandError>) -> Option<T> {
+        result
+            .map_err(|error| {
+                note(&error);
+                self.add(error.exit_code());
+            })
+            .ok()
+    }
+}
+
+/// Reads all scenarios, claims their folders, then computes one after the other.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    run_by(arguments, robots, None)
+}
+
+/// The same, by what another command has chosen to compute the dynamics of its one scenario.
+fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
     run_by(arguments, robots, None)
 }
 
 /// The same, by what another command has chosen to compute the dynamics.
 fn run_by(arguments: &Arguments, robots: Robots<'_>, chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
-    let (scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
-    let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&scenario.name));
-    let keep = [&source.scenario.file, &source.layout.file].map(Path::new);
-    let objection = |folder: &Path, names: &[String]| objection(folder, names, &scenario.name);
-    let folder = ResultFolder::claim(&folder, arguments.force, &keep, &objection)?;
-    if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(&scenario, sample)?))) {
-        note(format_args!(
-            "warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at every step"
-        ));
+    let mut codes = ExitCodes(0);
+    let scenarios: Vec<_> =
+        arguments.scenarios.iter().filter_map(|path| codes.take(read(path, robots).map(|read| (path, read)))).collect();
+    let folders = folders(arguments, scenarios.iter().map(|(_, (scenario, _))| scenario.name.as_str()))?;
+    let sources = scenarios.iter().flat_map(|(_, (_, source))| [&source.scenario.file, &source.layout.file]);
+    let keep: Vec<_> = sources.map(Path::new).collect();
+    let each = scenarios.iter().map(|(_, (scenario, _))| scenario.name.as_str());
+    let objections: Vec<_> =
+        each.map(|name| move |folder: &Path, names: &[String]| objection(folder, names, name)).collect();
+    let mut tasks = Vec::new();
+    for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
+        let folder = ResultFolder::claim(folder, arguments.force, &keep, objection).map_err(CommandError::from);
+        let choice = match chosen.take() {
+            Some(choice) => Ok(choice),
+            None => arguments.dynamics.choose(&scenario.layout, &source.scenario.file, robots),
+        };
+        if let (Some(folder), Some(choice)) = (codes.take(folder), codes.take(choice)) {
+            let named = if arguments.scenarios.len() > 1 { format!("{}: ", scenario.name) } else { String::new() };
+            tasks.push(Task { path, scenario, source, folder, choice, named });
+        }
     }
-    let file = &source.scenario.file;
-    let choice = match chosen {
-        Some(choice) => choice,
-        None => arguments.dynamics.choose(&scenario.layout, file, robots, arguments.display.quiet)?,
-    };
-    let model = choice.model(&scenario.layout);
-    let mut progress = Progress::new(arguments.display);
-    let result = study(&scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
-    progress.finish();
-    let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
-    let failures = study.audit_failures();
-    let code = if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) };
-    let shown = folder.path().display().to_string();
-    let manifest = RunManifest::new(&scenario, source, command());
-    let summary = summary(&scenario, choice.engine.name(), &study, &manifest)
-        .map_err(|source| CommandError::Numbers { file: arguments.scenario.display().to_string(), source })?;
-    write_results(&folder, &scenario, arguments, &study, (&manifest, summary))?;
-    print(&format!("{}\nResults in {shown}\n", table(&scenario, &study)));
-    for failure in &failures {
-        note(format_args!("audit: {failure}"));
+    if codes.0 > 0 {
+        // nothing is computed where something cannot be
+        return Ok(ExitCode::from(codes.0));
     }
-    if failures.iter().any(|failure| failure.contains("over its bound")) {
-        note("a smaller `tolerance`, or with a fixed integrator a shorter `step`, makes drifts and errors smaller");
+    let mut product = Product::new(arguments.format, tasks.len());
+    for task in &tasks {
+        if let Some((printed, objections)) = codes.take(task.run(arguments)) {
+            codes.take(product.add(&printed));
+            task.note_objections(&objections);
+            codes.add(u8::from(!objections.is_empty()));
+        }
     }
-    Ok(code)
+    codes.take(product.finish());
+    Ok(ExitCode::from(codes.0))
 }
 
-/// The longest step of a phase that is longer than the interval of rows, s.
-fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
-    let steps = [Some(scenario.approach.step), scenario.post_impact.as_ref().map(|phase| phase.step)];
-    // the least that is not rounding
-    steps.into_iter().flatten().filter(|step| sample < step * (1.0 - 1e-6)).reduce(f64::max)
+/// Reads a scenario from a file or the standard input.
+fn read(path: &Path, robots: Robots<'_>) -> Result<(Scenario, ScenarioSource), CommandError> {
+    Ok(if path == Path::new(STANDARD_INPUT) {
+        Scenario::read_stream(io::stdin().lock(), "standard input", &robots.layouts())?
+    } else {
+        Scenario::read_with_source(path, &robots.layouts())?
+    })
 }
 
-/// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
-fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
-    let stopped = match error {
-        StudyError::Approach(stopped) => Some(("approach", stopped)),
-        StudyError::PostImpact { source, .. } => Some(("post_impact", source)),
-        _ => None,
-    };
-    let exit_code = if stopped.is_some_and(|(_, stopped)| !stopped.is_misuse()) { 1 } else { 2 };
-    let help = stopped.and_then(|(phase, _)| help_with_gains(scenario, phase));
-    let report = error.report(scenario, &source.text, &source.file, help);
-    CommandError::Computation { report, exit_code }
-}
-
-/// Writes all files before the first gets its place, so that a full disk leaves no mixture of two runs.
-fn write_results(
-    folder: &ResultFolder<'_>,
-    scenario: &Scenario,
+/// The folder of each scenario; they have different ones.
+fn folders<'a>(
     arguments: &Arguments,
-    study: &Study,
-    (manifest, mut summary): (&RunManifest, Value),
-) -> Result<(), CommandError> {
-    let staged = folder.stage()?;
-    file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
-    if arguments.report {
-        staged.write("report.html", |to| write_report(scenario, study, manifest, to))?;
+    names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<Vec<PathBuf>, CommandError> {
+    // some file systems ignore case
+    let mut known: Vec<_> = names.clone().map(str::to_ascii_lowercase).collect();
+    known.sort_unstable();
+    if let Some([name, _]) = known.array_windows().find(|[a, b]| a == b) {
+        return Err(CommandError::Usage(format!(
+            "two scenarios are named `{name}`, and each has the folder of its name: change one's `name`, or run them one \
+             after the other with different --out"
+        )));
     }
-    for output in arguments.optional_outputs.requested() {
-        output.write(&staged, scenario, study, manifest)?;
-    }
-    let mut files = staged.files()?;
-    files.push(SUMMARY.to_owned());
-    files.sort();
-    summary["files"] = files.into();
-    staged.write(SUMMARY, |to| {
-        serde_json::to_writer_pretty(&mut *to, &summary)?;
-        writeln!(to)
-    })?;
-    Ok(folder.commit(staged, SUMMARY)?)
-}
-
-/// The command line, as it can be typed again.
-fn command() -> String {
-    let mut words: Vec<_> = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
-    if let Some(program) = words.first_mut() {
-        // without the folder, in which others do not have it
-        let name = Path::new(program).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        name.strip_suffix(EXE_SUFFIX).unwrap_or(&name).clone_into(program);
-    }
-    // only a NUL cannot be quoted, which no argument has
-    shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+    let of = |name: &str| match &arguments.out {
+        Some(out) if arguments.scenarios.len() > 1 => out.join(name),
+        Some(out) => out.clone(),
+        None => Path::new("results").join(name),
+    };
+    Ok(names.map(of).collect())
 }

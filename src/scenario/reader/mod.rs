@@ -12,13 +12,14 @@ mod magnitude;
 mod post_impact;
 mod target;
 
-use crate::diagnostic::{Report, Table, Value, read_document, read_text};
+use crate::diagnostic::{Report, Table, Value, read_document, read_text, read_text_from};
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::scenario::{ClearanceRules, FORMAT, Scenario, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// The most steps that one phase may take; more would run for days and fill the disk.
@@ -61,7 +62,29 @@ impl Scenario {
     pub fn read_with_source(path: &Path, shipped: &[(&str, &str)]) -> Result<(Self, ScenarioSource), Report> {
         let text = read_text(path, "TOML")?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let file = path.display().to_string();
+        Self::from_text(text, path.display().to_string(), folder, shipped)
+    }
+
+    /// As [`read_with_source`](Self::read_with_source), from a stream, of this name in messages; a path to a layout is
+    /// relative to the working folder.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read).
+    pub fn read_stream(
+        stream: impl Read,
+        name: &str,
+        shipped: &[(&str, &str)],
+    ) -> Result<(Self, ScenarioSource), Report> {
+        let text = read_text_from(stream, name, "TOML")?;
+        Self::from_text(text, name.to_owned(), Path::new(""), shipped)
+    }
+
+    fn from_text(
+        text: String,
+        file: String,
+        folder: &Path,
+        shipped: &[(&str, &str)],
+    ) -> Result<(Self, ScenarioSource), Report> {
         let (scenario, layout) = Self::parse_with_source(&text, &file, folder, shipped)?;
         Ok((scenario, ScenarioSource { scenario: Source { text, file }, layout }))
     }

@@ -15,10 +15,28 @@ const MAXIMUM_SIZE: u64 = 16 << 20;
 /// A report for a path that does not exist (with the most similar name), a directory, and a file that is unreadable, too
 /// large or not UTF-8 (with the line and column of the first invalid byte).
 pub fn read_text(path: &Path, kind: &str) -> Result<String, Report> {
+    let bytes = File::open(path).and_then(read_limited).map_err(|error| unreadable(path, kind, &error))?;
+    text_of(bytes, &shown(path), kind)
+}
+
+/// Reads such a text from a stream, of this name in messages.
+///
+/// # Errors
+/// A report for a stream that is unreadable, too large or not UTF-8.
+pub fn read_text_from(stream: impl Read, name: &str, kind: &str) -> Result<String, Report> {
+    let name = printable(name);
+    let unreadable = |error: io::Error| Diagnostic::with_file(format!("cannot read `{name}`: {error}"), None);
+    text_of(read_limited(stream).map_err(unreadable)?, &name, kind)
+}
+
+/// One byte more than is permitted, at most.
+fn read_limited(stream: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes));
-    read.map_err(|error| unreadable(path, kind, &error))?;
-    let name = shown(path);
+    stream.take(MAXIMUM_SIZE + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn text_of(bytes: Vec<u8>, name: &str, kind: &str) -> Result<String, Report> {
     if bytes.len() as u64 > MAXIMUM_SIZE {
         let message = format!("`{name}` is larger than 16 MiB");
         return Err(Diagnostic::with_file(message, format!("expected a small {kind} file")).into());

@@ -26,7 +26,7 @@ use toml::de::DeTable;
 
 pub use crate::format::NumberRule;
 pub use crate::names::{listing, nearest};
-pub use file::read_text;
+pub use file::{read_text, read_text_from};
 pub use hidden_character::{is_hidden, printable};
 pub use table::{Table, Value, every};
 pub use warning::{Warning, report_error, report_warnings};

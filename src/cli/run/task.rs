@@ -1,0 +1,167 @@
+//! One scenario of a run: computed, audited, written.
+
+use super::super::CommandError;
+use super::super::optional_outputs::file_per_case;
+use super::super::progress::Progress;
+use super::super::terminal::note;
+use super::product::Printed;
+use super::{Arguments, DEFAULT_SAMPLE};
+use crate::capture::{Study, StudyError, study};
+use crate::check::help_with_gains;
+use crate::engine::Choice;
+use crate::output::console::table;
+use crate::output::html_report::write_report;
+use crate::output::result_folder::ResultFolder;
+use crate::output::run_folder::SUMMARY;
+use crate::output::run_manifest::RunManifest;
+use crate::output::summary::summary;
+use crate::output::time_series::write_csv;
+use crate::scenario::{Scenario, ScenarioSource, Source};
+use serde_json::Value;
+use std::env::consts::EXE_SUFFIX;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+/// A scenario that can be computed.
+pub struct Task<'a> {
+    /// As the argument has it.
+    pub path: &'a Path,
+    pub scenario: &'a Scenario,
+    pub source: &'a ScenarioSource,
+    pub folder: ResultFolder<'a>,
+    pub choice: Choice,
+    /// What its messages begin with.
+    pub named: String,
+}
+
+impl Task<'_> {
+    /// Computes the study and writes its files: what is printed, and what the audit objects to.
+    pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Vec<String>), CommandError> {
+        let Self { path, scenario, source, folder, choice, named } = self;
+        if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))
+        {
+            note(format_args!(
+                "{named}warning: --sample {sample:?} s is shorter than the scenario's step of {step:?} s: rows are at \
+                 every step"
+            ));
+        }
+        if !arguments.display.quiet {
+            arguments.dynamics.announce(choice, named);
+        }
+        let manifest = RunManifest::new(scenario, (*source).clone(), command());
+        if arguments.verbose {
+            self.note_inputs(&manifest);
+        }
+        let begin = Instant::now();
+        let model = choice.model(&scenario.layout);
+        let mut progress = Progress::new(arguments.display);
+        let result = study(scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
+        progress.finish();
+        let study = result.map_err(|error| study_error(&error, scenario, &source.scenario))?;
+        let computed = begin.elapsed();
+        let summary = summary(scenario, choice.engine.name(), &study, &manifest)
+            .map_err(|source| CommandError::Numbers { file: path.display().to_string(), source })?;
+        let summary = self.write_results(arguments, &study, (&manifest, summary))?;
+        if arguments.verbose {
+            let written = begin.elapsed() - computed;
+            note(format_args!("{named}computed in {computed:.2?}, written in {written:.2?}"));
+            self.note_files(&summary);
+        }
+        let table = format!("{}\nResults in {}\n", table(scenario, &study), folder.path().display());
+        Ok((Printed { table, summary }, study.audit_failures()))
+    }
+
+    /// Says what the audit objects to.
+    pub fn note_objections(&self, objections: &[String]) {
+        for objection in objections {
+            note(format_args!("{}audit: {objection}", self.named));
+        }
+        if objections.iter().any(|objection| objection.contains("over its bound")) {
+            note("a smaller `tolerance`, or with a fixed integrator a shorter `step`, makes drifts and errors smaller");
+        }
+    }
+
+    /// What is computed, from which files, and how.
+    fn note_inputs(&self, manifest: &RunManifest) {
+        let Self { scenario, source, named, .. } = self;
+        let hash = manifest.scenario_sha256();
+        note(format_args!("{named}scenario: {}, sha256 {}", source.scenario.file, &hash[..12]));
+        let (layout, hash) = (&scenario.layout.name, &manifest.layout_sha256[..12]);
+        note(format_args!("{named}robot: {layout} of {}, sha256 {hash}", source.layout.file));
+        for phase in &manifest.phases {
+            let (name, steps, integrator) = (phase.phase, phase.steps, phase.integrator);
+            note(format_args!("{named}{name}: {steps} steps, {integrator}"));
+        }
+    }
+
+    fn note_files(&self, summary: &Value) {
+        for file in summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str) {
+            let path = self.folder.path().join(file);
+            let size = fs::metadata(&path).map_or(0, |data| data.len());
+            note(format_args!("{}{}: {size} bytes", self.named, path.display()));
+        }
+    }
+
+    /// Writes all files before the first gets its place, so that a full disk leaves no mixture of two runs; returns the
+    /// summary with their names.
+    fn write_results(
+        &self,
+        arguments: &Arguments,
+        study: &Study,
+        (manifest, mut summary): (&RunManifest, Value),
+    ) -> Result<Value, CommandError> {
+        let Self { scenario, folder, .. } = self;
+        let staged = folder.stage()?;
+        file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
+        if arguments.report {
+            staged.write("report.html", |to| write_report(scenario, study, manifest, to))?;
+        }
+        for output in arguments.optional_outputs.requested() {
+            output.write(&staged, scenario, study, manifest)?;
+        }
+        let mut files = staged.files()?;
+        files.push(SUMMARY.to_owned());
+        files.sort();
+        summary["files"] = files.into();
+        staged.write(SUMMARY, |to| {
+            serde_json::to_writer_pretty(&mut *to, &summary)?;
+            writeln!(to)
+        })?;
+        folder.commit(staged, SUMMARY)?;
+        Ok(summary)
+    }
+}
+
+/// The longest step of a phase that is longer than the interval of rows, s.
+fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
+    let steps = [Some(scenario.approach.step), scenario.post_impact.as_ref().map(|phase| phase.step)];
+    // the least that is not rounding
+    steps.into_iter().flatten().filter(|step| sample < step * (1.0 - 1e-6)).reduce(f64::max)
+}
+
+/// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
+fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
+    let stopped = match error {
+        StudyError::Approach(stopped) => Some(("approach", stopped)),
+        StudyError::PostImpact { source, .. } => Some(("post_impact", source)),
+        _ => None,
+    };
+    let exit_code = if stopped.is_some_and(|(_, stopped)| !stopped.is_misuse()) { 1 } else { 2 };
+    let help = stopped.and_then(|(phase, _)| help_with_gains(scenario, phase));
+    let report = error.report(scenario, &source.text, &source.file, help);
+    CommandError::Computation { report, exit_code }
+}
+
+/// The command line, as it can be typed again.
+fn command() -> String {
+    let mut words: Vec<_> = std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    if let Some(program) = words.first_mut() {
+        // without the folder, in which others do not have it
+        let name = Path::new(program).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        name.strip_suffix(EXE_SUFFIX).unwrap_or(&name).clone_into(program);
+    }
+    // only a NUL cannot be quoted, which no argument has
+    shlex::try_join(words.iter().map(String::as_str)).unwrap_or_default()
+}
