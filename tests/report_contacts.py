@@ -17,16 +17,21 @@ def scrub(page, time):
     page.locator("#scrub").evaluate(act, time)
 
 
-def red_pixels(page):
-    """Number of pixels in the colour of impulses."""
+IMPULSES, OVERLAPS = (179, 38, 30), (208, 0, 0)
+
+
+def red_pixels(page, colour=IMPULSES):
+    """Number of pixels in a colour, that of impulses by default."""
     return page.evaluate(
-        """() => { const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+        """([red, green, blue]) => { const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
         Object.assign(copy.canvas, { width: canvas.width, height: canvas.height });
         copy.drawImage(canvas, 0, 0);
         const { data } = copy.getImageData(0, 0, canvas.width, canvas.height); let count = 0;
         for (let i = 0; i < data.length; i += 4)
-            count += Math.abs(data[i] - 179) < 8 && Math.abs(data[i + 1] - 38) < 8 && Math.abs(data[i + 2] - 30) < 8;
-        return count; }"""
+            count += data[i + 3] > 200 && Math.abs(data[i] - red) < 8 && Math.abs(data[i + 1] - green) < 8
+                && Math.abs(data[i + 2] - blue) < 8;
+        return count; }""",
+        colour,
     )
 
 
@@ -91,13 +96,15 @@ def large_target(page, folder, summary, _scenario):
         held = case["post_impact"]["constraint_errors"][0]
         open_by = [v for curve in curves(page, "Openings of constraints")[1] for v in curve if v is not None]
         assert open_by and max(open_by) < 10 * held + 1e-14, f"{max(open_by)} against {held}"
-        table = page.inner_text("#impact")
+        table = page.inner_text("#own .impact")
         for contact in contacts:
             wanted = f"{math.hypot(*contact['impulse'][1:]):.4g}"
             assert wanted in table and f"{contact['impulse_index']:.4g}" in table, (wanted, table)
     scrub(page, 20.5)
     without = picture(page)
+    page.click("#more summary")
     page.check("#ellipse")
+    page.keyboard.press("Escape")
     assert picture(page) != without, "the ellipse is not drawn"
 
 
@@ -137,7 +144,7 @@ def elastic_rebound(page, folder, summary, scenario):
                         twist = impact["exact"]["target_twists_after"][int(arm[0].removeprefix("arm")) - 1]
                 wanted = [p + v * (time - since) for p, v in zip(pose, twist, strict=True)]
                 near([shown["angle"], *shown["point"]], wanted, f"{case['name']}: {name} at {time} s", 2e-4)
-        words = page.inner_text("#missed")
+        words = page.inner_text("#own .missed")
         for pair in case.get("closest", []):
             assert f"{pair['arm']} never meets {pair['target']}" in words and f"{pair['distance']:.4g}" in words, words
         assert bool(words.strip()) == bool(case.get("closest")), words

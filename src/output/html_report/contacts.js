@@ -7,6 +7,13 @@ function cell(kind, text, span = 1) {
   return made;
 }
 
+/** The head of a row. */
+function heading(text) {
+  const made = cell("th", text);
+  made.scope = "row";
+  return made;
+}
+
 /** Four digits; rounding errors as zero. */
 function digits(value) {
   if (value === null || value === undefined) return "–";
@@ -35,12 +42,12 @@ const ROWS = [
 ];
 
 /** A column for each contact, under its impact. */
-function contactsTable() {
-  const [one, line] = current(), table = element("impact");
+function contactsTable(place, chosen) {
+  const one = study.cases[chosen], line = state.lines[chosen], table = place.querySelector(".impact");
   table.replaceChildren();
   const contacts = line.impacts.flatMap((impact) => impact.contacts);
-  element("missed").replaceChildren(...missed(one).map((text) => cell("p", text)));
-  element("contacts").hidden = !one.targets.length;
+  place.querySelector(".missed").replaceChildren(...missed(one).map((text) => cell("p", text)));
+  place.querySelector(".contacts").hidden = !one.targets.length;
   if (!contacts.length) return;
   const row = (cells) => {
     const made = document.createElement("tr");
@@ -48,7 +55,7 @@ function contactsTable() {
     table.append(made);
   };
   const perImpact = (name, text) =>
-    row([cell("td", name), ...line.impacts.map((impact, i) => cell("td", text(impact, i), impact.contacts.length))]);
+    row([heading(name), ...line.impacts.map((impact, i) => cell("td", text(impact, i), impact.contacts.length))]);
   row([cell("th", "impact at"), ...line.impacts.map((impact) => {
     const head = cell("th", "", impact.contacts.length), go = cell("button", `${impact.time.toFixed(3)} s`);
     go.type = "button";
@@ -58,12 +65,12 @@ function contactsTable() {
   })]);
   row([cell("th", "contact"), ...contacts.map((contact) => {
     const head = cell("th", `${armName(contact.arm)} · ${targetName(contact.target)}`);
-    head.style.color = COLOURS[contact.arm % COLOURS.length];
+    head.style.boxShadow = `inset 0 -3px ${armColour(contact.arm)}`;
     return head;
   })]);
   for (const [name, of] of ROWS) {
     const texts = contacts.map(of);
-    if (texts.some((text) => text)) row([cell("td", name), ...texts.map((text) => cell("td", text || "–"))]);
+    if (texts.some((text) => text)) row([heading(name), ...texts.map((text) => cell("td", text || "–"))]);
   }
   perImpact("kinetic energy before [J]", ({ exact }) => digits(exact.kinetic_energy_before));
   perImpact("– after", ({ exact }) => digits(exact.kinetic_energy_after));
@@ -80,14 +87,14 @@ function missed(one) {
 }
 
 /** The least distance of bodies that are not joined, and their overlaps. */
-function clearanceTable() {
-  const [one] = current(), table = element("clearance"), least = one.least;
+function clearanceTable(place, chosen) {
+  const one = study.cases[chosen], table = place.querySelector(".clearance"), least = one.least;
   const row = (...texts) => {
     const made = document.createElement("tr");
     made.append(...texts.map((text, i) => cell(i ? "td" : "th", text)));
     return made;
   };
-  table.parentElement.hidden = !least;
+  table.closest("section").hidden = !least;
   if (!least) return;
   table.replaceChildren(
     row("bodies", "distance [m]", "time [s]"),
@@ -97,7 +104,7 @@ function clearanceTable() {
       made.className = "bad";
       return made;
     }));
-  element("defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
+  place.querySelector(".defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
 }
 
 function audit() {

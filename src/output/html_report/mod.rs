@@ -14,17 +14,21 @@ use std::io::{self, Write};
 const PAGE: &str = include_str!("page.html");
 
 /// (placeholder in the page, text that replaces it).
-const PARTS: [(&str, &str); 11] = [
+const PARTS: [(&str, &str); 15] = [
     ("/*uplot.css*/", include_str!("uPlot.min.css")),
     ("/*page.css*/", include_str!("page.css")),
     ("/*uplot.licence*/", include_str!("uPlot.LICENSE")),
     ("/*uplot.js*/", include_str!("uPlot.iife.min.js")),
     ("/*motion.js*/", include_str!("motion.js")),
+    ("/*theme.js*/", include_str!("theme.js")),
     ("/*pen.js*/", include_str!("pen.js")),
+    ("/*svg.js*/", include_str!("svg.js")),
     ("/*view.js*/", include_str!("view.js")),
+    ("/*arrows.js*/", include_str!("arrows.js")),
     ("/*scene.js*/", include_str!("scene.js")),
     ("/*plots.js*/", include_str!("plots.js")),
     ("/*contacts.js*/", include_str!("contacts.js")),
+    ("/*address.js*/", include_str!("address.js")),
     ("/*page.js*/", include_str!("page.js")),
 ];
 

@@ -2,8 +2,6 @@
 // The motion of a study at any time since the start of the approach.
 
 const study = JSON.parse(document.getElementById("data").textContent);
-// the palette of Okabe and Ito, distinguishable with any colour vision
-const COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5c00", "#444444"];
 const element = (id) => document.getElementById(id);
 const rotate = ([x, y], angle) => {
   const [s, c] = [Math.sin(angle), Math.cos(angle)];
@@ -104,5 +102,5 @@ function phaseName(line, time) {
   return line.impacts.length === 1 ? "after the impact" : `after impact ${passed} of ${line.impacts.length}`;
 }
 
-const state = { chosen: 0, time: 0, playing: false, lines: study.cases.map(timeline), listeners: [] };
+const state = { chosen: 0, beside: null, time: 0, playing: false, lines: study.cases.map(timeline), listeners: [] };
 const current = () => [study.cases[state.chosen], state.lines[state.chosen]];

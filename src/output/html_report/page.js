@@ -1,20 +1,29 @@
 // Controls of the page.
 
+/** The time of the last sample that is shown. */
+const endOfAll = () => Math.max(current()[1].end, state.beside === null ? 0 : state.lines[state.beside].end);
+
 function setTime(time) {
-  const [, line] = current();
-  state.time = Math.min(Math.max(time, 0), line.end);
-  element("scrub").max = line.end;
-  element("scrub").value = state.time;
-  element("clock").textContent = `${state.time.toFixed(2)} s of ${line.end.toFixed(0)} s, ${phaseName(line, state.time)}`;
+  const [one, line] = current(), end = endOfAll();
+  state.time = Math.min(Math.max(time, 0), end);
+  const scrub = element("scrub"), phase = phaseName(line, state.time);
+  scrub.max = end;
+  scrub.value = state.time;
+  scrub.setAttribute("aria-valuetext", `${state.time.toFixed(2)} seconds of ${end.toFixed(0)}, ${phase}`);
+  element("clock").replaceChildren(cell("span", `${state.time.toFixed(2)} s of ${end.toFixed(0)} s`), cell("span", phase));
+  const overlaps = overlapsAt(one, state.time).map(({ bodies }) => bodies.join(" and "));
+  canvas.setAttribute("aria-label", `${study.layout.name} and its targets, ${one.name}, at ${state.time.toFixed(2)} s` +
+    (overlaps.length ? `; overlapping: ${overlaps.join(", ")}` : ""));
   draw();
+  toAddress();
   state.listeners.forEach((tell) => tell());
 }
 
 function setPlaying(playing) {
-  const [, line] = current();
-  if (playing && state.time >= line.end) setTime(0);
+  if (playing && state.time >= endOfAll()) setTime(0);
   state.playing = playing;
-  element("play").textContent = playing ? "❚❚ pause" : "▶ play";
+  const [sign, word] = element("play").querySelectorAll("span");
+  [sign.textContent, word.textContent] = playing ? ["❚❚", "pause"] : ["▶", "play"];
   element("play").setAttribute("aria-pressed", String(playing));
   if (playing) requestAnimationFrame((now) => step(now, now));
 }
@@ -22,81 +31,187 @@ function setPlaying(playing) {
 function step(last, now) {
   if (!state.playing) return;
   setTime(state.time + (now - last) / 1000 * Number(element("speed").value));
-  if (state.time >= current()[1].end) setPlaying(false);
+  if (state.time >= endOfAll()) setPlaying(false);
   else requestAnimationFrame((next) => step(now, next));
 }
+
+const goTo = (time) => { setPlaying(false); setTime(time); };
+
+/** The place of a time on the bar; the slider's thumb is 16 pixels wide. */
+const onRail = (time) => `calc(8px + ${time / endOfAll()} * (100% - 16px))`;
 
 /** A mark on the time bar for each impact; a click sets the time. */
 function marksOfImpacts() {
   const [, line] = current();
-  element("instants").replaceChildren(...line.impacts.map((impact, i) => {
-    const mark = cell("button", "▼");
+  element("instants").replaceChildren(...line.impacts.flatMap((impact, i) => {
+    const mark = cell("button", "▼"), stem = document.createElement("i");
     mark.type = "button";
     mark.title = `impact ${i + 1} of ${line.impacts.length}, ${impact.time.toFixed(3)} s`;
     mark.setAttribute("aria-label", mark.title);
-    // the slider's thumb is 16 pixels wide
-    mark.style.left = `calc(8px + ${impact.time / line.end} * (100% - 16px))`;
-    mark.addEventListener("click", () => { setPlaying(false); setTime(impact.time); });
-    return mark;
+    mark.style.left = stem.style.left = onRail(impact.time);
+    mark.addEventListener("click", () => goTo(impact.time));
+    return [stem, mark];
   }));
 }
 
-/** A red bar under the time bar while bodies overlap. */
+/** A red bar in the time bar while bodies overlap. */
 function marksOfOverlaps() {
-  const [one, line] = current();
+  const [one] = current();
   element("overlaps").replaceChildren(...one.overlaps.map(({ bodies, from, to }) => {
     const bar = document.createElement("span");
     bar.title = `${bodies.join(" and ")} overlap from ${from.toFixed(2)} s to ${to.toFixed(2)} s`;
-    bar.style.left = `calc(8px + ${from / line.end} * (100% - 16px))`;
-    bar.style.width = `calc(${(to - from) / line.end} * (100% - 16px))`;
+    bar.style.left = onRail(from);
+    bar.style.width = `calc(${(to - from) / endOfAll()} * (100% - 16px))`;
     return bar;
   }));
 }
 
-function choose(index) {
-  state.chosen = index;
-  element("case").value = index;
-  drawPlots();
-  contactsTable();
+/** Shows a case, and beside it another one or none (`null`). */
+function choose(chosen, beside = state.beside) {
+  Object.assign(state, { chosen, beside: beside === chosen ? null : beside });
+  const pair = state.beside !== null;
+  element("case").value = chosen;
+  if (element("beside")) element("beside").value = pair ? state.beside : "";
+  const figure = element("scene-beside").parentElement;
+  figure.hidden = !pair;
+  document.querySelector("main").classList.toggle("pair", pair);
+  element("results").classList.toggle("pair", pair);
+  element("other").hidden = !pair;
+  const shown = pair ? [["own", canvas, chosen], ["other", element("scene-beside"), state.beside]] : [["own", canvas, chosen]];
+  for (const [id, scene, index] of shown) {
+    scene.nextElementSibling.textContent = pair ? study.cases[index].name : "";
+    scene.setAttribute("aria-label", `${study.layout.name} and its targets, ${study.cases[index].name}`);
+    contactsTable(element(id), index);
+    clearanceTable(element(id), index);
+  }
+  drawPlots(shown.map(([id, , index]) => [element(id).querySelector(".plots"), index]));
+  audit();
+  setTime(Math.min(state.time, endOfAll()));
   marksOfImpacts();
   marksOfOverlaps();
-  clearanceTable();
-  audit();
-  setTime(Math.min(state.time, current()[1].end));
 }
 
-element("origin").textContent = `planar-capture ${study.run.version}: ${study.run.command}.`;
-element("about").textContent = `${study.layout.name}: base ${study.layout.base.mass} kg, ` +
-  study.layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
-  (study.targets.length ? `; ${study.targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");
-study.layout.arms.forEach((arm, i) => {
-  const mark = cell("span", `● ${arm.name}   `);
-  mark.style.color = COLOURS[i % COLOURS.length];
-  element("legend").append(mark);
-});
-{
-  const found = new Set(study.cases.flatMap((one) => one.impacts).flatMap((one) => one.contacts).map((one) => one.kind));
-  const words = { rigid: "■ held rigidly   ", pin: "◯ held by a pin   " };
-  element("legend").append(...Object.keys(words).filter((kind) => found.has(kind)).map((kind) => words[kind]));
-  if (found.size) element("legend").append("▼ impact; arrows: impulses on the robot");
-  else element("choices").querySelector("#ellipse").parentElement.remove();
+const nextCase = () => choose((state.chosen + 1) % study.cases.length);
+
+/** The first impact after the time, or the last before it. */
+function toImpact(forwards) {
+  const times = current()[1].impacts.map(({ time }) => time);
+  const to = forwards ? times.find((time) => time > state.time + 1e-9) : times.findLast((time) => time < state.time - 1e-9);
+  if (to !== undefined) goTo(to);
 }
-study.cases.forEach((one, i) => {
-  const option = cell("option", one.name);
-  option.value = i;
-  element("case").append(option);
-});
-element("case").addEventListener("change", (event) => choose(Number(event.target.value)));
-element("play").addEventListener("click", () => setPlaying(!state.playing));
-element("scrub").addEventListener("input", (event) => { setPlaying(false); setTime(Number(event.target.value)); });
-for (const id of ["traces", "view", "ellipse"]) element(id)?.addEventListener("change", draw);
-document.addEventListener("keydown", (event) => {
-  if (event.target.tagName === "SELECT" || event.ctrlKey || event.metaKey || event.altKey) return;
-  if (event.key === " " && event.target.tagName !== "BUTTON") { event.preventDefault(); setPlaying(!state.playing); }
-  if (event.target.type === "range") return;
-  if (event.key === "ArrowRight") setTime(state.time + 0.1);
-  if (event.key === "ArrowLeft") setTime(state.time - 0.1);
-});
-window.addEventListener("resize", () => { plots.forEach((plot) => plot.setSize({ width: plot.root.parentElement.clientWidth - 20, height: 190 })); draw(); });
-state.listeners.push(() => plots.forEach((plot) => plot.redraw(false)));
-choose(0);
+
+const KEYS = {
+  " ": () => setPlaying(!state.playing),
+  ArrowRight: (event) => setTime(state.time + (event.shiftKey ? 1 : 0.1)),
+  ArrowLeft: (event) => setTime(state.time - (event.shiftKey ? 1 : 0.1)),
+  Home: () => setTime(0),
+  End: () => setTime(endOfAll()),
+  n: () => toImpact(true),
+  p: () => toImpact(false),
+  c: nextCase,
+  d: () => switchTheme(!element("dark").checked),
+  s: savePicture,
+};
+
+function pressed(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.key === "Escape") element("more").open = false;
+  const kind = event.target.tagName, own = event.target.matches("select, pre") || (kind === "INPUT" && event.key === " ");
+  if (own || !KEYS[event.key] || (event.key === " " && ["BUTTON", "SUMMARY"].includes(kind))) return;
+  event.preventDefault();
+  KEYS[event.key](event);
+}
+
+function switchTheme(dark) {
+  setDark(dark);
+  draw();
+  plots.forEach((plot) => {
+    plot.redraw(false);
+    drawMarkers(plot);
+  });
+  legend();
+  [["own", state.chosen], ["other", state.beside]].filter(([, index]) => index !== null).forEach(([id, index]) => contactsTable(element(id), index));
+}
+
+/** What colours and signs mean. */
+function legend() {
+  // the sign has the colour: text would be too faint in some of them
+  const word = (text, paint) => {
+    const made = cell("span", ` ${text.slice(1).trim()}`), sign = cell("span", text[0]);
+    if (paint) sign.style.color = paint;
+    made.prepend(sign);
+    return made;
+  };
+  const found = new Set(study.cases.flatMap((one) => one.impacts).flatMap((one) => one.contacts).map((one) => one.kind));
+  const words = { rigid: "■ held rigidly", pin: "◯ held by a pin" };
+  element("legend").replaceChildren(
+    ...study.layout.arms.map((arm, i) => word(`● ${arm.name}`, armColour(i))),
+    ...study.targets.map((target, i) => word(`◍ ${target.name}`, targetColour(i))),
+    ...Object.keys(words).filter((kind) => found.has(kind)).map((kind) => word(words[kind])),
+    ...(found.size ? [word("▼ impact; arrows: impulses on the robot", theme.impulse)] : []),
+    ...(study.cases.some((one) => one.overlaps.length) ? [word("▬ overlap", theme.overlap)] : []));
+  if (!found.size) element("ellipse")?.parentElement.remove();
+}
+
+/** Where the page comes from. */
+function origin() {
+  const { version, command, scenario_sha256, layout_sha256, integrator, features } = study.run;
+  const entries = [
+    ["scenario", study.scenario], ["planar-capture", version], ["command", command], ["scenario's sha256", scenario_sha256],
+    ["robot's sha256", layout_sha256], ["integrator", Object.entries(integrator).map(([phase, name]) => `${phase}: ${name}`).join(", ")],
+    ["features", features.join(", ")],
+  ];
+  element("origin").replaceChildren(...entries.flatMap(([name, value]) => [cell("dt", name), cell("dd", value)]));
+  element("scenario").textContent = study.run.scenario_toml;
+  element("robot").textContent = study.run.layout_toml;
+  element("about").textContent = `${study.layout.name}: base ${study.layout.base.mass} kg, ` +
+    study.layout.arms.map((arm) => `${arm.name} of ${arm.links.length} links`).join(", ") +
+    (study.targets.length ? `; ${study.targets.map((target) => `${target.name} ${target.mass} kg`).join(", ")}` : "");
+}
+
+function begin() {
+  const preference = matchMedia("(prefers-color-scheme: dark)");
+  setDark(preference.matches);
+  for (const id of ["own", "other"]) element(id).append(element("details").content.cloneNode(true));
+  study.cases.forEach((one, i) => {
+    for (const id of ["case", "beside"]) {
+      const option = cell("option", one.name);
+      option.value = i;
+      element(id).append(option);
+    }
+  });
+  if (study.cases.length < 2) element("second").remove();
+  origin();
+  legend();
+
+  preference.addEventListener("change", (event) => switchTheme(event.matches));
+  element("dark").addEventListener("change", (event) => switchTheme(event.target.checked));
+  element("case").addEventListener("change", (event) => choose(Number(event.target.value)));
+  element("beside")?.addEventListener("change", (event) => choose(state.chosen, event.target.value === "" ? null : Number(event.target.value)));
+  element("play").addEventListener("click", () => setPlaying(!state.playing));
+  element("save").addEventListener("click", savePicture);
+  element("scrub").addEventListener("input", (event) => goTo(Number(event.target.value)));
+  for (const id of ["traces", "view", "ellipse", "velocities", "forces"]) element(id)?.addEventListener("change", draw);
+  document.addEventListener("keydown", pressed);
+  document.addEventListener("click", (event) => { if (!element("more").contains(event.target)) element("more").open = false; });
+  window.addEventListener("hashchange", () => { if (location.hash !== written) open(fromAddress()); });
+  const fit = () => {
+    plots.forEach((plot) => plot.setSize({ width: plot.root.parentElement.clientWidth - 20, height: 190 }));
+    draw();
+  };
+  window.addEventListener("resize", fit);
+  // paper is white
+  let wasDark = false;
+  window.addEventListener("beforeprint", () => { wasDark = element("dark").checked; if (wasDark) switchTheme(false); fit(); });
+  window.addEventListener("afterprint", () => { if (wasDark) switchTheme(true); fit(); });
+  state.listeners.push(() => plots.forEach((plot) => plot.redraw(false)));
+  open(fromAddress());
+}
+
+/** Shows what the address asks for. */
+function open({ chosen = state.chosen, beside = null, time = state.time }) {
+  state.time = time;
+  choose(chosen, beside);
+}
+
+begin();

@@ -1,7 +1,9 @@
 // Lines, areas and text on the canvas, in pixels.
 
-const INK = "#44525f", TARGET = "#6d6d6d", IMPULSE = "#b3261e", OVERLAP = "#d00000", TEXT = "12px system-ui, sans-serif";
-const canvas = element("scene"), pen = canvas.getContext("2d");
+const TEXT = "12px system-ui, sans-serif";
+const canvas = element("scene"), screenPen = canvas.getContext("2d");
+// what draws: the canvas of a case, or an SVG
+let pen = screenPen;
 
 function path(points) {
   pen.beginPath();
@@ -30,12 +32,12 @@ function circle([x, y], radius, fill, edge) {
 /** Text with an outline, readable on any background. */
 function label(text, [x, y], colour) {
   pen.font = TEXT; pen.lineJoin = "round";
-  pen.strokeStyle = "rgba(251,252,253,0.85)"; pen.lineWidth = 3;
+  pen.strokeStyle = faint(theme.stage, 0.85); pen.lineWidth = 3;
   pen.strokeText(text, x, y);
   pen.fillStyle = colour;
   pen.fillText(text, x, y);
 }
 
-function arrowHead([x, y], angle, colour) {
-  area([0, 2.6, -2.6].map((turn) => [x + 9 * Math.cos(angle + turn), y + 9 * Math.sin(angle + turn)]), colour, null);
+function arrowHead([x, y], angle, colour, size = 9) {
+  area([0, 2.6, -2.6].map((turn) => [x + size * Math.cos(angle + turn), y + size * Math.sin(angle + turn)]), colour, null);
 }

@@ -1,43 +1,62 @@
-// Draws robot and targets at one time.
+// Draws robot and targets of a case at one time.
 
+/** Draws the chosen case, and beside it the second one. */
 function draw() {
-  const [one, line] = current(), now = configuration(line, state.time);
-  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-    canvas.width = Math.round(width * ratio);
-    canvas.height = Math.round(height * ratio);
+  const ratio = window.devicePixelRatio || 1;
+  for (const [place, chosen] of [[canvas, state.chosen], [element("scene-beside"), state.beside]]) {
+    if (chosen === null) continue;
+    const width = place.clientWidth, height = place.clientHeight;
+    if (place.width !== Math.round(width * ratio) || place.height !== Math.round(height * ratio)) {
+      place.width = Math.round(width * ratio);
+      place.height = Math.round(height * ratio);
+    }
+    pen = place.getContext("2d");
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, width, height);
+    const shown = drawScene(chosen, width, height);
+    pen = screenPen;
+    // positions in pixels, for tests
+    if (place === canvas) state.shown = shown;
   }
-  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-  pen.clearRect(0, 0, width, height);
-  const [box, view] = viewOf(one, line);
+}
+
+/** Draws a case at the current time; returns what it shows. */
+function drawScene(chosen, width, height) {
+  const one = study.cases[chosen], line = state.lines[chosen], time = Math.min(state.time, line.end), now = configuration(line, time);
+  const [box, view] = viewOf();
   const scale = 0.92 * Math.min(width / (box[2] - box[0]), height / (box[3] - box[1]));
   const centre = plus([(box[0] + box[2]) / 2, (box[1] + box[3]) / 2], view === "follow" ? now.base : [0, 0]);
   const screen = ([x, y]) => [width / 2 + scale * (x - centre[0]), height / 2 - scale * (y - centre[1])];
-  const held = line.holds.filter((hold) => hold.time <= state.time);
-  const poses = targetPoses(one, line, state.time);
-  const overlapping = new Set(overlapsAt(one, state.time).flatMap(({ bodies }) => bodies));
+  const held = line.holds.filter((hold) => hold.time <= time);
+  const poses = targetPoses(one, line, time);
+  const overlapping = new Set(overlapsAt(one, time).flatMap(({ bodies }) => bodies));
+  const on = (id) => element(id)?.checked;
 
+  // as any other picture, whatever was drawn before
+  Object.assign(pen, { lineCap: "round", lineJoin: "round", globalAlpha: 1 });
   grid(screen, scale, centre, width, height);
-  if (element("traces").checked) traces(line, screen);
+  if (on("traces")) traces(line, screen);
   poses.forEach((pose, i) => {
-    drawTarget(study.targets[i], pose, screen, scale, overlapping);
+    drawTarget(study.targets[i], pose, screen, scale, overlapping, targetColour(i));
     // lines to all holding contacts show closed loops
-    pen.strokeStyle = TARGET; pen.lineWidth = 2;
+    pen.strokeStyle = targetColour(i); pen.lineWidth = 2;
     held.filter((hold) => hold.target === i).forEach((hold) => stroke([pose.point, now.arms[hold.arm].end_effector].map(screen)));
   });
   drawBase(now, screen, overlapping);
-  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, COLOURS[i % COLOURS.length], screen, scale, overlapping));
+  now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
   line.impacts.forEach((impact) => drawImpact(impact, line, screen));
-  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height));
-  // positions in pixels, for tests
-  state.shown = { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows: line.impacts.filter(isFresh).flatMap((impact) => impact.contacts) };
+  const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
+  const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
+  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i)));
+  const arrows = line.impacts.filter(isFresh).flatMap((impact) => impact.contacts);
+  return { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows, moving, torques };
 }
 
 function traces(line, screen) {
   const until = place(line, state.time);
   line.end_effectors.forEach(([, xs, ys], i) => {
-    pen.strokeStyle = COLOURS[i % COLOURS.length]; pen.globalAlpha = 0.35; pen.lineWidth = 1.5;
+    pen.strokeStyle = armColour(i); pen.globalAlpha = 0.35; pen.lineWidth = 1.5;
     stroke(xs.slice(0, until + 1).map((x, k) => screen([x, ys[k]])));
     pen.globalAlpha = 1;
   });
@@ -51,11 +70,11 @@ function drawBase(now, screen, overlapping) {
   const corners = (study.layout.base.outline || box).map((corner) => plus(now.base, rotate(corner, now.yaw)));
   const inside = overlapping.has("base");
   pen.lineWidth = inside ? 3 : 1.5;
-  area(corners.map(screen), "#dfe6ed", inside ? OVERLAP : INK);
-  pen.lineWidth = 1.5; pen.strokeStyle = INK;
+  area(corners.map(screen), theme.body, inside ? theme.overlap : theme.edge);
+  pen.lineWidth = 1.5; pen.strokeStyle = theme.edge;
   const nose = screen(plus(now.base, rotate([base[0] * 0.7, 0], now.yaw))), middle = screen(now.base);
   stroke([middle, nose]);
-  circle(middle, 3.5, INK);
+  circle(middle, 3.5, theme.edge);
 }
 
 const thickness = (scale) => Math.max(3, Math.min(9, 0.06 * scale));
@@ -69,9 +88,9 @@ function drawArm(arm, now, colour, screen, scale, overlapping) {
     const inside = overlapping.has(`arms/${arm.name}/link${k + 1}`), at = now.points[k];
     if (link.outline) {
       pen.lineWidth = inside ? 3 : 1;
-      area(link.outline.map((corner) => screen(plus(at, rotate(corner, now.angles[k])))), null, inside ? OVERLAP : colour);
+      area(link.outline.map((corner) => screen(plus(at, rotate(corner, now.angles[k])))), null, inside ? theme.overlap : colour);
     } else if (inside) {
-      pen.strokeStyle = OVERLAP; pen.lineWidth = thick;
+      pen.strokeStyle = theme.overlap; pen.lineWidth = thick;
       stroke([at, now.points[k + 1]].map(screen));
     }
   });
@@ -84,22 +103,22 @@ function drawArm(arm, now, colour, screen, scale, overlapping) {
       const spoke = [Math.cos(now.angles[k]) * radius, -Math.sin(now.angles[k]) * radius];
       stroke([plus(joint, spoke), joint]);
     }
-    circle(joint, thick * 0.62, "#ffffff", colour);
+    circle(joint, thick * 0.62, theme.stage, colour);
   });
   circle(screen(now.end_effector), thick * 0.62, colour);
 }
 
 /** A ring for a pin, a square for a rigid contact. */
 function drawAttachment(hold, [x, y], scale) {
-  const colour = COLOURS[hold.arm % COLOURS.length], size = 0.55 * thickness(scale) + 3;
+  const colour = armColour(hold.arm), size = 0.55 * thickness(scale) + 3;
   pen.lineWidth = 2.5;
-  if (hold.kind === "pin") circle([x, y], size + 1, "#ffffff", colour);
-  else area([[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]], colour, "#ffffff");
+  if (hold.kind === "pin") circle([x, y], size + 1, theme.stage, colour);
+  else area([[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]], colour, theme.stage);
 }
 
-function drawTarget(target, pose, screen, scale, overlapping) {
+function drawTarget(target, pose, screen, scale, overlapping, paint) {
   const middle = screen(pose.point), inside = overlapping.has(`targets/${target.name}`);
-  const fill = inside ? "rgba(208,0,0,0.12)" : "rgba(120,120,120,0.18)", edge = inside ? OVERLAP : TARGET;
+  const fill = faint(inside ? theme.overlap : paint, 0.14), edge = inside ? theme.overlap : paint;
   pen.lineWidth = inside ? 3 : 1.5;
   if (target.polygon) {
     area(target.polygon.map((corner) => screen(plus(pose.point, rotate(corner, pose.angle)))), fill, edge);
@@ -108,27 +127,27 @@ function drawTarget(target, pose, screen, scale, overlapping) {
     // spokes that show the rotation
     for (const quarter of [1, 0]) {
       const arm = rotate([target.radius, 0], pose.angle + quarter * Math.PI / 2);
-      pen.strokeStyle = quarter ? "#c2c2c2" : TARGET;
+      pen.strokeStyle = quarter ? faint(paint, 0.4) : paint;
       stroke([screen(plus(pose.point, [-arm[0], -arm[1]])), screen(plus(pose.point, arm))]);
     }
   }
-  circle(middle, 3, TARGET);
+  circle(middle, 3, paint);
 }
 
 /** Next to the target; at the edge for one outside, with its distance from the base. */
-function nameTarget(target, pose, now, screen, scale, width, height) {
+function nameTarget(target, pose, now, screen, scale, width, height, paint) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
-    label(target.name, [x + 6, y - 6], "#4a4a4a");
+    label(target.name, [x + 6, y - 6], theme.ink);
     return;
   }
   const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
-  arrowHead(at, Math.atan2(y - at[1], x - at[0]), TARGET);
+  arrowHead(at, Math.atan2(y - at[1], x - at[0]), paint);
   const away = Math.hypot(pose.point[0] - now.base[0], pose.point[1] - now.base[1]);
   const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
   pen.font = TEXT;
   const left = at[0] > width / 2 ? at[0] - 12 - long : at[0] + 12;
-  label(text, [Math.min(Math.max(left, edge), width - edge - long), at[1] + (at[1] < height / 2 ? 14 : -6)], "#4a4a4a");
+  label(text, [Math.min(Math.max(left, edge), width - edge - long), at[1] + (at[1] < height / 2 ? 14 : -6)], theme.ink);
 }
 
 const SHOWN_FOR = 4;
@@ -137,7 +156,7 @@ const isFresh = (impact) => state.time >= impact.time && state.time <= impact.ti
 /** Pixels per N s in a case, so that arrows and visible ellipses fit. */
 function impulseScale(line) {
   const contacts = line.impacts.flatMap((impact) => impact.contacts), most = (of) => Math.max(...contacts.map(of));
-  return Math.min(80 / most((one) => force(one.impulse)), element("ellipse").checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
+  return Math.min(80 / most((one) => force(one.impulse)), element("ellipse")?.checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
 }
 
 /** Semi-axes of the impulse ellipse at the closing speed of a contact, N s. */
@@ -152,27 +171,28 @@ function drawImpact(impact, line, screen) {
     const from = screen(contact.end_effector), f = force(contact.impulse), [, fx, fy] = contact.impulse;
     // rounding error
     if (f < 1e-9) {
-      circle(from, 9, null, IMPULSE);
-      label("no impulse", plus(from, [12, 4]), IMPULSE);
+      circle(from, 9, null, theme.impulse);
+      label("no impulse", plus(from, [12, 4]), theme.impulse);
       continue;
     }
-    if (element("ellipse").checked) {
+    if (element("ellipse")?.checked) {
       const [long, short] = ellipse(contact).map((axis) => axis * scale);
       pen.beginPath();
       pen.ellipse(...from, long, short, -contact.impulse_ellipse.direction, 0, 2 * Math.PI);
-      pen.strokeStyle = IMPULSE; pen.fillStyle = "rgba(179,38,30,0.08)"; pen.lineWidth = 1.2;
+      pen.strokeStyle = theme.impulse; pen.fillStyle = faint(theme.impulse, 0.08); pen.lineWidth = 1.2;
       pen.fill();
       pen.stroke();
     }
     // at least 14 pixels long
     const way = [fx, -fy].map((part) => part / f * Math.max(scale * f, 14)), to = plus(from, way);
-    pen.strokeStyle = IMPULSE; pen.lineWidth = 3;
+    pen.strokeStyle = theme.impulse; pen.lineWidth = 3;
     stroke([from, to]);
     const angle = Math.atan2(way[1], way[0]);
-    arrowHead(to, angle, IMPULSE);
-    const text = `${f.toPrecision(3)} N s`;
+    arrowHead(to, angle, theme.impulse);
+    const mean = element("forces").checked && contact.mean_force ? `, ${force(contact.mean_force).toPrecision(3)} N` : "";
+    const text = `${f.toPrecision(3)} N s${mean}`;
     pen.font = TEXT;
-    label(text, way[0] < 0 ? [to[0] - 10 - pen.measureText(text).width, to[1] + 4] : [to[0] + 10, to[1] + 4], IMPULSE);
+    label(text, way[0] < 0 ? [to[0] - 10 - pen.measureText(text).width, to[1] + 4] : [to[0] + 10, to[1] + 4], theme.impulse);
   }
   pen.globalAlpha = 1;
 }

@@ -38,16 +38,21 @@ function bounds(one, line, view) {
 
 const boxes = new Map();
 
-function viewOf(one, line) {
-  const view = element("view").value, key = `${state.chosen} ${view}`;
-  if (!boxes.has(key)) boxes.set(key, bounds(one, line, view));
+/** The visible box and the view; of two cases side by side, a box for both. */
+function viewOf() {
+  const view = element("view").value, shown = state.beside === null ? [state.chosen] : [state.chosen, state.beside].sort();
+  const key = `${shown} ${view}`;
+  if (!boxes.has(key)) {
+    const each = shown.map((i) => bounds(study.cases[i], state.lines[i], view));
+    boxes.set(key, [Math.min, Math.min, Math.max, Math.max].map((most, side) => most(...each.map((box) => box[side]))));
+  }
   return [boxes.get(key), view];
 }
 
 /** Lines of equal x and y, with their coordinates. */
 function grid(screen, scale, centre, width, height) {
   const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => s * scale > 55) || 100;
-  pen.strokeStyle = "#e6ebf0"; pen.lineWidth = 1; pen.fillStyle = "#8a98a6"; pen.font = "11px system-ui, sans-serif";
+  pen.strokeStyle = theme.grid; pen.lineWidth = 1; pen.fillStyle = theme.soft; pen.font = "11px system-ui, sans-serif";
   const [left, right] = [centre[0] - width / 2 / scale, centre[0] + width / 2 / scale];
   const [low, high] = [centre[1] - height / 2 / scale, centre[1] + height / 2 / scale];
   const digits = step < 1 ? 1 : 0;
@@ -59,6 +64,6 @@ function grid(screen, scale, centre, width, height) {
   for (let y = Math.ceil(low / step) * step; y <= high; y += step) {
     const [, sy] = screen([0, y]);
     stroke([[0, sy], [width, sy]]);
-    if (sy < height - 18) pen.fillText(`${y.toFixed(digits)} m`, 4, sy - 3);
+    if (sy > 16 && sy < height - 18) pen.fillText(`${y.toFixed(digits)} m`, 4, sy - 3);
   }
 }
