@@ -10,7 +10,7 @@ use std::process::ExitCode;
 const EXAMPLES: &str = "\
 Examples:
   planar-capture import robot.urdf --out robot.toml
-  planar-capture import robot.urdf --tip left_tool --tip right_tool | planar-capture check /dev/stdin";
+  planar-capture import robot.urdf --tip left_tool --tip right_tool";
 
 /// Import a URDF as a layout.
 ///

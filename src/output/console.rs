@@ -41,10 +41,10 @@ fn thinned(study: &Study) -> String {
     let approach = "approach".to_owned();
     let phases = std::iter::once((&approach, &study.approach)).chain(own).chain(after);
     let phases = phases.map(|(name, phase)| (name, phase.samples.len(), phase.sample_count()));
-    phases
+    let lines = phases
         .filter(|(_, shown, all)| shown < all)
-        .map(|(name, shown, all)| format!("\n{name}: figures and report show {shown} of {all} samples\n"))
-        .collect()
+        .map(|(name, shown, all)| format!("\n{name}: figures and report show {shown} of {all} samples\n"));
+    lines.collect::<Vec<_>>().concat()
 }
 
 fn approach(scenario: &Scenario, study: &Study) -> String {
@@ -74,7 +74,8 @@ fn approach(scenario: &Scenario, study: &Study) -> String {
         Detection::Event => ", if there were no contact",
     };
     let [yaw, x, y] = end.state.base_pose.map(|part| fixed(part, 6));
-    out += &format!("\nAfter the approach of {} s{condition}\n", phase.duration);
+    out.push('\n');
+    out += &sentence("", &format!("After the approach of {} s{condition}", phase.duration));
     out += &line(&format!("base: yaw {yaw} rad, x {x} m, y {y} m"));
     out += &end_effectors(scenario, study);
     if let Some(margin) = phase.singularity_margin {
@@ -313,7 +314,9 @@ fn post_impact(scenario: &Scenario, study: &Study) -> String {
         if open > 0.0 {
             table.note(format!("constraints open by {open:.1e} (rad, m) at most, at a rate of {opening:.1e} 1/s"));
         }
-        limits(post_impact).into_iter().for_each(|sentence| table.note(sentence));
+        for sentence in limits(post_impact) {
+            table.note(sentence);
+        }
     }
     format!("\nAfter the impact, {control}\n{}", table.text())
 }

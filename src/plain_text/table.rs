@@ -110,7 +110,7 @@ impl Table {
         for each in &self.lines {
             match each {
                 Line::Row(row) => {
-                    line(&mut out, &|i| if row[i].is_empty() { NOTHING.to_owned() } else { row[i].clone() })
+                    line(&mut out, &|i| if row[i].is_empty() { NOTHING.to_owned() } else { row[i].clone() });
                 }
                 Line::More(row) => line(&mut out, &|i| row[i].clone()),
                 Line::Note(text) => out += &sentence("    ", text),

@@ -224,7 +224,7 @@ fn folders<'a>(
     // some file systems ignore case
     let mut known: Vec<_> = names.clone().map(str::to_ascii_lowercase).collect();
     known.sort_unstable();
-    if let Some([name, _]) = known.array_windows().find(|[a, b]| a == b) {
+    if let Some([name, ..]) = known.windows(2).find(|pair| pair[0] == pair[1]) {
         return Err(CommandError::Usage(format!(
             "two scenarios are named `{name}`, and each has the folder of its name: change one's `name`, or run them one \
              after the other with different --out"

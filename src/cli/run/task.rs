@@ -65,7 +65,7 @@ impl Task<'_> {
             .map_err(|source| CommandError::Numbers { file: path.display().to_string(), source })?;
         let summary = self.write_results(arguments, &study, (&manifest, summary))?;
         if arguments.verbose {
-            let written = begin.elapsed() - computed;
+            let written = begin.elapsed().saturating_sub(computed);
             note(format_args!("{named}computed in {computed:.2?}, written in {written:.2?}"));
             self.note_files(&summary);
         }
