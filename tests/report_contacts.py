@@ -23,7 +23,8 @@ IMPULSES, OVERLAPS = (179, 38, 30), (208, 0, 0)
 def red_pixels(page, colour=IMPULSES):
     """Number of pixels in a colour, that of impulses by default."""
     return page.evaluate(
-        """([red, green, blue]) => { const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+        """([red, green, blue]) => {
+        const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
         Object.assign(copy.canvas, { width: canvas.width, height: canvas.height });
         copy.drawImage(canvas, 0, 0);
         const { data } = copy.getImageData(0, 0, canvas.width, canvas.height); let count = 0;

@@ -1,4 +1,4 @@
-"""Controls of the report: screens, colours, address, keys, arrows, two cases, a picture; `report_browser.py` opens it."""
+"""Controls of the report: screens, colours, address, keys, arrows, two cases; `report_browser.py` opens it."""
 
 import json
 import math
