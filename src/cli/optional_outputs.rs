@@ -2,6 +2,8 @@
 
 use super::CommandError;
 use crate::capture::{CaseResult, Study};
+use crate::diagnostic::nearest;
+use crate::output::figure_kinds::{FIGURE_KINDS, is_kind};
 use crate::output::result_folder::StagedFolder;
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
@@ -19,7 +21,7 @@ pub struct OptionalOutput {
     write: Option<Write>,
 }
 
-type Write = fn(&StagedFolder, &Scenario, &Study, &RunManifest) -> Result<(), CommandError>;
+type Write = fn(&StagedFolder, &Scenario, &Study, &RunManifest, &Flags) -> Result<(), CommandError>;
 
 pub const FIGURES: OptionalOutput = OptionalOutput {
     feature: "figures",
@@ -49,9 +51,15 @@ const MCAP: OptionalOutput = OptionalOutput {
 /// The flags of `run` that request them.
 #[derive(Debug, Default, clap::Args)]
 pub struct Flags {
-    /// Draw figures too, as SVG and PNG in DIR/figures; needs a build with the feature `figures`.
-    #[arg(long, help_heading = "Results")]
-    figures: bool,
+    /// Draw figures too, as SVG, PDF and PNG in DIR/figures: all, or those of which a name begins with one in LIST, such
+    /// as `approach,momentum`; needs a build with the feature `figures`.
+    #[arg(long, help_heading = "Results", value_name = "LIST", value_delimiter = ',', num_args = 0..=1)]
+    #[arg(require_equals = true, default_missing_value = "", value_parser = kind)]
+    figures: Option<Vec<String>>,
+    /// Width of the figures: what they need, or one or two columns of a journal (252 and 516 points).
+    #[arg(long, help_heading = "Results", value_enum, default_value_t = FigureWidth::Page)]
+    #[arg(value_name = "WIDTH", requires = "figures")]
+    figure_width: FigureWidth,
     /// Write DIR/CASE.parquet too: the time series in binary; needs a build with the feature `parquet`.
     #[arg(long, help_heading = "Results")]
     parquet: bool,
@@ -60,10 +68,32 @@ pub struct Flags {
     mcap: bool,
 }
 
+/// Widths of figures, in builds without them too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum FigureWidth {
+    /// What each needs.
+    Page,
+    /// Two columns, 516 points, text of 8 points.
+    Double,
+    /// One column, 252 points, text of 7 points.
+    Single,
+}
+
+fn kind(text: &str) -> Result<String, String> {
+    if text.is_empty() || is_kind(text) {
+        return Ok(text.to_owned());
+    }
+    let meant =
+        nearest(text, FIGURE_KINDS.into_iter()).map_or_else(String::new, |kind| format!("did you mean `{kind}`? "));
+    Err(format!("{meant}expected some of {}, or their first words", FIGURE_KINDS.join(", ")))
+}
+
 impl Flags {
     /// The outputs that are requested.
     pub fn requested(&self) -> Vec<OptionalOutput> {
-        let flags = [(self.figures, FIGURES), (self.parquet, PARQUET), (self.mcap, MCAP)];
+        // only a build with figures has a use for their width
+        let Self { figures, figure_width: _, parquet, mcap } = self;
+        let flags = [(figures.is_some(), FIGURES), (*parquet, PARQUET), (*mcap, MCAP)];
         flags.into_iter().filter_map(|(requested, output)| requested.then_some(output)).collect()
     }
 }
@@ -90,8 +120,9 @@ impl OptionalOutput {
         scenario: &Scenario,
         study: &Study,
         manifest: &RunManifest,
+        flags: &Flags,
     ) -> Result<(), CommandError> {
-        self.write.map_or(Ok(()), |write| write(folder, scenario, study, manifest))
+        self.write.map_or(Ok(()), |write| write(folder, scenario, study, manifest, flags))
     }
 }
 
@@ -101,13 +132,20 @@ fn parquet(
     scenario: &Scenario,
     study: &Study,
     manifest: &RunManifest,
+    _: &Flags,
 ) -> Result<(), CommandError> {
     use crate::output::time_series::write_parquet;
     file_per_case(folder, study, "parquet", |case, to| write_parquet(scenario, study, case, manifest, to))
 }
 
 #[cfg(feature = "mcap")]
-fn mcap(folder: &StagedFolder, scenario: &Scenario, study: &Study, manifest: &RunManifest) -> Result<(), CommandError> {
+fn mcap(
+    folder: &StagedFolder,
+    scenario: &Scenario,
+    study: &Study,
+    manifest: &RunManifest,
+    _: &Flags,
+) -> Result<(), CommandError> {
     use crate::output::mcap::write_mcap;
     file_per_case(folder, study, "mcap", |case, to| write_mcap(scenario, study, case, manifest, to))
 }
@@ -124,14 +162,34 @@ pub fn file_per_case(
 }
 
 #[cfg(feature = "figures")]
-fn figures(folder: &StagedFolder, scenario: &Scenario, study: &Study, _: &RunManifest) -> Result<(), CommandError> {
-    use crate::output::figures::{draw, figures};
+fn figures(
+    folder: &StagedFolder,
+    scenario: &Scenario,
+    study: &Study,
+    _: &RunManifest,
+    flags: &Flags,
+) -> Result<(), CommandError> {
+    use crate::output::figure_kinds::begins_with;
+    use crate::output::figures::{Width, draw, figures};
     use std::io::Write;
 
-    for figure in figures(scenario, study) {
-        let png = draw::png(&figure).map_err(|error| CommandError::Figures(error.into()))?;
-        for (extension, bytes) in [("svg", draw::svg(&figure).as_bytes()), ("png", &png)] {
-            folder.write(&format!("figures/{}.{extension}", figure.name), |to| to.write_all(bytes))?;
+    let width = match flags.figure_width {
+        FigureWidth::Page => Width::Page,
+        FigureWidth::Double => Width::Double,
+        FigureWidth::Single => Width::Single,
+    };
+    let wanted: Vec<_> = flags.figures.iter().flatten().filter(|word| !word.is_empty()).collect();
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|word| begins_with(name, word));
+    for figure in figures(scenario, study).iter().filter(|figure| is_wanted(&figure.name)) {
+        let failed = |error: draw::DrawError| CommandError::Figures(error.into());
+        let svg = draw::svg(figure, width).into_bytes();
+        let files = [
+            ("svg", svg),
+            ("pdf", draw::pdf(figure, width).map_err(failed)?),
+            ("png", draw::png(figure, width).map_err(failed)?),
+        ];
+        for (extension, bytes) in files {
+            folder.write(&format!("figures/{}.{extension}", figure.name), |to| to.write_all(&bytes))?;
         }
     }
     Ok(())

@@ -2,6 +2,7 @@
 
 pub mod atomic_file;
 pub mod console;
+pub mod figure_kinds;
 #[cfg(feature = "figures")]
 pub mod figures;
 pub mod finite;

@@ -7,7 +7,7 @@ mod parameters;
 mod printed;
 
 use crate::capture::{Observer, Study, StudyError, study};
-use crate::output::figures::{Figure, draw, figures};
+use crate::output::figures::{Figure, Width, draw, figures};
 use crate::registry::{self, NoModel};
 use crate::scenario::Scenario;
 use std::path::Path;
@@ -83,7 +83,8 @@ pub fn reproduce(observer: &mut dyn Observer) -> Result<Reproduction, Reproducti
     let mut templates = tera::Tera::default();
     templates.add_raw_template("report.md", TEMPLATE)?;
     let mut files = vec![("reproduction.md".to_owned(), templates.render("report.md", &values)?)];
-    let mut add = |name: &str, figure: &Figure| files.push((format!("reproduction/{name}.svg"), draw::svg(figure)));
+    let mut add =
+        |name: &str, figure: &Figure| files.push((format!("reproduction/{name}.svg"), draw::svg(figure, Width::Page)));
     for figure in figures(&tracked.scenario, &tracked.study) {
         if SHOWN.contains(&figure.name.as_str()) {
             add(&figure.name, &figure);

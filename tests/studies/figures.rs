@@ -26,7 +26,10 @@ mod drawn {
     use super::*;
     use crate::{run, scenario};
     use planar_capture::contact::ContactLaw;
-    use planar_capture::output::figures::{Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, draw, figures};
+    use planar_capture::output::figure_kinds::{FIGURE_KINDS, begins_with, is_kind};
+    use planar_capture::output::figures::{
+        Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, Width, draw, figures,
+    };
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
     use std::fs;
@@ -114,11 +117,11 @@ mod drawn {
             assert!(names.contains(expected), "no {expected} in {names:?}");
         }
         for figure in &all {
-            let svg = draw::svg(figure);
+            let svg = draw::svg(figure, Width::Page);
             assert_well_formed(&figure.name, &svg);
             assert_labelled(figure, &svg);
             assert_one_legend_entry_each(figure, &svg);
-            assert_eq!(svg, draw::svg(figure), "{}: the same figure, the same bytes", figure.name);
+            assert_eq!(svg, draw::svg(figure, Width::Page), "{}: the same figure, the same bytes", figure.name);
         }
     }
 
@@ -135,7 +138,7 @@ mod drawn {
             let last = study.approach.end();
             assert_eq!(series.points.last(), Some(&(20.0, last.state.joint_angles[joint])));
         }
-        // the colour says which joint, the dash which arm: no two curves look the same
+        // the colour says which arm, the dash which joint: no two curves look the same
         let looks: Vec<(Colour, Mark)> = angles.iter().map(|series| (series.colour, series.mark)).collect();
         assert!((1..6).all(|i| !looks[..i].contains(&looks[i])));
         // robot and targets together: equal before and after, but not by the literal equations
@@ -178,7 +181,7 @@ mod drawn {
             let all = figures(&scenario, &run(&scenario));
             assert_eq!(names(&all).len(), all.len(), "{name}: no two figures have the same name");
             for figure in &all {
-                let svg = draw::svg(figure);
+                let svg = draw::svg(figure, Width::Page);
                 assert_well_formed(&figure.name, &svg);
                 assert_labelled(figure, &svg);
                 assert_one_legend_entry_each(figure, &svg);
@@ -328,6 +331,125 @@ mod drawn {
         }));
     }
 
+    /// The numbers of an attribute of the root of an SVG.
+    fn root(svg: &str, name: &str) -> Vec<f64> {
+        let (root, _) = svg.split_once('>').expect("a root");
+        let value = root.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
+        let value = value.unwrap_or_else(|| panic!("no {name} in {root}")).trim_end_matches("pt");
+        value.split(' ').map(|number| number.parse().expect("a number")).collect()
+    }
+
+    /// As wide as the columns of a journal, with text of the same size in all of them; PDF with its fonts.
+    #[test]
+    fn figures_fit_the_columns_of_journals() {
+        let scenario = scenario("raina_shah_2017");
+        let all = figures(&scenario, &run(&scenario));
+        for (width, points, text) in [(Width::Single, 252.0, 7.0), (Width::Double, 516.0, 8.0)] {
+            for figure in &all {
+                let svg = draw::svg(figure, width);
+                assert_well_formed(&figure.name, &svg);
+                assert_labelled(figure, &svg);
+                let (shown, own) = (root(&svg, "width")[0], root(&svg, "viewBox")[2]);
+                assert_eq!(root(&svg, "width"), [points], "{}", figure.name);
+                let size = 12.0 * shown / own;
+                assert!((0.8 * text..1.01 * text).contains(&size), "{}: text of {size} points", figure.name);
+            }
+        }
+        let of = |name: &str| all.iter().find(|figure| figure.name == name).expect("a figure");
+        for (width, page) in [(Width::Page, None), (Width::Single, Some("252"))] {
+            let pdf = draw::pdf(of("momentum_case1"), width).expect("drawn");
+            assert_eq!(pdf, draw::pdf(of("momentum_case1"), width).expect("drawn"), "the same bytes");
+            let text = String::from_utf8_lossy(&pdf);
+            let media = text.find("/MediaBox").map_or("", |at| text[at..].lines().next().unwrap_or_default());
+            assert!(text.starts_with("%PDF-") && text.contains("/FontFile") && text.contains("+DejaVuSans"));
+            assert!(page.is_none_or(|page| media.contains(&format!(" 0 {page} "))), "{width:?}: {media}");
+        }
+        let single = png_size(&draw::png(of("momentum_case1"), Width::Single).expect("drawn")).0;
+        assert!((1300..1500).contains(&single), "400 pixels an inch, not {single}");
+    }
+
+    /// Colours are of arms and targets; what is of the base or the whole has none.
+    #[test]
+    fn an_arm_has_one_colour() {
+        let scenario = scenario("raina_shah_2017");
+        let all = figures(&scenario, &run(&scenario));
+        for figure in &all {
+            for series in figure.panels.iter().flat_map(|panel| &panel.series) {
+                let label = series.label.as_deref().unwrap_or_default();
+                let arm = ["arm1", "arm2"].iter().position(|arm| label.starts_with(arm));
+                let target = ["target1", "target2"].iter().position(|target| label.starts_with(target));
+                match (arm, target) {
+                    (Some(arm), _) => assert_eq!(series.colour, Colour::of(arm), "{}: {label}", figure.name),
+                    (None, Some(target)) => {
+                        assert_eq!(series.colour, Colour::of(2 + target), "{}: {label}", figure.name);
+                    }
+                    (None, None) => {
+                        // the joints of an arm have no label
+                        assert!(
+                            label.is_empty() || (0..4).all(|i| series.colour != Colour::of(i)),
+                            "{}: `{label}`",
+                            figure.name
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    /// Panels of momenta that no actuator changes say that their curves are level.
+    #[test]
+    fn level_momenta_are_said_to_be_so() {
+        let titles = |name: &str| {
+            let scenario = scenario(name);
+            let all = figures(&scenario, &run(&scenario));
+            let momentum = all.into_iter().find(|figure| figure.name.starts_with("momentum")).expect("a figure");
+            momentum.panels.into_iter().map(|panel| panel.title.unwrap_or_default()).collect::<Vec<_>>()
+        };
+        assert_eq!(titles("raina_shah_2017"), ["exact equations: constant to rounding"; 2]);
+        assert_eq!(titles("elastic_rebound"), ["constant to rounding"; 2]);
+        // a base torque changes the angular momentum
+        assert_eq!(titles("stabilised_capture"), ["exact equations: constant to rounding", ""]);
+    }
+
+    /// Every figure is of a kind, and every kind is drawn.
+    #[test]
+    fn figures_have_the_kinds_that_can_be_asked_for() {
+        let mut unused: BTreeSet<&str> = FIGURE_KINDS.into_iter().collect();
+        for name in ["raina_shah_2017", "redysim_single_arm_3r"] {
+            let scenario = scenario(name);
+            for figure in figures(&scenario, &run(&scenario)) {
+                let kinds: Vec<_> = FIGURE_KINDS.into_iter().filter(|kind| begins_with(&figure.name, kind)).collect();
+                assert!(!kinds.is_empty(), "{}", figure.name);
+                kinds.iter().for_each(|kind| {
+                    unused.remove(kind);
+                });
+            }
+        }
+        assert!(unused.is_empty(), "{unused:?}");
+        assert!(is_kind("approach") && is_kind("momentum") && !is_kind("moment") && !is_kind(""));
+    }
+
+    #[test]
+    fn some_figures_can_be_asked_for() {
+        let folder = TempDir::new().expect("a folder");
+        let results = folder.path().join("results");
+        let run = |list: &str| {
+            let mut command = command();
+            command.arg("run").arg(file("scenarios/redysim_single_arm_3r.toml")).arg("-q");
+            planar_proof::said(command.arg(list).arg("--out").arg(&results).output().expect("it runs"))
+        };
+        assert_eq!(run("--figures=approach_base,momentum").0, 0);
+        let mut names: Vec<_> = fs::read_dir(results.join("figures")).expect("figures").collect();
+        let name = |entry: Result<fs::DirEntry, std::io::Error>| entry.expect("an entry").file_name();
+        let names: BTreeSet<_> = names.drain(..).map(name).map(|name| name.to_string_lossy().into_owned()).collect();
+        let wanted = ["approach_base", "momentum_redysim_single_arm_3r"];
+        let wanted = wanted.iter().flat_map(|name| ["svg", "pdf", "png"].map(|kind| format!("{name}.{kind}")));
+        assert_eq!(names, wanted.collect());
+        let (code, _, err) = run("--figures=momentun");
+        assert_eq!(code, 2);
+        assert!(err.contains("did you mean `momentum`?") && err.contains("post_impact_motion"), "{err}");
+    }
+
     /// A robot with more joints than a panel has lines gets a higher panel: no legend reaches into the next one.
     #[test]
     fn a_long_legend_has_room() {
@@ -340,7 +462,7 @@ mod drawn {
         let height = |joints: usize| -> f64 {
             let panel =
                 Panel::new(Axis::time("t [s]", 1.0), Axis::new("θ [rad]", 0.1), (0..joints).map(series).collect());
-            let svg = draw::svg(&Figure::column("many", vec![panel]));
+            let svg = draw::svg(&Figure::column("many", vec![panel]), Width::Page);
             let (_, rest) = svg.split_once(" height=\"").expect("a height");
             rest[..rest.find('"').expect("its end")].parse().expect("a number")
         };

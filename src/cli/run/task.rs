@@ -119,7 +119,7 @@ impl Task<'_> {
             staged.write("report.html", |to| write_report(scenario, study, manifest, to))?;
         }
         for output in arguments.optional_outputs.requested() {
-            output.write(&staged, scenario, study, manifest)?;
+            output.write(&staged, scenario, study, manifest, &arguments.optional_outputs)?;
         }
         let mut files = staged.files()?;
         files.push(SUMMARY.to_owned());

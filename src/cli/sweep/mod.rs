@@ -105,7 +105,11 @@ fn write_report(campaign: &Campaign, arguments: &Arguments, folder: &Path) -> Re
 /// What computes the cases: chosen for a layout whose numbers that vary are as different from 0 as in the cases.
 fn choose(campaign: &Campaign, dynamics: Dynamics, robots: Robots<'_>, quiet: bool) -> Result<Choice, CommandError> {
     let layout = campaign.general_layout();
-    dynamics.choose(&layout, &campaign.scenario_source.scenario.file, robots, quiet)
+    let choice = dynamics.choose(&layout, &campaign.scenario_source.scenario.file, robots)?;
+    if !quiet {
+        dynamics.announce(&choice, "");
+    }
+    Ok(choice)
 }
 
 /// How many cases ended how.

@@ -29,7 +29,7 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Option<Figure> {
     #[allow(clippy::cast_precision_loss, reason = "a few pairs")]
     let row = |bodies: &[String; 2]| 1.0 + pairs.iter().position(|pair| *pair == bodies).expect("a listed pair") as f64;
     let bar = |(bodies, [from, to]): (&[String; 2], [f64; 2])| {
-        Series::line("overlap", Colour::VERMILLION, Dash::Solid, BAR, vec![(from, row(bodies)), (to, row(bodies))])
+        Series::line("overlap", Colour::RED, Dash::Solid, BAR, vec![(from, row(bodies)), (to, row(bodies))])
     };
     let mut series: Vec<_> = clearance.overlaps.iter().map(|overlap| bar((&overlap.bodies, overlap.span))).collect();
     let LeastDistance { distance, time, bodies } = least;

@@ -29,16 +29,14 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
         return None;
     }
     contacts.reverse(); // the first at the top
-    let mut kinds = vec![
-        ("end effector, before", Colour::BLUE, Symbol::Circle),
-        ("target, before", Colour::VERMILLION, Symbol::Square),
-    ];
+    let mut kinds =
+        vec![("end effector, before", Colour::BLACK, Symbol::Circle), ("target, before", Colour::GREY, Symbol::Square)];
     if contacts.iter().all(|contact| contact.rigid) {
         // both twists are the same
         kinds.push(("both, after", Colour::BLACK, Symbol::Cross));
     } else {
         kinds.extend([
-            ("target, after", Colour::GREEN, Symbol::Plus),
+            ("target, after", Colour::GREY, Symbol::Plus),
             ("end effector, after", Colour::BLACK, Symbol::Cross),
         ]);
     }

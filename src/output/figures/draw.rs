@@ -1,13 +1,18 @@
-//! Figures as SVG and PNG by the library kuva, which only this module and `panel` use.
+//! Figures as SVG and PNG by the library kuva, which only this module and `panel` use, and as PDF.
 
 use super::figure::Figure;
-use super::panel::{self, Backend, Size};
+use super::panel::{self, Backend, PADDING, SPACING, Size};
+use super::pdf;
+use super::width::Width;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::figure::{Figure as Grid, FigureLegendPosition};
 use kuva::render::render::Scene;
 
 /// Pixels of the PNG per point of the figure: at least 300 per inch at the width of a page.
-const PIXELS_PER_POINT: f32 = 3.0;
+const PIXELS_PER_POINT: f64 = 3.0;
+
+/// The same for the columns of journals: 400 per inch.
+const PIXELS_PER_POINT_OF_COLUMNS: f64 = 400.0 / 72.0;
 
 /// A figure that could not be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -21,33 +26,78 @@ pub struct DrawError {
 
 /// The figure as SVG; equal figures give equal bytes.
 #[must_use]
-pub fn svg(figure: &Figure) -> String {
-    renumber_clip_paths(&SvgBackend::new().with_pretty(true).render_scene(&scene(figure, Backend::Vector)))
+pub fn svg(figure: &Figure, width: Width) -> String {
+    let text = own_svg(figure, width);
+    let Some(points) = width.points() else { return text };
+    // the root's size, which is that of its content
+    let (root, rest) = text.split_once('>').unwrap_or((&text, ""));
+    let [own_width, own_height] = ["width", "height"].map(|name| attribute(root, name));
+    let height = points * own_height / own_width;
+    let sized = root.replacen(&format!(" width=\"{own_width}\""), &format!(" width=\"{points}pt\""), 1).replacen(
+        &format!(" height=\"{own_height}\""),
+        &format!(" height=\"{height:.2}pt\""),
+        1,
+    );
+    let view = format!(" viewBox=\"0 0 {own_width} {own_height}\"");
+    let view = if root.contains("viewBox") { "" } else { &view };
+    format!("{sized}{view}>{rest}")
+}
+
+/// The figure as PDF with embedded fonts; equal figures give equal bytes.
+///
+/// # Errors
+/// [`DrawError`] with the libraries' reason.
+pub fn pdf(figure: &Figure, width: Width) -> Result<Vec<u8>, DrawError> {
+    let page = pdf::pdf(&own_svg(figure, width), &figure.name, width.points());
+    page.map_err(|reason| DrawError { name: figure.name.clone(), reason })
 }
 
 /// The figure as PNG.
 ///
 /// # Errors
 /// [`DrawError`] with the library's reason.
-pub fn png(figure: &Figure) -> Result<Vec<u8>, DrawError> {
-    let scene = scene(figure, Backend::Raster { scale: f64::from(PIXELS_PER_POINT) });
-    let image = kuva::PngBackend::new().with_scale(PIXELS_PER_POINT).render_scene(&scene);
+pub fn png(figure: &Figure, width: Width) -> Result<Vec<u8>, DrawError> {
+    let scale = match (width.points(), width.own()) {
+        (Some(points), Some(own)) => points / own * PIXELS_PER_POINT_OF_COLUMNS,
+        _ => PIXELS_PER_POINT,
+    };
+    let scene = scene(figure, width, Backend::Raster { scale });
+    #[allow(clippy::cast_possible_truncation, reason = "a few pixels")]
+    let image = kuva::PngBackend::new().with_scale(scale as f32).render_scene(&scene);
     image.map_err(|reason| DrawError { name: figure.name.clone(), reason })
 }
 
-fn scene(figure: &Figure, backend: Backend) -> Scene {
-    let columns = figure.columns.max(1);
+/// In the panels' own scale.
+fn own_svg(figure: &Figure, width: Width) -> String {
+    let scene = scene(figure, width, Backend::Vector);
+    renumber_clip_paths(&SvgBackend::new().with_pretty(true).render_scene(&scene))
+}
+
+/// A number among the attributes of an element.
+fn attribute(element: &str, name: &str) -> f64 {
+    let value = element.split(&format!(" {name}=\"")).nth(1).and_then(|rest| rest.split('"').next());
+    value.and_then(|value| value.parse().ok()).expect("the library writes numbers")
+}
+
+fn scene(figure: &Figure, width: Width, backend: Backend) -> Scene {
+    let columns = width.columns(figure.columns);
     let rows = figure.panels.len().div_ceil(columns).max(1);
-    let size = Size::of(figure);
+    let size = Size::of(figure, width);
     let mut grid = Grid::new(rows, columns)
         .with_plots(figure.panels.iter().map(|panel| panel::plots(panel, &size, backend)).collect())
         .with_layouts(figure.panels.iter().map(|panel| panel::layout(panel, &size, backend)).collect())
         .with_cell_size(size.width(), size.height())
-        .with_spacing(8.0)
-        .with_padding(6.0);
+        .with_spacing(SPACING)
+        .with_padding(PADDING);
     if size.shared_legend {
         let entries = panel::legend_entries(figure.panels.iter().flat_map(|panel| &panel.series), backend);
-        grid = grid.with_shared_legend_position(FigureLegendPosition::RightMiddle).with_shared_legend_entries(entries);
+        grid = grid
+            .with_shared_legend_position(if width == Width::Page {
+                FigureLegendPosition::RightMiddle
+            } else {
+                FigureLegendPosition::BottomCenter
+            })
+            .with_shared_legend_entries(entries);
     }
     grid.render()
 }

@@ -18,8 +18,7 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Figure {
         points[1].push((row.time, energy - earlier_work - row.sample.work.total()));
     }
     let end = points[0][points[0].len() - 1].0;
-    let styles =
-        [("kinetic energy", Colour::BLUE, Dash::Solid), ("less the work done", Colour::VERMILLION, Dash::Dashed)];
+    let styles = [("kinetic energy", Colour::BLACK, Dash::Solid), ("less the work done", Colour::BLACK, Dash::Dashed)];
     let series = styles.into_iter().zip(points);
     let series = series.map(|((label, colour, dash), points)| Series::line(label, colour, dash, CURVE_WIDTH, points));
     Figure::column(

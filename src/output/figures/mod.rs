@@ -1,4 +1,4 @@
-//! The figures of a study: their content as [`Figure`]s, which [`draw`] converts to SVG and PNG.
+//! The figures of a study: their content as [`Figure`]s, which [`draw`] converts to SVG, PDF and PNG.
 
 mod approach;
 mod clearance;
@@ -10,15 +10,18 @@ mod energy;
 mod figure;
 mod momentum;
 mod panel;
+mod pdf;
 mod post_impact;
 mod robot;
 mod scale;
 mod snapshot;
 mod style;
 mod time_curves;
+mod width;
 
 pub use figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
 pub use style::{Colour, Dash, Symbol};
+pub use width::Width;
 
 use crate::capture::Study;
 use crate::scenario::Scenario;

@@ -11,7 +11,19 @@ use crate::scenario::Scenario;
 /// Smallest span of an axis over the momentum that the kinetic energy could hold; rounding errors are far below.
 const MINIMUM_SPAN: f64 = 0.01;
 
-/// [l, px, py] about the inertial origin; dash-dotted, the values after the first impact by the paper's literal
+/// Change of a momentum, over the smallest span of its axis, up to which its curve is said to be level.
+const FLAT: f64 = 1e-6;
+
+/// What a panel of level curves says.
+const CONSTANT: &str = "constant to rounding";
+
+/// Whether values are the same but for rounding errors.
+fn is_flat(values: impl Iterator<Item = f64>, span: f64) -> bool {
+    let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), value| (low.min(value), high.max(value)));
+    high - low <= FLAT * span
+}
+
+/// [l, px, py] about the inertial origin; with dashes and dots, the values after the first impact by the paper's literal
 /// equations.
 pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
     let momentum: Vec<(f64, [f64; 3])> = rows(study, case)
@@ -23,24 +35,27 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
         .collect();
     let (contact, before) = momentum[case.approach(study).samples.len() - 1];
     let (end, _) = momentum[momentum.len() - 1];
-    let literal = case.capture.as_ref().and_then(|capture| capture.impact.paper.as_ref());
+    let paper = case.capture.as_ref().and_then(|capture| capture.impact.paper.as_ref());
     let panel = |quantity: &str, span: f64, curves: &[(&str, usize, Colour, Dash)]| {
         let exact = curves.iter().map(|&(label, i, colour, dash)| {
             let points = momentum.iter().map(|(time, value)| (*time, value[i]));
             Series::line(label, colour, dash, CURVE_WIDTH, points.collect())
         });
-        let literal = curves.iter().filter_map(|&(label, i, colour, _)| {
-            let after = before[i] + literal?.momentum_jump[i];
-            let (label, points) = (format!("{label}, literal eqs."), vec![(contact, after), (end, after)]);
-            Some(Series::line(&label, colour, Dash::DashDot, CURVE_WIDTH, points))
-        });
+        let literal =
+            curves.iter().zip([Dash::DashDot, Dash::DashDotDot]).filter_map(|(&(label, i, colour, _), dash)| {
+                let after = before[i] + paper?.momentum_jump[i];
+                let (label, points) = (format!("{label}, literal eqs."), vec![(contact, after), (end, after)]);
+                Some(Series::line(&label, colour, dash, CURVE_WIDTH, points))
+            });
         let mut all: Vec<Series> = exact.chain(literal).collect();
         all.extend(detected_impacts(study, case, &all[..curves.len()]));
+        let flat = curves.iter().all(|&(_, i, ..)| is_flat(momentum.iter().map(|(_, value)| value[i]), span));
         let y = Axis { label: quantity.to_owned(), range: AxisRange::DataAndZero(span) };
-        Panel::new(Axis::time("Time [s]", end), y, all)
+        let title = flat.then(|| format!("{}{CONSTANT}", if paper.is_some() { "exact equations: " } else { "" }));
+        Panel { title, ..Panel::new(Axis::time("Time [s]", end), y, all) }
     };
-    let linear = [("px", 1, Colour::BLUE, Dash::Solid), ("py", 2, Colour::VERMILLION, Dash::Dashed)];
-    let angular = [("l", 0, Colour::BLUE, Dash::Solid)];
+    let linear = [("px", 1, Colour::BLACK, Dash::Solid), ("py", 2, Colour::BLACK, Dash::Dashed)];
+    let angular = [("l", 0, Colour::BLACK, Dash::Solid)];
     // a part of the momentum if all kinetic energy were in one motion
     let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.momentum.kinetic_energy));
     let span = |inertia: f64| MINIMUM_SPAN * (2.0 * energy * inertia).sqrt();

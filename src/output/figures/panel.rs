@@ -4,6 +4,7 @@ use super::dash::strokes;
 use super::figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
 use super::scale::{Scale, scale};
 use super::style::{Dash, Symbol};
+use super::width::Width;
 use kuva::plot::line::LineStyle;
 use kuva::plot::{LegendEntry, LegendPosition, LegendShape, LinePlot, MarkerShape, ScatterPlot};
 use kuva::render::layout::{Layout, TickFormat};
@@ -16,6 +17,16 @@ const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Lengths of strokes and gaps in the legend over those of the curves.
 const LEGEND_DASH: f64 = 0.5;
+
+/// Between panels and around them, points.
+pub(super) const SPACING: f64 = 8.0;
+pub(super) const PADDING: f64 = 6.0;
+
+/// Least side of a frame, points; long names can make a figure wider than its column, which then scales all of it.
+const LEAST_FRAME: f64 = 130.0;
+
+/// Height of an entry of a legend, points.
+const LEGEND_LINE: f64 = 18.0;
 
 /// The kind of image.
 #[derive(Clone, Copy, Debug)]
@@ -41,11 +52,13 @@ pub(super) struct Size {
     bottom: f64,
     /// Whether there is one legend for all panels.
     pub(super) shared_legend: bool,
+    /// The number of entries that each panel's legend has below it; `None` for legends beside the panels.
+    legend_below: Option<usize>,
 }
 
 impl Size {
     /// The same for all panels of a figure.
-    pub(super) fn of(figure: &Figure) -> Self {
+    pub(super) fn of(figure: &Figure, width: Width) -> Self {
         let shared_legend = figure.columns > 1;
         let equal_scale = figure.panels.iter().any(|panel| panel.equal_scale);
         let labels = figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|series| series.label.as_ref());
@@ -53,18 +66,33 @@ impl Size {
             AxisRange::Categories(names) => Some(names),
             _ => None,
         });
-        let frame = match (equal_scale, shared_legend) {
-            (true, true) => [230.0; 2],
-            (true, false) => [360.0; 2],
-            (false, _) => [470.0, figure.panels.iter().map(height_of_lines).fold(190.0, f64::max)],
+        let entries = |panel: &Panel| legend_entries(&panel.series, Backend::Vector).len();
+        // the library puts the axis's label above its own legend: panels of one height have legends of one height
+        let legend_below = (width == Width::Single && !shared_legend)
+            .then(|| figure.panels.iter().map(entries).max().unwrap_or_default());
+        let beside = !shared_legend && legend_below.is_none();
+        let left = (34.0 + longest(names.flatten())).max(if equal_scale { 60.0 } else { 86.0 });
+        let right = if beside { 60.0 + longest(labels) } else { 12.0 };
+        let lines = figure.panels.iter().map(|panel| height_of_lines(panel, beside)).fold(0.0, f64::max);
+        let frame = match (width.own(), equal_scale) {
+            (None, true) => [if shared_legend { 230.0 } else { 360.0 }; 2],
+            (None, false) => [470.0, lines.max(190.0)],
+            (Some(whole), _) => {
+                let columns = u32::try_from(width.columns(figure.columns)).map_or(1.0, f64::from);
+                let cell = (whole - 2.0 * PADDING - (columns - 1.0) * SPACING) / columns;
+                let frame = (cell - left - right).max(LEAST_FRAME);
+                [frame, if equal_scale { frame } else { lines.max(0.45 * frame).max(LEAST_FRAME) }]
+            }
         };
+        let legend = legend_below.map_or(0.0, |entries| lines_height(entries + 1));
         Self {
             frame,
-            left: (34.0 + longest(names.flatten())).max(if equal_scale { 60.0 } else { 86.0 }),
-            right: if shared_legend { 12.0 } else { 60.0 + longest(labels) },
+            left,
+            right,
             top: if figure.panels.iter().any(|panel| panel.title.is_some()) { 32.0 } else { 12.0 },
-            bottom: 48.0,
+            bottom: 48.0 + legend,
             shared_legend,
+            legend_below,
         }
     }
 
@@ -77,11 +105,15 @@ impl Size {
     }
 }
 
-/// Height of the legend or of the categories, whichever has more lines.
-fn height_of_lines(panel: &Panel) -> f64 {
+/// Height of the categories, or of a legend beside them if that has more lines.
+fn height_of_lines(panel: &Panel, legend_beside: bool) -> f64 {
     let names = if let AxisRange::Categories(names) = &panel.y.range { names.len() } else { 0 };
-    let count = legend_entries(&panel.series, Backend::Vector).len().max(names);
-    18.0 * u32::try_from(count).map_or(0.0, f64::from)
+    let legend = if legend_beside { legend_entries(&panel.series, Backend::Vector).len() } else { 0 };
+    lines_height(names.max(legend))
+}
+
+fn lines_height(lines: usize) -> f64 {
+    LEGEND_LINE * u32::try_from(lines).map_or(0.0, f64::from)
 }
 
 /// Width of the longest text.
@@ -117,9 +149,21 @@ pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
         layout = layout.with_title(title.as_str());
     }
     if !size.shared_legend {
+        let mut entries = legend_entries(&panel.series, backend);
+        let blank = || LegendEntry {
+            label: "\u{2002}".to_owned(),
+            color: "white".to_owned(),
+            shape: LegendShape::Line,
+            dasharray: None,
+        };
+        entries.resize_with(entries.len().max(size.legend_below.unwrap_or_default()), blank);
         layout = layout
-            .with_legend_entries(legend_entries(&panel.series, backend))
-            .with_legend_position(LegendPosition::OutsideRightTop)
+            .with_legend_entries(entries)
+            .with_legend_position(if size.legend_below.is_some() {
+                LegendPosition::OutsideBottomLeft
+            } else {
+                LegendPosition::OutsideRightTop
+            })
             .with_legend_box(false);
     }
     layout

@@ -17,6 +17,12 @@ pub enum Dash {
     Dotted,
     /// The fourth.
     DashDot,
+    /// The fifth.
+    LongDashed,
+    /// The sixth.
+    DashDotDot,
+    /// The seventh.
+    Dense,
 }
 
 /// The symbol of a point.
@@ -33,13 +39,7 @@ pub enum Symbol {
 }
 
 impl Colour {
-    /// The first of the palette.
-    pub const BLUE: Self = Self(PALETTE[0]);
-    /// The second.
-    pub const VERMILLION: Self = Self(PALETTE[1]);
-    /// The third.
-    pub const GREEN: Self = Self(PALETTE[2]);
-    /// Follows the palette.
+    /// Follows the palette; of what belongs to the base or to the whole.
     pub const BLACK: Self = Self([0; 3]);
     /// Of overlaps.
     pub const RED: Self = Self([0xd0, 0x00, 0x00]);
@@ -62,10 +62,11 @@ impl Colour {
 }
 
 impl Dash {
-    /// The dash pattern of a family's member; from the fifth on they repeat.
+    /// The dash pattern of a family's member; from the eighth on they repeat.
     #[must_use]
     pub fn of(index: usize) -> Self {
-        const ALL: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::DashDot];
+        const ALL: [Dash; 7] =
+            [Dash::Solid, Dash::Dashed, Dash::Dotted, Dash::DashDot, Dash::LongDashed, Dash::DashDotDot, Dash::Dense];
         ALL[index % ALL.len()]
     }
 
@@ -77,6 +78,9 @@ impl Dash {
             Self::Dashed => &[8.0, 5.0],
             Self::Dotted => &[1.5, 4.5],
             Self::DashDot => &[9.0, 4.5, 1.5, 4.5],
+            Self::LongDashed => &[16.0, 5.0],
+            Self::DashDotDot => &[7.0, 3.0, 1.5, 3.0, 1.5, 3.0],
+            Self::Dense => &[3.0, 2.0],
         }
     }
 }

@@ -20,13 +20,13 @@ fn curve(phase: &Phase, label: &str, colour: Colour, dash: Dash, value: impl Fn(
     Series::line(label, colour, dash, CURVE_WIDTH, points.collect())
 }
 
-/// A curve per joint: the colour shows the joint, the dash pattern the arm.
+/// A curve per joint: the colour shows the arm, the dash pattern the joint.
 pub(super) fn joints(layout: &Layout, phase: &Phase, values: impl Fn(&Sample) -> &[f64]) -> Vec<Series> {
     let mut series = Vec::new();
     for (i, arm) in layout.arms.iter().enumerate() {
         for k in 1..=arm.links.len() {
             let (label, joint) = (format!("{} joint {k}", arm.name), series.len());
-            series.push(curve(phase, &label, Colour::of(joint), Dash::of(i), |sample| values(sample)[joint]));
+            series.push(curve(phase, &label, Colour::of(i), Dash::of(k - 1), |sample| values(sample)[joint]));
         }
     }
     series
@@ -50,7 +50,8 @@ pub(super) fn panel(phase: &Phase, time: &str, quantity: &str, series: Vec<Serie
 pub(super) fn base(phase: &Phase, time: &str) -> Vec<Panel> {
     let component = |label: &str, i: usize, vector: fn(&Sample) -> &[f64; 3]| {
         let style = i.saturating_sub(1);
-        curve(phase, label, Colour::of(style), Dash::of(style), move |sample| vector(sample)[i])
+        // colours are of arms and targets
+        curve(phase, label, Colour::BLACK, Dash::of(style), move |sample| vector(sample)[i])
     };
     let pose: fn(&Sample) -> &[f64; 3] = |sample| &sample.state.base_pose;
     let twist: fn(&Sample) -> &[f64; 3] = |sample| &sample.state.base_twist;

@@ -1,0 +1,32 @@
+//! The kinds of figures, by which some of them are asked for.
+
+/// The beginnings of the figures' names: what follows is a case's name.
+pub const FIGURE_KINDS: [&str; 15] = [
+    "initial_configuration",
+    "final_configuration",
+    "impact_configuration",
+    "approach_joint_angles",
+    "approach_joint_rates",
+    "approach_base",
+    "approach_end_effector_velocities",
+    "impact_velocities",
+    "momentum",
+    "energy",
+    "clearance",
+    "post_impact_joints",
+    "post_impact_base",
+    "post_impact_end_effector_velocities",
+    "post_impact_motion",
+];
+
+/// Whether a name is a kind, or the beginning of kinds: `approach` is that of four.
+#[must_use]
+pub fn is_kind(name: &str) -> bool {
+    FIGURE_KINDS.iter().any(|kind| begins_with(kind, name))
+}
+
+/// Whether a name is this word, or goes on after it with `_`.
+#[must_use]
+pub fn begins_with(name: &str, word: &str) -> bool {
+    name.strip_prefix(word).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+}
