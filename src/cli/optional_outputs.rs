@@ -69,9 +69,10 @@ pub struct Flags {
 }
 
 /// Widths of figures, in builds without them too.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 enum FigureWidth {
     /// What each needs.
+    #[default]
     Page,
     /// Two columns, 516 points, text of 8 points.
     Double,
@@ -84,7 +85,7 @@ fn kind(text: &str) -> Result<String, String> {
         return Ok(text.to_owned());
     }
     let meant =
-        nearest(text, FIGURE_KINDS.into_iter()).map_or_else(String::new, |kind| format!("did you mean `{kind}`? "));
+        nearest(text, FIGURE_KINDS).map_or_else(String::new, |kind| format!("did you mean `{kind}`? "));
     Err(format!("{meant}expected some of {}, or their first words", FIGURE_KINDS.join(", ")))
 }
 

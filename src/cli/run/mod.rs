@@ -91,33 +91,6 @@ pub fn run_file(
     RunOptions { out, choice, report, display }: RunOptions,
     robots: Robots<'_>,
 ) -> Result<ExitCode, CommandError> {
-    let scenario = scenario.to_owned();
-    let (dynamics, optional_outputs) = (Dynamics::Auto, optional_outputs::Flags::default());
-    let arguments =
-        Arguments { scenario, out: Some(out), force: true, dynamics, report, sample: None, display, optional_outputs };
-    run_by(&arguments, robots, Some(choice))
-}
-
-/// What another command chooses of a run.
-#[cfg(feature = "sweep")]
-pub struct RunOptions {
-    /// The folder for the results, which is this command's own.
-    pub out: PathBuf,
-    /// What computes the dynamics.
-    pub choice: Choice,
-    /// Whether to write report.html.
-    pub report: bool,
-    /// How progress is shown.
-    pub display: Display,
-}
-
-/// Runs a scenario file for another command.
-#[cfg(feature = "sweep")]
-pub fn run_file(
-    scenario: &Path,
-    RunOptions { out, choice, report, display }: RunOptions,
-    robots: Robots<'_>,
-) -> Result<ExitCode, CommandError> {
     let arguments = Arguments {
         scenarios: vec![scenario.to_owned()],
         out: Some(out),
@@ -164,11 +137,6 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
 
 /// The same, by what another command has chosen to compute the dynamics of its one scenario.
 fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
-    run_by(arguments, robots, None)
-}
-
-/// The same, by what another command has chosen to compute the dynamics.
-fn run_by(arguments: &Arguments, robots: Robots<'_>, chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
     let mut codes = ExitCodes(0);
     let scenarios: Vec<_> =
