@@ -125,10 +125,9 @@ fn table(comparison: &Comparison, (name, choice): (&str, &Choice), arguments: &A
             table.note("over its bound");
         }
     }
-    let of = format!(
-        "{name}: {engine} ({origin}) against generic at {states} states, {samples} of each regime, seed {seed}"
-    );
+    let of = sentence("", &format!("{name}: {engine} ({origin}) against generic"));
+    let states = format!("{states} states, {samples} of each regime, seed {seed}");
     let both = comparison.refusals.iter().filter(|r| r.generated.is_some() && r.generic.is_some()).count();
     let none = if both == 0 { String::new() } else { format!("\n{both} states have no result by either of them.\n") };
-    format!("{}\n{}{none}\n", sentence("", &of), table.text())
+    format!("{of}{states}\n\n{}{none}\n", table.text())
 }

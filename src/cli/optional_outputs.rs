@@ -84,8 +84,7 @@ fn kind(text: &str) -> Result<String, String> {
     if text.is_empty() || is_kind(text) {
         return Ok(text.to_owned());
     }
-    let meant =
-        nearest(text, FIGURE_KINDS).map_or_else(String::new, |kind| format!("did you mean `{kind}`? "));
+    let meant = nearest(text, FIGURE_KINDS).map_or_else(String::new, |kind| format!("did you mean `{kind}`? "));
     Err(format!("{meant}expected some of {}, or their first words", FIGURE_KINDS.join(", ")))
 }
 

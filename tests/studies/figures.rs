@@ -420,9 +420,9 @@ mod drawn {
             for figure in figures(&scenario, &run(&scenario)) {
                 let kinds: Vec<_> = FIGURE_KINDS.into_iter().filter(|kind| begins_with(&figure.name, kind)).collect();
                 assert!(!kinds.is_empty(), "{}", figure.name);
-                kinds.iter().for_each(|kind| {
+                for kind in kinds {
                     unused.remove(kind);
-                });
+                }
             }
         }
         assert!(unused.is_empty(), "{unused:?}");
