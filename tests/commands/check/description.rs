@@ -7,6 +7,11 @@ use planar_proof::file;
 use std::fs;
 use std::path::Path;
 
+/// Words of a text, whose lines are short.
+fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 #[test]
 fn description_of_a_layout() {
     let (_, out, _) = check(&["dual_arm_3r"], Path::new("."));
@@ -18,7 +23,7 @@ fn description_of_a_layout() {
         "inertia             265.4 kg m² about",
         "structure           2 arms of 3 + 3 links\n",
         "generated code      generated::dual_arm_3r\n",
-        "  arm1                 3         30          3               3.5  (0.5, 0)\n",
+        "  arm1      3         30           3                3.5  (0.5, 0)\n",
     ] {
         assert!(out.contains(expected), "no `{expected}` in\n{out}");
     }
@@ -28,8 +33,7 @@ fn description_of_a_layout() {
     assert_eq!(format!("{inertia:.1}"), "265.4");
     let CheckReport { description, .. } = inspect_text(&LAYOUT.replace("[-0.5, 0.0]", "[-0.5, 0.3]\nmount_angle = 3"));
     assert!(description.contains("(-0.5, 0.3) at 3\n") && description.contains("a mount angle"), "{description}");
-    assert!(description.contains("none of this structure in this build"), "{description}");
-    assert!(description.contains("in this build; computed by "), "{description}");
+    assert!(in_one_line(&description).contains("none of this structure in this build; computed by "), "{description}");
 }
 
 #[test]
@@ -53,7 +57,7 @@ fn description_of_a_scenario() {
     }
     // a base of 500 kg and 80 kg m², 39 kg on it, all moving as one with 2 m/s
     let moving = inspect_text(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
-    assert!(moving.contains("1078, 0] N m s, N s; 1078 J\n"), "{moving}");
+    assert!(in_one_line(&moving).contains("1078, 0] N m s, N s; 1078 J approach"), "{moving}");
 }
 
 #[test]
