@@ -10,7 +10,7 @@ use crate::registry::SHIPPED;
 use crate::structure::{Structure, fingerprint, in_words, parameters};
 use planar_build::evaluator::Evaluator;
 use planar_build::graph;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::{fs, io};
 
@@ -122,6 +122,9 @@ fn cached(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(unusable(error.to_string())),
     };
+    if fs::read_to_string(hash_path(&path)).ok().as_deref() != Some(&*sha256(&text)) {
+        return Err(unusable("it is not as it was derived and proved".to_owned()));
+    }
     let origin = "the graph derived for its structure".to_owned();
     Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin }))
 }
@@ -134,6 +137,12 @@ fn evaluator(text: &str, layout: &Layout) -> Result<Arc<Evaluator>, String> {
         Ok(_) => Ok(Arc::new(evaluator)),
         Err(_) => Err("it is of another structure".to_owned()),
     }
+}
+
+/// Where the hash of a graph in the cache folder is kept, which was proved as it was then.
+#[must_use]
+pub fn hash_path(graph: &Path) -> PathBuf {
+    graph.with_extension("sha256")
 }
 
 /// Where the graph of a layout's structure is kept, of this version of the derivation and of the format of graphs.

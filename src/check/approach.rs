@@ -146,7 +146,7 @@ fn out_of_reach(scenario: &Scenario) -> Vec<Warning> {
 }
 
 /// Final angles and rates beyond the limits of their joints. (An initial state beyond them is an error.)
-fn beyond_limits(scenario: &Scenario) -> Vec<Warning> {
+pub(super) fn beyond_limits(scenario: &Scenario) -> Vec<Warning> {
     let approach = &scenario.approach;
     let limits = || scenario.joint_limits.iter().enumerate();
     let angles = match approach.final_end_effector_poses {

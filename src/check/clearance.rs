@@ -1,4 +1,5 @@
-//! What the planned path shows, the approach without tracking errors, in few steps: overlaps, and why there is none.
+//! What the planned path shows, the approach without tracking errors, in few steps: overlaps, joints beyond their limits,
+//! and why there is none.
 
 use super::number::short;
 use super::warning;
@@ -6,11 +7,12 @@ use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::inverse_kinematics::InverseKinematicsError;
 use crate::capture::approach::terminal_rates::TerminalRatesError;
 use crate::capture::clearance::{Overlap, ineffective_ignores};
-use crate::capture::{Silent, StudyError, study};
+use crate::capture::{Silent, Study, StudyError, study};
 use crate::diagnostic::Warning;
 use crate::engine::Choice;
 use crate::registry::Robots;
-use crate::scenario::{Actuation, OnOverlap, Scenario, Tracking};
+use crate::scenario::{Actuation, Detection, OnOverlap, Scenario, Tracking};
+use crate::simulate::limits::LimitViolations;
 use crate::simulate::stepper::Integration;
 
 /// Number of steps of the planned path.
@@ -107,7 +109,28 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
             warnings.push(warning("approach", why, help));
         }
     }
+    warnings.extend(beyond_limits(scenario, &result));
     Ok(warnings)
+}
+
+/// The joints that go beyond their limits on the way or at the designed end; those of a given end have warnings at its
+/// keys.
+fn beyond_limits(scenario: &Scenario, planned: &Study) -> Vec<Warning> {
+    if !super::approach::beyond_limits(scenario).is_empty() {
+        return Vec::new();
+    }
+    let phases = match scenario.contact.detection {
+        Detection::Event => planned.cases.iter().filter_map(|case| case.approach.as_ref()).collect(),
+        Detection::Time => vec![&planned.approach],
+    };
+    let mut found: Vec<_> = phases
+        .into_iter()
+        .flat_map(|phase| phase.limit_violations.iter().flat_map(LimitViolations::sentences))
+        .map(|sentence| format!("along the planned path {sentence}"))
+        .collect();
+    found.dedup();
+    let help = "choose another trajectory or end, or more time; a run reports what goes beyond `limits`, and ends with exit code 1";
+    found.into_iter().map(|why| warning("approach", why, help)).collect()
 }
 
 /// Whether an error of the planned path depends on neither steps nor the tracking law: it is that of the start, or of the

@@ -11,6 +11,7 @@ use crate::plain_text::Column::{Left, Right};
 use crate::plain_text::{Table, sentence};
 use crate::quantity::Quantity;
 use crate::registry::Robots;
+use std::cmp::Ordering;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -74,6 +75,19 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         };
         let (regime, index) = (refusal.regime.name(), refusal.index);
         note(format_args!("compare: {regime}, state {index}: only {implementation} says: {error}"));
+    }
+    let over: Vec<_> = comparison
+        .largest_errors
+        .iter()
+        .filter(|largest| largest.difference.ratio().partial_cmp(&1.0).is_none_or(Ordering::is_gt))
+        .collect();
+    for LargestError { difference, regime, index, .. } in over {
+        let (name, regime) = (difference.quantity.row().name, regime.name());
+        note(format_args!(
+            "compare: {name} is off by {:.1e} in {regime}, state {index}, over its bound {:.1e}",
+            difference.error,
+            difference.bound()
+        ));
     }
     for quantity in Quantity::ALL {
         if !comparison.largest_errors.iter().any(|largest| largest.difference.quantity == *quantity) {

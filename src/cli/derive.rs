@@ -4,9 +4,9 @@ use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use crate::generate::{self, GenerateError, Proof, Proved};
-use crate::graphs::cache_path;
-use crate::layout::Layout;
-use crate::output::atomic_file::{create_folder, write_text};
+use crate::graphs::{cache_path, hash_path};
+use crate::layout::{Layout, sha256};
+use crate::output::atomic_file::{create_folder, write_together};
 use crate::python_package::PYTHON_PACKAGE;
 use crate::registry::Robots;
 use indicatif::ProgressBar;
@@ -49,7 +49,8 @@ pub fn into_cache(layout: &Layout, file: &str) -> Result<(PathBuf, Proof), Comma
     let Proved { text, proof, .. } = proved(layout, &[], file, &progress)?;
     progress.finish_and_clear();
     create_folder(path.parent().unwrap_or(Path::new(".")))?;
-    write_text(&path, &text)?;
+    // by its hash a file that was changed or damaged since is told from what was proved
+    write_together([(&*hash_path(&path), sha256(&text).as_bytes()), (&path, text.as_bytes())])?;
     Ok((path, proof))
 }
 

@@ -1,5 +1,6 @@
 //! `planar-capture export LAYOUT.toml`: writes a layout as a URDF.
 
+use super::terminal::note;
 use super::{CommandError, layout, write_new};
 use crate::registry::Robots;
 use crate::urdf;
@@ -25,5 +26,10 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
     write_new(arguments.out.as_deref(), &urdf::export(&layout))?;
+    let links = layout.arms.iter().flat_map(|arm| &arm.links).filter(|link| link.outline.is_some()).count();
+    let outlines = links + usize::from(layout.base.outline.is_some());
+    if outlines > 0 {
+        note(format_args!("warning: outlines are no part of the URDF, and `import` has none: {outlines} are left out"));
+    }
     Ok(ExitCode::SUCCESS)
 }

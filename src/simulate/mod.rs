@@ -197,7 +197,7 @@ impl PhaseError {
     /// Whether it was refused, rather than broken down.
     #[must_use]
     pub fn is_misuse(&self) -> bool {
-        matches!(self.source, Error::UnsupportedBodies { .. } | Error::Steps { .. } | Error::ContinuousMemory)
+        matches!(self.source, Error::UnsupportedBodies { .. } | Error::ContinuousMemory)
     }
 
     fn hint(&self) -> &'static str {

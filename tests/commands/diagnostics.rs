@@ -228,6 +228,12 @@ const SCENARIO_EDITS: &[Edit] = &[
         ],
     ),
     ("radius = 0.5", "radius = 0.5\nposition = [3e9, 0]", 17, &["`target[0].position` is [3e9, 0]", "nearer origin"]),
+    (
+        "contact = [0.0, 0.5]",
+        "contact = [0.0, 1e8]",
+        15,
+        &["`target[0].contact` is [0.0, 1e8]", "1.000e8 m from the COM", "at most 2.500e6 m"],
+    ),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [1e60, 0, 0]", 5, &["`initial.base_twist[0]` is 1e60", "1e-100 to 1e9"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [0, 0, -3e8]", 5, &["`initial.base_twist[2]` is -3e8", "2.99792458e8"]),

@@ -120,12 +120,23 @@ fn a_derived_graph_serves_its_structure() {
     assert!(err.starts_with("dynamics: generic") && summary["dynamics"] == "generic", "other zeros: {err}");
     fs::write(&layout, &text).expect("written");
     let graphs = fs::read_dir(folder.path().join("graphs")).expect("a folder");
-    let [graph] =
-        <[_; 1]>::try_from(graphs.map(|entry| entry.expect("a file").path()).collect::<Vec<_>>()).expect("one");
+    let mut graphs: Vec<_> = graphs.map(|entry| entry.expect("a file").path()).collect();
+    graphs.sort();
+    let [graph, hash] = <[_; 2]>::try_from(graphs).expect("a graph and its hash");
+    let proved = fs::read_to_string(&hash).expect("a hash");
     let whole = fs::read_to_string(&graph).expect("a graph");
     let carried = fs::read_to_string(file("codegen/structures/general_2x3.json")).expect("a graph");
-    for (found, problem) in [(&whole[..1000], "not JSON"), (&carried, "another structure")] {
+    let damaged = whole.replacen("\"mul\"", "\"add\"", 1);
+    assert_ne!(damaged, whole, "no product in the graph");
+    let hash_of = |text: &str| planar_capture::layout::sha256(text);
+    for (found, of, problem) in [
+        (&whole[..1000], hash_of(&whole[..1000]), "not JSON"),
+        (&carried, hash_of(&carried), "another structure"),
+        (&damaged, proved.clone(), "not as it was derived and proved"),
+        (&whole, String::new(), "not as it was derived and proved"),
+    ] {
         fs::write(&graph, found).expect("written");
+        fs::write(&hash, of).expect("written");
         let (code, err, summary) = run(&scenario, folder.path(), &[]);
         assert_eq!((code, &summary["dynamics"]), (0, &Value::from("generic")), "{err}");
         assert!(
@@ -136,5 +147,6 @@ fn a_derived_graph_serves_its_structure() {
         assert!(code == 2 && err.contains(problem) && err.contains(".json"), "{err}");
     }
     assert_eq!(derive().0, 0);
-    assert_eq!(fs::read_to_string(&graph).expect("a graph"), whole, "derived again");
+    let [again, its_hash] = [&graph, &hash].map(|file| fs::read_to_string(file).expect("a file"));
+    assert_eq!((again, its_hash), (whole, proved), "derived again");
 }

@@ -26,30 +26,40 @@ use std::thread;
 /// As shells report a command that SIGINT has ended.
 const INTERRUPTED: u8 = 130;
 
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture sweep scenarios/sweeps/uncertain_capture.toml --report
+  planar-capture sweep mine.toml --out shared/mine --shard 2/8
+  planar-capture sweep mine.toml --replay 1234 --report
+
+Exit code: 0 done, and a case without a result is a row with its message; 2 unsuitable input, or results that cannot be \
+written; 130 interrupted, to go on when it is started again.";
+
 /// Compute one case of a scenario many times, with values drawn from distributions.
 ///
 /// Files of cases that are there already are not computed again: a sweep that was interrupted goes on.
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// The sweep file.
     sweep: PathBuf,
     /// Folder for manifest.json, cases/, timing/ and series/ [default: results/NAME, NAME the sweep's].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", help_heading = "Results")]
     out: Option<PathBuf>,
     /// Compute every Nth file of cases only, from the Ith on: for several machines and one folder.
-    #[arg(long, value_name = "I/N", value_parser = shard)]
+    #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Computation")]
     shard: Option<Shard>,
     /// Run the case of this index alone, as `run` does, into DIR/replay/INDEX.
-    #[arg(long, value_name = "INDEX", conflicts_with = "shard")]
+    #[arg(long, value_name = "INDEX", conflicts_with = "shard", help_heading = "Computation")]
     replay: Option<u64>,
     /// Write DIR/report.html too: percentiles, failures, sensitivities, extremes. With --replay: that of the run.
-    #[arg(long)]
+    #[arg(long, help_heading = "Results")]
     report: bool,
     /// The implementation of the dynamics.
-    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
     dynamics: Dynamics,
     /// Threads that compute cases [default: one for each processor].
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", help_heading = "Computation")]
     threads: Option<NonZero<usize>>,
     #[command(flatten)]
     display: Display,

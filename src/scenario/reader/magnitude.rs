@@ -23,6 +23,19 @@ pub(super) fn check_distance(value: &Value<'_>, [x, y]: [f64; 2], layout: Option
     }
 }
 
+/// Rejects a contact point [rx, ry] as far from its target's COM as no outline is.
+pub(super) fn check_contact(value: &Value<'_>, [x, y]: [f64; 2], layout: Option<&Layout>) -> Option<[f64; 2]> {
+    let (distance, reach) = (libm::hypot(x, y), reach(layout));
+    let most = LARGEST * reach;
+    if reach > 0.0 && distance > most {
+        value.reject(&format!(
+            "{distance:.3e} m from the COM, expected at most {most:.3e} m (1e6 times the robot's reach of {reach:.3} m)"
+        ));
+        return None;
+    }
+    Some([x, y])
+}
+
 /// Whether a target's `radius` or `polygon` is not far larger than the robot; rejects it otherwise.
 pub(super) fn check_size(table: &Table<'_>, outline: &Outline, layout: Option<&Layout>) -> bool {
     let (size, reach) = (outline.reach(), reach(layout));

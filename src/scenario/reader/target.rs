@@ -1,7 +1,7 @@
 //! `[[target]]`: the bodies that arms touch.
 
 use super::joints::check_length;
-use super::magnitude::{check_distance, check_mass, check_size};
+use super::magnitude::{check_contact, check_distance, check_mass, check_size};
 use crate::contact::ContactKind;
 use crate::diagnostic::{Table, Value, every, listing};
 use crate::layout::Layout;
@@ -22,7 +22,7 @@ pub(super) fn target(table: &Table<'_>, layout: Option<&Layout>, detection: Dete
         .require_as("arm", "the name of an arm of the layout, or a list of such names")
         .and_then(|value| arms(&value, layout?));
     let count = arms.as_ref().map(Vec::len);
-    let points = contact_points(table, count, detection);
+    let points = contact_points(table, count, layout, detection);
     let kinds = match table.get("kind") {
         Some(value) => contact_kinds(&value, count),
         None => count.map(|count| vec![Some(ContactKind::Rigid); count]),
@@ -118,7 +118,12 @@ fn arm_index(value: &Value<'_>, layout: &Layout) -> Option<usize> {
 }
 
 /// `contact`: one point, or one for each of several arms; zeros where contacts are found by detection.
-fn contact_points(table: &Table<'_>, arms: Option<usize>, detection: Detection) -> Option<Vec<[f64; 2]>> {
+fn contact_points(
+    table: &Table<'_>,
+    arms: Option<usize>,
+    layout: Option<&Layout>,
+    detection: Detection,
+) -> Option<Vec<[f64; 2]>> {
     if detection == Detection::Event {
         if let Some(value) = table.get("contact") {
             value.reject(
@@ -132,12 +137,12 @@ fn contact_points(table: &Table<'_>, arms: Option<usize>, detection: Detection) 
     let items = value.items(POINTS)?;
     let expected = for_each(arms, "a contact point [rx, ry] in m");
     if !items.iter().any(Value::is_array) && (arms == Some(1) || !items.is_empty()) {
-        let point = value.vector()?;
+        let point = check_contact(&value, value.vector()?, layout)?;
         check_length(&value, 1, arms, &expected)?;
         return Some(vec![point]);
     }
     check_length(&value, items.len(), arms, &expected)?;
-    every(items.iter().map(Value::vector))
+    every(items.iter().map(|item| check_contact(item, item.vector()?, layout)))
 }
 
 /// What a list holds, and for how many arms.
