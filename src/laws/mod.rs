@@ -1,7 +1,7 @@
 //! Control laws of a study: those that its scenario names, or one's own in their place, by
 //! [`study_with`](crate::capture::study_with).
 //!
-//! A law is a [`Control`](crate::control::Control): the joint torques in a state. [`TrackingLaw`] and [`PostCaptureLaw`]
+//! A law is a [`Control`]: the joint torques in a state. [`TrackingLaw`] and [`PostCaptureLaw`]
 //! make one for a phase, with its working space and its trajectory: any [`Trajectory`](crate::trajectory::Trajectory) may
 //! take the place of the scenario's, and an [`Estimator`](crate::control::Estimator) that of the state.
 

@@ -4,6 +4,8 @@
 //! Work is counted in evaluations of the derivative, which does not depend on the machine, but for the last bit of its
 //! `pow`.
 
+#![allow(clippy::disallowed_methods, reason = "what is reported has a few digits")]
+
 mod figure;
 mod long_time;
 mod method;
@@ -12,6 +14,7 @@ mod report;
 mod work;
 
 use planar_capture::output::atomic_file::{create_folder, write_text};
+use planar_capture::output::figures::Width;
 use planar_capture::output::figures::draw::svg;
 use std::path::Path;
 use std::process::ExitCode;
@@ -38,8 +41,8 @@ fn compute() -> Result<Vec<(&'static str, String)>, Problem> {
     let motions = long_time::motions()?;
     Ok(vec![
         ("integrators.md", report::write(&works, &motions)?),
-        ("integrators/work_precision.svg", svg(&figure::work_precision(&works))),
-        ("integrators/long_time.svg", svg(&figure::long_time(&motions))),
+        ("integrators/work_precision.svg", svg(&figure::work_precision(&works), Width::Page)),
+        ("integrators/long_time.svg", svg(&figure::long_time(&motions), Width::Page)),
     ])
 }
 
