@@ -101,9 +101,11 @@ fn hints_of_errors() {
     assert!(!misuse && text.ends_with(" (a larger one may help)"), "{text}");
     let (misuse, text) = stopped(Error::Steps { step: 1e-9, needed: 1e10, most: 1e7 });
     assert!(
-        misuse && text.ends_with(" (smaller gains of a control, a shorter step, or a fixed integrator, may help)"),
+        !misuse && text.ends_with(" (smaller gains of a control, a shorter step, or a fixed integrator, may help)"),
         "{text}"
     );
+    let (misuse, text) = stopped(Error::ContinuousMemory);
+    assert!(misuse && text.ends_with("it needs a sample time"), "{text}");
     let (misuse, text) = stopped(Error::StateVector { found: 2 });
     assert!(!misuse && text.ends_with(" (a shorter step, or smaller gains of a control, may help)"), "{text}");
 }
