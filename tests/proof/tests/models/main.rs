@@ -18,4 +18,5 @@ mod not_a_number;
 mod references;
 mod scalars;
 mod single_precision;
+mod strange_masses;
 mod trajectory;

@@ -27,7 +27,8 @@ pub struct Magnitudes {
 }
 
 impl Magnitudes {
-    pub fn new(RegimeSample { layout, instant }: &RegimeSample) -> Self {
+    /// For the twist of a point of the base, in the base's frame from its COM, as the base's coordinates.
+    pub fn about([x, y]: [f64; 2], RegimeSample { layout, instant }: &RegimeSample) -> Self {
         let size = 3 + layout.joints();
         let point = |mass: f64, inertia: f64, levers: &[(usize, f64)], angle: f64| {
             let mut jacobian = Matrix3xX::zeros(size);
@@ -39,11 +40,11 @@ impl Magnitudes {
             Point { mass, inertia, jacobian, angle }
         };
         let yaw = instant.state.base_pose[0].abs();
-        let mut bodies = vec![point(layout.base.mass, layout.base.inertia, &[(0, 0.0)], yaw)];
+        let mut bodies = vec![point(layout.base.mass, layout.base.inertia, &[(0, libm::hypot(x, y))], yaw)];
         let (mut end_effectors, mut last, mut column) = (Vec::new(), Vec::new(), 3);
         for arm in &layout.arms {
             let mut angle = yaw + arm.mount_angle.abs();
-            let mut levers = vec![(0, libm::hypot(arm.mount[0], arm.mount[1]))];
+            let mut levers = vec![(0, libm::hypot(arm.mount[0] - x, arm.mount[1] - y))];
             let mut end = [0.0; 2];
             for link in &arm.links {
                 levers.push((column, 0.0));

@@ -25,15 +25,18 @@ pub struct NaturalSize {
 /// Of every quantity that a sample has; `values` are those of the reference.
 #[must_use]
 pub fn natural_sizes(sample: &RegimeSample, values: &Values) -> BTreeMap<Quantity, NaturalSize> {
-    let at = SizesAt::new(sample, values);
+    let at_com = SizesAt::new([0.0; 2], sample, values);
+    // where forward dynamics balances the base
+    let at_mount = SizesAt::new(sample.layout.arms.first().map_or([0.0; 2], |arm| arm.mount), sample, values);
     let mut all = Sizes::default();
-    at.functions(&mut all);
-    at.momentum(&mut all);
-    at.reduced(&mut all);
-    at.accelerations(&mut all);
+    at_com.functions(&mut all);
+    at_com.momentum(&mut all);
+    at_com.reduced(&mut all);
+    at_mount.accelerations(&mut all);
     if sample.instant.targets.iter().any(Option::is_some) {
-        at.reduced_impact(&mut all);
-        at.capture(&mut all);
+        at_com.reduced_impact(&mut all);
+        at_com.capture(&mut all);
+        at_mount.merged_accelerations(&mut all);
     }
     all.0
 }
@@ -53,9 +56,12 @@ impl Sizes {
     }
 }
 
-/// Magnitudes of everything at one state; hats are left out of the names.
+/// Magnitudes of everything at one state, with the twist of one point of the base as its coordinates; hats are left out of
+/// the names.
 struct SizesAt<'a> {
     sample: &'a RegimeSample,
+    /// The point from the base's COM, inertial axes.
+    point: [f64; 2],
     magnitudes: Magnitudes,
     mass_matrix: DMatrix<f64>,
     end_effector_jacobian: DMatrix<f64>,
@@ -111,15 +117,18 @@ impl SizesAt<'_> {
 }
 
 impl<'a> SizesAt<'a> {
-    fn new(sample: &'a RegimeSample, values: &'a Values) -> Self {
-        let magnitudes = Magnitudes::new(sample);
+    /// `point` in the base's frame.
+    fn new(point: [f64; 2], sample: &'a RegimeSample, values: &'a Values) -> Self {
+        let magnitudes = Magnitudes::about(point, sample);
         let state = &sample.instant.state;
+        let (sine, cosine) = libm::sincos(state.base_pose[0]);
+        let point = [cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]];
         let size = 3 + sample.layout.joints();
         let speeds = state.base_twist.iter().chain(&state.joint_rates).map(|v| v.abs());
         let speeds = DVector::from_iterator(size, speeds);
         let mass_matrix = magnitudes.mass_matrix(size);
         let end_effector_jacobian = magnitudes.end_effector_jacobian(size);
-        Self { sample, magnitudes, mass_matrix, end_effector_jacobian, speeds, values }
+        Self { sample, point, magnitudes, mass_matrix, end_effector_jacobian, speeds, values }
     }
 
     with_quantities!(functions);
@@ -133,6 +142,16 @@ impl<'a> SizesAt<'a> {
         let values = self.value(quantity);
         let size = values.len().isqrt();
         DMatrix::from_row_slice(size, size, values)
+    }
+
+    /// M in these coordinates: `Tᵀ M T` with the base COM's velocity v + ω × -d.
+    fn mass_matrix_of(&self, quantity: Quantity) -> DMatrix<f64> {
+        let matrix = self.matrix(quantity);
+        let mut shift = DMatrix::identity(matrix.nrows(), matrix.nrows());
+        let [x, y] = self.point;
+        shift[(1, 0)] = y;
+        shift[(2, 0)] = -x;
+        shift.transpose() * matrix * shift
     }
 
     fn pose(&self, point: &Point) -> [f64; 3] {
@@ -182,7 +201,8 @@ impl<'a> SizesAt<'a> {
     fn reduced(&self, all: &mut Sizes) {
         let (base, bias, condition) = (self.base(), self.convective_forces(), self.base_condition());
         let in_base = System { sizes: &base, matrix: &base }.norm(&bias.rows(0, 3).into_owned());
-        let bias: Vec<f64> = (3..bias.len()).map(|j| bias[j] + self.root(j) * in_base).collect();
+        let responses = self.base_responses();
+        let bias: Vec<f64> = (3..bias.len()).map(|j| bias[j] + responses[j - 3] * in_base).collect();
         all.solved(Quantity::GeneralizedInertia, rows(&self.reduced_inertia()), condition);
         all.solved(Quantity::GeneralizedBias, bias, condition);
         all.solved(Quantity::GeneralizedJacobian, rows(&self.reduced_jacobian()), condition);
@@ -193,23 +213,37 @@ impl<'a> SizesAt<'a> {
         self.mass_matrix[(j, j)].sqrt()
     }
 
+    /// Sizes of D^½ `I_b⁻¹ I_bm`, one per joint: those of the solution and of what is solved for, √ of M's diagonal entry.
+    fn base_responses(&self) -> Vec<f64> {
+        let matrix = self.matrix(Quantity::MassMatrix);
+        let base = matrix.view((0, 0), (3, 3)).into_owned();
+        let Some(factor) = base.cholesky() else { return vec![f64::INFINITY; self.speeds.len() - 3] };
+        let of_joint = |j: usize| {
+            let response = factor.solve(&matrix.view((0, j), (3, 1)));
+            self.root(j) + (0..3).map(|k| (self.root(k) * response[k]).powi(2)).sum::<f64>().sqrt()
+        };
+        (3..self.speeds.len()).map(of_joint).collect()
+    }
+
     fn reduced_inertia(&self) -> DMatrix<f64> {
         let joints = self.speeds.len() - 3;
         DMatrix::from_fn(joints, joints, |j, k| self.root(3 + j) * self.root(3 + k))
     }
 
     fn reduced_jacobian(&self) -> DMatrix<f64> {
-        let jacobian = &self.end_effector_jacobian;
-        DMatrix::from_fn(jacobian.nrows(), self.speeds.len() - 3, |row, j| {
+        let (jacobian, responses) = (&self.end_effector_jacobian, self.base_responses());
+        DMatrix::from_fn(jacobian.nrows(), responses.len(), |row, j| {
             let of_base: f64 = (0..3).map(|k| jacobian[(row, k)] / self.root(k)).sum();
-            jacobian[(row, 3 + j)] + of_base * self.root(3 + j)
+            jacobian[(row, 3 + j)] + of_base * responses[j]
         })
     }
 
     /// |F| + |bias|.
     fn forces(&self) -> DVector<f64> {
         let instant = &self.sample.instant;
-        let wrench = instant.base_wrench.unwrap_or_default();
+        let [n, fx, fy] = instant.base_wrench.unwrap_or_default().map(f64::abs);
+        let [x, y] = self.point.map(f64::abs);
+        let wrench = [n + y * fx + x * fy, fx, fy];
         let forces = wrench.iter().chain(&instant.joint_torques).map(|force| force.abs());
         let forces = DVector::from_iterator(self.speeds.len(), forces) + self.convective_forces();
         let wrenches = instant.end_effector_wrenches.iter().flatten();
@@ -218,7 +252,7 @@ impl<'a> SizesAt<'a> {
     }
 
     fn accelerations(&self, all: &mut Sizes) {
-        let matrix = self.matrix(Quantity::MassMatrix);
+        let matrix = self.mass_matrix_of(Quantity::MassMatrix);
         let system = System { sizes: &self.mass_matrix, matrix: &matrix };
         self.solution(&system, &self.forces(), [Quantity::BaseAcceleration, Quantity::JointAccelerations], all);
     }
@@ -232,7 +266,17 @@ impl<'a> SizesAt<'a> {
         all: &mut Sizes,
     ) -> DVector<f64> {
         let condition = system.condition();
-        let sizes = system.solution_sizes(right, &quantities.map(|part| self.value(part)).concat());
+        let [x, y] = self.point;
+        let mut solution = quantities.map(|part| self.value(part)).concat();
+        if let [omega, vx, vy, ..] = solution.as_mut_slice() {
+            *vx -= *omega * y;
+            *vy += *omega * x;
+        }
+        let mut sizes = system.solution_sizes(right, &solution);
+        if let [omega, vx, vy, ..] = sizes.as_mut_slice() {
+            *vx += *omega * y.abs();
+            *vy += *omega * x.abs();
+        }
         let (base, joints) = sizes.split_at(3);
         all.solved(quantities[0], base, condition);
         all.solved(quantities[1], joints, condition);
@@ -252,7 +296,7 @@ impl<'a> SizesAt<'a> {
         all.solved(Quantity::ImpactJointRates, after, base * system.condition());
     }
 
-    /// The exact capture, then the robot that holds its targets: its mass matrix is M + `J_eᵀ N J_e`.
+    /// The exact capture, and the inertias of the robot that holds its targets: its mass matrix is M + `J_eᵀ N J_e`.
     fn capture(&self, all: &mut Sizes) {
         let (mut sizes, mut momentum) = (self.mass_matrix.clone(), &self.mass_matrix * &self.speeds);
         self.add_contacts(&self.end_effector_jacobian, &mut sizes, &mut momentum);
@@ -264,19 +308,26 @@ impl<'a> SizesAt<'a> {
         let [twists, impulses] = self.targets(&speeds);
         all.solved(Quantity::CaptureTargetTwists, twists, condition);
         all.solved(Quantity::CaptureImpulses, impulses, condition);
-        let mut forces = self.forces();
-        for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
-            if let Some(target) = target {
-                forces += convective(target.mass, &captured(target, &point.jacobian), &self.speeds);
-            }
-        }
-        let accelerations = [Quantity::MergedBaseAcceleration, Quantity::MergedJointAccelerations];
-        self.solution(&system, &forces, accelerations, all);
         let roots = sizes.diagonal().map(f64::sqrt);
         let mass_matrix = &roots * roots.transpose();
         all.direct(Quantity::CaptureMomentum, (&mass_matrix * &speeds).as_slice());
         all.direct(Quantity::MergedBodyInertias, self.merged_inertias());
         all.direct(Quantity::MergedMassMatrix, rows(&mass_matrix));
+    }
+
+    /// Accelerations of the robot that holds its targets.
+    fn merged_accelerations(&self, all: &mut Sizes) {
+        let (mut sizes, mut forces) = (self.mass_matrix.clone(), self.forces());
+        self.add_contacts(&self.end_effector_jacobian, &mut sizes, &mut DVector::zeros(self.speeds.len()));
+        for (point, target) in self.magnitudes.end_effectors.iter().zip(&self.sample.instant.targets) {
+            if let Some(target) = target {
+                forces += convective(target.mass, &captured(target, &point.jacobian), &self.speeds);
+            }
+        }
+        let matrix = self.mass_matrix_of(Quantity::MergedMassMatrix);
+        let system = System { sizes: &sizes, matrix: &matrix };
+        let accelerations = [Quantity::MergedBaseAcceleration, Quantity::MergedJointAccelerations];
+        self.solution(&system, &forces, accelerations, all);
     }
 
     /// Twists after the capture and impulses, from the sizes of the velocities after it.
