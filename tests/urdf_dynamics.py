@@ -3,7 +3,8 @@
 Every shipped layout and those of tests/urdf are exported and loaded by Pinocchio and by MuJoCo, each with its own
 parser. tests/urdf/clutter.urdf is imported, and the original is loaded by Pinocchio. Compared are accelerations under
 torques and a base wrench, in the paper's coordinates (the twist of the base's centre of mass, inertial axes), and
-positions of the end effectors.
+positions of the end effectors. Of tests/urdf/spatial.urdf a subtree with joints that are held is imported; Pinocchio
+locks the same joints.
 
     PYTHON=$(python3 -m codegen.environment --reference)
     PYTHONPATH=. $PYTHON tests/urdf_dynamics.py [planar-capture, or another command that runs it]
@@ -17,6 +18,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -32,6 +34,23 @@ SEED = 2017
 ACCELERATION = 1e-11
 # m and rad: sums of link vectors.
 TIP = 1e-13
+# Of a file: the link that is taken as the base, and the positions at which joints are held.
+PARTS = {
+    "spatial": (
+        "torso",
+        {
+            "neck": -0.4,
+            "left_yaw": 0.3,
+            "left_slide": 0.12,
+            "left_roll": 0.0,
+            "left_wrist_roll": 0.0,
+            "right_yaw": 0.3,
+            "right_slide": 0.05,
+            "right_roll": np.pi,
+            "right_wrist_roll": 0.0,
+        },
+    )
+}
 
 
 def draw(layout: Layout, random: np.random.Generator) -> dict:
@@ -136,7 +155,7 @@ class MuJoCo:
 class Original:
     """An original URDF in Pinocchio, on a base that moves in the plane of the import."""
 
-    def __init__(self, urdf: str, header: str):
+    def __init__(self, urdf: str, header: str, held: dict[str, float]):
         def triple(name):
             return np.array(json.loads(re.search(rf"{name} (\[.*?\])", header).group(1)))
 
@@ -149,7 +168,12 @@ class Original:
             pin.JointModelRevoluteUnaligned(self.normal),
         ):
             base.addJoint(joint)
-        self.model = pin.buildModelFromXML(urdf, base)
+        model = pin.buildModelFromXML(urdf, base)
+        configuration = pin.neutral(model)
+        for name, position in held.items():
+            joint = model.joints[model.getJointId(name)]
+            configuration[joint.idx_q : joint.idx_q + joint.nq] = coordinate(joint, position)
+        self.model = pin.buildReducedModel(model, [model.getJointId(name) for name in held], configuration)
         self.model.gravity = pin.Motion.Zero()
         self.data = self.model.createData()
         rows = re.findall(r"^#   arm `.*`, joint \d+ = (-?)`(.*)`(?: ([+-]) (\S+) rad)?; moves", header, re.MULTILINE)
@@ -184,6 +208,25 @@ class Original:
         return np.array([found[2], *linear, *joints]), [np.array([self.x @ p, self.y @ p]) for p in places]
 
 
+def below(urdf: str, link: str) -> str:
+    """The file with this link as its root."""
+    robot = ElementTree.fromstring(urdf)
+    joints = {
+        (joint.find("parent").get("link"), joint.find("child").get("link")): joint for joint in robot.iter("joint")
+    }
+    kept, new = set(), {link}
+    while new:
+        kept |= new
+        new = {child for parent, child in joints if parent in kept} - kept
+    for element in robot.findall("link"):
+        if element.get("name") not in kept:
+            robot.remove(element)
+    for (parent, _), joint in joints.items():
+        if parent not in kept:
+            robot.remove(joint)
+    return ElementTree.tostring(robot, encoding="unicode")
+
+
 def relative(found: list[np.ndarray], results: list[dict]) -> float:
     """Largest difference, each entry relative to its own largest value, so that a heavy base counts equally."""
     wanted = np.array([result["base_acceleration"] + result["joint_accelerations"] for result in results])
@@ -210,11 +253,15 @@ def exported(product: Product, path: Path, random: np.random.Generator) -> list[
 
 def imported(product: Product, path: Path, random: np.random.Generator) -> list[float]:
     """Largest errors: accelerations and end effectors by Pinocchio with the original file."""
+    root, held = PARTS.get(path.stem, (None, {}))
+    part = ["--subtree", root] if root else []
+    part += [f"--fix={name}={position!r}" for name, position in held.items()]
+    urdf = path.read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "layout.toml"
-        product.run("import", str(path), "--out", str(target))
+        product.run("import", str(path), *part, "--out", str(target))
         layout = read(target)
-        original = Original(path.read_text(encoding="utf-8"), target.read_text(encoding="utf-8"))
+        original = Original(below(urdf, root) if root else urdf, target.read_text(encoding="utf-8"), held)
         states = [draw(layout, random) for _ in range(STATES)]
         results = product.evaluate(target, states)
     found, tips = zip(*map(original.accelerations, states), strict=True)

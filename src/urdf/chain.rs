@@ -47,7 +47,7 @@ pub(super) fn serial_chain(
                 return Err(UrdfError::link(
                     tree.link_name(group.link),
                     format!("the arm branches here, with the joints {}", names.join(", ")),
-                    "only the base of a layout has branches: make all but one of them fixed",
+                    "only the base of a layout has branches: fix all but one of them, with `--fix JOINT=ANGLE`",
                 ));
             }
         }
@@ -71,7 +71,8 @@ fn step(
             &tree.joint(joint).name,
             format!("its axis [{x:?}, {y:?}, {z:?}] is {tilt:.6} rad off the normal of the plane"),
             format!(
-                "all axes must be parallel, to {:?} rad, with all joints at zero (a missing <axis> is x)",
+                "all axes must be parallel, to {:?} rad, with all joints at zero (a missing <axis> is x); `--fix JOINT=ANGLE` holds \
+                 a joint, `--subtree LINK` takes only what a link carries",
                 super::plane::MAX_TILT
             ),
         ));
@@ -96,11 +97,17 @@ pub(super) fn axis(tree: &Tree, joint: usize) -> Result<Unit<Vector3<f64>>, Urdf
     let problem = |found: String, wanted: &str| UrdfError::joint(&joint.name, found, wanted);
     if !matches!(joint.kind, JointKind::Revolute | JointKind::Continuous) {
         let found = format!("it is {}, from `{}` to `{}`", joint.kind.name(), joint.parent, joint.child);
-        return Err(problem(found, "a layout has only revolute joints: expected revolute, continuous or fixed"));
+        return Err(problem(
+            found,
+            "a layout has only revolute joints: expected revolute, continuous or fixed; `--fix JOINT=POSITION` holds a joint",
+        ));
     }
     if let Some(mimic) = &joint.mimic {
         let found = format!("it mimics joint `{mimic}`");
-        return Err(problem(found, "joints of a layout are independent: make it fixed, or remove <mimic>"));
+        return Err(problem(
+            found,
+            "joints of a layout are independent: fix it with `--fix JOINT=ANGLE`, or remove <mimic>",
+        ));
     }
     Unit::try_new(Vector3::from(joint.axis.unwrap_or(DEFAULT_AXIS)), 0.0)
         .ok_or_else(|| problem("its axis is [0, 0, 0]".to_owned(), "expected a direction"))

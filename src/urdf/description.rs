@@ -39,6 +39,8 @@ pub(super) struct Joint {
     pub(super) name: String,
     pub(super) kind: JointKind,
     pub(super) origin: Pose,
+    /// Of the child in the frame at the origin, where the joint is held.
+    pub(super) motion: Option<IsometryMatrix3<f64>>,
     pub(super) parent: String,
     pub(super) child: String,
     /// [`DEFAULT_AXIS`] where `None`.

@@ -8,6 +8,7 @@ use super::link_group::LinkGroup;
 use super::names::{arm_names, layout_name};
 use super::omissions::omissions;
 use super::planar_body::PlanarBody;
+use super::planar_part::{HeldJoint, planar_part};
 use super::plane::{Plane, direction, in_rotated_axes, with_exact_zeros};
 use super::remark::Remark;
 use super::tree::Tree;
@@ -15,18 +16,22 @@ use super::{UrdfError, reader};
 use crate::layout::{Arm, Base, Layout, Link};
 use std::f64::consts::{PI, TAU};
 
-/// Names that the file does not determine.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What the file does not determine.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportOptions {
     /// The name of the layout; by default that of the robot.
     pub name: Option<String>,
     /// Links at the end effectors, at most one for each arm.
     pub end_effectors: Vec<String>,
+    /// The link that is the root, with what it carries; by default that of the file.
+    pub subtree: Option<String>,
+    /// Joints that are held, so that the others move in one plane.
+    pub held: Vec<HeldJoint>,
 }
 
 /// Reads a URDF as a free-floating planar robot.
 ///
-/// - The base is the root, or the child of a massless root without a revolute joint (`world`). Fixed joints merge links.
+/// - Only the subtree of the requested link is read, and joints that are to be held are fixed ones. The base is the root, or the child of a massless root without a revolute joint (`world`). Fixed joints merge links.
 ///   Chains from the base are arms, in the order of their first joints in the file.
 /// - The plane's normal is z of the base link if the axes are along ±z, else the axis of the first joint.
 /// - The end effector of an arm is at the requested link, else at the first massless leaf fixed to its last link, else at
@@ -42,11 +47,12 @@ pub fn import(text: &str, options: &ImportOptions) -> Result<ImportedLayout, Urd
 }
 
 fn layout_of(robot: Robot, options: &ImportOptions) -> Result<ImportedLayout, UrdfError> {
+    let mut remarks = Vec::new();
+    let robot = planar_part(robot, options.subtree.as_deref(), &options.held, &mut remarks)?;
     let tree = Tree::new(robot)?;
     let name = layout_name(tree.name(), options.name.as_deref())?;
     let (base_link, passed) = tree.base()?;
     let base = LinkGroup::new(&tree, base_link)?;
-    let mut remarks = Vec::new();
     if let Some(joint) = passed.map(|joint| tree.joint(joint)).filter(|j| j.kind == JointKind::Fixed) {
         let (above, below) = (&joint.parent, &joint.child);
         remarks.push(Remark::note(&format!("`{above}` holds `{below}` in the file; here `{below}` floats freely")));

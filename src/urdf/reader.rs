@@ -128,6 +128,7 @@ impl<'a> Part<'a> {
             damping: loss("damping")?,
             friction: loss("friction")?,
             mimic,
+            motion: None,
         })
     }
 

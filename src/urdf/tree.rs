@@ -121,7 +121,8 @@ impl Tree {
 
     /// From the frame of the child link, at joint angle 0, to that of the parent link.
     pub(super) fn origin(&self, joint: usize) -> IsometryMatrix3<f64> {
-        self.joint(joint).origin.isometry()
+        let joint = self.joint(joint);
+        joint.motion.map_or(joint.origin.isometry(), |motion| joint.origin.isometry() * motion)
     }
 
     /// The base: the root, or the child of a massless root (`world`) with one joint that is not revolute. Also the last

@@ -30,6 +30,7 @@ mod study_errors;
 mod sweep;
 mod terminal;
 mod urdf;
+mod urdf_parts;
 mod urdf_xml;
 
 use std::process::Command;

@@ -55,7 +55,10 @@ fn changed(from: &str, to: &str) -> String {
 }
 
 fn options(end_effectors: &[&str]) -> ImportOptions {
-    ImportOptions { name: None, end_effectors: end_effectors.iter().map(|&name| name.to_owned()).collect() }
+    ImportOptions {
+        end_effectors: end_effectors.iter().map(|&name| name.to_owned()).collect(),
+        ..ImportOptions::default()
+    }
 }
 
 fn imported(text: &str) -> ImportedLayout {
