@@ -18,7 +18,7 @@ use planar_capture::trajectory::{PointToPoint, Quartic};
 use std::f64::consts::PI;
 use std::path::Path;
 
-const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/raina_shah_2017.toml");
+const SCENARIO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenarios/raina_shah_2017.toml");
 
 /// Model and scenario of the motions.
 pub struct Problems {

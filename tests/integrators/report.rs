@@ -11,7 +11,7 @@ const ERRORS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 const HEAD: &str = "# Integrators
 
-<!-- Written by `cargo run --release --manifest-path benches/integrators/Cargo.toml`; `-- --check` compares. -->
+<!-- Written by `PLANAR_CAPTURE_WRITE=1 cargo test --features figures --test integrators`; without the variable it compares. -->
 
 `integrator` and `coordinates` in `[approach]` and `[post_impact]` select the integration of a phase. This page compares them
 on the paper's robot by evaluations of the derivative; time would depend on the machine. They include those of the second
