@@ -1,0 +1,108 @@
+"""Makes pages of chapters, for mdBook: links between files of the repository, pictures and formulas.
+
+A chapter that only includes a file of the repository has the links of that file. Links to a file that is a chapter
+lead to it, those to other files become the path in the repository, and SVG pictures are put into the page. In the other
+chapters $...$ and $$...$$ are TeX, which becomes MathML. Code is left alone.
+
+    python3 preprocessor.py supports html
+    python3 preprocessor.py <BOOK.json
+"""
+
+import base64
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+from formulas import with_formulas
+
+FOLDER = Path(__file__).resolve().parent
+SOURCE, ROOT = FOLDER / "src", FOLDER.parent.parent
+CODE = re.compile(r"^(```|~~~)[^\n]*\n.*?^\1[^\n]*$|`[^`\n]+`", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
+INCLUDE = re.compile(r"\{\{#include ([^}]+)\}\}\s*")
+EXTERNAL = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
+
+
+def origin(chapter):
+    """The file that a chapter's text is in: its own, or the only thing that it includes."""
+    path = SOURCE / chapter
+    included = INCLUDE.fullmatch(path.read_text(encoding="utf-8"))
+    return (path.parent / included[1]).resolve() if included else path
+
+
+def outside_code(text, change):
+    """The text, changed everywhere but in code."""
+    parts, end = [], 0
+    for code in CODE.finditer(text):
+        parts += [change(text[end : code.start()]), code[0]]
+        end = code.end()
+    return "".join([*parts, change(text[end:])])
+
+
+def chapters(items):
+    """All chapters with a text, nested ones too."""
+    for item in items:
+        chapter = item.get("Chapter") if isinstance(item, dict) else None
+        if chapter:
+            if chapter["path"]:
+                yield chapter
+            yield from chapters(chapter["sub_items"])
+
+
+class Links:
+    """The links of one chapter."""
+
+    def __init__(self, chapter, pages):
+        self.chapter, self.pages, self.origin = chapter, pages, origin(chapter)
+
+    def replace_all(self, text):
+        return LINK.sub(self.replace, text)
+
+    def replace(self, link):
+        picture, text, target = link.groups()
+        if EXTERNAL.match(target) or target.startswith("#"):
+            return link[0]
+        path, _, anchor = target.partition("#")
+        file = (self.origin.parent / path).resolve()
+        if not file.exists() or not file.is_relative_to(ROOT):
+            sys.exit(f"{self.origin.relative_to(ROOT)}: {target} does not exist")
+        if picture:
+            if file.suffix != ".svg":
+                sys.exit(f"{self.origin.relative_to(ROOT)}: {target} is no SVG")
+            return f"![{text}](data:image/svg+xml;base64,{base64.b64encode(file.read_bytes()).decode()})"
+        page = self.pages.get(file)
+        if page is None:
+            name = str(file.relative_to(ROOT))
+            return f"`{name}`" if text.strip("`") in (path, name) else f"{text} (`{name}`)"
+        relative = os.path.relpath(page, os.path.dirname(self.chapter) or ".")
+        return f"[{text}]({relative}{'#' + anchor if anchor else ''})"
+
+
+def main():
+    if sys.argv[1:2] == ["supports"]:
+        sys.exit(sys.argv[2] != "html")
+    _, book = json.load(sys.stdin)
+    found = list(chapters(book.get("sections", book.get("items"))))
+    pages = {}
+    for chapter in found:
+        for file in (SOURCE / chapter["path"], origin(chapter["path"])):
+            pages.setdefault(file, chapter["path"])
+    for chapter in found:
+        links = Links(chapter["path"], pages)
+        if links.origin.is_relative_to(SOURCE):
+            chapter["content"] = with_formulas(chapter["content"], chapter["path"], outside_code)
+        # a link may contain code
+        chapter["content"] = outside_fences(chapter["content"], links.replace_all)
+    json.dump(book, sys.stdout)
+
+
+def outside_fences(text, change):
+    """The text, changed everywhere but in blocks of code."""
+    parts = re.split(r"(^(?:```|~~~)[^\n]*\n.*?^(?:```|~~~)[^\n]*$)", text, flags=re.MULTILINE | re.DOTALL)
+    return "".join(part if i % 2 else change(part) for i, part in enumerate(parts))
+
+
+if __name__ == "__main__":
+    main()
