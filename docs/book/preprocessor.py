@@ -20,7 +20,7 @@ from formulas import with_formulas
 FOLDER = Path(__file__).resolve().parent
 SOURCE, ROOT = FOLDER / "src", FOLDER.parent.parent
 CODE = re.compile(r"^(```|~~~)[^\n]*\n.*?^\1[^\n]*$|`[^`\n]+`", re.MULTILINE | re.DOTALL)
-LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
+LINK = re.compile(r"(!?)\[((?:`[^`\n]*`|[^\[\]`]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
 INCLUDE = re.compile(r"\{\{#include ([^}]+)\}\}\s*")
 EXTERNAL = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
 

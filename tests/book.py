@@ -1,0 +1,171 @@
+"""Checks the book: its pages, the names that it gives of the source, and the commands of its tutorials.
+
+    python3 tests/book.py pages target/book
+    python3 tests/book.py names
+    python3 tests/book.py commands PLANAR-CAPTURE [CHAPTER.md]
+
+- Pages: every link and picture leads to a file and an anchor that are there, nothing is loaded from a network, no TeX is
+  left.
+- Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book exist.
+- Commands: a block of code after `<!-- run -->` has lines `$ COMMAND` with what the command prints, where `...` stands
+  for any lines; one after `<!-- file NAME -->` is that file. The blocks of a chapter are run in one folder, which is
+  removed. `<!-- run 1 -->` is for commands that exit with 1.
+"""
+
+import argparse
+import html.parser
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCE = ROOT / "docs" / "book" / "src"
+MARK = re.compile(r"^<!-- (run|file)(?: ([^ ]+))? -->\n+```[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+NAME = re.compile(r"`((?:\.ci|codegen|crates|src|tests|examples|scenarios|python)/[\w./-]*[\w/])(?:::([\w.]+))?`")
+LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
+
+
+class Page(html.parser.HTMLParser):
+    """Anchors, links and text of one page."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.anchors, self.links, self.loaded, self.text = set(), [], [], []
+        self.code = 0
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.anchors.update(attributes[key] for key in ("id", "name") if attributes.get(key))
+        if tag == "a" and attributes.get("href"):
+            self.links.append(attributes["href"])
+        if attributes.get(LOADED.get(tag)) and attributes.get("rel") != "canonical":
+            self.loaded.append(attributes[LOADED[tag]])
+        self.code += tag in ("code", "script", "style")
+
+    def handle_endtag(self, tag):
+        self.code -= tag in ("code", "script", "style")
+
+    def handle_data(self, data):
+        if not self.code:
+            self.text.append(data)
+
+
+def pages(folder):
+    """What is wrong with the pages of a folder."""
+    found = {path: Page(path) for path in sorted(folder.rglob("*.html"))}
+    if not found:
+        yield f"{folder}: no pages"
+    for path, page in found.items():
+        name = path.relative_to(folder)
+        text = "".join(page.text)
+        for rest in re.findall(r"\$\$|\$\\\w+|\{\{#\w+", text):
+            yield f"{name}: {rest} is left in the text"
+        if path.name in ("404.html", "toc.html"):
+            continue  # their links are from the root of a site
+        for target in page.loaded + page.links:
+            url = urllib.parse.urlsplit(target)
+            if url.scheme or url.netloc:
+                if target in page.loaded and url.scheme != "data":
+                    yield f"{name}: loads {target}"
+                continue
+            file = (path.parent / urllib.parse.unquote(url.path)).resolve() if url.path else path
+            if file.is_dir():
+                file = file / "index.html"
+            if not file.exists():
+                yield f"{name}: {target} does not exist"
+            elif url.fragment and file in found and urllib.parse.unquote(url.fragment) not in found[file].anchors:
+                yield f"{name}: {target} has no such anchor"
+
+
+def names():
+    """Files and names in them that the book gives and that do not exist."""
+    for chapter in sorted(SOURCE.rglob("*.md")):
+        for path, name in NAME.findall(chapter.read_text(encoding="utf-8")):
+            place = f"{chapter.relative_to(ROOT)}: {path}{'::' + name if name else ''}"
+            if not (ROOT / path).exists():
+                yield f"{place}: no such file"
+            elif name:
+                text = (ROOT / path).read_text(encoding="utf-8")
+                for part in name.split("."):
+                    if not re.search(rf"\b(?:def|class|fn|struct|enum|trait|const|type|static) {part}\b", text):
+                        yield f"{place}: no {part} there"
+
+
+def commands(program, chapters):
+    """Commands of the tutorials that fail or print something else."""
+    count = 0
+    for chapter in chapters:
+        blocks = MARK.findall(chapter.read_text(encoding="utf-8"))
+        with tempfile.TemporaryDirectory() as folder:
+            work, tools = Path(folder) / "work", Path(folder) / "bin"
+            work.mkdir()
+            tools.mkdir()
+            (tools / "planar-capture").symlink_to(program.resolve())
+            environment = dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}", HOME=folder, LC_ALL="C.UTF-8")
+            for kind, argument, text in blocks:
+                if kind == "file":
+                    (work / argument).parent.mkdir(parents=True, exist_ok=True)
+                    (work / argument).write_text(text, encoding="utf-8")
+                    continue
+                for command, wanted in re.findall(r"^\$ ([^\n]*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+                    count += 1
+                    ran = subprocess.run(
+                        ["bash", "-c", command],
+                        cwd=work,
+                        env=environment,
+                        stdout=subprocess.PIPE,
+                        stderr=subprocess.STDOUT,
+                        text=True,
+                    )
+                    place = f"{chapter.relative_to(ROOT)}: {command}"
+                    if ran.returncode != int(argument or 0):
+                        yield f"{place}: exit code {ran.returncode}\n{ran.stdout}"
+                    elif not matches(wanted, ran.stdout):
+                        yield f"{place}: prints\n{ran.stdout}"
+    print(f"book: {count} commands")
+
+
+def matches(wanted, found):
+    """Whether an output is as wanted, with `...` for any lines."""
+    parts = re.split(r"^\.\.\.\n", wanted, flags=re.MULTILINE)
+    pattern = r"(?:.*\n)*".join(re.escape(part) for part in parts)
+    return re.fullmatch(pattern, trimmed(found)) is not None or trimmed(wanted) == trimmed(found)
+
+
+def trimmed(text):
+    """Without spaces at the ends of lines and empty lines at the end."""
+    lines = [line.rstrip() for line in text.splitlines()]
+    while lines and not lines[-1]:
+        lines.pop()
+    return "".join(line + "\n" for line in lines)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    actions = arguments.add_subparsers(dest="action", required=True)
+    actions.add_parser("pages").add_argument("folder", type=Path)
+    actions.add_parser("names")
+    run = actions.add_parser("commands")
+    run.add_argument("program", type=Path)
+    run.add_argument("chapters", type=Path, nargs="*")
+    given = arguments.parse_args()
+    if given.action == "pages":
+        wrong = pages(given.folder.resolve())
+    elif given.action == "names":
+        wrong = names()
+    else:
+        chapters = [path.resolve() for path in given.chapters] or sorted(SOURCE.rglob("*.md"))
+        wrong = commands(given.program, chapters)
+    wrong = list(wrong)
+    for line in wrong:
+        print(f"book: {line}")
+    sys.exit(bool(wrong))
+
+
+if __name__ == "__main__":
+    main()
