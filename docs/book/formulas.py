@@ -6,6 +6,7 @@ import sys
 
 BLOCK = re.compile(r"\$\$(.+?)\$\$", re.DOTALL)
 INLINE = re.compile(r"\$([^$\n]+)\$")
+MATRIX = re.compile(r"<mo[^>]*>(?:\[|&#x0005B;)</mo><mtable([^>]*)>(.*?)</mtable><mo[^>]*>(?:\]|&#x0005D;)</mo>")
 TAG = re.compile(r"\\tag\{([^}]+)\}")
 
 
@@ -31,6 +32,7 @@ def math(tex, display, name):
         formula = convert(" ".join(tex.split()), display=display)
     except Exception as error:
         sys.exit(f"{name}: {tex!r}: {error!r}")
+    formula = MATRIX.sub(r'<mtable class="matrix"\1>\2</mtable>', formula)
     # Markdown reads between the tags
     return re.sub(
         r">([^<]*)<", lambda text: ">" + re.sub(r"[\\`*_\[\]$]", lambda c: f"&#{ord(c[0])};", text[1]) + "<", formula
