@@ -15,19 +15,31 @@ pub fn page(file: FileFormat) -> String {
     page
 }
 
+/// The tables that have a section, with its path.
+type Sections = Vec<(&'static TableFormat, String)>;
+
+/// The path of a table's section, where it has one.
+fn known(done: &Sections, table: &'static TableFormat) -> Option<String> {
+    done.iter().find(|(known, _)| std::ptr::eq(*known, table)).map(|(_, path)| path.clone())
+}
+
 /// The sections of a table, and of those in it that have none yet; `path` is that of its header.
-fn section(page: &mut String, path: &str, table: &'static TableFormat, done: &mut Vec<&'static TableFormat>) {
-    if done.iter().any(|known| std::ptr::eq(*known, table)) {
+fn section(page: &mut String, path: &str, table: &'static TableFormat, done: &mut Sections) {
+    if known(done, table).is_some() {
         return;
     }
-    done.push(table);
+    done.push((table, path.to_owned()));
     let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
     if !path.is_empty() {
         page.extend(["\n## ", path, "\n"]);
     }
     page.extend(["\n", table.doc, "\n\n| key | value | unit | default | content |\n|---|---|---|---|---|\n"]);
     for key in table.keys {
-        *page += &row(key, &below(key.name));
+        let elsewhere = match key.shape {
+            Shape::Table(inner) | Shape::Tables(inner) => known(done, inner),
+            _ => None,
+        };
+        *page += &row(key, &elsewhere.unwrap_or_else(|| below(key.name)));
     }
     if !table.one_of.is_empty() {
         let names: Vec<_> = table.one_of.iter().map(|name| format!("`{name}`")).collect();
