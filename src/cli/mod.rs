@@ -8,6 +8,7 @@
     reason = "`println!` and `eprintln!` panic where they cannot write: `terminal` prints"
 )]
 
+mod animate;
 mod check;
 mod compare;
 mod completions;
@@ -57,6 +58,7 @@ enum Command {
     Run(run::Arguments),
     #[cfg(feature = "sweep")]
     Sweep(sweep::Arguments),
+    Animate(animate::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
@@ -162,6 +164,7 @@ pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
         Command::Run(arguments) => run::run(&arguments, robots),
         #[cfg(feature = "sweep")]
         Command::Sweep(arguments) => sweep::run(&arguments, robots),
+        Command::Animate(arguments) => animate::run(&arguments, robots),
         Command::Eval(arguments) => eval::run(&arguments, robots),
         Command::Compare(arguments) => compare::run(&arguments, robots),
         Command::Generate(arguments) => generate::run(&arguments, robots),

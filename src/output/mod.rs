@@ -1,5 +1,6 @@
 //! Results of a study as files, and as the table on the console.
 
+pub mod animation;
 pub mod atomic_file;
 pub mod console;
 pub mod figure_kinds;

@@ -3,6 +3,7 @@
 #[cfg(not(feature = "all_layouts"))]
 compile_error!("the tests see every layout: `cargo test` in the root, without `-p`, or with `--features all_layouts`");
 
+mod animate;
 mod c;
 mod check;
 mod closed_output;

@@ -142,7 +142,7 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
 }
 
 /// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
-fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
+pub fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
     let stopped = match error {
         StudyError::Approach(stopped) => Some(("approach", stopped)),
         StudyError::PostImpact { source, .. } => Some(("post_impact", source)),

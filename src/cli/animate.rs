@@ -1,0 +1,86 @@
+//! `planar-capture animate SCENARIO --out FILE.svg`: a moving picture of a case.
+
+use super::dynamics::Dynamics;
+use super::progress::{Display, Progress};
+use super::run::study_error;
+use super::{CommandError, write_new};
+use crate::capture::study;
+use crate::output::animation::{Excerpt, RATE, animation};
+use crate::registry::Robots;
+use crate::scenario::Scenario;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture animate scenarios/stabilised_capture.toml --until 60 --out capture.svg
+  planar-capture animate scenarios/raina_shah_2017.toml --case case3 --seconds 20 --out case3.svg";
+
+/// Write a moving picture of a case, as SVG that browsers play in any page.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The scenario file.
+    #[arg(value_name = "SCENARIO")]
+    scenario: PathBuf,
+    /// The SVG file [default: the standard output].
+    #[arg(long, value_name = "FILE.svg")]
+    out: Option<PathBuf>,
+    /// The case, by its name [default: the first one].
+    #[arg(long, value_name = "NAME")]
+    case: Option<String>,
+    /// How long the picture plays, s, from 1 to 120.
+    #[arg(long, value_name = "SECONDS", default_value = "12", value_parser = seconds)]
+    seconds: f64,
+    /// The end of what is shown, s since the start of the approach [default: the end of the motion].
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    until: Option<f64>,
+    /// The implementation of the dynamics.
+    #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
+    dynamics: Dynamics,
+    #[command(flatten)]
+    display: Display,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
+    if (1.0..=120.0).contains(&value) { Ok(value) } else { Err("expected 1 to 120 s".to_owned()) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }
+}
+
+/// Computes the case alone and writes the picture.
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    let (mut scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
+    if let Some(name) = &arguments.case {
+        let names: Vec<_> = scenario.cases.iter().map(|case| format!("`{}`", case.name)).collect();
+        scenario.cases.retain(|case| case.name == *name);
+        if scenario.cases.is_empty() {
+            let (file, names) = (arguments.scenario.display(), names.join(", "));
+            return Err(CommandError::Usage(format!("{file} has no case `{name}`, expected one of {names}")));
+        }
+    }
+    scenario.cases.truncate(1);
+    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, robots)?;
+    if !arguments.display.quiet {
+        arguments.dynamics.announce(&choice, "");
+    }
+    let after = scenario.post_impact.as_ref().map_or(0.0, |phase| phase.duration);
+    let until = arguments
+        .until
+        .map_or(scenario.approach.duration + after, |until| until.min(scenario.approach.duration + after));
+    let sample = until / (arguments.seconds * RATE);
+    let model = choice.model(&scenario.layout);
+    let mut progress = Progress::new(arguments.display);
+    let result = study(&scenario, &|| model.clone_box(), sample, &mut progress);
+    progress.finish();
+    let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
+    write_new(
+        arguments.out.as_deref(),
+        &animation(&scenario, &study, &study.cases[0], Excerpt { seconds: arguments.seconds, until }),
+    )?;
+    Ok(ExitCode::SUCCESS)
+}

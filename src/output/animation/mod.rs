@@ -1,0 +1,232 @@
+//! A moving picture of a case: an SVG file with animations of its own (SMIL), which browsers play in any page, without a
+//! program or a network.
+
+mod bodies;
+mod clip;
+mod view;
+
+use crate::capture::{CaseResult, Study};
+use crate::frames::poses;
+use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::scene::visuals;
+use crate::output::time_series::{TimeSeriesRow, rows};
+use crate::scenario::Scenario;
+use bodies::{Hold, Motion, colour};
+use clip::{Clip, short};
+use std::fmt::Write as _;
+use view::{View, WIDTH, round_number};
+
+/// Instants per second of the picture.
+pub const RATE: f64 = 12.5;
+/// How long an impulse is seen, s of the picture.
+const IMPULSE_SHOWN: f64 = 1.6;
+/// Of the largest impulse, px.
+const ARROW: f64 = 90.0;
+/// Below the scene, px.
+const RAIL: f64 = 58.0;
+/// Free space at the ends of the axis of time, px.
+const SIDE: f64 = 24.0;
+
+/// Colours as those of the HTML report.
+const STYLE: &str = "\
+:root { --ink: #1c2733; --soft: #5b6b7b; --stage: #fbfcfd; --grid: #e6ebf0; --body: #dfe6ed; --edge: #44525f; --impulse: #b3261e; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e4eaf0; --soft: #9fadba; --stage: #151b21; --grid: #28323b; --body: #33404c; --edge: #a9b7c4; --impulse: #ff8a80; } }
+text { font: 13px system-ui, sans-serif; fill: var(--soft); }
+.stage { fill: var(--stage); } .grid { stroke: var(--grid); fill: none; } .trace { fill: none; stroke-width: 1.5px; opacity: 0.35; }
+.base { fill: var(--body); stroke: var(--edge); stroke-width: 1.5px; } .mark { fill: var(--edge); } .edge { stroke-width: 1.5px; }
+.base, .edge, .body, .joint, .hold { vector-effect: non-scaling-stroke; } .base + .edge { stroke: var(--edge); }
+.body { fill-opacity: 0.16; stroke-width: 1.5px; } .joint { fill: var(--stage); stroke-width: 1.5px; }
+.hold { fill: none; stroke-width: 2.5px; } .impulse { stroke: var(--impulse); stroke-width: 3px; fill: none; }
+.impulse + text, .head { fill: var(--impulse); } .time { stroke: var(--soft); stroke-width: 1px; } .now { fill: var(--ink); }
+";
+
+/// What of a case is shown, and how long that takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excerpt {
+    /// Time to play it, s.
+    pub seconds: f64,
+    /// Since the start of the approach, s: the motion after it is left out.
+    pub until: f64,
+}
+
+/// The picture of a case; empty of what the case has not, as targets or an impact.
+#[must_use]
+pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt: Excerpt) -> String {
+    let Excerpt { seconds, until } = excerpt;
+    let rows = instants(study, case, until);
+    let times: Vec<_> = rows.iter().map(|row| row.time).collect();
+    let clip = Clip::new(&times, seconds);
+    let frames = scenario.frames();
+    let of_row = |row: &TimeSeriesRow<'_>| {
+        let targets: Vec<_> = row.targets.iter().map(|target| target.pose).collect();
+        poses(&frames, &row.sample.state, &targets)
+    };
+    let view = View::new(&frames, &visuals(scenario), &rows.iter().map(of_row).collect::<Vec<_>>());
+    let mut events = impacts(study, case);
+    events.retain(|event| event.time <= until);
+    let still = events.first().map_or(rows.len() - 1, |event| times.partition_point(|time| *time < event.time));
+    let holds: Vec<_> = events.iter().flat_map(holds).collect();
+    let motion =
+        Motion { scenario, frames: &frames, rows: &rows, holds: &holds, clip: &clip, still, scale: view.scale };
+    let height = view.height + RAIL;
+    let title = escaped(&format!(
+        "{}, case {}: {} s, from the approach to the motion after the capture",
+        scenario.name,
+        case.name,
+        times[times.len() - 1]
+    ));
+    let [left, top] = view.offset();
+    let scale = short(view.scale, 4);
+    let (left, top) = (short(left, 2), short(top, 2));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n\
+         <rect class=\"stage\" width=\"{WIDTH}\" height=\"{height}\" rx=\"8\"/>\n\
+         {}{}<g transform=\"matrix({scale} 0 0 -{scale} {left} {top})\">{}</g>\n{}{}</svg>\n",
+        grid(&view),
+        traces(&view, &rows),
+        motion.bodies(),
+        impulses(&view, &clip, &events),
+        rail(&view, &clip, &events, times[times.len() - 1]),
+    )
+}
+
+/// The rows of a case, those of the same time once; the first one at least.
+fn instants<'a>(study: &'a Study, case: &'a CaseResult, until: f64) -> Vec<TimeSeriesRow<'a>> {
+    let mut all: Vec<_> = rows(study, case).take_while(|row| row.time <= until.max(0.0)).collect();
+    all.dedup_by(|later, earlier| later.time <= earlier.time);
+    all
+}
+
+/// The contacts of an impact that hold from then on.
+fn holds(event: &ImpactEvent<'_>) -> Vec<Hold> {
+    let contacts = event.solution.contacts.iter().map(|result| result.contact);
+    contacts
+        .filter(|contact| contact.law.kind().holds())
+        .map(|contact| Hold { arm: contact.arm, since: event.time })
+        .collect()
+}
+
+/// Lines of a round spacing, and what that is.
+fn grid(view: &View) -> String {
+    let spacing = view.spacing();
+    let [across, along] = view.multiples(spacing);
+    let mut lines = String::new();
+    for x in across {
+        let _ = write!(lines, "M{} 0V{}", short(view.pixel([x, 0.0])[0], 1), view.height);
+    }
+    for y in along {
+        let _ = write!(lines, "M0 {}H{WIDTH}", short(view.pixel([0.0, y])[1], 1));
+    }
+    let name = format!("<text x=\"{}\" y=\"20\" text-anchor=\"end\">grid {spacing} m</text>\n", WIDTH - 12.0);
+    format!("<path class=\"grid\" d=\"{lines}\"/>\n{name}")
+}
+
+/// The paths of the end effectors.
+fn traces(view: &View, rows: &[TimeSeriesRow<'_>]) -> String {
+    let arms = rows.first().map_or(0, |row| row.sample.end_effector_poses.len());
+    let path = |arm: usize| {
+        let points = rows.iter().map(|row| {
+            let [_, x, y] = row.sample.end_effector_poses[arm];
+            view.pixel([x, y]).map(|pixel| short(pixel, 1)).join(" ")
+        });
+        let points = points.collect::<Vec<_>>().join("L");
+        format!("<path class=\"trace\" stroke=\"{}\" d=\"M{points}\"/>\n", colour(arm))
+    };
+    (0..arms).map(path).collect()
+}
+
+/// At each impact the impulses on the robot, as arrows with their magnitudes.
+fn impulses(view: &View, clip: &Clip, events: &[ImpactEvent<'_>]) -> String {
+    let contacts = |event: &ImpactEvent<'_>| {
+        let of = |contact: &crate::capture::impact::ContactResult| {
+            let [_, x, y] = event.before.end_effector_poses[contact.contact.arm];
+            let [_, fx, fy] = contact.impulse;
+            ([x, y], [fx, fy], libm::hypot(fx, fy))
+        };
+        event.solution.contacts.iter().map(of).collect::<Vec<_>>()
+    };
+    let most = events.iter().flat_map(contacts).fold(0.0, |most: f64, (.., size)| most.max(size));
+    let mut drawn = String::new();
+    for event in events {
+        let mut arrows = String::new();
+        for (from, force, size) in contacts(event).into_iter().filter(|(.., size)| *size > 1e-9) {
+            let [x, y] = view.pixel(from);
+            let length = (ARROW * size / most).max(16.0);
+            let way = [force[0] / size, -force[1] / size];
+            let [tip_x, tip_y] = [x + length * way[0], y + length * way[1]];
+            let corner = |side: f64| {
+                let [a, b] = [tip_x - 12.0 * way[0] - side * way[1], tip_y - 12.0 * way[1] + side * way[0]];
+                format!("{} {}", short(a, 1), short(b, 1))
+            };
+            let [x, y, ends_x, ends_y] =
+                [x, y, tip_x - 8.0 * way[0], tip_y - 8.0 * way[1]].map(|value| short(value, 1));
+            let (anchor, beside) = if way[0] < 0.0 { ("end", -8.0) } else { ("start", 8.0) };
+            let _ = write!(
+                arrows,
+                "<path class=\"head\" d=\"M{} {}L{}L{}Z\"/><path class=\"impulse\" d=\"M{x} {y}L{ends_x} {ends_y}\"/>\
+                 <text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{} N s</text>",
+                short(tip_x, 1),
+                short(tip_y, 1),
+                corner(5.0),
+                corner(-5.0),
+                short(tip_x + beside, 1),
+                short(tip_y + 4.0, 1),
+                significant(size),
+            );
+        }
+        drawn += &clip.seen(event.time, Some(event.time + IMPULSE_SHOWN * clip.speed()), &arrows);
+        drawn.push('\n');
+    }
+    drawn
+}
+
+/// Three digits.
+fn significant(value: f64) -> String {
+    let before = libm::log10(value.abs()).floor();
+    let digits = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0].iter().position(|count| count + before >= 2.0).unwrap_or(9);
+    format!("{value:.digits$}")
+}
+
+/// The axis of time, with the impacts and where the picture is.
+fn rail(view: &View, clip: &Clip, events: &[ImpactEvent<'_>], end: f64) -> String {
+    let (top, length) = (view.height + 16.0, WIDTH - 2.0 * SIDE);
+    let at = |time: f64| short(SIDE + length * if end > 0.0 { time / end } else { 0.0 }, 1);
+    let mut drawn = format!("<path class=\"time\" d=\"M{SIDE} {top}h{length}\"/>\n");
+    let spacing = round_number(end / 8.0);
+    let mut time = 0.0;
+    while spacing > 0.0 && time <= end * (1.0 + 1e-9) {
+        let anchor = match time {
+            0.0 => "start",
+            time if time > 0.98 * end => "end",
+            _ => "middle",
+        };
+        let _ = write!(
+            drawn,
+            "<path class=\"time\" d=\"M{0} {top}v5\"/><text x=\"{0}\" y=\"{1}\" text-anchor=\"{anchor}\">{2} s</text>",
+            at(time),
+            top + 20.0,
+            short(time, 3)
+        );
+        time += spacing;
+    }
+    for event in events {
+        let _ = write!(drawn, "<path class=\"impulse\" d=\"M{} {}v16\"/>", at(event.time), top - 8.0);
+    }
+    if let Some(event) = events.first() {
+        let _ =
+            write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">impact</text>", at(event.time), top + 36.0);
+    }
+    let speed = format!("{} × real time", significant(clip.speed()).trim_end_matches('0').trim_end_matches('.'));
+    let _ = write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{speed}</text>", WIDTH - SIDE, top + 36.0);
+    let moving = clip.even("cx", &short(length, 1));
+    let _ = write!(
+        drawn,
+        "\n<g transform=\"translate({SIDE} 0)\"><circle class=\"now\" cx=\"0\" cy=\"{top}\" r=\"6\">{moving}</circle></g>\n"
+    );
+    drawn
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
