@@ -2,7 +2,7 @@
 
 use super::Run;
 use super::markdown::{jump, number, point, table};
-use super::printed::IMPULSES;
+use super::printed::{IMPACT_DURATION, IMPULSES};
 use crate::capture::CaptureResult;
 use crate::capture::impact::ImpactResult;
 
@@ -11,6 +11,7 @@ pub(super) fn tables(runs: &[Run; 3]) -> Vec<(&'static str, String)> {
     let [tracked, _, as_printed] = runs;
     vec![
         ("impulses", impulses(runs)),
+        ("mean_forces", mean_forces(tracked)),
         ("balance", balance(tracked)),
         ("balance_as_printed", balance(as_printed)),
         ("differences", differences(tracked)),
@@ -51,6 +52,15 @@ fn impulses(runs: &[Run; 3]) -> String {
         "(7) as printed, literal",
     ];
     table(&head, &rows)
+}
+
+/// The least and the largest mean force of the exact impacts within the paper's duration, N.
+fn mean_forces(run: &Run) -> String {
+    let impulses = captures(run).flat_map(|(_, captured)| captured.impact.exact.impulse_magnitudes());
+    let forces = impulses.flatten().map(|impulse| impulse / IMPACT_DURATION);
+    let (least, most) =
+        forces.fold((f64::MAX, 0.0), |(least, most): (f64, f64), force| (least.min(force), most.max(force)));
+    format!("{} to {}", number(least, 0), number(most, 0))
 }
 
 fn balance(run: &Run) -> String {

@@ -5,6 +5,7 @@ mod markdown;
 mod overlaps;
 mod parameters;
 mod printed;
+mod residuals;
 
 use crate::capture::{Observer, Study, StudyError, study};
 use crate::output::figures::{Figure, Width, draw, figures};
@@ -56,6 +57,9 @@ pub enum ReproductionError {
     /// A computation has no answer.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// An impact has no answer.
+    #[error("the impact: {0}")]
+    Dynamics(#[from] crate::error::Error),
     /// The text of the report cannot be filled in.
     #[error("the report cannot be written: {0}")]
     Template(#[from] tera::Error),
@@ -80,6 +84,8 @@ pub fn reproduce(observer: &mut dyn Observer) -> Result<Reproduction, Reproducti
         values.insert(name, &table);
     }
     values.insert("overlaps", &overlaps::overlaps(tracked));
+    let model = registry::generated(&tracked.scenario.layout)?;
+    values.insert("residuals", &residuals::residuals(tracked, &*model)?);
     let mut templates = tera::Tera::default();
     templates.add_raw_template("report.md", TEMPLATE)?;
     let mut files = vec![("reproduction.md".to_owned(), templates.render("report.md", &values)?)];

@@ -13,3 +13,5 @@ pub(super) const JOINT_ANGLES: [[f64; 6]; 2] =
 pub(super) const END_EFFECTORS: [[[f64; 2]; 2]; 2] = [[[2.9, 0.05], [-2.9, 0.05]], [[2.0, -1.5], [-2.0, 1.5]]];
 /// Table 5: impulses at contact points 1 and 2 in cases 1 to 3, N s.
 pub(super) const IMPULSES: [[f64; 2]; 3] = [[0.0873, 0.0873], [0.0131, 0.0131], [0.0873, 0.0873]];
+/// Section 3, assumption (1): how long an impact takes, s.
+pub(super) const IMPACT_DURATION: f64 = 1e-3;
