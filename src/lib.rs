@@ -67,6 +67,7 @@
 //! ```
 //!
 //! Derivatives: `docs/derivatives.md`; directional ones by [dual numbers](scalar::Dual).
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, reason = "results have the same bits on every processor"))]
 #![cfg_attr(not(feature = "std"), no_std)]
 

@@ -6,6 +6,7 @@
 - No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed.
 - A target with `test = false` has no tests; every nested workspace has its lock committed.
 - A crate with a robot of one's own builds few crates.
+- An exact requirement of a dependency has its reason on the line; Cargo.toml, CITATION.cff and CHANGELOG.md have one version.
 - Modules of a crate, and those of each of its folders, use each other in one direction: no circles.
 """
 
@@ -97,6 +98,23 @@ def untested(packages):
                     yield f"{path}: a test in a target that is not tested ({target['name']} of {package['name']})"
 
 
+def requirements():
+    """Exact requirements without a reason."""
+    for path in tracked("*Cargo.toml"):
+        for number, line in enumerate((ROOT / path).read_text(encoding="utf-8").splitlines(), 1):
+            if re.search(r"""["']=\s*\d""", line) and "#" not in line:
+                yield f"{path}:{number}: an exact requirement without its reason on the line"
+
+
+def versions(packages):
+    """Where the version of the published crates is another."""
+    (version,) = {package["version"] for package in packages if package["name"] in ORDER}
+    for file, pattern in [("CITATION.cff", r"^version: (\S+)"), ("CHANGELOG.md", r"^## ([\d.]+\S*?)(?:,| |$)")]:
+        found = re.search(pattern, (ROOT / file).read_text(encoding="utf-8"), flags=re.M)
+        if not found or found[1] != version:
+            yield f"{file}: the version is {version} in Cargo.toml, and here {found and found[1]}"
+
+
 def place(path, folder):
     """The module of a folder that a file is in: its first part below the folder."""
     return path.relative_to(folder).parts[0].removesuffix(".rs")
@@ -160,7 +178,7 @@ def main():
     """Exit code 1 if there is a violation."""
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
     packages = json.loads(output("cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"))["packages"]
-    problems = [*directions(packages), *untested(packages), *own_robot()]
+    problems = [*directions(packages), *untested(packages), *own_robot(), *requirements(), *versions(packages)]
     problems += [problem for path in tracked("*.rs") for problem in texts(path)]
     locks = set(map(str, tracked("*Cargo.lock")))
     own = [

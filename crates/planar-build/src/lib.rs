@@ -2,6 +2,7 @@
 //! implementation.
 //!
 //! It never contains: a scenario, a simulation, a command line, the text of the Python package.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods, reason = "results have the same bits on every processor"))]
 
 mod command;

@@ -2,6 +2,7 @@
 //! and trajectories on slices and arrays.
 //!
 //! It never contains: std, an allocation, a panic, a computation for one number type alone, access to files, a parser.
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![no_std]
 
 // `core` has no fused multiply-add, and does not know the processor
