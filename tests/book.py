@@ -1,15 +1,20 @@
-"""Checks the book: its pages, the names that it gives of the source, and the commands of its tutorials.
+"""Checks the book: its pages, the names that it gives of the source, and the commands of its tutorials and of README.md.
 
     python3 tests/book.py pages target/book
     python3 tests/book.py names
     python3 tests/book.py commands PLANAR-CAPTURE [CHAPTER.md]
+    cargo run … | python3 tests/book.py shown CHAPTER.md
 
 - Pages: every link and picture leads to a file and an anchor that are there, nothing is loaded from a network, no TeX is
   left.
-- Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book exist.
+- Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book and the texts that they include exist,
+  and so do the files that README.md links to.
 - Commands: a block of code after `<!-- run -->` has lines `$ COMMAND` with what the command prints, where `...` stands
-  for any lines; one after `<!-- file NAME -->` is that file. The blocks of a chapter are run in one folder, which is
-  removed. `<!-- run 1 -->` is for commands that exit with 1.
+  for any lines; one after `<!-- file NAME -->` is that file, and `<!-- files CHAPTER.md -->` stands for those of another
+  chapter. The blocks of a chapter are run in one folder, which is removed, with the scenarios of the repository in it.
+  `<!-- run 1 -->` is for commands that exit with 1. `cargo run --release --` is the given program: what cargo makes of it
+  is checked by `.ci/run` and `.ci/new`.
+- Shown: the output of the one block of a chapter that is not run here is the standard input.
 """
 
 import argparse
@@ -24,7 +29,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "docs" / "book" / "src"
-MARK = re.compile(r"^<!-- (run|file)(?: ([^ ]+))? -->\n+```[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+MARK = re.compile(
+    r"^<!-- (?:(run|file|shown)(?: ([^ ]+))? -->\n+```[^\n]*\n(.*?)^```$|(files) ([^ ]+) -->)", re.MULTILINE | re.DOTALL
+)
+INCLUDED = re.compile(r"\{\{#include ([^}]+\.md)\}\}")
+LINKED = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
 NAME = re.compile(r"`((?:\.ci|codegen|crates|src|tests|examples|scenarios|python)/[\w./-]*[\w/])(?:::([\w.]+))?`")
 LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 
@@ -83,51 +92,98 @@ def pages(folder):
 
 
 def names():
-    """Files and names in them that the book gives and that do not exist."""
-    for chapter in sorted(SOURCE.rglob("*.md")):
-        for path, name in NAME.findall(chapter.read_text(encoding="utf-8")):
-            place = f"{chapter.relative_to(ROOT)}: {path}{'::' + name if name else ''}"
+    """Files and names in them that the book or README.md gives and that do not exist."""
+    texts = sorted(SOURCE.rglob("*.md"))
+    for chapter in list(texts):
+        texts += [(chapter.parent / path).resolve() for path in INCLUDED.findall(chapter.read_text(encoding="utf-8"))]
+    for text in texts:
+        for path, name in NAME.findall(text.read_text(encoding="utf-8")):
+            place = f"{text.relative_to(ROOT)}: {path}{'::' + name if name else ''}"
+            # NAME stands for any name; an example's own text gives its own files
+            if "NAME" in path or (text.parent / path).exists():
+                continue
             if not (ROOT / path).exists():
                 yield f"{place}: no such file"
             elif name:
-                text = (ROOT / path).read_text(encoding="utf-8")
+                source = (ROOT / path).read_text(encoding="utf-8")
                 for part in name.split("."):
-                    if not re.search(rf"\b(?:def|class|fn|struct|enum|trait|const|type|static) {part}\b", text):
+                    if not re.search(rf"\b(?:def|class|fn|struct|enum|trait|const|type|static) {part}\b", source):
                         yield f"{place}: no {part} there"
+    for path in LINKED.findall((ROOT / "README.md").read_text(encoding="utf-8")):
+        if not (ROOT / path).exists():
+            yield f"README.md: {path} does not exist"
+
+
+def blocks(chapter):
+    """Kind, argument and text of the marked blocks of a chapter."""
+    for kind, argument, text, files, other in MARK.findall(chapter.read_text(encoding="utf-8")):
+        if files:
+            yield from (block for block in blocks(chapter.parent / other) if block[0] == "file")
+        else:
+            yield kind, argument, text
+
+
+def shown(text):
+    """The commands of a block with their outputs."""
+    return re.findall(r"^\$ ([^\n]*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
+
+
+class Shell:
+    """A folder in which the commands of one chapter are run."""
+
+    def __init__(self, folder, program):
+        self.place, tools = Path(folder) / "work", Path(folder) / "bin"
+        self.place.mkdir()
+        tools.mkdir()
+        (tools / "planar-capture").symlink_to(program.resolve())
+        (self.place / "scenarios").symlink_to(ROOT / "scenarios")
+        self.environment = dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}", HOME=folder, LC_ALL="C.UTF-8")
+
+    def write(self, name, text):
+        (self.place / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.place / name).write_text(text, encoding="utf-8")
+
+    def run(self, command):
+        """Exit code and output."""
+        if command.startswith("cd "):
+            self.place /= command.removeprefix("cd ")
+            return 0, ""
+        ran = subprocess.run(
+            ["bash", "-c", command.replace("cargo run --release -- ", "planar-capture ")],
+            cwd=self.place,
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        return ran.returncode, ran.stdout
 
 
 def commands(program, chapters):
     """Commands of the tutorials that fail or print something else."""
     count = 0
     for chapter in chapters:
-        blocks = MARK.findall(chapter.read_text(encoding="utf-8"))
         with tempfile.TemporaryDirectory() as folder:
-            work, tools = Path(folder) / "work", Path(folder) / "bin"
-            work.mkdir()
-            tools.mkdir()
-            (tools / "planar-capture").symlink_to(program.resolve())
-            environment = dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}", HOME=folder, LC_ALL="C.UTF-8")
-            for kind, argument, text in blocks:
+            shell = Shell(folder, program)
+            for kind, argument, text in blocks(chapter):
                 if kind == "file":
-                    (work / argument).parent.mkdir(parents=True, exist_ok=True)
-                    (work / argument).write_text(text, encoding="utf-8")
-                    continue
-                for command, wanted in re.findall(r"^\$ ([^\n]*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
+                    shell.write(argument, text)
+                for command, wanted in shown(text) if kind == "run" else ():
                     count += 1
-                    ran = subprocess.run(
-                        ["bash", "-c", command],
-                        cwd=work,
-                        env=environment,
-                        stdout=subprocess.PIPE,
-                        stderr=subprocess.STDOUT,
-                        text=True,
-                    )
+                    code, output = shell.run(command)
                     place = f"{chapter.relative_to(ROOT)}: {command}"
-                    if ran.returncode != int(argument or 0):
-                        yield f"{place}: exit code {ran.returncode}\n{ran.stdout}"
-                    elif not matches(wanted, ran.stdout):
-                        yield f"{place}: prints\n{ran.stdout}"
+                    if code != int(argument or 0):
+                        yield f"{place}: exit code {code}\n{output}"
+                    elif not matches(wanted, output):
+                        yield f"{place}: prints\n{output}"
     print(f"book: {count} commands")
+
+
+def shown_elsewhere(chapter, output):
+    """Whether an output is not what a chapter shows."""
+    wanted = [text for kind, _, block in blocks(chapter) if kind == "shown" for _, text in shown(block)]
+    if len(wanted) != 1 or not matches(wanted[0], output):
+        yield f"{chapter.relative_to(ROOT)}: the command prints\n{output}"
 
 
 def matches(wanted, found):
@@ -150,6 +206,7 @@ def main():
     actions = arguments.add_subparsers(dest="action", required=True)
     actions.add_parser("pages").add_argument("folder", type=Path)
     actions.add_parser("names")
+    actions.add_parser("shown").add_argument("chapter", type=Path)
     run = actions.add_parser("commands")
     run.add_argument("program", type=Path)
     run.add_argument("chapters", type=Path, nargs="*")
@@ -158,8 +215,10 @@ def main():
         wrong = pages(given.folder.resolve())
     elif given.action == "names":
         wrong = names()
+    elif given.action == "shown":
+        wrong = shown_elsewhere(given.chapter.resolve(), sys.stdin.read())
     else:
-        chapters = [path.resolve() for path in given.chapters] or sorted(SOURCE.rglob("*.md"))
+        chapters = [path.resolve() for path in given.chapters] or [ROOT / "README.md", *sorted(SOURCE.rglob("*.md"))]
         wrong = commands(given.program, chapters)
     wrong = list(wrong)
     for line in wrong:

@@ -1,4 +1,4 @@
-//! `summary.json`: the results of a study under the keys that README.md documents.
+//! `summary.json`: the results of a study under the keys that the chapter on results in docs/book documents.
 
 use crate::capture::clearance::{Clearance, LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;

@@ -106,7 +106,7 @@ fn a_drift_of_the_centre_of_mass_is_an_objection() {
 /// Sets a number of a study.
 type Change = fn(&mut Study, f64);
 
-/// Every number that the audit judges: a little over its bound, which README states, or not a number, it is one objection; a little under, none.
+/// Every number that the audit judges: a little over its bound, which the book states, or not a number, it is one objection; a little under, none.
 #[test]
 fn every_audited_number_has_its_bound() {
     let mut scenario = scenario("raina_shah_2017");
