@@ -33,7 +33,7 @@ MARK = re.compile(
     r"^<!-- (?:(run|file|shown)(?: ([^ ]+))? -->\n+```[^\n]*\n(.*?)^```$|(files) ([^ ]+) -->)", re.MULTILINE | re.DOTALL
 )
 INCLUDED = re.compile(r"\{\{#include ([^}]+\.md)\}\}")
-LINKED = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
+LINKED = re.compile(r"(?:\]\(|src=\")([^)#:\"]+)(?:#[^)]*)?[)\"]")
 NAME = re.compile(r"`((?:\.ci|codegen|crates|src|tests|examples|scenarios|python)/[\w./-]*[\w/])(?:::([\w.]+))?`")
 LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 

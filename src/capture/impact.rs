@@ -18,6 +18,7 @@ use crate::target::Target;
 
 /// The impact by both models.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ImpactSolution {
     /// In full coordinates.
     pub exact: ImpactResult,
@@ -31,6 +32,7 @@ pub struct ImpactSolution {
 
 /// One contact, by the exact equations.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactResult {
     /// Target, arm, contact point and law.
     pub contact: ImpactContact,

@@ -69,6 +69,7 @@ pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 
 /// The results of one scenario.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Study {
     /// Of the approach, where end effector twists are given.
     pub terminal_rates: Option<TerminalRates>,
@@ -84,6 +85,7 @@ pub struct Study {
 
 /// The results of one case.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct CaseResult {
     /// Its name.
     pub name: String,
@@ -112,6 +114,7 @@ pub struct LaterImpact {
 
 /// A capture and the motion after it.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CaptureResult {
     /// The first impact, by the exact and the paper's equations.
     pub impact: ImpactSolution,
@@ -129,6 +132,7 @@ pub struct CaptureResult {
 
 /// Why a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// The terminal rates could not be computed.
     #[error(transparent)]

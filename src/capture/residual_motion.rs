@@ -9,6 +9,7 @@ use crate::simulate::system::Body;
 
 /// Momentum and rates of robot and captured targets together.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ResidualMotion {
     /// Name of the control law, as in a scenario.
     pub control: &'static str,

@@ -19,6 +19,7 @@ pub use write::to_json;
 
 /// Why a state cannot be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StateError {
     /// The file cannot be read.
     #[error("cannot be read: {0}")]

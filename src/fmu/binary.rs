@@ -11,6 +11,7 @@ const OPTIONS: [&str; 6] = ["-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-s
 
 /// Why there is no binary.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum BinaryError {
     /// FMI has no name for this platform.
     #[error("FMI has no name for {architecture}-{system}", architecture = env::consts::ARCH, system = env::consts::OS)]

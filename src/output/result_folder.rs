@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a folder is not to be written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ClaimError {
     /// A file, a device, or something below one.
     #[error("{path} is not a folder, expected a folder for results", path = .0.display())]

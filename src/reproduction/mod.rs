@@ -40,6 +40,7 @@ const SHOWN: [&str; 9] = [
 
 /// A report and the figures that it refers to.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Reproduction {
     /// Path below the report's folder, and content; the report is the first.
     pub files: Vec<(String, String)>,
@@ -47,6 +48,7 @@ pub struct Reproduction {
 
 /// Why there is no report.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReproductionError {
     /// A shipped scenario cannot be read.
     #[error("{0}")]

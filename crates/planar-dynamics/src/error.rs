@@ -14,6 +14,7 @@ impl Display for PivotText {
 
 /// Why a computation of the core has no result.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// A slice of the wrong length.
     #[error("{quantity} has {found} values, the model has {expected}")]

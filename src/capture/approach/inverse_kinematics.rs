@@ -39,6 +39,7 @@ pub struct InverseKinematics {
 
 /// Why no final joint angles were found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InverseKinematicsError {
     /// A position beyond the stretched arm.
     #[error(

@@ -17,6 +17,7 @@ const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 /// Why no terminal rates were found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TerminalRatesError {
     /// The approach could not be tracked.
     #[error("while the terminal rates were computed, {0}")]

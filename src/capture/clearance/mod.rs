@@ -22,6 +22,7 @@ use tracker::DistanceTracker;
 
 /// The least distance of two bodies.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct LeastDistance {
     /// m; negative for the depth of an overlap.
     pub distance: f64,
@@ -33,6 +34,7 @@ pub struct LeastDistance {
 
 /// Two bodies inside each other by more than 1 µm.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Overlap {
     /// As in [`LeastDistance`].
     pub bodies: [String; 2],
@@ -61,6 +63,7 @@ impl Overlap {
 
 /// The clearance of a case.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Clearance {
     /// Of all pairs; `None` where all bodies are joined.
     pub least: Option<LeastDistance>,

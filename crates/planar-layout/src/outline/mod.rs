@@ -36,6 +36,7 @@ pub const MOST_CORNERS: usize = 1000;
 
 /// Why corners are not an outline.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutlineError {
     /// Fewer than three.
     #[error("a polygon has three corners or more, found {0}")]
