@@ -23,7 +23,7 @@ const IMPULSE_SHOWN: f64 = 1.6;
 /// Of the largest impulse, px.
 const ARROW: f64 = 90.0;
 /// Below the scene, px.
-const RAIL: f64 = 58.0;
+const RAIL: f64 = 64.0;
 /// Free space at the ends of the axis of time, px.
 const SIDE: f64 = 24.0;
 
@@ -31,7 +31,7 @@ const SIDE: f64 = 24.0;
 const STYLE: &str = "\
 :root { --ink: #1c2733; --soft: #5b6b7b; --stage: #fbfcfd; --grid: #e6ebf0; --body: #dfe6ed; --edge: #44525f; --impulse: #b3261e; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4eaf0; --soft: #9fadba; --stage: #151b21; --grid: #28323b; --body: #33404c; --edge: #a9b7c4; --impulse: #ff8a80; } }
-text { font: 13px system-ui, sans-serif; fill: var(--soft); }
+text { font: 15px system-ui, sans-serif; fill: var(--soft); }
 .stage { fill: var(--stage); } .grid { stroke: var(--grid); fill: none; } .trace { fill: none; stroke-width: 1.5px; opacity: 0.35; }
 .base { fill: var(--body); stroke: var(--edge); stroke-width: 1.5px; } .mark { fill: var(--edge); } .edge { stroke-width: 1.5px; }
 .base, .edge, .body, .joint, .hold { vector-effect: non-scaling-stroke; } .base + .edge { stroke: var(--edge); }
@@ -81,7 +81,7 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n\
-         <rect class=\"stage\" width=\"{WIDTH}\" height=\"{height}\" rx=\"8\"/>\n\
+         <rect class=\"stage\" width=\"{WIDTH}\" height=\"{height}\"/>\n\
          {}{}<g transform=\"matrix({scale} 0 0 -{scale} {left} {top})\">{}</g>\n{}{}</svg>\n",
         grid(&view),
         traces(&view, &rows),
@@ -118,7 +118,7 @@ fn grid(view: &View) -> String {
     for y in along {
         let _ = write!(lines, "M0 {}H{WIDTH}", short(view.pixel([0.0, y])[1], 1));
     }
-    let name = format!("<text x=\"{}\" y=\"20\" text-anchor=\"end\">grid {spacing} m</text>\n", WIDTH - 12.0);
+    let name = format!("<text x=\"{}\" y=\"22\" text-anchor=\"end\">grid {spacing} m</text>\n", WIDTH - 12.0);
     format!("<path class=\"grid\" d=\"{lines}\"/>\n{name}")
 }
 
@@ -205,7 +205,7 @@ fn rail(view: &View, clip: &Clip, events: &[ImpactEvent<'_>], end: f64) -> Strin
             drawn,
             "<path class=\"time\" d=\"M{0} {top}v5\"/><text x=\"{0}\" y=\"{1}\" text-anchor=\"{anchor}\">{2} s</text>",
             at(time),
-            top + 20.0,
+            top + 21.0,
             short(time, 3)
         );
         time += spacing;
@@ -215,10 +215,10 @@ fn rail(view: &View, clip: &Clip, events: &[ImpactEvent<'_>], end: f64) -> Strin
     }
     if let Some(event) = events.first() {
         let _ =
-            write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">impact</text>", at(event.time), top + 36.0);
+            write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">impact</text>", at(event.time), top + 39.0);
     }
     let speed = format!("{} × real time", significant(clip.speed()).trim_end_matches('0').trim_end_matches('.'));
-    let _ = write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{speed}</text>", WIDTH - SIDE, top + 36.0);
+    let _ = write!(drawn, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{speed}</text>", WIDTH - SIDE, top + 39.0);
     let moving = clip.even("cx", &short(length, 1));
     let _ = write!(
         drawn,
