@@ -1,19 +1,19 @@
-"""Checks the book: its pages, the names that it gives of the source, and the commands of its tutorials and of README.md.
+"""Checks the book: its pages, the names that it gives of the source, and the commands of tutorials and README.md.
 
     python3 tests/book.py pages target/book
     python3 tests/book.py names
     python3 tests/book.py commands PLANAR-CAPTURE [CHAPTER.md]
     cargo run … | python3 tests/book.py shown CHAPTER.md
 
-- Pages: every link and picture leads to a file and an anchor that are there, nothing is loaded from a network, no TeX is
-  left.
-- Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book and the texts that they include exist,
-  and so do the files that README.md links to.
+- Pages: every link and picture leads to a file and an anchor that are there, nothing is loaded from a network, no TeX
+  is left.
+- Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book and the texts that they include
+  exist, and so do the files that README.md links to.
 - Commands: a block of code after `<!-- run -->` has lines `$ COMMAND` with what the command prints, where `...` stands
-  for any lines; one after `<!-- file NAME -->` is that file, and `<!-- files CHAPTER.md -->` stands for those of another
-  chapter. The blocks of a chapter are run in one folder, which is removed, with the scenarios of the repository in it.
-  `<!-- run 1 -->` is for commands that exit with 1. `cargo run --release --` is the given program: what cargo makes of it
-  is checked by `.ci/run` and `.ci/new`.
+  for any lines; one after `<!-- file NAME -->` is that file, and `<!-- files CHAPTER.md -->` stands for those of
+  another chapter. The blocks of a chapter are run in one folder, which is removed, with the scenarios of the repository
+  in it. `<!-- run 1 -->` is for commands that exit with 1. `cargo run --release --` is the given program: what cargo
+  makes of it is checked by `.ci/run` and `.ci/new`.
 - Shown: the output of the one block of a chapter that is not run here is the standard input.
 """
 

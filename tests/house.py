@@ -6,7 +6,8 @@
 - No `#[path]`, no `include_str!` or `include_bytes!` that leaves its crate, no dead code allowed.
 - A target with `test = false` has no tests; every nested workspace has its lock committed.
 - A crate with a robot of one's own builds few crates.
-- An exact requirement of a dependency has its reason on the line; Cargo.toml, CITATION.cff and CHANGELOG.md have one version.
+- An exact requirement of a dependency has its reason on the line; Cargo.toml, CITATION.cff and CHANGELOG.md have one
+  version.
 - Modules of a crate, and those of each of its folders, use each other in one direction: no circles.
 """
 
