@@ -20,12 +20,12 @@ pub struct HeldJoint {
 /// The robot with the link as its root and the joints fixed; the latter must be below the link.
 pub(super) fn planar_part(
     mut robot: Robot,
-    root: Option<&str>,
+    top: Option<&str>,
     held: &[HeldJoint],
     remarks: &mut Vec<Remark>,
 ) -> Result<Robot, UrdfError> {
-    if let Some(root) = root {
-        robot = below(robot, root, remarks)?;
+    if let Some(top) = top {
+        robot = below(robot, top, remarks)?;
     }
     let mut seen = HashSet::new();
     for HeldJoint { name, position } in held {
@@ -33,7 +33,7 @@ pub(super) fn planar_part(
             return Err(UrdfError::joint(name, "it is fixed twice", "expected one `--fix` for each joint"));
         }
         let Some(joint) = robot.joints.iter_mut().find(|joint| joint.name == *name) else {
-            let place = root.map_or_else(|| "this file".to_owned(), |root| format!("the subtree of `{root}`"));
+            let place = top.map_or_else(|| "this file".to_owned(), |top| format!("the subtree of `{top}`"));
             return Err(UrdfError::joint(name, format!("there is no such joint in {place}"), "name a `<joint>`"));
         };
         remarks.push(hold(joint, *position)?);
@@ -42,27 +42,27 @@ pub(super) fn planar_part(
 }
 
 /// The link with all that it carries.
-fn below(robot: Robot, root: &str, remarks: &mut Vec<Remark>) -> Result<Robot, UrdfError> {
-    if !robot.links.iter().any(|link| link.name == root) {
-        return Err(UrdfError::link(root, "there is no such link in this file", "name a `<link>`"));
+fn below(robot: Robot, top: &str, remarks: &mut Vec<Remark>) -> Result<Robot, UrdfError> {
+    if !robot.links.iter().any(|link| link.name == top) {
+        return Err(UrdfError::link(top, "there is no such link in this file", "name a `<link>`"));
     }
     let mut children: HashMap<&str, Vec<&str>> = HashMap::new();
     for joint in &robot.joints {
         children.entry(&joint.parent).or_default().push(&joint.child);
     }
-    let (mut kept, mut open) = (HashSet::from([root]), vec![root]);
+    let (mut kept, mut open) = (HashSet::from([top]), vec![top]);
     while let Some(link) = open.pop() {
         open.extend(children.get(link).into_iter().flatten().filter(|child| kept.insert(**child)));
     }
     let kept: HashSet<String> = kept.into_iter().map(str::to_owned).collect();
     let Robot { name, links, joints } = robot;
     let (links, left_out): (Vec<Link>, Vec<Link>) = links.into_iter().partition(|link| kept.contains(&link.name));
-    let joints = joints.into_iter().filter(|joint| kept.contains(&joint.parent) && joint.child != root).collect();
+    let joints = joints.into_iter().filter(|joint| kept.contains(&joint.parent) && joint.child != top).collect();
     let with_mass = left_out.iter().filter_map(|link| {
         let is_massless = SpatialBody::from_link(link).is_ok_and(|body| body.is_massless());
         (!is_massless).then(|| format!("`{}` {:?} kg", link.name, link.inertial.mass))
     });
-    let fact = format!("left out, for only `{root}` and what it carries is taken");
+    let fact = format!("left out, for only `{top}` and what it carries is taken");
     remarks.extend(Remark::of_items(Remark::warning, &fact, ", ", with_mass));
     Ok(Robot { name, links, joints })
 }

@@ -121,8 +121,8 @@ impl<'a> SizesAt<'a> {
     fn new(point: [f64; 2], sample: &'a RegimeSample, values: &'a Values) -> Self {
         let magnitudes = Magnitudes::about(point, sample);
         let state = &sample.instant.state;
-        let (sine, cosine) = libm::sincos(state.base_pose[0]);
-        let point = [cosine * point[0] - sine * point[1], sine * point[0] + cosine * point[1]];
+        let (sin, cos) = libm::sincos(state.base_pose[0]);
+        let point = [cos * point[0] - sin * point[1], sin * point[0] + cos * point[1]];
         let size = 3 + sample.layout.joints();
         let speeds = state.base_twist.iter().chain(&state.joint_rates).map(|v| v.abs());
         let speeds = DVector::from_iterator(size, speeds);
