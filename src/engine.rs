@@ -73,7 +73,7 @@ impl Choice {
     /// # Errors
     /// [`NoGraph`].
     pub fn graph(layout: &Layout) -> Result<Self, NoGraph> {
-        let FoundGraph { evaluator, origin } = graphs::find(layout)?;
+        let FoundGraph { evaluator, origin, .. } = graphs::find(layout)?;
         Ok(Self { engine: Engine::Graph, origin, code: None, evaluator: Some(evaluator) })
     }
 

@@ -5,6 +5,8 @@ use crate::layout::{Layout, sha256};
 use crate::manifest::ParameterKind::{
     self, BaseInertia, BaseMass, LinkComX, LinkComY, LinkInertia, LinkLength, LinkMass, MountAngle, MountX, MountY,
 };
+use crate::output::atomic_file::{create_folder, write_together};
+use crate::output::output_error::OutputError;
 use crate::python_package::PYTHON_PACKAGE;
 use crate::registry::SHIPPED;
 use crate::structure::{Structure, fingerprint, in_words, parameters};
@@ -72,6 +74,8 @@ pub struct FoundGraph {
     pub evaluator: Arc<Evaluator>,
     /// In words.
     pub origin: String,
+    /// Its text, JSON.
+    pub text: String,
 }
 
 /// The graph of a layout's structure: the one in the user's cache folder, else of those that the program carries the one
@@ -88,7 +92,8 @@ pub fn find(layout: &Layout) -> Result<FoundGraph, NoGraph> {
     let missing = || NoGraph::Missing { layout: layout.name.clone(), structure: in_words(layout) };
     let Carried { name, text, .. } = best.ok_or_else(missing)?;
     let unusable = |problem| NoGraph::Unusable { path: PathBuf::from(name), problem };
-    Ok(FoundGraph { evaluator: evaluator(text, layout).map_err(unusable)?, origin: format!("the graph `{name}`") })
+    let evaluator = evaluator(text, layout).map_err(unusable)?;
+    Ok(FoundGraph { evaluator, origin: format!("the graph `{name}`"), text: (*text).to_owned() })
 }
 
 /// A shipped layout of the same structure, and the text of its graph.
@@ -126,7 +131,7 @@ fn cached(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
         return Err(unusable("it is not as it was derived and proved".to_owned()));
     }
     let origin = "the graph derived for its structure".to_owned();
-    Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin }))
+    Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin, text }))
 }
 
 /// The evaluator of a graph that is to have the layout's structure.
@@ -137,6 +142,16 @@ fn evaluator(text: &str, layout: &Layout) -> Result<Arc<Evaluator>, String> {
         Ok(_) => Ok(Arc::new(evaluator)),
         Err(_) => Err("it is of another structure".to_owned()),
     }
+}
+
+/// Keeps the proved graph of a layout's structure in the user's cache folder; `path` is its [`cache_path`].
+///
+/// # Errors
+/// [`OutputError`].
+pub fn keep(path: &Path, text: &str) -> Result<(), OutputError> {
+    create_folder(path.parent().unwrap_or(Path::new(".")))?;
+    // by its hash a file that was changed or damaged since is told from what was proved
+    write_together([(&*hash_path(path), sha256(text).as_bytes()), (path, text.as_bytes())])
 }
 
 /// Where the hash of a graph in the cache folder is kept, which was proved as it was then.

@@ -174,6 +174,8 @@ pub mod graphs;
 #[cfg(feature = "std")]
 pub mod laws;
 #[cfg(feature = "std")]
+pub mod named_layout;
+#[cfg(feature = "std")]
 pub mod output;
 #[cfg(feature = "cli")]
 pub mod own_crate;

@@ -33,6 +33,22 @@ impl StudyError {
         report_error(text, file, (&path, &value), &self.to_string(), help)
     }
 
+    /// The phase that was stopped, by the name of its table in scenarios, and when and why; `None` for other errors.
+    #[must_use]
+    pub fn stopped(&self) -> Option<(&'static str, &PhaseError)> {
+        match self {
+            Self::Approach(stopped) => Some(("approach", stopped)),
+            Self::PostImpact { source, .. } => Some(("post_impact", source)),
+            _ => None,
+        }
+    }
+
+    /// Whether a valid simulation broke down; else the scenario has no result.
+    #[must_use]
+    pub fn is_breakdown(&self) -> bool {
+        self.stopped().is_some_and(|(_, stopped)| !stopped.is_misuse())
+    }
+
     /// The key to change, or the first of several.
     ///
     /// # Panics

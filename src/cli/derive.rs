@@ -4,13 +4,12 @@ use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, file_error, layout};
 use crate::generate::{self, GenerateError, Proof, Proved};
-use crate::graphs::{cache_path, hash_path};
-use crate::layout::{Layout, sha256};
-use crate::output::atomic_file::{create_folder, write_together};
+use crate::graphs::{cache_path, keep};
+use crate::layout::Layout;
 use crate::python_package::PYTHON_PACKAGE;
 use crate::registry::Robots;
 use indicatif::ProgressBar;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 const EXAMPLES: &str = "\
@@ -48,9 +47,7 @@ pub fn into_cache(layout: &Layout, file: &str) -> Result<(PathBuf, Proof), Comma
     let progress = spinner("starting Python");
     let Proved { text, proof, .. } = proved(layout, &[], file, &progress)?;
     progress.finish_and_clear();
-    create_folder(path.parent().unwrap_or(Path::new(".")))?;
-    // by its hash a file that was changed or damaged since is told from what was proved
-    write_together([(&*hash_path(&path), sha256(&text).as_bytes()), (&path, text.as_bytes())])?;
+    keep(&path, &text)?;
     Ok((path, proof))
 }
 

@@ -1,40 +1,20 @@
 //! The layout that an argument names.
 
 use super::CommandError;
-use crate::diagnostic::{nearest, read_text};
 use crate::layout::Layout;
+use crate::named_layout::{NoLayout, named_layout};
 use crate::registry::Robots;
-use std::path::Path;
 
-/// Reads a layout; see [`source`].
+/// Reads a layout; see [`named_layout`].
 pub fn read(argument: &str, robots: Robots<'_>) -> Result<Layout, CommandError> {
     let (text, file) = source(argument, robots)?;
     Ok(Layout::parse(&text, &file)?)
 }
 
-/// The text that an argument names and its name in messages: an argument that ends in `.toml` or contains a `/` is a
-/// path, any other the name of a shipped layout.
+/// The text that an argument names and its name in messages.
 pub fn source(argument: &str, robots: Robots<'_>) -> Result<(String, String), CommandError> {
-    if Layout::is_path(argument) || argument.contains(std::path::MAIN_SEPARATOR) {
-        return Ok((read_text(Path::new(argument), "TOML")?, argument.to_owned()));
-    }
-    let known = robots.layouts();
-    let names = || known.iter().map(|(name, _)| *name);
-    if let Some((name, text)) = known.iter().find(|(name, _)| *name == argument) {
-        return Ok(((*text).to_owned(), format!("{name}.toml (shipped)")));
-    }
-    let path = Path::new(argument);
-    if path.exists() {
-        let what = if path.is_dir() {
-            "is a folder, expected a TOML file: name a file in it".to_owned()
-        } else {
-            format!("is not the name of a shipped layout: to read that file, write `./{argument}`")
-        };
-        return Err(CommandError::Usage(format!("`{argument}` {what}")));
-    }
-    let meant = nearest(argument, names()).map_or_else(String::new, |name| format!("did you mean `{name}`? "));
-    Err(CommandError::Usage(format!(
-        "there is no shipped layout `{argument}`; {meant}shipped: {}; a path ends in `.toml` or contains a `/`",
-        names().collect::<Vec<_>>().join(", ")
-    )))
+    named_layout(argument, robots).map_err(|error| match error {
+        NoLayout::Unreadable(report) => report.into(),
+        NoLayout::Unknown(message) => CommandError::Usage(message),
+    })
 }

@@ -143,13 +143,8 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
 
 /// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
 pub fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
-    let stopped = match error {
-        StudyError::Approach(stopped) => Some(("approach", stopped)),
-        StudyError::PostImpact { source, .. } => Some(("post_impact", source)),
-        _ => None,
-    };
-    let exit_code = if stopped.is_some_and(|(_, stopped)| !stopped.is_misuse()) { 1 } else { 2 };
-    let help = stopped.and_then(|(phase, _)| help_with_gains(scenario, phase));
+    let exit_code = if error.is_breakdown() { 1 } else { 2 };
+    let help = error.stopped().and_then(|(phase, _)| help_with_gains(scenario, phase));
     let report = error.report(scenario, &source.text, &source.file, help);
     CommandError::Computation { report, exit_code }
 }

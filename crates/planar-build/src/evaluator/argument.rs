@@ -1,8 +1,8 @@
-//! The inputs and outputs of functions.
+//! The inputs and outputs of functions, and the parameters of all.
 
-use crate::format::Variable;
+use crate::format::{Parameter, Variable};
 
-/// An input or an output of a function.
+/// An input or an output of a function, or a parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Argument {
     /// As in the graph.
@@ -19,6 +19,11 @@ impl Argument {
     pub(super) fn new(variable: &Variable) -> Self {
         let Variable { name, shape, unit, description, .. } = variable;
         Self { name: name.clone(), shape: shape.clone(), unit: unit.clone(), description: description.clone() }
+    }
+
+    pub(super) fn of_parameter(parameter: &Parameter) -> Self {
+        let Parameter { name, unit, description, .. } = parameter;
+        Self { name: name.clone(), shape: Vec::new(), unit: unit.clone(), description: description.clone() }
     }
 
     /// The number of its elements.

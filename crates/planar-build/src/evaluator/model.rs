@@ -1,5 +1,6 @@
 //! A robot whose dynamics are those of a graph.
 
+use super::argument::Argument;
 use super::constants;
 use super::function::{Function, Results};
 use super::functions::Functions;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Evaluator {
     structure: Structure,
+    parameters: Vec<Argument>,
     /// From the parameters to all that later programs read besides them.
     pub(super) constants: Program,
     pub(super) all: Vec<Function>,
@@ -63,7 +65,8 @@ impl Evaluator {
                 .and_then(|function| function.check(inputs, outputs).map(|()| function.index))
                 .map_err(|e| GraphError::Format(format!("`{name}`: {e}")))
         })?;
-        Ok(Self { structure, constants, all, functions })
+        let parameters = graph.parameters.iter().map(Argument::of_parameter).collect();
+        Ok(Self { structure, parameters, constants, all, functions })
     }
 
     /// All functions of the graph, in its order.
@@ -81,6 +84,20 @@ impl Evaluator {
     #[must_use]
     pub fn structure(&self) -> &Structure {
         &self.structure
+    }
+
+    /// Names, units and meanings of the parameters, in the order of [`Structure::parameters`].
+    #[must_use]
+    pub fn parameters(&self) -> &[Argument] {
+        &self.parameters
+    }
+
+    /// The model with these numbers, one for each of the [`parameters`](Self::parameters); `None` for another count. They
+    /// are not checked.
+    #[must_use]
+    pub fn model_with(self: &Arc<Self>, parameters: Vec<f64>) -> Option<GraphModel> {
+        let fits = parameters.len() == self.parameters.len();
+        fits.then(|| GraphModel::new(Arc::clone(self), parameters))
     }
 
     /// The model of a layout, with its numbers.

@@ -1,7 +1,7 @@
 //! The derivation of a layout's graph by the Python package `codegen`: unpacked once, run in its own environment.
 
 use planar_layout::layout::{Layout, sha256};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -13,6 +13,9 @@ const PYTHONS: [&str; 6] = ["python3", "python3.14", "python3.13", "python3.12",
 
 /// The program that tells a new enough Python from an old one by its exit status.
 const OLDEST: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
+
+/// Tells the package that it runs in its environment; the same name is in its `__main__.py`.
+const INSIDE: &str = "PLANAR_CAPTURE_CODEGEN_INSIDE";
 
 /// The names of folders in which the package is being unpacked: this, then letters and digits.
 const UNPACKING: &str = ".unpacking-";
@@ -74,9 +77,23 @@ pub fn derive(
     package: &[(&str, &str)],
     say: &mut dyn FnMut(&str),
 ) -> Result<String, DerivationError> {
+    derive_by(None, layout, options, package, say)
+}
+
+/// As [`derive`]; by an interpreter that has CasADi itself, or by one that is found, in an environment that is made.
+///
+/// # Errors
+/// Those of [`derive`].
+pub fn derive_by(
+    given: Option<&OsStr>,
+    layout: &Layout,
+    options: &[String],
+    package: &[(&str, &str)],
+    say: &mut dyn FnMut(&str),
+) -> Result<String, DerivationError> {
     let home = home()?;
     let package = unpack(&home, package)?;
-    let python = python()?;
+    let python = given.map_or_else(python, |python| Ok(python.to_owned()))?;
     let folder = tempfile::tempdir().map_err(|source| DerivationError::File { path: env::temp_dir(), source })?;
     let [graph, file] = ["graph.json", "layout.toml"].map(|name| folder.path().join(name));
     // the layout as it was read, not the user's file: one reader alone decides what a file means
@@ -85,6 +102,9 @@ pub fn derive(
     command.args(["-m", "codegen", "--layout"]).arg(file).arg("--graph").arg(&graph).args(options);
     command.current_dir(&package);
     command.env("PYTHONDONTWRITEBYTECODE", "1");
+    if given.is_some() {
+        command.env(INSIDE, "1");
+    }
     if env::var_os("PLANAR_CAPTURE_ENVIRONMENTS").is_none() {
         command.env("PLANAR_CAPTURE_ENVIRONMENTS", home.join("python"));
     }

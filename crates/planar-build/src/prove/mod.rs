@@ -14,7 +14,7 @@ pub mod rigid_capture;
 pub mod sampling;
 mod vectors;
 
-pub use derivation::{DerivationError, derive, home, package_hash};
+pub use derivation::{DerivationError, derive, derive_by, home, package_hash};
 
 use crate::evaluator::Evaluator;
 use crate::format::{FunctionResult, ReferenceState};

@@ -11,6 +11,21 @@ use planar_dynamics::contact::{
 use planar_dynamics::dynamics::Model;
 use planar_dynamics::error::Error;
 use planar_dynamics::quantity::Quantity;
+use planar_dynamics::state::State;
+use planar_dynamics::target::Target;
+
+/// Robot and targets right after a capture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidCapture {
+    /// [ω, vx, vy] of the base COM, rad/s, m/s.
+    pub base_twist: [f64; 3],
+    /// Arm by arm, rad/s.
+    pub joint_rates: Vec<f64>,
+    /// [ω, vx, vy] of each target's COM, one per arm; zeros where the arm captures nothing.
+    pub target_twists: Vec<[f64; 3]>,
+    /// [n, fx, fy] on the robot at each end effector, N m s, N s; zeros where the arm captures nothing.
+    pub impulses: Vec<[f64; 3]>,
+}
 
 /// Replaces the values of the capture by those from the balance of momentum.
 ///
@@ -20,7 +35,24 @@ pub fn resolve_capture(model: &dyn Model<f64>, instant: &EvaluationInput, values
     if values.get(Quantity::CaptureImpulses).is_none() {
         return Ok(());
     }
-    let captured = instant.targets.iter().enumerate().filter_map(|(arm, target)| Some((arm, target.as_ref()?)));
+    let after = rigid_capture(model, &instant.state.view(), &instant.targets)?;
+    values.set(Quantity::CaptureBaseTwist, &after.base_twist);
+    values.set(Quantity::CaptureJointRates, &after.joint_rates);
+    values.set(Quantity::CaptureTargetTwists, after.target_twists.as_flattened());
+    values.set(Quantity::CaptureImpulses, after.impulses.as_flattened());
+    Ok(())
+}
+
+/// The capture of these targets, one per arm, `None` where it captures nothing.
+///
+/// # Errors
+/// Those of [`balance_momentum`].
+pub fn rigid_capture(
+    model: &dyn Model<f64>,
+    state: &State<'_, f64>,
+    targets: &[Option<Target<f64>>],
+) -> Result<RigidCapture, Error> {
+    let captured = targets.iter().enumerate().filter_map(|(arm, target)| Some((arm, target.as_ref()?)));
     let (contacts, bodies): (Vec<_>, Vec<_>) = captured
         .enumerate()
         .map(|(i, (arm, target))| {
@@ -29,21 +61,17 @@ pub fn resolve_capture(model: &dyn Model<f64>, instant: &EvaluationInput, values
             (Contact { arm, partner, offset: target.contact, law: ContactLaw::Rigid }, body)
         })
         .unzip();
-    let (joints, arms, state) = (model.joints(), model.arms(), instant.state.view());
+    let (joints, arms) = (model.joints(), model.arms());
     let mut workspace = vec![0.0; balance_length(joints, arms, bodies.len(), bilateral_rows(&contacts))];
     let (mut joint_rates, mut body_twists) = (vec![0.0; joints], vec![[0.0; 3]; bodies.len()]);
     let mut contact_impulses = vec![[0.0; 3]; contacts.len()];
     let mut after =
         ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut body_twists, impulses: &mut contact_impulses };
-    let base_twist = balance_momentum(model, &state, &bodies, &contacts, &mut workspace, &mut after)?;
+    let base_twist = balance_momentum(model, state, &bodies, &contacts, &mut workspace, &mut after)?;
     let (mut twists, mut impulses) = (vec![[0.0; 3]; arms], vec![[0.0; 3]; arms]);
     for ((contact, twist), impulse) in contacts.iter().zip(body_twists).zip(contact_impulses) {
         twists[contact.arm] = twist;
         impulses[contact.arm] = impulse;
     }
-    values.set(Quantity::CaptureBaseTwist, &base_twist);
-    values.set(Quantity::CaptureJointRates, &joint_rates);
-    values.set(Quantity::CaptureTargetTwists, twists.as_flattened());
-    values.set(Quantity::CaptureImpulses, impulses.as_flattened());
-    Ok(())
+    Ok(RigidCapture { base_twist, joint_rates, target_twists: twists, impulses })
 }
