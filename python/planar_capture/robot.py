@@ -1,0 +1,438 @@
+"""Robots: closed-form dynamics on numpy arrays."""
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .batch import Array, Batches, Function, OnSingular, Parameter
+from .casadi_functions import casadi_function
+from .errors import InputError
+from .results import Accelerations, Capture, FullImpact, Momentum, ReducedDynamics, ReducedImpact, State
+
+__all__ = ["Robot"]
+
+STATE = ("base_pose", "joint_angles", "base_twist", "joint_rates")
+TARGETS = ("target_masses", "target_inertias", "contacts", "target_twists")
+
+Parameters = Mapping[str, ArrayLike] | None
+
+
+class Robot:
+    """A free-floating planar robot with arms of revolute joints.
+
+    Every function takes arrays of any batch shape: the axes of one state are the last ones, and the axes before them
+    broadcast as numpy's do. A function is computed in the widest vectors of the processor, on several threads, without
+    the interpreter's lock; results have the same bits whatever the batch and the number of threads.
+
+    SI units and radians. Poses are [yaw, x, y], twists [ω, vx, vy], wrenches and impulses [n, fx, fy], in inertial axes;
+    positive rotation is anticlockwise. Joint angles are relative, arm by arm. The base's pose and twist are those of its
+    centre of mass. Generalized velocities have the base twist first. Wrenches and impulses act on the robot.
+
+    Keywords of all functions:
+
+    - ``parameters``: numbers of the robot instead of the layout's, by their names in :attr:`parameters`; numbers or
+      arrays that broadcast with the batch.
+    - ``on_singular``: ``"raise"`` an exception about the first state without a result (:class:`SingularError`,
+      :class:`NotFiniteError`, with its index and inputs), or ``"mask"`` such states: results are then
+      :class:`numpy.ma.MaskedArray`. No result is ever NaN.
+    - ``threads``: at most so many; one for each processor by default.
+    """
+
+    def __init__(self, native: _native.Robot) -> None:
+        self._native = native
+        self._batches = Batches(native)
+
+    @classmethod
+    def from_toml(cls, source: str | os.PathLike[str]) -> "Robot":
+        """A robot from a layout: a path, the name of a shipped one (:func:`planar_capture.layouts`), or TOML text.
+
+        Raises :class:`InputError` with file, line, key and value of whatever is wrong, and :class:`MissingGraphError`
+        where the arms, links and exact zeros are those of no graph yet: :func:`planar_capture.derive` derives one.
+        """
+        return cls(native_robot(source))
+
+    def __repr__(self) -> str:
+        arms = ", ".join(f"{name}: {links} joints" for name, links in self._native.arms)
+        return f"<Robot {self.name} ({arms}), {self._native.origin}>"
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return Robot.from_toml, (self.layout,)
+
+    @property
+    def name(self) -> str:
+        """The layout's name."""
+        return self._native.name
+
+    @property
+    def arms(self) -> list[str]:
+        """The names of the arms."""
+        return [name for name, _ in self._native.arms]
+
+    @property
+    def joints(self) -> list[str]:
+        """The names of the joints in their order, as columns of results have them: ``arm1_joint1``."""
+        return [f"{name}_joint{k}" for name, links in self._native.arms for k in range(1, links + 1)]
+
+    @property
+    def layout(self) -> str:
+        """The layout as TOML text."""
+        return self._native.layout
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The robot's numbers: names, units, and the layout's values. What is exactly zero there is none of them."""
+        return dict(self._batches.parameters)
+
+    @property
+    def functions(self) -> dict[str, Function]:
+        """The functions of the graph, with names, shapes, units and meanings of inputs and outputs."""
+        return dict(self._batches.functions)
+
+    @property
+    def graph(self) -> dict[str, Any]:
+        """The expression graph: single assignments that every function is computed by."""
+        return json.loads(self._native.graph)
+
+    def call(
+        self,
+        function: str,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+        **inputs: ArrayLike,
+    ) -> dict[str, Any]:
+        """Calls a function of :attr:`functions` by its name; its outputs by their names."""
+        known = self._function(function)
+        names = [argument.name for argument in known.inputs]
+        if set(inputs) != set(names):
+            raise InputError(f"`{function}` has the inputs {', '.join(names)}, not {', '.join(inputs) or 'none'}")
+        wanted = [True] * len(known.outputs)
+        values = [inputs[name] for name in names]
+        results = self._batches.call(known, values, wanted, parameters, on_singular, threads)
+        return {output.name: result for output, result in zip(known.outputs, results, strict=True)}
+
+    def forward_dynamics(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        joint_torques: ArrayLike | None = None,
+        base_wrench: ArrayLike | None = None,
+        end_effector_wrenches: ArrayLike | None = None,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Accelerations:
+        """Eq. (1) solved for the accelerations.
+
+        ``base_pose`` (…, 3), ``joint_angles`` (…, joints), ``base_twist`` (…, 3), ``joint_rates`` (…, joints);
+        ``joint_torques`` (…, joints) in N m; ``base_wrench`` (…, 3) at the base COM and ``end_effector_wrenches``
+        (…, arms, 3) in N m, N, N. Forces are zero by default, and cost nothing then.
+        """
+        torques = np.zeros(len(self.joints)) if joint_torques is None else joint_torques
+        inputs = [base_pose, joint_angles, base_twist, joint_rates, torques]
+        name = "forward_dynamics"
+        if end_effector_wrenches is not None:
+            name = "forward_dynamics_with_wrenches"
+            inputs += [np.zeros(3) if base_wrench is None else base_wrench, end_effector_wrenches]
+        elif base_wrench is not None:
+            name = "forward_dynamics_with_base_wrench"
+            inputs.append(base_wrench)
+        return Accelerations(*self._values(name, inputs, parameters, on_singular, threads))
+
+    def mass_matrix(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """M (…, 3 + joints, 3 + joints) of eq. (1), base then joints; kg m², kg m, kg."""
+        return self._values("mass_matrix", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+
+    def bias(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """[c_b; c_m] (…, 3 + joints) of eq. (1): centripetal and Coriolis terms; N m, N, N, then N m."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        return self._values("bias", inputs, parameters, on_singular, threads)[0]
+
+    def reduced_dynamics(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> ReducedDynamics:
+        """Generalized inertia I, bias c and Jacobian J: I θ̈ + c = τ, eq. (2), and end effector twists J θ̇ of a robot
+        of zero momentum."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        return ReducedDynamics(*self._values("reduced_dynamics", inputs, parameters, on_singular, threads))
+
+    def generalized_jacobian(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """J (…, 3 arms, joints): rows [ω, vx, vy] per arm, inertial axes; 1, m, m."""
+        return self._values("generalized_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+
+    def end_effector_poses(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """(…, arms, 3) [yaw, x, y] in the inertial frame; rad, m. The yaw is not wrapped."""
+        return self._values("end_effector_poses", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+
+    def end_effector_twists(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """(…, arms, 3) [ω, vx, vy], inertial axes; rad/s, m/s."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        return self._values("end_effector_twists", inputs, parameters, on_singular, threads)[0]
+
+    def end_effector_jacobian(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """[J_be J_me] (…, 3 arms, 3 + joints): rows [ω, vx, vy] per arm, columns base then joints; 1, m."""
+        return self._values("end_effector_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+
+    def body_poses(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """(…, 1 + joints, 3) [yaw, x, y] of every body's COM, inertial frame: base, then links arm by arm; rad, m."""
+        return self._values("body_poses", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+
+    def body_twists(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Array:
+        """(…, 1 + joints, 3) [ω, vx, vy] of every body's COM, inertial axes: base, then links; rad/s, m/s."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        return self._values("body_twists", inputs, parameters, on_singular, threads)[0]
+
+    def momentum(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Momentum:
+        """Linear momentum, angular momentum about the inertial origin, and kinetic energy."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        return Momentum(*self._values("momentum", inputs, parameters, on_singular, threads))
+
+    def reduced_impact(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        joint_rates: ArrayLike,
+        target_masses: ArrayLike,
+        target_inertias: ArrayLike,
+        contacts: ArrayLike,
+        target_twists: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> ReducedImpact:
+        """The impact by the paper's reduced equations, (15) and (16), as printed; targets as in :class:`Targets`."""
+        inputs = [base_pose, joint_angles, joint_rates, target_masses, target_inertias, contacts, target_twists]
+        return ReducedImpact(*self._values("reduced_impact", inputs, parameters, on_singular, threads))
+
+    def full_impact(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        target_masses: ArrayLike,
+        target_inertias: ArrayLike,
+        contacts: ArrayLike,
+        target_twists: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> FullImpact:
+        """The exact impact in full coordinates, (10) and (11); targets as in :class:`Targets`.
+
+        In the vectors of the processor; :meth:`capture` has twists of the targets and impulses too, and loses no digits
+        where a target is much lighter or heavier than a link.
+        """
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        inputs += [target_masses, target_inertias, contacts, target_twists]
+        return FullImpact(*self._values("full_impact", inputs, parameters, on_singular, threads))
+
+    def capture(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        target_masses: ArrayLike,
+        target_inertias: ArrayLike,
+        contacts: ArrayLike,
+        target_twists: ArrayLike,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> Capture:
+        """The exact impact by the balance of momentum, as ``planar-capture eval`` and ``run`` compute it: velocities of
+        robot and targets, and impulses on the robot; targets as in :class:`Targets`. State by state."""
+        inputs = [base_pose, joint_angles, base_twist, joint_rates]
+        inputs += [target_masses, target_inertias, contacts, target_twists]
+        known = self._function("full_impact")
+        function = Function("capture", known.inputs, ())
+        arms, joints = len(self.arms), len(self.joints)
+
+        def compute(arrays: list[Array], count: int, numbers: Array | None) -> tuple[list[Any], Any]:
+            return self._native.capture(arrays, count, numbers, threads)
+
+        shapes = [(3,), (joints,), (arms, 3), (arms, 3)]
+        return Capture(*self._batches.run(function, inputs, shapes, parameters, on_singular, compute))
+
+    def evaluate(
+        self,
+        base_pose: ArrayLike,
+        joint_angles: ArrayLike,
+        base_twist: ArrayLike,
+        joint_rates: ArrayLike,
+        joint_torques: ArrayLike | None = None,
+        base_wrench: ArrayLike | None = None,
+        end_effector_wrenches: ArrayLike | None = None,
+        targets: "tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None" = None,
+        *,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
+    ) -> dict[str, Any]:
+        """Everything under the keys of ``planar-capture eval``; with ``targets`` (:class:`Targets`) the blocks
+        ``impact`` (``G``, ``H``, ``joint_rates_after``) and ``capture``, too."""
+        how: dict[str, Any] = {"parameters": parameters, "on_singular": on_singular, "threads": threads}
+        state = State(base_pose, joint_angles, base_twist, joint_rates)  # type: ignore[arg-type]
+        forces = (joint_torques, base_wrench, end_effector_wrenches)
+        reduced = self.reduced_dynamics(*state, **how)
+        result: dict[str, Any] = {
+            "mass_matrix": self.mass_matrix(base_pose, joint_angles, **how),
+            "bias": self.bias(*state, **how),
+            "generalized_inertia": reduced.generalized_inertia,
+            "generalized_bias": reduced.generalized_bias,
+            "end_effector_poses": self.end_effector_poses(base_pose, joint_angles, **how),
+            "end_effector_jacobian": self.end_effector_jacobian(base_pose, joint_angles, **how),
+            "generalized_jacobian": reduced.generalized_jacobian,
+            **self.forward_dynamics(*state, *forces, **how)._asdict(),
+            **self.momentum(*state, **how)._asdict(),
+        }
+        if targets is not None:
+            matrix, momentum, rates = self.reduced_impact(base_pose, joint_angles, joint_rates, *targets, **how)
+            result["impact"] = {"G": matrix, "H": momentum, "joint_rates_after": rates}
+            result["capture"] = self.capture(*state, *targets, **how)._asdict()
+        return result
+
+    def casadi_function(self, name: str, *, symbolic_parameters: bool = False) -> Any:
+        """A function of the graph as a ``casadi.Function``, to optimise with: inputs and outputs have the names and
+        (for matrices) the shapes of :attr:`functions`.
+
+        With ``symbolic_parameters`` it has another input, ``parameters``, in the order of :attr:`parameters`; else the
+        layout's are in it. Needs CasADi (``pip install 'planar-capture[derive]'``).
+        """
+        return casadi_function(self.graph, self._function(name), self._batches.values, symbolic_parameters)
+
+    def _function(self, name: str) -> Function:
+        if name not in self._batches.functions:
+            known = ", ".join(self._batches.functions)
+            raise InputError(f"the graph has no function `{name}`: it has {known}")
+        return self._batches.functions[name]
+
+    def _values(
+        self,
+        name: str,
+        inputs: list[ArrayLike],
+        parameters: Parameters,
+        on_singular: OnSingular,
+        threads: int | None,
+    ) -> list[Any]:
+        """The outputs of a function, but for the pivot, which is told by the statuses."""
+        function = self._function(name)
+        wanted = [output.name != "smallest_pivot" for output in function.outputs]
+        return self._batches.call(function, inputs, wanted, parameters, on_singular, threads)
+
+
+def native_robot(source: str | os.PathLike[str]) -> _native.Robot:
+    """From a path, the name of a shipped layout, or TOML text."""
+    text, file = layout_source(source)
+    return _native.Robot.named(file) if text is None else _native.Robot.parse(text, file)
+
+
+def layout_source(source: str | os.PathLike[str]) -> tuple[str | None, str]:
+    """Text and its name in messages; of a path or a name no text yet."""
+    if isinstance(source, str):
+        return (source, "<layout>") if "\n" in source else (None, source)
+    path = os.fspath(source)
+    # a path, whatever it is called
+    is_path = path.endswith(".toml") or os.sep in path or "/" in path
+    return None, path if is_path else os.path.join(".", path)

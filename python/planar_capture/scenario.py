@@ -1,0 +1,99 @@
+"""Scenarios: approach, impact and the motion after it."""
+
+import os
+
+from . import _native
+from .control import Control, Law
+from .robot import Robot
+from .study import Result
+
+__all__ = ["Scenario", "run"]
+
+
+class Scenario:
+    """A scenario; ``docs/scenarios.md`` and ``planar-capture template`` describe its file."""
+
+    def __init__(self, native: _native.Scenario) -> None:
+        self._native = native
+
+    @classmethod
+    def from_toml(cls, source: str | os.PathLike[str]) -> "Scenario":
+        """A scenario from a path, or from TOML text, in which paths are relative to the working folder.
+
+        Raises :class:`InputError` with file, line, key and value of whatever is wrong.
+        """
+        if isinstance(source, str) and "\n" in source:
+            return cls(_native.Scenario.parse(source, "<scenario>"))
+        return cls(_native.Scenario.read(source))
+
+    def __repr__(self) -> str:
+        return f"<Scenario {self.name} ({', '.join(self.cases)})>"
+
+    @property
+    def name(self) -> str:
+        """As in its file."""
+        return self._native.name
+
+    @property
+    def text(self) -> str:
+        """The TOML text."""
+        return self._native.text
+
+    @property
+    def cases(self) -> list[str]:
+        """The names of its cases."""
+        return self._native.cases
+
+    @property
+    def targets(self) -> list[str]:
+        """The names of its targets."""
+        return self._native.targets
+
+    @property
+    def robot(self) -> Robot:
+        """The robot without targets."""
+        return Robot.from_toml(self._native.layout)
+
+    def run(
+        self,
+        control: Control | None = None,
+        *,
+        post_capture_control: Control | None = None,
+        sample: float = 0.05,
+        sample_time: float | None = None,
+        dynamics: str = "auto",
+    ) -> Result:
+        """Computes the study, as ``planar-capture run`` does, without writing files.
+
+        ``control`` takes the place of the approach's tracking, ``post_capture_control`` that of the law after a capture:
+        see :data:`Control`. Both are called every ``sample_time`` s (a multiple of the phase's step), by default that of
+        the scenario; the scenario's torque limits hold for them. Rows of the time series are ``sample`` s apart.
+        ``dynamics`` is ``"auto"``, ``"generated"``, ``"graph"`` or ``"generic"``.
+
+        Raises :class:`InputError` where the scenario has no result, :class:`ComputationError` where the simulation
+        breaks down, and whatever a controller raises.
+        """
+        joints = self._native.joints
+        laws = [None if law is None else Law(law, joints) for law in (control, post_capture_control)]
+        command = f"planar_capture.run({self.name!r})"
+        return Result(self._native.run(*laws, sample, sample_time, dynamics, command))
+
+
+def run(
+    scenario: "Scenario | str | os.PathLike[str]",
+    control: Control | None = None,
+    *,
+    post_capture_control: Control | None = None,
+    sample: float = 0.05,
+    sample_time: float | None = None,
+    dynamics: str = "auto",
+) -> Result:
+    """Computes a scenario, or that of a path or a TOML text: :meth:`Scenario.run`."""
+    read = scenario if isinstance(scenario, Scenario) else Scenario.from_toml(scenario)
+    return read.run(
+        control,
+        post_capture_control=post_capture_control,
+        sample=sample,
+        sample_time=sample_time,
+        dynamics=dynamics,
+    )

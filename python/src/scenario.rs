@@ -1,0 +1,169 @@
+//! Scenarios, and their studies.
+
+use crate::control::Callable;
+use crate::failure::{Failure, of_report};
+use crate::study::Study;
+use planar_capture::capture::{Silent, StudyError, study_with};
+use planar_capture::check::help_with_gains;
+use planar_capture::engine::Choice;
+use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
+use planar_capture::layout::Layout;
+use planar_capture::output::run_manifest::RunManifest;
+use planar_capture::registry::{Robots, SHIPPED};
+use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource};
+use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
+use std::path::PathBuf;
+
+/// Relative difference of a sample time from whole steps.
+const TOLERANCE: f64 = 1e-6;
+
+/// A scenario.
+#[pyclass(frozen, module = "planar_capture._native")]
+pub struct Scenario {
+    scenario: Read,
+    source: ScenarioSource,
+}
+
+/// What computes a layout, by the name of an engine or `auto`; with a warning where a graph cannot be used.
+pub fn choose(dynamics: &str, layout: &Layout) -> PyResult<(Choice, Option<String>)> {
+    let choice = match dynamics {
+        "auto" => {
+            let (choice, unusable) = Choice::fastest(layout, Robots::SHIPPED);
+            return Ok((choice, unusable.map(|why| why.to_string())));
+        }
+        "generated" => Choice::generated(layout, Robots::SHIPPED).map_err(|error| Failure::Input.with(error)),
+        "graph" => Choice::graph(layout).map_err(|error| Failure::MissingGraph.with(error)),
+        "generic" => Ok(Choice::generic()),
+        other => {
+            let known = "expected auto, generated, graph or generic";
+            Err(Failure::Input.with(format!("dynamics is `{other}`, {known}")))
+        }
+    };
+    Ok((choice?, None))
+}
+
+impl Scenario {
+    /// Holds the torques of the laws that are given for this long, s.
+    fn sampled(&self, sample_time: Option<f64>, approach: bool, after: bool) -> PyResult<Read> {
+        let mut scenario = self.scenario.clone();
+        let set = |table: &str, step: f64, actuation: &mut Actuation| -> PyResult<()> {
+            let Some(time) = sample_time else {
+                return match actuation.steps_per_sample {
+                    Some(_) => Ok(()),
+                    None => Err(Failure::Input.with(format!(
+                        "a controller in Python is called once per sample, and `{table}` has no `sample_time`: give it \
+                         there, or call run(…, sample_time=…) with a multiple of the step, {step:?} s"
+                    ))),
+                };
+            };
+            let steps = (time / step).round();
+            if !(1.0..=f64::from(u32::MAX)).contains(&steps) || (time / step - steps).abs() > TOLERANCE {
+                return Err(Failure::Input.with(format!(
+                    "sample_time is {time:?} s, expected a multiple of the step of `{table}`, {step:?} s"
+                )));
+            }
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of that range")]
+            let steps = steps as u32;
+            actuation.steps_per_sample = Some(steps);
+            Ok(())
+        };
+        if approach {
+            set("approach", scenario.approach.step, &mut scenario.approach.actuation)?;
+        }
+        if let Some(phase) = scenario.post_impact.as_mut().filter(|_| after) {
+            set("post_impact", phase.step, &mut phase.actuation)?;
+        }
+        Ok(scenario)
+    }
+
+    /// A study without a result, at its key in the scenario.
+    fn without_result(&self, error: &StudyError, scenario: &Read) -> PyErr {
+        let help = error.stopped().and_then(|(phase, _)| help_with_gains(scenario, phase));
+        let source = &self.source.scenario;
+        let report = error.report(scenario, &source.text, &source.file, help);
+        let failure = if error.is_breakdown() { Failure::Computation } else { Failure::Input };
+        failure.with(report.render(false))
+    }
+}
+
+#[pymethods]
+impl Scenario {
+    /// From a file.
+    #[staticmethod]
+    fn read(path: PathBuf) -> PyResult<Self> {
+        let (scenario, source) = Read::read_with_source(&path, SHIPPED).map_err(of_report)?;
+        Ok(Self { scenario, source })
+    }
+
+    /// From a TOML text, which is called `file` in messages; paths in it are relative to the working folder.
+    #[staticmethod]
+    fn parse(text: &str, file: &str) -> PyResult<Self> {
+        let (scenario, source) = Read::read_stream(text.as_bytes(), file, SHIPPED).map_err(of_report)?;
+        Ok(Self { scenario, source })
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.scenario.name
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.source.scenario.text
+    }
+
+    #[getter]
+    fn layout(&self) -> String {
+        self.scenario.layout.to_toml()
+    }
+
+    #[getter]
+    fn cases(&self) -> Vec<&str> {
+        self.scenario.cases.iter().map(|case| case.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn targets(&self) -> Vec<&str> {
+        self.scenario.targets.iter().map(|target| target.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn joints(&self) -> usize {
+        self.scenario.layout.joints()
+    }
+
+    /// Computes the study.
+    #[allow(clippy::too_many_arguments, reason = "keyword arguments for the one caller in Python")]
+    fn run(
+        &self,
+        py: Python<'_>,
+        control: Option<Py<PyAny>>,
+        post_capture: Option<Py<PyAny>>,
+        sample: f64,
+        sample_time: Option<f64>,
+        dynamics: &str,
+        command: String,
+    ) -> PyResult<Study> {
+        if !(sample.is_finite() && sample > 0.0) {
+            return Err(Failure::Input.with(format!("sample is {sample:?}, expected a time greater than 0 s")));
+        }
+        let scenario = self.sampled(sample_time, control.is_some(), post_capture.is_some())?;
+        let (choice, warning) = choose(dynamics, &scenario.layout)?;
+        let [control, post_capture] = [control, post_capture].map(|law| law.map(Callable::new));
+        let study = py.detach(|| {
+            let model = choice.model(&scenario.layout);
+            let laws = Laws {
+                tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
+                post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
+            };
+            study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
+        });
+        // a law may end a study that has a result all the same, where a search takes another way around it
+        if let Some(raised) = [&control, &post_capture].into_iter().flatten().find_map(Callable::raised) {
+            return Err(raised);
+        }
+        let study = study.map_err(|error| self.without_result(&error, &scenario))?;
+        let manifest = RunManifest::new(&scenario, self.source.clone(), command);
+        Ok(Study { scenario, study, manifest, engine: choice.engine, origin: choice.origin, warning })
+    }
+}

@@ -1,0 +1,114 @@
+//! Sweeps, as the command computes them.
+
+use crate::failure::{Failure, of_output, of_report};
+use crate::scenario::choose;
+use planar_capture::campaign::Campaign;
+use planar_capture::campaign::manifest::{ManifestError, claim};
+use planar_capture::campaign::report::{page, report};
+use planar_capture::campaign::row::Status;
+use planar_capture::campaign::run::{Plan, Shard, Tally, run};
+use planar_capture::output::atomic_file::{create_folder, write_text};
+use planar_capture::registry::SHIPPED;
+use pyo3::prelude::{Py, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+/// Between two looks at signals and progress.
+const TICK: Duration = Duration::from_millis(50);
+
+/// What a sweep was and became: its name, folder, number of cases, computed ones by status, those that were there before.
+type Outcome = (String, PathBuf, u64, Vec<(&'static str, u64)>, u64);
+
+/// Computes the files of a sweep that are missing. `progress` is called with the numbers of computed cases and of those
+/// to compute.
+///
+/// An exception in this thread, as Ctrl-C is one, ends it within a case of each thread.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "keyword arguments for the one caller in Python")]
+pub fn sweep(
+    py: Python<'_>,
+    path: PathBuf,
+    out: Option<PathBuf>,
+    threads: Option<usize>,
+    shard: Option<(u64, u64)>,
+    dynamics: &str,
+    report: bool,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Outcome> {
+    let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
+    let shard = match shard {
+        None => Shard::WHOLE,
+        Some((number, of)) if (1..=of).contains(&number) => Shard { number, of },
+        Some((number, of)) => {
+            let message = format!("shard is ({number}, {of}), expected (I, N) with 1 ≤ I ≤ N, for example (2, 8)");
+            return Err(Failure::Input.with(message));
+        }
+    };
+    let folder = out.unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
+    let (choice, _) = choose(dynamics, &campaign.general_layout())?;
+    create_folder(&folder).map_err(of_output)?;
+    claim(&folder, &campaign, choice.engine).map_err(|error| match error {
+        ManifestError::Output(error) => of_output(error),
+        other => Failure::Input.with(other),
+    })?;
+    let plan = Plan::new(&campaign, &folder, shard).map_err(of_output)?;
+    let tally = Tally::default();
+    let threads = threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
+    let (written, shown) = py.detach(|| {
+        let (sender, receiver) = mpsc::channel();
+        thread::scope(|scope| {
+            let (campaign, choice, folder, plan, tally) = (&campaign, &choice, &folder, &plan, &tally);
+            let work = scope.spawn(move || {
+                let written = run(campaign, choice, folder, plan, threads, tally);
+                drop(sender);
+                written
+            });
+            let mut shown: PyResult<()> = Ok(());
+            while receiver.recv_timeout(TICK) == Err::<(), _>(RecvTimeoutError::Timeout) && shown.is_ok() {
+                shown = Python::attach(|py| show(py, progress.as_ref(), tally, plan.cases));
+            }
+            if shown.is_err() {
+                tally.is_interrupted.store(true, Ordering::Relaxed);
+            }
+            (work.join(), shown)
+        })
+    });
+    shown?;
+    written
+        .map_err(|_| Failure::Computation.with("a thread of the sweep panicked: please report it"))?
+        .map_err(of_output)?;
+    show(py, progress.as_ref(), &tally, plan.cases)?;
+    if report {
+        write_report(&campaign, &path, &folder)?;
+    }
+    let by_status = Status::ALL.iter().zip(&tally.by_status);
+    let by_status = by_status.map(|((name, _), count)| (*name, count.load(Ordering::Relaxed))).collect();
+    Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, by_status, plan.present))
+}
+
+/// Writes the report on all files of a sweep that are in a folder; returns its path.
+#[pyfunction]
+pub fn sweep_report(path: PathBuf, folder: PathBuf) -> PyResult<PathBuf> {
+    let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
+    write_report(&campaign, &path, &folder)
+}
+
+fn write_report(campaign: &Campaign, path: &Path, folder: &Path) -> PyResult<PathBuf> {
+    let command = format!("planar-capture sweep '{}' --out '{}' --replay", path.display(), folder.display());
+    let page = page(&report(campaign, folder).map_err(of_output)?, &command);
+    let file = folder.join("report.html");
+    write_text(&file, &page).map_err(of_output)?;
+    Ok(file)
+}
+
+fn show(py: Python<'_>, progress: Option<&Py<PyAny>>, tally: &Tally, cases: u64) -> Result<(), PyErr> {
+    py.check_signals()?;
+    if let Some(progress) = progress {
+        progress.bind(py).call1((tally.computed.load(Ordering::Relaxed), cases))?;
+    }
+    Ok(())
+}
