@@ -1,6 +1,7 @@
 """Arrays of any batch shape to flat ones and back; states without a result as exceptions or masks."""
 
 import difflib
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
@@ -57,7 +58,7 @@ class Batches:
         self.functions = {
             name: Function(name, arguments(inputs), arguments(outputs)) for name, inputs, outputs in native.functions
         }
-        self.parameters = {name: Parameter(name, *rest) for name, *rest in native.parameters}
+        self.parameters = {described[0]: Parameter(*described) for described in native.parameters}
         self.values = np.array([parameter.value for parameter in self.parameters.values()])
 
     def call(
@@ -91,18 +92,16 @@ class Batches:
         if on_singular not in ("raise", "mask"):
             raise InputError(f'on_singular is {on_singular!r}, expected "raise" or "mask"')
         arrays = [real(value, argument) for value, argument in zip(inputs, function.inputs, strict=True)]
-        own = self.own(parameters)
+        own = self.own(parameters) if parameters else {}
         batch = batch_shape(function, arrays, own)
-        count = int(np.prod(batch, dtype=np.intp))
+        count = math.prod(batch)
         if count == 0:
             return [np.zeros(batch + shape) for shape in shapes]
-        flat = [
-            spread(array, batch + argument.shape) for array, argument in zip(arrays, function.inputs, strict=True)
-        ]
+        inputs_of = zip(arrays, function.inputs, strict=True)
+        flat = [spread(array, batch + argument.shape) for array, argument in inputs_of]
         numbers = self.numbers(own, batch) if own else None
         outputs, statuses = compute(flat, count, numbers)
-        failed = statuses.any()
-        if failed and on_singular == "raise":
+        if on_singular == "raise" and np.count_nonzero(statuses):
             self.raise_first(function, batch, flat, numbers, statuses)
         results = [output.reshape(batch + shape) for output, shape in zip(outputs, shapes, strict=True)]
         if on_singular == "mask":
@@ -110,10 +109,10 @@ class Batches:
             return [masked(result, mask) for result in results]
         return [result if result.shape else result[()] for result in results]
 
-    def own(self, parameters: Mapping[str, ArrayLike] | None) -> dict[str, Array]:
+    def own(self, parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
         """The parameters that are given, as arrays."""
         own = {}
-        for name, value in (parameters or {}).items():
+        for name, value in parameters.items():
             if name not in self.parameters:
                 close = difflib.get_close_matches(name, self.parameters, 1)
                 hint = f"did you mean {close[0]!r}?" if close else f"it has {', '.join(self.parameters)}"
@@ -151,12 +150,11 @@ class Batches:
             return np.ascontiguousarray(array[first * size : (first + 1) * size])
 
         own = None if numbers is None else of_state(numbers, len(self.values))
-        sizes = [int(np.prod(argument.shape, dtype=np.intp)) for argument in function.inputs]
+        sizes = [math.prod(argument.shape) for argument in function.inputs]
         parts = [of_state(array, size) for array, size in zip(flat, sizes, strict=True)]
         index = tuple(int(i) for i in np.unravel_index(first, batch)) if batch else ()
         inputs = {
-            argument.name: part.reshape(argument.shape)
-            for argument, part in zip(function.inputs, parts, strict=True)
+            argument.name: part.reshape(argument.shape) for argument, part in zip(function.inputs, parts, strict=True)
         }
         if own is not None:
             inputs |= {name: own[place] for place, name in enumerate(self.parameters)}
@@ -169,7 +167,7 @@ class Batches:
         words = "the equations are singular" if singular else "a number is not finite"
         place = f"state {index}: " if batch else ""
         more = np.count_nonzero(statuses) - 1
-        rest = f" (and {more} more states without a result)" if more else ""
+        rest = f" (and {more} more without a result)" if more else ""
         error = SingularError if singular else NotFiniteError
         raise error(f"{place}{function.name}: {why or words}{rest}", index, inputs)
 
@@ -178,7 +176,9 @@ def real(value: ArrayLike, argument: Argument) -> Array:
     """An array of real numbers whose last axes are those of an argument."""
     array = np.asarray(value)
     if array.dtype.kind not in "biuf":
-        raise InputError(f"`{argument.name}` has elements of type {array.dtype}, expected real numbers ({argument.unit})")
+        raise InputError(
+            f"`{argument.name}` has elements of type {array.dtype}, expected real numbers ({argument.unit})"
+        )
     axes = len(argument.shape)
     if array.shape[array.ndim - axes :] != argument.shape:
         wanted = ", ".join(["…", *map(str, argument.shape)])
@@ -190,10 +190,10 @@ def real(value: ArrayLike, argument: Argument) -> Array:
 
 def batch_shape(function: Function, arrays: Sequence[Array], own: Mapping[str, Array]) -> tuple[int, ...]:
     """The axes that states and parameters have together."""
-    shapes = {
-        argument.name: array.shape[: array.ndim - len(argument.shape)]
-        for argument, array in zip(function.inputs, arrays, strict=True)
-    }
+    pairs = list(zip(function.inputs, arrays, strict=True))
+    if not own and all(array.ndim == len(argument.shape) for argument, array in pairs):
+        return ()
+    shapes = {argument.name: array.shape[: array.ndim - len(argument.shape)] for argument, array in pairs}
     shapes |= {name: array.shape for name, array in own.items()}
     try:
         return np.broadcast_shapes(*shapes.values())

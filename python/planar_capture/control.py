@@ -28,9 +28,9 @@ class Desired(NamedTuple):
 
 #: ``control(time, state, desired)`` returns the joint torques, (joints,) N m, which are held until the next sample.
 #:
-#: ``time`` is in s since the start of the phase, of an approach or of the motion after an impact; ``desired`` is ``None``
-#: where the scenario has end effector paths instead of a joint trajectory. A controller with a memory has a method
-#: ``reset()``, which is called before each phase.
+#: ``time`` is in s since the start of the phase, of an approach or of the motion after an impact; ``desired`` is
+#: ``None`` where the scenario has end effector paths instead of a joint trajectory. A controller with a memory has a
+#: method ``reset()``, which is called before each phase.
 Control = Callable[[float, State, Desired | None], ArrayLike]
 
 
@@ -53,14 +53,15 @@ class Law:
         state, desired = State(*arrays[:4]), Desired(*arrays[4:])
         torques = self.control(time, state, None if desired.joint_angles is None else desired)
         try:
-            found = np.ascontiguousarray(torques, dtype=np.float64)
+            found = np.asarray(torques, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise InputError(self.refusal(time, f"{torques!r}")) from error
         if found.shape != (self.joints,):
-            raise InputError(self.refusal(time, f"an array of shape {found.shape}"))
+            what = f"an array of shape {found.shape}" if found.ndim else repr(torques)
+            raise InputError(self.refusal(time, what))
         if not np.isfinite(found).all():
             raise InputError(self.refusal(time, f"{found}"))
-        return found
+        return np.ascontiguousarray(found)
 
     def refusal(self, time: float, found: str) -> str:
         """About what a controller has returned."""

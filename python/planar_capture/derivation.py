@@ -19,9 +19,9 @@ def derive(layout: str | os.PathLike[str], *, progress: Callable[[str], object] 
     implementation; the graph is kept in the user's cache folder, where :meth:`Robot.from_toml`, :func:`run`,
     :func:`sweep` and the command find it for every layout of the same arms, links and exact zeros.
 
-    The robot has the graph (:attr:`Robot.graph`) and its CasADi functions (:meth:`Robot.casadi_function`). CasADi is that
-    of this environment (``pip install 'planar-capture[derive]'``) where it has the right version; else one is made, once,
-    in the cache folder. ``progress`` is called with messages.
+    The robot has the graph (:attr:`Robot.graph`) and its CasADi functions (:meth:`Robot.casadi_function`). CasADi is
+    that of this environment (``pip install 'planar-capture[derive]'``) where it has the right version; else an
+    environment is made, once, in the cache folder. ``progress`` is called with messages.
     """
     text, file = layout_source(layout)
     source = _native.Robot.layout_of(file) if text is None else text

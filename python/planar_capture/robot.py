@@ -29,9 +29,9 @@ class Robot:
     broadcast as numpy's do. A function is computed in the widest vectors of the processor, on several threads, without
     the interpreter's lock; results have the same bits whatever the batch and the number of threads.
 
-    SI units and radians. Poses are [yaw, x, y], twists [ω, vx, vy], wrenches and impulses [n, fx, fy], in inertial axes;
-    positive rotation is anticlockwise. Joint angles are relative, arm by arm. The base's pose and twist are those of its
-    centre of mass. Generalized velocities have the base twist first. Wrenches and impulses act on the robot.
+    SI units and radians. Poses are [yaw, x, y], twists [ω, vx, vy], wrenches and impulses [n, fx, fy], in inertial
+    axes; positive rotation is anticlockwise. Joint angles are relative, arm by arm. The base's pose and twist are those
+    of its centre of mass. Generalized velocities have the base twist first. Wrenches and impulses act on the robot.
 
     Keywords of all functions:
 
@@ -96,7 +96,8 @@ class Robot:
     @property
     def graph(self) -> dict[str, Any]:
         """The expression graph: single assignments that every function is computed by."""
-        return json.loads(self._native.graph)
+        graph: dict[str, Any] = json.loads(self._native.graph)
+        return graph
 
     def call(
         self,
@@ -158,7 +159,7 @@ class Robot:
         threads: int | None = None,
     ) -> Array:
         """M (…, 3 + joints, 3 + joints) of eq. (1), base then joints; kg m², kg m, kg."""
-        return self._values("mass_matrix", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+        return self._value("mass_matrix", [base_pose, joint_angles], parameters, on_singular, threads)
 
     def bias(
         self,
@@ -173,7 +174,7 @@ class Robot:
     ) -> Array:
         """[c_b; c_m] (…, 3 + joints) of eq. (1): centripetal and Coriolis terms; N m, N, N, then N m."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._values("bias", inputs, parameters, on_singular, threads)[0]
+        return self._value("bias", inputs, parameters, on_singular, threads)
 
     def reduced_dynamics(
         self,
@@ -201,7 +202,7 @@ class Robot:
         threads: int | None = None,
     ) -> Array:
         """J (…, 3 arms, joints): rows [ω, vx, vy] per arm, inertial axes; 1, m, m."""
-        return self._values("generalized_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+        return self._value("generalized_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)
 
     def end_effector_poses(
         self,
@@ -213,7 +214,7 @@ class Robot:
         threads: int | None = None,
     ) -> Array:
         """(…, arms, 3) [yaw, x, y] in the inertial frame; rad, m. The yaw is not wrapped."""
-        return self._values("end_effector_poses", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+        return self._value("end_effector_poses", [base_pose, joint_angles], parameters, on_singular, threads)
 
     def end_effector_twists(
         self,
@@ -228,7 +229,7 @@ class Robot:
     ) -> Array:
         """(…, arms, 3) [ω, vx, vy], inertial axes; rad/s, m/s."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._values("end_effector_twists", inputs, parameters, on_singular, threads)[0]
+        return self._value("end_effector_twists", inputs, parameters, on_singular, threads)
 
     def end_effector_jacobian(
         self,
@@ -240,7 +241,7 @@ class Robot:
         threads: int | None = None,
     ) -> Array:
         """[J_be J_me] (…, 3 arms, 3 + joints): rows [ω, vx, vy] per arm, columns base then joints; 1, m."""
-        return self._values("end_effector_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+        return self._value("end_effector_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)
 
     def body_poses(
         self,
@@ -252,7 +253,7 @@ class Robot:
         threads: int | None = None,
     ) -> Array:
         """(…, 1 + joints, 3) [yaw, x, y] of every body's COM, inertial frame: base, then links arm by arm; rad, m."""
-        return self._values("body_poses", [base_pose, joint_angles], parameters, on_singular, threads)[0]
+        return self._value("body_poses", [base_pose, joint_angles], parameters, on_singular, threads)
 
     def body_twists(
         self,
@@ -267,7 +268,7 @@ class Robot:
     ) -> Array:
         """(…, 1 + joints, 3) [ω, vx, vy] of every body's COM, inertial axes: base, then links; rad/s, m/s."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._values("body_twists", inputs, parameters, on_singular, threads)[0]
+        return self._value("body_twists", inputs, parameters, on_singular, threads)
 
     def momentum(
         self,
@@ -407,6 +408,18 @@ class Robot:
             known = ", ".join(self._batches.functions)
             raise InputError(f"the graph has no function `{name}`: it has {known}")
         return self._batches.functions[name]
+
+    def _value(
+        self,
+        name: str,
+        inputs: list[ArrayLike],
+        parameters: Parameters,
+        on_singular: OnSingular,
+        threads: int | None,
+    ) -> Array:
+        """The output of a function of one output."""
+        value: Array = self._values(name, inputs, parameters, on_singular, threads)[0]
+        return value
 
     def _values(
         self,

@@ -65,18 +65,20 @@ class Scenario:
     ) -> Result:
         """Computes the study, as ``planar-capture run`` does, without writing files.
 
-        ``control`` takes the place of the approach's tracking, ``post_capture_control`` that of the law after a capture:
-        see :data:`Control`. Both are called every ``sample_time`` s (a multiple of the phase's step), by default that of
-        the scenario; the scenario's torque limits hold for them. Rows of the time series are ``sample`` s apart.
+        ``control`` takes the place of the approach's tracking, ``post_capture_control`` that of the law after a
+        capture: see :data:`Control`. Both are called every ``sample_time`` s (a multiple of the phase's step), by
+        default that of the scenario; the scenario's torque limits hold for them. Rows of the time series are ``sample``
+        s apart.
         ``dynamics`` is ``"auto"``, ``"generated"``, ``"graph"`` or ``"generic"``.
 
         Raises :class:`InputError` where the scenario has no result, :class:`ComputationError` where the simulation
         breaks down, and whatever a controller raises.
         """
         joints = self._native.joints
-        laws = [None if law is None else Law(law, joints) for law in (control, post_capture_control)]
+        tracking = None if control is None else Law(control, joints)
+        after = None if post_capture_control is None else Law(post_capture_control, joints)
         command = f"planar_capture.run({self.name!r})"
-        return Result(self._native.run(*laws, sample, sample_time, dynamics, command))
+        return Result(self._native.run(tracking, after, sample, sample_time, dynamics, command))
 
 
 def run(

@@ -63,9 +63,10 @@ class Series(Mapping[str, np.ndarray]):
         import pyarrow
 
         arrays = [pyarrow.array(values) for values in self.values()]
+        units = [{"unit": self.units[name]} if name in self.units else None for name in self]
         fields = [
-            pyarrow.field(name, array.type, nullable=False, metadata={"unit": self.units[name]} if name in self.units else None)
-            for name, array in zip(self, arrays, strict=True)
+            pyarrow.field(name, array.type, nullable=False, metadata=unit)
+            for name, array, unit in zip(self, arrays, units, strict=True)
         ]
         return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
 
@@ -109,17 +110,17 @@ class Result:
     @property
     def name(self) -> str:
         """The scenario's."""
-        return self.summary["scenario"]
+        return str(self.summary["scenario"])
 
     @property
     def dynamics(self) -> str:
         """What computed it: ``generated``, ``graph`` or ``generic``."""
-        return self.summary["dynamics"]
+        return str(self.summary["dynamics"])
 
     @property
     def audit_failures(self) -> list[str]:
-        """What the audit objects to: drifts and errors over their bounds, overlaps, limits. Empty where all is well; else
-        the command ends with exit code 1."""
+        """What the audit objects to: drifts and errors over their bounds, overlaps, limits. Empty where all is well;
+        else the command ends with exit code 1."""
         return self._native.audit_failures
 
     @property

@@ -11,6 +11,10 @@ const BLOCK: usize = 64;
 
 /// The number of instances of each part but the last: whole blocks.
 pub fn chunk(instances: usize, threads: Option<usize>, least: usize) -> usize {
+    if instances <= least {
+        // to ask for the number of processors takes as long as computing some
+        return least.next_multiple_of(BLOCK);
+    }
     let threads = threads.unwrap_or_else(|| available_parallelism().map_or(1, NonZero::get));
     instances.div_ceil(threads.max(1)).max(least).next_multiple_of(BLOCK)
 }

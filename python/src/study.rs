@@ -21,7 +21,7 @@ type Column<'py> = (String, &'static str, Bound<'py, PyArray1<f64>>);
 #[pyclass(frozen, module = "planar_capture._native")]
 pub struct Study {
     pub scenario: Scenario,
-    pub study: Computed,
+    pub computed: Computed,
     pub manifest: RunManifest,
     pub engine: Engine,
     pub origin: String,
@@ -31,7 +31,7 @@ pub struct Study {
 impl Study {
     fn case(&self, name: &str) -> PyResult<&CaseResult> {
         let missing = || Failure::Input.with(format!("there is no case `{name}`"));
-        self.study.cases.iter().find(|case| case.name == name).ok_or_else(missing)
+        self.computed.cases.iter().find(|case| case.name == name).ok_or_else(missing)
     }
 }
 
@@ -39,7 +39,7 @@ impl Study {
 impl Study {
     #[getter]
     fn cases(&self) -> Vec<&str> {
-        self.study.cases.iter().map(|case| case.name.as_str()).collect()
+        self.computed.cases.iter().map(|case| case.name.as_str()).collect()
     }
 
     /// Which implementation computed it, in words.
@@ -57,18 +57,18 @@ impl Study {
     /// What the audit objects to.
     #[getter]
     fn audit_failures(&self) -> Vec<String> {
-        self.study.audit_failures()
+        self.computed.audit_failures()
     }
 
     /// The text of summary.json.
     fn summary(&self) -> PyResult<String> {
-        let summary = summary(&self.scenario, self.engine.name(), &self.study, &self.manifest);
+        let summary = summary(&self.scenario, self.engine.name(), &self.computed, &self.manifest);
         summary.map(|summary| summary.to_string()).map_err(|error| Failure::Computation.with(error))
     }
 
     /// The table that the command prints.
     fn table(&self) -> String {
-        table(&self.scenario, &self.study)
+        table(&self.scenario, &self.computed)
     }
 
     /// The phase of each row of a case, and its columns.
@@ -77,7 +77,7 @@ impl Study {
         let columns = columns(&self.scenario, case);
         let (mut phases, mut times) = (Vec::new(), Vec::new());
         let mut values = vec![Vec::new(); columns.len()];
-        for row in all_rows(&self.study, case) {
+        for row in all_rows(&self.computed, case) {
             let row = row?;
             phases.push(row.phase);
             times.push(row.time);
@@ -91,20 +91,20 @@ impl Study {
     /// The report as HTML.
     fn html(&self) -> PyResult<String> {
         let mut page = Vec::new();
-        write_report(&self.scenario, &self.study, &self.manifest, &mut page)?;
+        write_report(&self.scenario, &self.computed, &self.manifest, &mut page)?;
         Ok(String::from_utf8_lossy(&page).into_owned())
     }
 
     /// Writes the report to a file, whole or not at all.
     fn write_html(&self, path: PathBuf) -> PyResult<()> {
-        let staged = StagedFile::new(&path, |to| write_report(&self.scenario, &self.study, &self.manifest, to));
+        let staged = StagedFile::new(&path, |to| write_report(&self.scenario, &self.computed, &self.manifest, to));
         staged.and_then(StagedFile::commit).map_err(of_output)
     }
 
     /// Writes the time series of a case to a CSV file, whole or not at all.
     fn write_csv(&self, case: &str, path: PathBuf) -> PyResult<()> {
         let case = self.case(case)?;
-        let staged = StagedFile::new(&path, |to| write_csv(&self.scenario, &self.study, case, to));
+        let staged = StagedFile::new(&path, |to| write_csv(&self.scenario, &self.computed, case, to));
         staged.and_then(StagedFile::commit).map_err(of_output)
     }
 }

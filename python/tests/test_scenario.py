@@ -1,0 +1,123 @@
+"""Studies against the command's files."""
+
+import csv
+import json
+
+import numpy as np
+import planar_capture as pc
+import pytest
+from conftest import SCENARIOS
+
+STUDIES = ["raina_shah_2017", "elastic_rebound", "redysim_single_arm_3r", "three_arms"]
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_summary_series_and_report_are_those_of_the_command(name, command, tmp_path):
+    file = SCENARIOS / f"{name}.toml"
+    done = command("run", file, "--out", tmp_path / "out", "--report")
+    assert done.returncode in (0, 1), done.stderr
+    result = pc.run(file)
+    expected = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert "files" in expected and expected["run"].pop("command")
+    del expected["files"], expected["run"]["features"]
+    found = json.loads(json.dumps(result.summary))
+    assert found["run"].pop("command") == f"planar_capture.run('{name}')"
+    del found["run"]["features"]
+    assert found == expected
+    assert bool(result.audit_failures) == (done.returncode == 1)
+    assert str(result) in done.stdout
+    for case, values in result.cases.items():
+        text = (tmp_path / "out" / f"{case}.csv").read_text()
+        heading, *rows = csv.reader(text.splitlines())
+        assert heading[:2] == ["time [s]", "phase"]
+        units = values.series.units
+        assert heading[2:] == [f"{column} [{units[column]}]" for column in list(values.series)[2:]]
+        for place, column in enumerate(values.series):
+            written = [row[place] for row in rows]
+            if column == "phase":
+                assert values.series[column].tolist() == written
+            else:
+                np.testing.assert_array_equal(values.series[column], np.array(written, dtype=float))
+        values.to_csv(tmp_path / "again.csv")
+        assert (tmp_path / "again.csv").read_text() == text
+    result.report(tmp_path / "report.html")
+    said = [(tmp_path / path).read_text() for path in ("report.html", "out/report.html")]
+    assert len(said[0]) > 100_000 and said[0][:5000] == said[1][:5000]
+
+
+def test_scenarios_from_text():
+    text = (SCENARIOS / "redysim_single_arm_3r.toml").read_text()
+    scenario = pc.Scenario.from_toml(text)
+    assert scenario.name == "redysim_single_arm_3r" and scenario.robot.arms == ["arm1"]
+    result = scenario.run()
+    assert result.dynamics == "generated" and not result.audit_failures
+    assert result.series["t"][0] == 0.0 and (np.diff(result.series["t"]) >= 0).all()
+    with pytest.raises(KeyError):
+        result.series["nothing"]
+
+
+def test_messages_are_those_of_the_command(command, tmp_path):
+    text = (SCENARIOS / "raina_shah_2017.toml").read_text()
+    broken = {
+        "negative": text.replace("duration = 20.0", "duration = -20.0", 1),
+        "unknown": text.replace("tracking", "traking", 1),
+        # valid, but without a result
+        "gains": text.replace("= 49.0", "= 49000000.0", 1).replace("= 14.0", "= 14000000.0", 1),
+    }
+    for name, content in broken.items():
+        assert content != text
+        file = tmp_path / f"{name}.toml"
+        file.write_text(content)
+        said = command("run", file, "--out", tmp_path / "out", "-q")
+        expected = {1: pc.ComputationError, 2: pc.InputError}[said.returncode]
+        with pytest.raises(expected) as raised:
+            pc.run(file)
+        assert raised.value.exit_code == said.returncode
+        assert str(raised.value).strip() == said.stderr.strip()
+    with pytest.raises(pc.InputError, match="dynamics is `fast`"):
+        pc.run(SCENARIOS / "three_arms.toml", dynamics="fast")
+    with pytest.raises(pc.InputError, match=r"sample is -1\.0"):
+        pc.run(SCENARIOS / "three_arms.toml", sample=-1.0)
+
+
+def test_engines_agree():
+    file = SCENARIOS / "redysim_dual_arm_3r.toml"
+    compiled, graph, generic = (pc.run(file, dynamics=engine) for engine in ("generated", "graph", "generic"))
+    assert (compiled.dynamics, graph.dynamics, generic.dynamics) == ("generated", "graph", "generic")
+    for column in compiled.series:
+        np.testing.assert_array_equal(compiled.series[column], graph.series[column])
+    np.testing.assert_allclose(generic.series["base_yaw"], graph.series["base_yaw"], atol=1e-8)
+
+
+def test_several_cases_have_to_be_chosen():
+    result = pc.run(SCENARIOS / "raina_shah_2017.toml", sample=1.0)
+    assert list(result.cases) == ["case1", "case2", "case3"]
+    with pytest.raises(pc.InputError, match="case1, case2, case3"):
+        _ = result.series
+    assert result.cases["case2"].summary["impact"]["exact"]["impulse_magnitudes"][0] > 0.1
+
+
+def test_data_frames_and_tables():
+    series = pc.run(SCENARIOS / "redysim_single_arm_3r.toml", sample=1.0).series
+    frame = series.to_pandas()
+    assert list(frame) == list(series) and frame.attrs["units"]["base_yaw"] == "rad"
+    np.testing.assert_array_equal(frame["base_yaw"], series["base_yaw"])
+    table = series.to_arrow()
+    assert table.column_names == list(series)
+    assert table.schema.field("base_yaw").metadata == {b"unit": b"rad"}
+    np.testing.assert_array_equal(table["base_yaw"].to_numpy(), series["base_yaw"])
+
+
+def test_a_notebook_shows_the_report():
+    shown = pc.run(SCENARIOS / "redysim_single_arm_3r.toml", sample=1.0)._repr_html_()
+    assert shown.startswith('<iframe srcdoc="&lt;!') and shown.endswith("</iframe>")
+    # the page is in the attribute to its end
+    assert shown.count('"') == 4 and "<" not in shown[7:-9].split('"')[1]
+
+
+def test_results_that_cannot_be_written(tmp_path):
+    result = pc.run(SCENARIOS / "redysim_single_arm_3r.toml", sample=1.0)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(pc.OutputError) as raised:
+        result.report(tmp_path / "file" / "report.html")
+    assert isinstance(raised.value, OSError) and "report.html" in str(raised.value)
