@@ -1,6 +1,7 @@
 """Scenarios: approach, impact and the motion after it."""
 
 import os
+from collections.abc import Mapping
 
 from . import _native
 from .control import Control, Law
@@ -53,6 +54,16 @@ class Scenario:
     def robot(self) -> Robot:
         """The robot without targets."""
         return Robot.from_toml(self._native.layout)
+
+    def with_values(self, values: Mapping[str, float | str | bool], *, case: str | None = None) -> "Scenario":
+        """The scenario of one case, by default the only one, with other values: ``{"target.target1.mass": 12.0,
+        "layout.base.mass": 480.0, "approach.tracking": "computed_torque"}``.
+
+        Keys are those of sweeps (``docs/sweep.md``): TOML paths into the scenario, or after ``layout.`` into its layout,
+        also those that are left at their default. Raises :class:`InputError` where there is no such key, or a value is
+        not valid there.
+        """
+        return Scenario(self._native.with_values(list(values.items()), case))
 
     def run(
         self,

@@ -24,6 +24,9 @@ pub const INPUTS: [&str; 8] = [
 /// So many instances take several times as long as starting a thread.
 const LEAST: usize = 64;
 
+/// The same instances of two outputs.
+type Pair<'a> = (&'a mut [f64], &'a mut [f64]);
+
 /// Captures, of one robot or, with parameters, of robots of their own.
 pub struct Captures<'a> {
     pub evaluator: &'a Arc<Evaluator>,
@@ -58,19 +61,24 @@ impl Captures<'_> {
         let [base, rates, twists, impulses] = &mut outputs;
         let parts = base.chunks_mut(chunk * rows[0]).zip(rates.chunks_mut(chunk * rows[1]));
         let of_arms = twists.chunks_mut(chunk * rows[2]).zip(impulses.chunks_mut(chunk * rows[3]));
-        thread::scope(|scope| {
-            for (index, (((base, rates), (twists, impulses)), statuses)) in
-                parts.zip(of_arms).zip(statuses.chunks_mut(chunk)).enumerate()
-            {
-                scope.spawn(move || {
-                    for (i, status) in statuses.iter_mut().enumerate() {
-                        let outputs = [&mut *base, &mut *rates, &mut *twists, &mut *impulses].into_iter().zip(rows);
-                        let outputs = outputs.map(|(all, rows)| &mut all[i * rows..][..rows]);
-                        *status = self.one(index * chunk + i, outputs);
-                    }
-                });
+        let parts = parts.zip(of_arms).zip(statuses.chunks_mut(chunk)).enumerate();
+        let work = |(index, part): (usize, ((Pair<'_>, Pair<'_>), &mut [Status]))| {
+            let (((base, rates), (twists, impulses)), statuses) = part;
+            for (i, status) in statuses.iter_mut().enumerate() {
+                let outputs = [&mut *base, &mut *rates, &mut *twists, &mut *impulses].into_iter().zip(rows);
+                let outputs = outputs.map(|(all, rows)| &mut all[i * rows..][..rows]);
+                *status = self.one(index * chunk + i, outputs);
             }
-        });
+        };
+        if chunk >= self.instances {
+            parts.for_each(work);
+        } else {
+            thread::scope(|scope| {
+                for part in parts {
+                    scope.spawn(move || work(part));
+                }
+            });
+        }
         After { outputs, statuses }
     }
 

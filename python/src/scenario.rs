@@ -3,6 +3,9 @@
 use crate::control::Callable;
 use crate::failure::{Failure, of_report};
 use crate::study::Study;
+use planar_capture::campaign::key_path::KeyPath;
+use planar_capture::campaign::variation::{Unusable, Variation};
+use planar_capture::campaign::varied_value::VariedValue;
 use planar_capture::capture::{Silent, StudyError, study_with};
 use planar_capture::check::help_with_gains;
 use planar_capture::engine::Choice;
@@ -10,9 +13,28 @@ use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
-use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource};
-use pyo3::prelude::{Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
+use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source};
+use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
 use std::path::PathBuf;
+
+/// A value of a scenario.
+#[derive(FromPyObject)]
+enum Value {
+    // before numbers, which Python's truth values are, too
+    Flag(bool),
+    Number(f64),
+    Text(String),
+}
+
+impl From<Value> for VariedValue {
+    fn from(value: Value) -> Self {
+        match value {
+            Value::Flag(flag) => Self::Flag(flag),
+            Value::Number(number) => Self::Number(number),
+            Value::Text(text) => Self::Text(text),
+        }
+    }
+}
 
 /// Relative difference of a sample time from whole steps.
 const TOLERANCE: f64 = 1e-6;
@@ -99,6 +121,36 @@ impl Scenario {
     #[staticmethod]
     fn parse(text: &str, file: &str) -> PyResult<Self> {
         let (scenario, source) = Read::read_stream(text.as_bytes(), file, SHIPPED).map_err(of_report)?;
+        Ok(Self { scenario, source })
+    }
+
+    /// The scenario of one case, by default the only one, with these values at keys of sweeps.
+    fn with_values(&self, values: Vec<(String, Value)>, case: Option<&str>) -> PyResult<Self> {
+        let names: Vec<&str> = self.scenario.cases.iter().map(|case| case.name.as_str()).collect();
+        let case = match (case, &names[..]) {
+            (Some(case), names) if names.contains(&case) => case,
+            (None, [only]) => only,
+            (found, names) => {
+                let found = found.map_or("case is missing".to_owned(), |case| format!("case is `{case}`"));
+                let message = format!("{found}, expected one of the scenario's cases, {}", names.join(", "));
+                return Err(Failure::Input.with(message));
+            }
+        };
+        let keys = values.into_iter().map(|(key, value)| {
+            let path = KeyPath::parse(&key).map_err(|why| Failure::Input.with(format!("key `{key}`: {why}")))?;
+            Ok((path, value.into()))
+        });
+        let keys: Vec<(KeyPath, VariedValue)> = keys.collect::<PyResult<_>>()?;
+        let variation = Variation::new(&self.scenario, &self.source, case, &keys)
+            .map_err(|Unusable { key, why }| Failure::Input.with(format!("key `{}`: {why}", keys[key].0)))?;
+        let values: Vec<VariedValue> = keys.into_iter().map(|(_, value)| value).collect();
+        let scenario = variation.scenario(&values).map_err(of_report)?;
+        let texts = variation.texts(&values);
+        let source = |text, of: &Source| Source { text, file: of.file.clone() };
+        let source = ScenarioSource {
+            scenario: source(texts.scenario, &self.source.scenario),
+            layout: source(texts.layout, &self.source.layout),
+        };
         Ok(Self { scenario, source })
     }
 

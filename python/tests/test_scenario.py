@@ -121,3 +121,31 @@ def test_results_that_cannot_be_written(tmp_path):
     with pytest.raises(pc.OutputError) as raised:
         result.report(tmp_path / "file" / "report.html")
     assert isinstance(raised.value, OSError) and "report.html" in str(raised.value)
+
+
+def test_other_values_are_those_of_another_file():
+    file = SCENARIOS / "redysim_single_arm_3r.toml"
+    scenario = pc.Scenario.from_toml(file)
+    changed = scenario.with_values({"approach.derivative_gain": 2.5, "layout.base.mass": 450.0})
+    assert changed.robot.parameters["base_mass"].value == 450.0
+    text = changed.text.replace('"./layout.toml"', '"single_arm_3r"')
+    assert "derivative_gain = 2.5" in text
+    found, same = changed.run(sample=1.0), scenario.run(sample=1.0)
+    assert not np.array_equal(found.series["base_yaw"], same.series["base_yaw"])
+    back = changed.with_values({"layout.base.mass": scenario.robot.parameters["base_mass"].value})
+    only_gain = scenario.with_values({"approach.derivative_gain": 2.5}).run(sample=1.0)
+    np.testing.assert_array_equal(back.run(sample=1.0).series["base_yaw"], only_gain.series["base_yaw"])
+    assert scenario.with_values({"approach.tracking": "computed_torque"}).run(sample=1.0).series["t"].size
+    paper = pc.Scenario.from_toml(SCENARIOS / "raina_shah_2017.toml")
+    assert paper.with_values({"target.target1.mass": 12.0}, case="case2").cases == ["case2"]
+    for wrong, message in [
+        ({"approach.derivative_gains": 1.0}, "derivative_gains"),
+        ({"layout.base.mass": -1.0}, "-1.0"),
+        ({"layout.base.mass": "heavy"}, "heavy"),
+        ({"layout.base": 1.0}, "layout.base"),
+        ({"": 1.0}, "key"),
+    ]:
+        with pytest.raises(pc.InputError, match=message):
+            scenario.with_values(wrong)
+    with pytest.raises(pc.InputError, match="case is missing, expected one of the scenario's cases, case1, case2"):
+        paper.with_values({"target.target1.mass": 12.0})
