@@ -44,6 +44,9 @@ class StateError(ComputationError):
         super().__init__(message)
         self.index, self.inputs = index, inputs
 
+    def __reduce__(self) -> tuple[type["StateError"], tuple[str, tuple[int, ...], dict[str, np.ndarray]]]:
+        return type(self), (str(self), self.index, self.inputs)
+
 
 class SingularError(StateError):
     """Its equations are singular: masses that are absurdly different, or an arm that reaches a pole of its graph."""

@@ -59,9 +59,9 @@ class Scenario:
         """The scenario of one case, by default the only one, with other values: ``{"target.target1.mass": 12.0,
         "layout.base.mass": 480.0, "approach.tracking": "computed_torque"}``.
 
-        Keys are those of sweeps (``docs/sweep.md``): TOML paths into the scenario, or after ``layout.`` into its layout,
-        also those that are left at their default. Raises :class:`InputError` where there is no such key, or a value is
-        not valid there.
+        Keys are those of sweeps (``docs/sweep.md``): TOML paths into the scenario, or after ``layout.`` into its
+        layout, also those that are left at their default. Raises :class:`InputError` where there is no such key, or a
+        value is not valid there.
         """
         return Scenario(self._native.with_values(list(values.items()), case))
 

@@ -7,6 +7,7 @@ use planar_capture::campaign::manifest::{ManifestError, claim};
 use planar_capture::campaign::report::{page, report};
 use planar_capture::campaign::row::Status;
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
+use planar_capture::engine::Choice;
 use planar_capture::output::atomic_file::{create_folder, write_text};
 use planar_capture::registry::SHIPPED;
 use pyo3::prelude::{Py, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
@@ -19,6 +20,27 @@ use std::time::Duration;
 
 /// Between two looks at signals and progress.
 const TICK: Duration = Duration::from_millis(50);
+
+/// A sweep whose files a folder takes.
+struct Claimed {
+    campaign: Campaign,
+    choice: Choice,
+    folder: PathBuf,
+}
+
+impl Claimed {
+    fn new(path: &Path, out: Option<PathBuf>, dynamics: &str) -> PyResult<Self> {
+        let campaign = Campaign::read(path, SHIPPED).map_err(of_report)?;
+        let folder = out.unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
+        let (choice, _) = choose(dynamics, &campaign.general_layout())?;
+        create_folder(&folder).map_err(of_output)?;
+        claim(&folder, &campaign, choice.engine).map_err(|error| match error {
+            ManifestError::Output(error) => of_output(error),
+            other => Failure::Input.with(other),
+        })?;
+        Ok(Self { campaign, choice, folder })
+    }
+}
 
 /// What a sweep was and became: its name, folder, number of cases, computed ones by status, those that were there before.
 type Outcome = (String, PathBuf, u64, Vec<(&'static str, u64)>, u64);
@@ -39,7 +61,7 @@ pub fn sweep(
     report: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
-    let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
+    let Claimed { campaign, choice, folder } = Claimed::new(&path, out, dynamics)?;
     let shard = match shard {
         None => Shard::WHOLE,
         Some((number, of)) if (1..=of).contains(&number) => Shard { number, of },
@@ -48,13 +70,6 @@ pub fn sweep(
             return Err(Failure::Input.with(message));
         }
     };
-    let folder = out.unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
-    let (choice, _) = choose(dynamics, &campaign.general_layout())?;
-    create_folder(&folder).map_err(of_output)?;
-    claim(&folder, &campaign, choice.engine).map_err(|error| match error {
-        ManifestError::Output(error) => of_output(error),
-        other => Failure::Input.with(other),
-    })?;
     let plan = Plan::new(&campaign, &folder, shard).map_err(of_output)?;
     let tally = Tally::default();
     let threads = threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
@@ -88,6 +103,19 @@ pub fn sweep(
     let by_status = Status::ALL.iter().zip(&tally.by_status);
     let by_status = by_status.map(|((name, _), count)| (*name, count.load(Ordering::Relaxed))).collect();
     Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, by_status, plan.present))
+}
+
+/// What is to be done of a sweep: its name, folder and numbers of cases and of files, the numbers of files that are
+/// missing, from 0, and that of their cases.
+type ToDo = (String, PathBuf, u64, u64, Vec<u64>, u64);
+
+/// What is to be done of a sweep, whose folder it is then.
+#[pyfunction]
+pub fn sweep_plan(path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResult<ToDo> {
+    let Claimed { campaign, folder, .. } = Claimed::new(&path, out, dynamics)?;
+    let plan = Plan::new(&campaign, &folder, Shard::WHOLE).map_err(of_output)?;
+    let sweep = campaign.sweep;
+    Ok((sweep.name.clone(), folder, sweep.cases, sweep.blocks(), plan.blocks, plan.cases))
 }
 
 /// Writes the report on all files of a sweep that are in a folder; returns its path.

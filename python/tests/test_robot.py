@@ -146,6 +146,8 @@ def test_a_state_without_a_result_is_raised_with_its_numbers(robot):
             call()
         assert raised.value.index == (1, 2) and raised.value.exit_code == 1
         assert np.isnan(raised.value.inputs["joint_angles"][3])
+        again = pickle.loads(pickle.dumps(raised.value))
+        assert (type(again), str(again), again.index) == (pc.NotFiniteError, str(raised.value), (1, 2))
 
 
 def test_a_singular_state_is_raised_with_its_pivot(robot):
