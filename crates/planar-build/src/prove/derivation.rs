@@ -80,10 +80,10 @@ pub fn derive(
     derive_by(None, layout, options, package, say)
 }
 
-/// As [`derive`]; by an interpreter that has CasADi itself, or by one that is found, in an environment that is made.
+/// As [`derive()`]; by an interpreter that has CasADi itself, or by one that is found, in an environment that is made.
 ///
 /// # Errors
-/// Those of [`derive`].
+/// Those of [`derive()`].
 pub fn derive_by(
     given: Option<&OsStr>,
     layout: &Layout,
