@@ -43,7 +43,7 @@ fn the_committed_report_is_what_is_computed() {
 fn the_command_writes_the_report_and_sees_what_is_stale() {
     let folder = TempDir::new().expect("a folder");
     let reproduce = |more: &[&str]| {
-        let output = command().arg("reproduce").arg("--out").arg(folder.path()).args(more).output();
+        let output = command().args(["reproduce", "--quiet", "--out"]).arg(folder.path()).args(more).output();
         let (code, _, message) = said(output.expect("it runs"));
         (code, message)
     };
