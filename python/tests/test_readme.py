@@ -9,7 +9,7 @@ from conftest import ROOT
 def test_all_examples_run_one_after_the_other(tmp_path, monkeypatch, capsys):
     text = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
     examples = re.findall(r"```python\n(.*?)```", text, flags=re.S)
-    assert len(examples) == 5
+    assert len(examples) == 6
     (tmp_path / "scenarios").symlink_to(ROOT / "scenarios")
     monkeypatch.chdir(tmp_path)
     names = {}

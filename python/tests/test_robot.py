@@ -47,6 +47,23 @@ def test_one_state_has_the_bits_of_a_batch_whatever_the_threads(name):
         np.testing.assert_array_equal(of_many[299], of_one)
 
 
+def test_forces_that_are_left_out_are_zero(robot):
+    state = states(robot, 20)
+    random = np.random.default_rng(5)
+    torques, wrench, wrenches = (random.normal(size=(20, *shape)) for shape in [(6,), (3,), (2, 3)])
+    none, no_wrench, no_wrenches = np.zeros(6), np.zeros(3), np.zeros((2, 3))
+    for some, all_of_them in [
+        ((), (none, no_wrench, no_wrenches)),
+        ((torques,), (torques, no_wrench, no_wrenches)),
+        ((torques, wrench), (torques, wrench, no_wrenches)),
+        ((None, wrench), (none, wrench, no_wrenches)),
+        ((None, None, wrenches), (none, no_wrench, wrenches)),
+    ]:
+        found, expected = robot.forward_dynamics(*state, *some), robot.forward_dynamics(*state, *all_of_them)
+        for part, wanted in zip(found, expected, strict=True):
+            np.testing.assert_allclose(part, wanted, rtol=1e-9, atol=1e-12)
+
+
 def test_axes_broadcast(robot):
     state = states(robot, 4, 5)
     wide = robot.bias(np.zeros(3), state.joint_angles, np.zeros((5, 3)), state.joint_rates[:, :1])
