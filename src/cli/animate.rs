@@ -3,6 +3,7 @@
 use super::dynamics::Dynamics;
 use super::progress::{Display, Progress};
 use super::run::study_error;
+use super::seconds::{positive_seconds, seconds};
 use super::{CommandError, write_new};
 use crate::capture::study;
 use crate::output::animation::{Excerpt, RATE, animation};
@@ -30,10 +31,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
     /// How long the picture plays, s, from 1 to 120.
-    #[arg(long, value_name = "SECONDS", default_value = "12", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "12", value_parser = playing_time)]
     seconds: f64,
     /// The end of what is shown, s since the start of the approach [default: the end of the motion].
-    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive_seconds)]
     until: Option<f64>,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto)]
@@ -42,14 +43,9 @@ pub struct Arguments {
     display: Display,
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
+fn playing_time(text: &str) -> Result<f64, String> {
+    let value = seconds(text)?;
     if (1.0..=120.0).contains(&value) { Ok(value) } else { Err("expected 1 to 120 s".to_owned()) }
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }
 }
 
 /// Computes the case alone and writes the picture.

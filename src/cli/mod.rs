@@ -28,6 +28,7 @@ mod progress;
 mod reproduce;
 mod run;
 mod schema;
+mod seconds;
 #[cfg(feature = "sweep")]
 mod sweep;
 mod template;

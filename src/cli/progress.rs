@@ -1,5 +1,6 @@
 //! Progress of simulations and derivations on the standard error: bars on a terminal, elsewhere a line now and then.
 
+use super::seconds::seconds;
 use super::terminal::note;
 use crate::capture::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -19,13 +20,12 @@ pub struct Display {
     #[arg(short, long, help_heading = "Messages")]
     pub quiet: bool,
     /// Seconds between two lines of progress where the standard error is no terminal.
-    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = seconds, help_heading = "Messages")]
+    #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = interval, help_heading = "Messages")]
     pub progress: Duration,
 }
 
-fn seconds(text: &str) -> Result<Duration, String> {
-    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
-    Duration::try_from_secs_f64(value).map_err(|_| "expected a time of at least 0 s".to_owned())
+fn interval(text: &str) -> Result<Duration, String> {
+    Duration::try_from_secs_f64(seconds(text)?).map_err(|_| "expected a time of at least 0 s".to_owned())
 }
 
 /// Shows the running part of a study.

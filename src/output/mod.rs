@@ -9,6 +9,7 @@ pub mod figures;
 pub mod finite;
 pub mod html_report;
 pub mod impacts;
+pub(crate) mod markup;
 #[cfg(feature = "mcap")]
 pub mod mcap;
 pub mod output_error;

@@ -97,8 +97,19 @@ fn link_shape(link: &Link, width: f64) -> Shape {
     } else if link.length > 0.0 {
         Shape::Rectangle { centre: [link.length / 2.0, 0.0], size: [link.length, width] }
     } else {
-        Shape::Outline(Outline::disc((2.0 * link.inertia / link.mass).sqrt()))
+        Shape::Outline(Outline::disc(wheel_radius(link)))
     }
+}
+
+/// Of the uniform disc that has a link's mass and inertia, m.
+pub(crate) fn wheel_radius(link: &Link) -> f64 {
+    (2.0 * link.inertia / link.mass).sqrt()
+}
+
+/// `#rrggbb`.
+#[must_use]
+pub fn hexadecimal([red, green, blue]: [u8; 3]) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 impl Shape {

@@ -31,8 +31,9 @@ pub struct ImportOptions {
 
 /// Reads a URDF as a free-floating planar robot.
 ///
-/// - Only the subtree of the requested link is read, and joints that are to be held are fixed ones. The base is the root, or the child of a massless root without a revolute joint (`world`). Fixed joints merge links.
-///   Chains from the base are arms, in the order of their first joints in the file.
+/// - Only the subtree of the requested link is read, and joints that are to be held are fixed ones. The base is the
+///   root, or the child of a massless root without a revolute joint (`world`). Fixed joints merge links. Chains from the
+///   base are arms, in the order of their first joints in the file.
 /// - The plane's normal is z of the base link if the axes are along ±z, else the axis of the first joint.
 /// - The end effector of an arm is at the requested link, else at the first massless leaf fixed to its last link, else at
 ///   its only fixed leaf, else at twice the distance of the centre of mass.

@@ -2,6 +2,7 @@
 
 use super::statistics::Percentile;
 use super::{OutputReport, PERCENTILES, SweepReport};
+use crate::output::markup;
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}\
@@ -16,7 +17,7 @@ const SHOWN: f64 = 0.005;
 #[must_use]
 pub fn page(report: &SweepReport, command: &str) -> String {
     let mut html = String::new();
-    let name = escaped(&report.name);
+    let name = markup::attribute(&report.name);
     let mut add = |text: &str| html.push_str(text);
     add(&format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style>\n\
@@ -28,10 +29,9 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     add(&format!("{}.</p>\n", counts.join(", ")));
     if !report.failures.is_empty() {
         add("<h2>Failures</h2>\n");
-        let rows = report
-            .failures
-            .iter()
-            .map(|(case, status, message)| vec![case.to_string(), status.replace('_', " "), escaped(message)]);
+        let rows = report.failures.iter().map(|(case, status, message)| {
+            vec![case.to_string(), status.replace('_', " "), markup::attribute(message)]
+        });
         add(&table(&["case", "status", "message"].map(str::to_owned), rows));
     }
     add(
@@ -41,7 +41,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     head.extend(PERCENTILES.iter().map(|p| format!("{p} %")));
     add(&table(&head, report.outputs.iter().map(percentiles)));
     let keys: Vec<String> =
-        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|key| escaped(key))).collect();
+        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|key| markup::attribute(key))).collect();
     if !report.keys.is_empty() {
         add("<h2>Rank correlations</h2>\n");
         add(&table(&keys, report.outputs.iter().map(|output| sensitivities(output, &output.correlations))));
@@ -65,14 +65,20 @@ pub fn page(report: &SweepReport, command: &str) -> String {
             vec![named(output), number(low), low_case.to_string(), number(high), high_case.to_string()]
         }),
     ));
-    add(&format!("<p>A case with all it has: <code>{} INDEX --report</code></p>\n</html>\n", escaped(command)));
+    add(&format!(
+        "<p>A case with all it has: <code>{} INDEX --report</code></p>\n</html>\n",
+        markup::attribute(command)
+    ));
     html
 }
 
 fn named(output: &OutputReport) -> String {
-    let unit =
-        if output.unit.is_empty() { String::new() } else { format!(" <small>{}</small>", escaped(&output.unit)) };
-    format!("{}{unit}", escaped(&output.name))
+    let unit = if output.unit.is_empty() {
+        String::new()
+    } else {
+        format!(" <small>{}</small>", markup::attribute(&output.unit))
+    };
+    format!("{}{unit}", markup::attribute(&output.name))
 }
 
 fn percentiles(output: &OutputReport) -> Vec<String> {
@@ -114,8 +120,4 @@ fn table(head: &[String], rows: impl Iterator<Item = Vec<String>>) -> String {
     }
     html.push_str("</tr></table>\n");
     html
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

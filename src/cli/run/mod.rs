@@ -7,6 +7,7 @@ use super::CommandError;
 use super::dynamics::Dynamics;
 use super::optional_outputs;
 use super::progress::Display;
+use super::seconds::positive_seconds;
 use super::terminal::note;
 use crate::engine::Choice;
 use crate::output::result_folder::ResultFolder;
@@ -60,7 +61,7 @@ pub struct Arguments {
     #[command(flatten)]
     optional_outputs: optional_outputs::Flags,
     /// Time between two rows of the CSV time series, s; at least one step of the scenario [default: 0.05].
-    #[arg(long, value_name = "SECONDS", value_parser = positive, help_heading = "Results")]
+    #[arg(long, value_name = "SECONDS", value_parser = positive_seconds, help_heading = "Results")]
     sample: Option<f64>,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
@@ -105,11 +106,6 @@ pub fn run_file(
         verbose: false,
     };
     run_by(&arguments, robots, Some(choice))
-}
-
-fn positive(text: &str) -> Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| "expected a number of seconds".to_owned())?;
-    if value.is_finite() && value > 0.0 { Ok(value) } else { Err("expected a time greater than 0 s".to_owned()) }
 }
 
 /// The greatest exit code so far; what it is of was said.

@@ -4,7 +4,7 @@ use super::clip::{Clip, pair, short};
 use crate::frames::{Frame, FrameMotion};
 use crate::layout::{Arm, Link};
 use crate::outline::Outline;
-use crate::output::scene::{PALETTE, base_shape};
+use crate::output::scene::{PALETTE, base_shape, hexadecimal, wheel_radius};
 use crate::output::time_series::TimeSeriesRow;
 use crate::scenario::Scenario;
 use std::fmt::Write as _;
@@ -32,8 +32,7 @@ pub(super) struct Motion<'a> {
 
 /// The colour of a member of the palette.
 pub(super) fn colour(index: usize) -> String {
-    let [red, green, blue] = PALETTE[index % PALETTE.len()];
-    format!("#{red:02x}{green:02x}{blue:02x}")
+    hexadecimal(PALETTE[index % PALETTE.len()])
 }
 
 impl Motion<'_> {
@@ -128,8 +127,7 @@ impl Motion<'_> {
                 "<path d=\"M0 0H{length}\" stroke=\"{colour}\" stroke-width=\"{width}\" stroke-linecap=\"round\"/>"
             );
         } else {
-            // a reaction wheel: the uniform disc of its mass and inertia
-            let radius = short((2.0 * link.inertia / link.mass).sqrt().max(self.pixels(6.0)), 4);
+            let radius = short(wheel_radius(link).max(self.pixels(6.0)), 4);
             let _ = write!(
                 drawn,
                 "<circle class=\"body\" r=\"{radius}\" fill=\"{colour}\" stroke=\"{colour}\"/>\

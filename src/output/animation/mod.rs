@@ -8,6 +8,7 @@ mod view;
 use crate::capture::{CaseResult, Study};
 use crate::frames::poses;
 use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::markup;
 use crate::output::scene::visuals;
 use crate::output::time_series::{TimeSeriesRow, rows};
 use crate::scenario::Scenario;
@@ -69,7 +70,7 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
     let motion =
         Motion { scenario, frames: &frames, rows: &rows, holds: &holds, clip: &clip, still, scale: view.scale };
     let height = view.height + RAIL;
-    let title = escaped(&format!(
+    let title = markup::attribute(&format!(
         "{}, case {}: {} s, from the approach to the motion after the capture",
         scenario.name,
         case.name,
@@ -225,8 +226,4 @@ fn rail(view: &View, clip: &Clip, events: &[ImpactEvent<'_>], end: f64) -> Strin
         "\n<g transform=\"translate({SIDE} 0)\"><circle class=\"now\" cx=\"0\" cy=\"{top}\" r=\"6\">{moving}</circle></g>\n"
     );
     drawn
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,6 +1,6 @@
 //! Colours, dash patterns and symbols.
 
-use crate::output::scene::PALETTE;
+use crate::output::scene::{PALETTE, hexadecimal};
 
 /// A colour of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,8 +56,7 @@ impl Colour {
     /// `#rrggbb`.
     #[must_use]
     pub fn hexadecimal(self) -> String {
-        let [red, green, blue] = self.0;
-        format!("#{red:02x}{green:02x}{blue:02x}")
+        hexadecimal(self.0)
     }
 }
 

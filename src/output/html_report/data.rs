@@ -7,7 +7,7 @@ use crate::frames::{FrameMotion, robot_frames};
 use crate::layout::Layout;
 use crate::outline::Outline;
 use crate::output::run_manifest::RunManifest;
-use crate::output::scene::PALETTE;
+use crate::output::scene::{PALETTE, hexadecimal};
 use crate::output::summary::{least_distance, overlaps};
 use crate::scenario::{Case, Scenario};
 use crate::simulate::system::Body;
@@ -20,7 +20,7 @@ pub(super) fn data(scenario: &Scenario, study: &Study, manifest: &RunManifest) -
     let mut value = json!({
         "scenario": scenario.name,
         "run": manifest.to_json(),
-        "palette": PALETTE.map(|[red, green, blue]| format!("#{red:02x}{green:02x}{blue:02x}")),
+        "palette": PALETTE.map(hexadecimal),
         "layout": robot(&scenario.layout),
         "contact_duration": scenario.contact.duration,
         "targets": scenario.targets.iter().map(|target| json!({

@@ -7,6 +7,7 @@ mod contacts;
 mod data;
 
 use crate::capture::Study;
+use crate::output::markup;
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::Scenario;
 use std::io::{self, Write};
@@ -37,17 +38,13 @@ const PARTS: [(&str, &str); 15] = [
 /// # Errors
 /// Those of the writer.
 pub fn write_report(scenario: &Scenario, study: &Study, manifest: &RunManifest, mut to: impl Write) -> io::Result<()> {
-    let mut page = PAGE.replace("<!--title-->", &escaped(&scenario.name));
+    let mut page = PAGE.replace("<!--title-->", &markup::text(&scenario.name));
     for (placeholder, text) in PARTS {
         page = page.replace(placeholder, text.trim_end());
     }
     // `</` would end the script element
     let data = serde_json::to_string(&data::data(scenario, study, manifest))?.replace("</", "<\\/");
     to.write_all(page.replacen("/*data*/", &data, 1).as_bytes())
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// Rounded to six digits, more than the page shows.
