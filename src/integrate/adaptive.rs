@@ -1,42 +1,49 @@
-//! Verner's pair of orders 9 and 8 with adaptive steps, by the crate `differential-equations`, which only this folder
-//! uses.
+//! Adaptive steps by Verner's pair of orders 9 and 8, with dense output.
 
-use super::entries::Entries;
+use super::continuation::Continuation;
+use super::motion::Motion;
+use super::pair::{ALL_STAGES, BLOCK, Blocks, ORDER, PAIR, STAGES, combine, sum};
 use crate::error::Error;
-use differential_equations::error::Error as SolverError;
-use differential_equations::interpolate::Interpolation;
-use differential_equations::methods::{Adaptive as Steps, ExplicitRungeKutta, Ordinary};
-use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-use std::cell::{Cell, RefCell};
-use std::fmt;
+use crate::scalar::Real;
 
-/// f of ẋ = f(t, x), into its last argument.
-pub type Derivative<'a> = dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error> + 'a;
-
-/// 16 stages, 26 with those of the interpolant.
-type Solver = ExplicitRungeKutta<Ordinary, Steps, f64, Entries, 9, 16, 26>;
+/// The next step over the one that the error estimate allows.
+const SAFETY: f64 = 0.9;
+/// Least and largest ratio of a step to the one before.
+const RATIOS: [f64; 2] = [0.2, 10.0];
+/// Rejected steps without an accepted one between them that are too many.
+const MOST_REJECTED: u32 = 100;
 
 /// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
 ///
 /// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and
-/// continue beyond the requested times, at which x comes from the interpolant. Each accepted step takes 26 evaluations,
-/// each rejected one 15. Of the crate's methods this one has an interpolant as accurate as its steps.
+/// continue beyond the requested times, at which x comes from the interpolant. An accepted step takes 16 evaluations, a
+/// rejected one 15; the first time within a step for which x is asked takes 9 more. Steps take no memory.
+#[derive(Debug)]
 pub struct Adaptive {
-    /// Some 12 kB of tables.
-    solver: Box<Solver>,
     tolerance: f64,
+    /// Number of entries of x.
+    size: usize,
     /// f may change after this time, s.
     end: f64,
-    /// Next step, s, before it is shortened to end at `end`.
+    /// Start and end of the last step, s; the same before the first one.
+    span: [f64; 2],
+    /// x at both.
+    ends: [Blocks; 2],
+    /// ẋ at the end.
+    rate: Blocks,
+    /// ẋ at the stages of the last step, one after the other.
+    stages: Blocks,
+    /// Whether those of the interpolant are among them.
+    is_dense: bool,
+    /// The next step, s.
+    step: f64,
+    /// The same before it is shortened to end at `end`.
     next_step: f64,
     /// Steps taken or rejected so far.
     attempts: u64,
-}
-
-impl fmt::Debug for Adaptive {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Adaptive").field("tolerance", &self.tolerance).field("end", &self.end).finish_non_exhaustive()
-    }
+    continuation: Continuation,
+    /// x at a stage.
+    working: Blocks,
 }
 
 impl Adaptive {
@@ -46,65 +53,85 @@ impl Adaptive {
     /// With this tolerance, relative and absolute; to be [started](Self::start).
     #[must_use]
     pub fn new(tolerance: f64) -> Self {
-        let solver = Solver::rkv989e().rtol(tolerance).atol(tolerance).max_steps(usize::MAX);
-        Self { solver: Box::new(solver), tolerance, end: 0.0, next_step: 0.0, attempts: 0 }
+        Self {
+            tolerance,
+            size: 0,
+            end: 0.0,
+            span: [0.0; 2],
+            ends: [Vec::new(), Vec::new()],
+            rate: Vec::new(),
+            stages: Vec::new(),
+            is_dense: false,
+            step: 0.0,
+            next_step: 0.0,
+            attempts: 0,
+            continuation: Continuation::default(),
+            working: Vec::new(),
+        }
     }
 
     /// Starts at `x`; f holds until `end`. Where it was started before, the last step's length is tried first.
     ///
     /// # Errors
-    /// Those of `derivative`.
-    pub fn start(&mut self, time: f64, end: f64, x: &[f64], derivative: &mut Derivative<'_>) -> Result<(), Error> {
+    /// Those of `motion`.
+    pub fn start(&mut self, time: f64, end: f64, x: &[f64], motion: &mut dyn Motion) -> Result<(), Error> {
         let least = f64::EPSILON * time.abs().max(end.abs()).max(f64::MIN_POSITIVE);
         self.end = end.max(time + 4.0 * least);
-        self.solver.h0 = self.next_step.min(self.end - time); // 0: the solver estimates one
-        let problem = Problem::new(derivative);
-        let result = self.solver.init(&problem, time, self.end, &Entries(x.to_vec()));
-        self.next_step = self.solver.h();
-        problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))
+        self.size = x.len();
+        let blocks = x.len().div_ceil(BLOCK);
+        let resize = |vector: &mut Blocks, length| {
+            vector.clear();
+            vector.resize(length, [0.0; BLOCK]);
+        };
+        self.ends.iter_mut().chain([&mut self.working, &mut self.rate]).for_each(|vector| resize(vector, blocks));
+        self.continuation.reset(blocks);
+        resize(&mut self.stages, ALL_STAGES * blocks);
+        self.ends[1].as_flattened_mut()[..x.len()].copy_from_slice(x);
+        self.span = [time, time];
+        motion.derivative(time, x, &mut self.rate.as_flattened_mut()[..x.len()])?;
+        let first = if self.next_step > 0.0 { self.next_step } else { self.first_step(motion)? };
+        self.step = first.min(self.end - time);
+        self.next_step = self.step;
+        Ok(())
     }
 
     /// Steps until x is known at a time after `from`, for which the last step was taken: at `time`, or at the end of a
     /// step before it. Writes x to `into` and returns its time. `time` is no later than the end.
     ///
-    /// Before a step `restore` may change the x that it starts from, and says whether it did.
-    ///
     /// # Errors
-    /// [`Error::Tolerance`] where steps become too short, and those of `derivative` and `restore`.
-    pub fn advance(
-        &mut self,
-        [from, time]: [f64; 2],
-        into: &mut [f64],
-        derivative: &mut Derivative<'_>,
-        restore: &mut dyn FnMut(&mut [f64]) -> Result<bool, Error>,
-    ) -> Result<f64, Error> {
+    /// [`Error::Tolerance`] where steps become too short, and those of `motion`.
+    pub fn advance(&mut self, [from, time]: [f64; 2], into: &mut [f64], motion: &mut dyn Motion) -> Result<f64, Error> {
         // `end` may be a sum of steps, rounded to before the requested time
         let wanted = time.min(self.end);
         let rounding = 4.0 * f64::EPSILON * self.end.abs();
-        if wanted > self.solver.t() + rounding && from + rounding >= self.solver.t() {
-            let mut x = self.solver.y().0.clone();
-            if restore(&mut x)? {
-                self.start(self.solver.t(), self.end, &x, derivative)?;
+        let [_, reached] = self.span;
+        if wanted > reached + rounding && from + rounding >= reached {
+            into.copy_from_slice(self.x());
+            if motion.restore(into)? {
+                self.start(reached, self.end, into, motion)?;
             }
-            self.step(derivative)?;
+            self.take_step(motion)?;
         }
-        let now = self.solver.t();
+        let [_, now] = self.span;
         let reached = if wanted > now + rounding { now } else { time };
-        self.interpolate(reached, into).map(|()| reached)
+        self.interpolate(reached, into, motion).map(|()| reached)
     }
 
     /// x at a time within the last step.
     ///
     /// # Errors
-    /// None that its steps have not had.
-    pub fn interpolate(&mut self, time: f64, into: &mut [f64]) -> Result<(), Error> {
-        let (before, now) = (self.solver.t_prev(), self.solver.t());
+    /// Those of `motion`.
+    pub fn interpolate(&mut self, time: f64, into: &mut [f64], motion: &mut dyn Motion) -> Result<(), Error> {
+        let [before, now] = self.span;
         if time >= now || before >= now {
-            into.copy_from_slice(&self.solver.y().0);
+            into.copy_from_slice(self.x());
             return Ok(());
         }
-        let x = self.solver.interpolate(time.max(before)).map_err(|_| self.stuck())?;
-        into.copy_from_slice(&x.0);
+        self.add_stages_of_interpolant(motion)?;
+        let length = now - before;
+        let weights = PAIR.weights_within((time.max(before) - before) / length);
+        combine(&self.ends[0], length, &weights, &self.stages, &mut self.working);
+        into.copy_from_slice(&self.working.as_flattened()[..self.size]);
         Ok(())
     }
 
@@ -114,64 +141,130 @@ impl Adaptive {
         self.attempts
     }
 
+    /// x at the end of the last step.
+    fn x(&self) -> &[f64] {
+        &self.ends[1].as_flattened()[..self.size]
+    }
+
+    /// A step for the start, after Hairer, Nørsett & Wanner (1993), section II.4: short beside x over ẋ, and beside what
+    /// the change of ẋ over such a step allows.
+    fn first_step(&mut self, motion: &mut dyn Motion) -> Result<f64, Error> {
+        let [time, _] = self.span;
+        let size = self.size;
+        let probe = &mut self.working.as_flattened_mut()[..size];
+        let [x, rate] = [&self.ends[1], &self.rate].map(|blocks| &blocks.as_flattened()[..size]);
+        let scale = |x: f64| self.tolerance * (1.0 + x.abs());
+        let norm = |of: &[f64]| of.iter().zip(x).map(|(value, x)| (value / scale(*x)).powi(2)).sum::<f64>();
+        let (of_x, of_rate) = (norm(x), norm(rate));
+        let short = if of_rate <= 1e-10 || of_x <= 1e-10 { 1e-6 } else { 0.01 * (of_x / of_rate).sqrt() };
+        probe.iter_mut().zip(x.iter().zip(rate)).for_each(|(probe, (x, rate))| *probe = x + short * rate);
+        let changed = &mut self.stages.as_flattened_mut()[..size];
+        motion.derivative(time + short, probe, changed)?;
+        changed.iter_mut().zip(rate).for_each(|(changed, rate)| *changed -= rate);
+        let most = of_rate.sqrt().max(norm(changed).sqrt() / short);
+        let by_change = if most <= 1e-15 {
+            short * 1e-3
+        } else {
+            #[allow(clippy::cast_precision_loss, reason = "a small number")]
+            libm::pow(0.01 / most, 1.0 / ORDER as f64)
+        };
+        Ok((100.0 * short).min(by_change))
+    }
+
     /// One accepted step.
-    fn step(&mut self, derivative: &mut Derivative<'_>) -> Result<(), Error> {
-        let start = self.solver.t();
+    fn take_step(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
+        let [_, start] = self.span;
+        let blocks = self.rate.len();
+        let mut rejected = 0;
         loop {
             let left = self.end - start;
-            let cut = self.solver.h() > left;
-            if cut {
-                self.next_step = self.solver.h();
-                self.solver.set_h(left);
+            let is_cut = self.step > left;
+            if is_cut {
+                self.next_step = self.step;
+                self.step = left;
             }
-            let problem = Problem::new(derivative);
+            if start + self.step <= start || rejected >= MOST_REJECTED {
+                return Err(Error::Tolerance { tolerance: self.tolerance, step: self.step });
+            }
             self.attempts += 1;
-            let result = self.solver.step(&problem);
-            problem.result(result).map_err(|why| why.unwrap_or(self.stuck()))?;
-            if self.solver.t() > start {
-                self.next_step = if cut { self.next_step.max(self.solver.h()) } else { self.solver.h() };
+            self.stages[..blocks].copy_from_slice(&self.rate);
+            self.is_dense = false;
+            for stage in 1..STAGES {
+                self.add_stage(start, self.step, 1, stage, motion)?;
+            }
+            let error = self.error_at_end();
+            #[allow(clippy::cast_precision_loss, reason = "a small number")]
+            let allowed = SAFETY * libm::pow(error, -1.0 / ORDER as f64);
+            let [least, most] = RATIOS;
+            let ratio = if error.is_finite() { allowed.min(most).max(least) } else { least };
+            let length = self.step;
+            self.step *= if rejected > 0 { ratio.min(1.0) } else { ratio };
+            if error <= 1.0 {
+                self.ends.swap(0, 1);
+                std::mem::swap(&mut self.ends[1], &mut self.working);
+                self.span = [start, start + length];
+                self.next_step = if is_cut { self.next_step.max(self.step) } else { self.step };
+                let x = &self.ends[1].as_flattened()[..self.size];
+                motion.derivative(self.span[1], x, &mut self.rate.as_flattened_mut()[..self.size])?;
+                self.continuation.follow(length, &self.stages, &self.rate);
                 return Ok(());
             }
-            if start + self.solver.h() <= start {
-                return Err(self.stuck());
+            rejected += 1;
+        }
+    }
+
+    /// The end of a step by the formula of order 9, into working space, and its largest error over the one allowed, by that
+    /// of order 8.
+    fn error_at_end(&mut self) -> f64 {
+        let Self { tolerance, step, ends: [_, start], stages, working: end, .. } = self;
+        combine(start, *step, &PAIR.weights, stages, end);
+        let mut most = 0.0;
+        for (i, (start, end)) in start.iter().zip(end).enumerate() {
+            let error = sum(&PAIR.errors, stages, self.rate.len(), i);
+            for ((start, end), error) in start.iter().zip(end).zip(error) {
+                let allowed = *tolerance * (1.0 + start.abs().max(end.abs()));
+                most = Real::maximum(most, (*step * error / allowed).abs());
             }
         }
+        most
     }
 
-    fn stuck(&self) -> Error {
-        Error::Tolerance { tolerance: self.tolerance, step: self.solver.h() }
-    }
-}
-
-/// f in the crate's form, which cannot return errors: the first error is kept.
-struct Problem<'a, 'd> {
-    derivative: RefCell<&'a mut Derivative<'d>>,
-    failure: Cell<Option<Error>>,
-}
-
-impl<'a, 'd> Problem<'a, 'd> {
-    fn new(derivative: &'a mut Derivative<'d>) -> Self {
-        Self { derivative: RefCell::new(derivative), failure: Cell::new(None) }
-    }
-
-    /// The error of f, or `None` as the error of the solver.
-    fn result<X>(self, result: Result<X, SolverError<f64, Entries>>) -> Result<(), Option<Error>> {
-        match (self.failure.get(), result) {
-            (Some(failure), _) => Err(Some(failure)),
-            (None, Err(_)) => Err(None),
-            (None, Ok(_)) => Ok(()),
+    /// Evaluates a stage of a step of a length, s, from `start`, s, where x is that of an end of the last step.
+    fn add_stage(
+        &mut self,
+        start: f64,
+        length: f64,
+        end: usize,
+        stage: usize,
+        motion: &mut dyn Motion,
+    ) -> Result<(), Error> {
+        let Self { size, ends, stages, continuation, working: at, .. } = self;
+        let blocks = at.len();
+        combine(&ends[end], length, &PAIR.rows[stage], stages, at);
+        if let Some((_, defects)) = PAIR.defects.iter().find(|(of, _)| *of == stage) {
+            continuation.correct(length, defects, at);
         }
+        let rate = &mut stages[stage * blocks..(stage + 1) * blocks];
+        let time = start + PAIR.nodes[stage] * length;
+        motion.derivative(time, &at.as_flattened()[..*size], &mut rate.as_flattened_mut()[..*size])
+    }
+
+    /// Evaluates the stages of the interpolant over the last step, once.
+    fn add_stages_of_interpolant(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
+        if self.is_dense {
+            return Ok(());
+        }
+        let [start, end] = self.span;
+        // the first of them is at the end of the step
+        let blocks = self.rate.len();
+        self.stages[STAGES * blocks..(STAGES + 1) * blocks].copy_from_slice(&self.rate);
+        for stage in STAGES + 1..ALL_STAGES {
+            self.add_stage(start, end - start, 0, stage, motion)?;
+        }
+        self.is_dense = true;
+        Ok(())
     }
 }
 
-impl ODE<f64, Entries> for Problem<'_, '_> {
-    fn diff(&self, time: f64, Entries(x): &Entries, Entries(rate): &mut Entries) {
-        if self.failure.get().is_some() {
-            return rate.fill(0.0);
-        }
-        if let Err(failure) = (*self.derivative.borrow_mut())(time, x, rate) {
-            self.failure.set(Some(failure));
-            rate.fill(0.0);
-        }
-    }
-}
+#[cfg(test)]
+mod tests;

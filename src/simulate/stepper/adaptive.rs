@@ -2,7 +2,7 @@
 
 use super::{Properties, Steps};
 use crate::error::Error;
-use crate::integrate::Adaptive;
+use crate::integrate::{Adaptive, Motion};
 use crate::simulate::equation::Equation;
 
 pub(super) const PROPERTIES: Properties =
@@ -49,6 +49,20 @@ impl AdaptiveSteps {
     }
 }
 
+impl Motion for Equation<'_> {
+    fn derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        Equation::derivative(self, time, x, rate)
+    }
+
+    fn restore(&mut self, x: &mut [f64]) -> Result<bool, Error> {
+        if self.system.constraints.is_empty() {
+            return Ok(false);
+        }
+        let before = x.to_vec();
+        self.system.restore(x).map(|()| before != x)
+    }
+}
+
 impl Steps for AdaptiveSteps {
     fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
         let Self { solver, duration, until, .. } = self;
@@ -59,21 +73,15 @@ impl Steps for AdaptiveSteps {
             let held = equation.control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
             let next = if held > *duration - half { *duration } else { held.max(end) };
             *until = Some(next);
-            solver.start(time, next, x, &mut |t, x, rate| equation.derivative(t, x, rate))?;
+            solver.start(time, next, x, equation)?;
         }
-        let system = equation.system;
-        let mut restore = |x: &mut [f64]| {
-            let before = x.to_vec();
-            system.restore(x).map(|()| before != x)
-        };
-        let mut derivative = |t: f64, x: &[f64], rate: &mut [f64]| equation.derivative(t, x, rate);
-        let reached = solver.advance([from, end], x, &mut derivative, &mut restore)?;
+        let reached = solver.advance([from, end], x, equation)?;
         self.count(reached, end - time)?;
         equation.restore(x).map(|()| reached)
     }
 
     fn within(&mut self, equation: &mut Equation<'_>, [_, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
-        self.solver.interpolate(time, x)?;
+        self.solver.interpolate(time, x, equation)?;
         equation.restore(x)
     }
 }

@@ -68,7 +68,7 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// The default tolerance: the error of the paper's approach is then less than 1e-12 rad and m.
+    /// The default tolerance: the error of the paper's approach is then less than 1e-10 in every position and rate (SI).
     pub const DEFAULT_TOLERANCE: f64 = 1e-10;
 
     /// All integrators.

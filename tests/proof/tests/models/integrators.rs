@@ -103,7 +103,7 @@ fn errors_of_a_derivative_are_returned() {
         let mut x = [1.0];
         let mut reached = solver.start(0.0, 1.0, &[1.0], &mut failing).map(|()| 0.0);
         while let Ok(from @ ..1.0) = reached {
-            reached = solver.advance([from, 1.0], &mut x, &mut failing, &mut |_| Ok(false));
+            reached = solver.advance([from, 1.0], &mut x, &mut failing);
         }
         assert_eq!(reached, Err(Error::StateVector { found: 7 }), "{last}");
         assert_eq!(calls_after, 1, "the derivative is not asked again");

@@ -1,0 +1,170 @@
+//! Steps against those of the crate that the tables are from, solutions that are known, and fast feedback.
+
+use super::{Adaptive, Motion};
+use crate::error::Error;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+
+/// Integrates to the end with steps of its own, and returns x there.
+fn solve(solver: &mut Adaptive, start: &[f64], end: f64, mut motion: impl Motion) -> Result<Vec<f64>, Error> {
+    let mut x = start.to_vec();
+    solver.start(0.0, end, start, &mut motion)?;
+    let mut time = 0.0;
+    while time < end {
+        time = solver.advance([time, end], &mut x, &mut motion)?;
+    }
+    Ok(x)
+}
+
+/// Two bodies about each other on an ellipse of eccentricity 0.6: [x, y, vx, vy].
+#[allow(clippy::unnecessary_wraps, reason = "a motion")]
+fn orbit(_: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+    let cubed = libm::pow(x[0] * x[0] + x[1] * x[1], 1.5);
+    rate.copy_from_slice(&[x[2], x[3], -x[0] / cubed, -x[1] / cubed]);
+    Ok(())
+}
+
+const PERIAPSIS: [f64; 4] = [0.4, 0.0, 0.0, 2.0];
+
+/// ẋ = λ (cos t − x) − sin t, whose solution from 1 is cos t: feedback that follows a motion (Prothero & Robinson 1974).
+fn feedback(gain: f64) -> impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), Error> {
+    move |time, x, rate| {
+        rate[0] = gain * (libm::cos(time) - x[0]) - libm::sin(time);
+        Ok(())
+    }
+}
+
+/// The same as problems of the crate.
+struct Orbit;
+
+impl ODE<f64, [f64; 4]> for Orbit {
+    fn diff(&self, time: f64, x: &[f64; 4], rate: &mut [f64; 4]) {
+        orbit(time, x, rate).expect("an orbit");
+    }
+}
+
+struct Feedback(f64);
+
+impl ODE<f64, [f64; 1]> for Feedback {
+    fn diff(&self, time: f64, x: &[f64; 1], rate: &mut [f64; 1]) {
+        feedback(self.0)(time, x, rate).expect("feedback");
+    }
+}
+
+/// There is no step before it to continue.
+#[test]
+fn the_first_step_is_that_of_the_crate() {
+    let mut theirs = ExplicitRungeKutta::rkv989e().rtol(1e-9).atol(1e-9);
+    theirs.init(&Orbit, 0.0, 5.0, &PERIAPSIS).expect("a start");
+    theirs.step(&Orbit).expect("a step");
+    let end = theirs.t();
+    let mut ours = Adaptive::new(1e-9);
+    ours.start(0.0, 5.0, &PERIAPSIS, &mut orbit).expect("a start");
+    let mut x = [0.0; 4];
+    let reached = ours.advance([0.0, 5.0], &mut x, &mut orbit).expect("a step");
+    assert!((reached - end).abs() < 1e-12 * end, "{reached} {end}");
+    for part in [0.1, 0.5, 0.9, 1.0] {
+        ours.interpolate(part * end, &mut x, &mut orbit).expect("within");
+        let expected = theirs.interpolate(part * end).expect("within");
+        let largest = x.iter().zip(expected).fold(0.0, |most: f64, (x, expected)| most.max((x - expected).abs()));
+        // the first steps differ by the rounding of their length
+        assert!(largest < 5e-12, "{part}: {largest:e}");
+    }
+}
+
+#[test]
+fn the_error_is_the_tolerance() {
+    let period = std::f64::consts::TAU;
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let mut solver = Adaptive::new(tolerance);
+        let x = solve(&mut solver, &PERIAPSIS, period, orbit).expect("an orbit");
+        let largest = x.iter().zip(PERIAPSIS).fold(0.0, |most: f64, (x, start)| most.max((x - start).abs()));
+        // an error along the orbit grows with the speed at the periapsis and the number of steps
+        assert!(largest < 100.0 * tolerance, "{tolerance:e}: {largest:e}");
+        assert!(largest > 1e-4 * tolerance, "{tolerance:e}: {largest:e}, by steps that are too short");
+    }
+}
+
+/// Between the ends of steps x is as exact as there.
+#[test]
+fn the_interpolant_is_as_exact_as_the_steps() {
+    let mut motion = feedback(2.0);
+    let (mut solver, mut x) = (Adaptive::new(1e-10), [1.0]);
+    solver.start(0.0, 20.0, &x, &mut motion).expect("a start");
+    let (mut time, mut count) = (0.0, 0);
+    while time < 20.0 {
+        let next = solver.advance([time, 20.0], &mut x, &mut motion).expect("a step");
+        for part in [0.01, 0.3, 0.7, 0.99] {
+            let within = time + part * (next - time);
+            solver.interpolate(within, &mut x, &mut motion).expect("within");
+            assert!((x[0] - libm::cos(within)).abs() < 1e-9, "{within}: {:e}", x[0] - libm::cos(within));
+            count += 1;
+        }
+        time = next;
+    }
+    assert!(count > 40, "{count}");
+}
+
+/// Where feedback is faster than the motion, continuing the last step saves half of the steps of the method alone and
+/// more, at no cost of accuracy.
+#[test]
+fn fast_feedback_takes_few_steps() {
+    for gain in [20.0, 50.0] {
+        let mut solver = Adaptive::new(1e-10);
+        let x = solve(&mut solver, &[1.0], 20.0, feedback(gain)).expect("feedback");
+        assert!((x[0] - libm::cos(20.0)).abs() < 1e-10, "{:e}", x[0] - libm::cos(20.0));
+        let mut theirs = ExplicitRungeKutta::rkv989e().rtol(1e-10).atol(1e-10);
+        theirs.init(&Feedback(gain), 0.0, 20.0, &[1.0]).expect("a start");
+        let mut steps = 0;
+        while theirs.t() < 20.0 {
+            theirs.step(&Feedback(gain)).expect("a step");
+            steps += 1;
+        }
+        assert!(2 * solver.attempts() < steps, "{} of {steps}", solver.attempts());
+    }
+}
+
+/// What is unstable at the steps that the accuracy allows is limited by its stability, and stays accurate.
+#[test]
+fn stiff_feedback_is_accurate() {
+    for gain in [1e3, 1e4] {
+        let mut solver = Adaptive::new(1e-8);
+        let x = solve(&mut solver, &[1.0], 2.0, feedback(gain)).expect("feedback");
+        assert!((x[0] - libm::cos(2.0)).abs() < 1e-8, "{gain}: {:e}", x[0] - libm::cos(2.0));
+        #[allow(clippy::cast_precision_loss, reason = "a small number")]
+        let product = gain * 2.0 / solver.attempts() as f64;
+        assert!(product > 2.0, "{gain}: steps of {product} time constants");
+    }
+}
+
+/// A step that cannot be short enough, and an x that overflows, are errors and no results.
+#[test]
+fn what_cannot_be_integrated_is_an_error() {
+    let blow_up = |_: f64, x: &[f64], rate: &mut [f64]| {
+        rate[0] = x[0] * x[0];
+        Ok(())
+    };
+    let mut solver = Adaptive::new(1e-9);
+    let found = solve(&mut solver, &[1.0], 2.0, blow_up);
+    assert!(matches!(found, Err(Error::Tolerance { tolerance: 1e-9, step }) if step < 1e-9), "{found:?}");
+    let undefined = |time: f64, _: &[f64], rate: &mut [f64]| {
+        rate[0] = (0.5 - time).sqrt();
+        Ok(())
+    };
+    let mut solver = Adaptive::new(1e-9);
+    assert!(matches!(solve(&mut solver, &[1.0], 2.0, undefined), Err(Error::Tolerance { .. })));
+}
+
+/// A sampled law's torques change at the end of a part: the next one is tried with the length of the steps before.
+#[test]
+fn a_new_start_remembers_the_length_of_steps() {
+    let mut solver = Adaptive::new(1e-9);
+    let mut motion = feedback(2.0);
+    solve(&mut solver, &[1.0], 10.0, &mut motion).expect("feedback");
+    let before = solver.attempts();
+    let mut x = [1.0];
+    solver.start(0.0, 10.0, &[1.0], &mut motion).expect("a start");
+    let reached = solver.advance([0.0, 10.0], &mut x, &mut motion).expect("a step");
+    assert!(solver.attempts() - before <= 3 && reached > 0.05, "{reached}");
+}
