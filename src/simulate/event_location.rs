@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::path::PathInterval;
+use crate::simulate::root::root;
 use crate::simulate::stepper::{StateAt, Stepper};
 use crate::simulate::subdivision::Subdivision;
 use crate::simulate::system::System;
@@ -108,7 +109,7 @@ impl<'a> EventLocator<'a> {
                 None
             };
             if let Some((late, below)) = bracket {
-                let time = self.root(event, [start, late], [values[0], below], state_at)?;
+                let time = self.time_of(event, [start, late], [values[0], below], state_at)?;
                 if first.is_none_or(|(_, earlier)| time < earlier) {
                     first = Some((event, time));
                 }
@@ -130,7 +131,7 @@ impl<'a> EventLocator<'a> {
             let Some([above, below]) = bracket else { continue };
             let values = [self.value_at(event, above, state_at)?, self.value_at(event, below, state_at)?];
             // the interpolant and the dense output differ by rounding and the error of a step
-            let time = if values[0] > 0.0 { self.root(event, [above, below], values, state_at)? } else { above };
+            let time = if values[0] > 0.0 { self.time_of(event, [above, below], values, state_at)? } else { above };
             if first.is_none_or(|(_, earlier)| time < earlier) {
                 first = Some((event, time));
             }
@@ -171,6 +172,19 @@ impl<'a> EventLocator<'a> {
         Ok(values[event])
     }
 
+    /// The time, or just after it, at which a value falls to 0 that is above 0 at the first time and 0 or below at the
+    /// second.
+    fn time_of(
+        &mut self,
+        event: usize,
+        times @ [_, below]: [f64; 2],
+        values: [f64; 2],
+        state_at: &mut StateAt<'_>,
+    ) -> Result<f64, Error> {
+        let tolerance = TIME_TOLERANCE * below.abs().max(1.0);
+        root(times, values, tolerance, |time| self.value_at(event, time, state_at))
+    }
+
     /// Golden-section search for a time at which a value that falls at the start and rises at the end is 0 or below;
     /// returns the time and the value.
     fn find_below_zero(
@@ -202,44 +216,6 @@ impl<'a> EventLocator<'a> {
             }
         }
     }
-
-    /// The time, or just after it, at which a value falls to 0 that is above 0 at the first time and 0 or below at the
-    /// second. By the ITP method of Oliveira & Takahashi (2020): as good as bisection at worst, superlinear for smooth
-    /// values.
-    fn root(
-        &mut self,
-        event: usize,
-        [mut above, mut below]: [f64; 2],
-        [mut high, mut low]: [f64; 2],
-        state_at: &mut StateAt<'_>,
-    ) -> Result<f64, Error> {
-        let tolerance = TIME_TOLERANCE * below.abs().max(1.0);
-        let shift = 0.2 / (below - above);
-        let mut reach = tolerance * 2.0_f64.powi(2 + bisections(below - above, tolerance));
-        while below - above > tolerance && low < 0.0 {
-            let middle = above + 0.5 * (below - above);
-            let chord = above + (below - above) * (high / (high - low));
-            let toward = (middle - chord).signum();
-            let moved = (shift * (below - above).powi(2)).max(0.5 * tolerance);
-            let truncated = if moved <= (middle - chord).abs() { chord + toward * moved } else { middle };
-            let radius = (0.5 * (reach - (below - above))).max(0.0);
-            let time = if (truncated - middle).abs() <= radius { truncated } else { middle - toward * radius };
-            let value = self.value_at(event, time, state_at)?;
-            if value > 0.0 {
-                (above, high) = (time, value);
-            } else {
-                (below, low) = (time, value);
-            }
-            reach *= 0.5;
-        }
-        Ok(below)
-    }
-}
-
-/// The number of bisections that reduce a bracket to the tolerance.
-#[allow(clippy::cast_possible_truncation, reason = "54 at most, for the accuracy is above rounding")]
-fn bisections(length: f64, tolerance: f64) -> i32 {
-    libm::log2(length / tolerance).ceil().max(0.0) as i32
 }
 
 #[cfg(test)]

@@ -43,16 +43,22 @@ impl Knots {
         Some((*time, state))
     }
 
-    /// Calls `visit` with each knot and the next one, which have this many numbers.
-    pub(super) fn try_for_each_pair<E: From<io::Error>>(
+    /// Calls `visit` with this many knots and the next one, from which the next visit goes on; each knot of `length` numbers.
+    /// Fewer come where there are no more, in memory or in a block of the file.
+    pub(super) fn try_for_each_window<E: From<io::Error>>(
         &self,
         length: usize,
-        mut visit: impl FnMut(&[f64], &[f64]) -> Result<(), E>,
+        count: usize,
+        mut visit: impl FnMut(&[f64]) -> Result<(), E>,
     ) -> Result<(), E> {
         let mut visit_all = |knots: &[f64]| {
-            let pairs = knots.chunks_exact(length).zip(knots.chunks_exact(length).skip(1));
-            pairs.into_iter().try_for_each(|(knot, next)| visit(knot, next))
+            let last = (knots.len() / length).saturating_sub(1);
+            let starts = (0..last).step_by(count);
+            starts.into_iter().try_for_each(|from| visit(&knots[length * from..length * (last.min(from + count) + 1)]))
         };
+        if self.stored == 0 {
+            return visit_all(&self.in_memory);
+        }
         let mut window = Vec::new();
         let block = MOST_IN_MEMORY.next_multiple_of(length);
         for from in (0..self.stored).step_by(block) {
@@ -123,14 +129,20 @@ mod tests {
             assert_eq!(knots.last(N), Some((numbers[0], &numbers[1..])));
         }
         assert!(knots.in_memory.len() <= MOST_IN_MEMORY + N && knots.stored > 0);
-        let mut seen = 0;
-        let visited = knots.try_for_each_pair(N, |first, second| {
-            assert_eq!([first, second], [knot(seen), knot(seen + 1)]);
-            seen += 1;
-            io::Result::Ok(())
-        });
-        visited.expect("a file");
-        assert_eq!(seen, count - 1);
+        for window in [1, 7] {
+            let mut seen = 0;
+            let visited = knots.try_for_each_window(N, window, |knots| {
+                assert!((2..=window + 1).contains(&(knots.len() / N)), "{}", knots.len());
+                assert_eq!(knots[..N], knot(seen));
+                for found in knots.chunks_exact(N).skip(1) {
+                    seen += 1;
+                    assert_eq!(found, knot(seen));
+                }
+                io::Result::Ok(())
+            });
+            visited.expect("a file");
+            assert_eq!(seen, count - 1);
+        }
     }
 
     #[test]

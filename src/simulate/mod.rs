@@ -11,6 +11,7 @@ mod knots;
 pub mod limits;
 pub mod path;
 mod recorder;
+pub(crate) mod root;
 mod sample_file;
 pub mod sample_list;
 pub mod stepper;

@@ -33,7 +33,91 @@ pub struct PathInterval<'a> {
     pub end: [&'a [f64]; 2],
 }
 
+/// A part of a path over which its bodies are looked at.
+pub trait PathPart {
+    /// From and to, s.
+    fn span(&self) -> [f64; 2];
+
+    /// Rates at its start.
+    fn first_rates(&self) -> &[f64];
+
+    /// Positions and rates at a time within it, s.
+    fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]);
+
+    /// Bounds of the magnitudes of the rates, less those of a `reference`, and of their derivatives.
+    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]);
+}
+
+/// Consecutive intervals of a path.
+#[derive(Clone, Copy, Debug)]
+pub struct PathWindow<'a> {
+    /// Two or more, one after the other.
+    knots: &'a [f64],
+    /// Number of positions.
+    size: usize,
+}
+
+impl PathWindow<'_> {
+    /// Numbers of a knot: time, positions, rates.
+    fn record(&self) -> usize {
+        1 + 2 * self.size
+    }
+
+    fn interval(&self, index: usize) -> PathInterval<'_> {
+        let record = self.record();
+        let [start, end] = [index, index + 1].map(|knot| &self.knots[knot * record..(knot + 1) * record]);
+        let halves = |knot| <[&[f64]; 2]>::from(<[f64]>::split_at(knot, self.size));
+        PathInterval { span: [start[0], end[0]], start: halves(&start[1..]), end: halves(&end[1..]) }
+    }
+
+    fn intervals(&self) -> impl Iterator<Item = PathInterval<'_>> {
+        (0..self.knots.len() / self.record() - 1).map(|index| self.interval(index))
+    }
+}
+
+impl PathPart for PathWindow<'_> {
+    fn span(&self) -> [f64; 2] {
+        [self.knots[0], self.knots[self.knots.len() - self.record()]]
+    }
+
+    fn first_rates(&self) -> &[f64] {
+        &self.knots[1 + self.size..][..self.size]
+    }
+
+    fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
+        let inner = self.knots.chunks_exact(self.record()).skip(1).map(|knot| knot[0]);
+        let last = self.knots.len() / self.record() - 2;
+        let index = inner.take_while(|end| *end < time).count().min(last);
+        self.interval(index).at(time, positions, rates);
+    }
+
+    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
+        for half in [&mut *rates, &mut *accelerations] {
+            half.fill(0.0);
+        }
+        for interval in self.intervals() {
+            for (i, (rate, acceleration)) in rates.iter_mut().zip(&mut *accelerations).enumerate() {
+                let [own_rate, own_acceleration] = interval.bounds_of(i, reference(i));
+                (*rate, *acceleration) = (rate.max(own_rate), acceleration.max(own_acceleration));
+            }
+        }
+    }
+}
+
 impl Path {
+    /// Calls `visit` with as many consecutive intervals, in order of time; now and then with fewer.
+    ///
+    /// # Errors
+    /// Those of `visit`, and of the file in which a long path is.
+    pub fn try_for_each_window<E: From<io::Error>>(
+        &self,
+        count: usize,
+        mut visit: impl FnMut(PathWindow<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let size = self.size;
+        self.knots.try_for_each_window(self.record(), count, |knots| visit(PathWindow { knots, size }))
+    }
+
     /// Calls `visit` with its intervals, in order of time.
     ///
     /// # Errors
@@ -42,11 +126,7 @@ impl Path {
         &self,
         mut visit: impl FnMut(PathInterval<'_>) -> Result<(), E>,
     ) -> Result<(), E> {
-        self.knots.try_for_each_pair(self.record(), |start, end| {
-            let ([from, start @ ..], [to, end @ ..]) = (start, end) else { return Ok(()) };
-            let [start, end] = [start, end].map(|knot| knot.split_at(self.size).into());
-            visit(PathInterval { span: [*from, *to], start, end })
-        })
+        self.try_for_each_window(1, |window| window.intervals().try_for_each(&mut visit))
     }
 
     /// Numbers of a knot: time, positions, rates.
@@ -73,8 +153,28 @@ impl<'a> PathInterval<'a> {
         Ok(Self { span, start: [start.positions, start.rates], end: [end.positions, end.rates] })
     }
 
-    /// Positions and rates at a time within the interval, s.
-    pub fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
+    /// Bounds of the magnitudes of a rate, less a reference, and of its derivative, by the control points of the
+    /// interpolant's derivatives in Bernstein form.
+    fn bounds_of(&self, i: usize, reference: f64) -> [f64; 2] {
+        let length = self.span[1] - self.span[0];
+        let slope = (self.end[0][i] - self.start[0][i]) / length - reference;
+        let [v, w] = [self.start[1][i] - reference, self.end[1][i] - reference];
+        let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
+        let rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
+        [rate, ends[0].abs().max(ends[1].abs()) * 2.0 / length]
+    }
+}
+
+impl PathPart for PathInterval<'_> {
+    fn span(&self) -> [f64; 2] {
+        self.span
+    }
+
+    fn first_rates(&self) -> &[f64] {
+        self.start[1]
+    }
+
+    fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
         let length = self.span[1] - self.span[0];
         let u = (time - self.span[0]) / length;
         let coordinates = positions.iter_mut().zip(rates).enumerate();
@@ -87,17 +187,9 @@ impl<'a> PathInterval<'a> {
         }
     }
 
-    /// Bounds of the magnitudes of the rates, less those of a `reference`, and of their derivatives, by the control points
-    /// of the interpolant's derivatives in Bernstein form.
-    pub fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
-        let length = self.span[1] - self.span[0];
+    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
         for (i, (rate, acceleration)) in rates.iter_mut().zip(accelerations).enumerate() {
-            let reference = reference(i);
-            let slope = (self.end[0][i] - self.start[0][i]) / length - reference;
-            let [v, w] = [self.start[1][i] - reference, self.end[1][i] - reference];
-            *rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
-            let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
-            *acceleration = ends[0].abs().max(ends[1].abs()) * 2.0 / length;
+            [*rate, *acceleration] = self.bounds_of(i, reference(i));
         }
     }
 }

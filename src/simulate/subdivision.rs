@@ -6,7 +6,7 @@
 //! the middle has a slope there.
 
 use crate::error::Error;
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::{PathInterval, PathPart};
 use crate::simulate::stepper::StateAt;
 use crate::simulate::system::System;
 use crate::state::split;

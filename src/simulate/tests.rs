@@ -21,7 +21,7 @@ use crate::control::{ProportionalDerivative, TorqueLimiter, ZeroTorque};
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::{PathInterval, PathPart};
 use crate::state::ActuatorWork;
 use crate::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, layout};

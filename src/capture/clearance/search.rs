@@ -5,7 +5,9 @@ use super::bodies::BodyPair;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::{PathPart, PathWindow};
+use crate::simulate::root::root;
+use std::convert::Infallible;
 
 /// A lower least distance than the one found may be missed by this, m; shallower overlaps are none.
 const RESOLUTION: f64 = 1e-6;
@@ -87,13 +89,13 @@ impl Findings {
     }
 }
 
-/// Two parts over one interval of the path.
-pub(super) struct IntervalSearch<'a> {
+/// Two parts over a window of the path.
+pub(super) struct WindowSearch<'a> {
     pub(super) shapes: PartPair<'a>,
     /// Indices of the frames of their bodies.
     pub(super) frames: [usize; 2],
     pub(super) motions: FrameKinematics<'a>,
-    pub(super) interval: PathInterval<'a>,
+    pub(super) window: PathWindow<'a>,
     /// Of the phase, s.
     pub(super) start: f64,
     pub(super) workspace: &'a mut PathWorkspace,
@@ -101,7 +103,7 @@ pub(super) struct IntervalSearch<'a> {
     pub(super) instants: &'a mut [Vec<Instant>; 2],
 }
 
-impl IntervalSearch<'_> {
+impl WindowSearch<'_> {
     /// Computes the distance at both ends, and between them wherever it may be below the goal; where the parts overlap,
     /// wherever there may be a gap, and the largest depth.
     ///
@@ -109,7 +111,7 @@ impl IntervalSearch<'_> {
     /// The time at which the distances are used up, since the start of the approach, s.
     pub(super) fn run(&mut self, part: &mut PartDistance, pair: &BodyPair, found: &mut Findings) -> Result<(), f64> {
         let known = (part.pair, pair);
-        let [first, last] = self.interval.span;
+        let [first, last] = self.window.span();
         let before = part.last.filter(|instant| instant.time.to_bits() == first.to_bits());
         let mut left = before.map_or_else(|| self.record_at(first, known, found), Ok)?;
         let end = self.record_at(last, known, found)?;
@@ -145,7 +147,7 @@ impl IntervalSearch<'_> {
                 }
                 Some(open) if now.distance > 0.0 => {
                     self.deepen(open, known, found, &instants[begins..=i])?;
-                    found.overlaps[open].span[1] = self.start + self.crossing([instants[before].time, now.time]);
+                    found.overlaps[open].span[1] = self.start + self.crossing([now, &instants[before]]);
                     part.open = None;
                 }
                 _ => {}
@@ -198,37 +200,36 @@ impl IntervalSearch<'_> {
     }
 
     fn at(&mut self, time: f64) -> Instant {
-        self.workspace.instant(self.motions, &self.interval, (self.frames, &self.shapes), time)
+        self.workspace.instant(self.motions, &self.window, (self.frames, &self.shapes), time)
     }
 
     /// The time at which the parts touch before they overlap at an instant; nothing is known of the times before an
     /// earlier instant at which they do.
     fn touch(&mut self, before: &Instant, now: &Instant) -> f64 {
         if before.distance > 0.0 {
-            return self.crossing([now.time, before.time]);
+            return self.crossing([before, now]);
         }
-        let earliest = self.interval.span[0];
+        let earliest = self.window.span()[0];
         let mut step = SHORTEST;
-        let mut late = now.time;
+        let mut late = *now;
         loop {
-            let early = (now.time - step).max(earliest);
-            if self.at(early).distance > 0.0 {
-                return self.crossing([late, early]);
+            let early = self.at((now.time - step).max(earliest));
+            if early.distance > 0.0 {
+                return self.crossing([&early, &late]);
             }
-            if early <= earliest {
+            if early.time <= earliest {
                 return earliest;
             }
             (late, step) = (early, 2.0 * step);
         }
     }
 
-    /// A time at which the distance changes its sign: 0 or below at the first time, above at the second. By bisection.
-    fn crossing(&mut self, [mut inside, mut outside]: [f64; 2]) -> f64 {
-        while (outside - inside).abs() > SHORTEST {
-            let middle = inside + 0.5 * (outside - inside);
-            if self.at(middle).distance > 0.0 { outside = middle } else { inside = middle }
-        }
-        inside
+    /// A time at which the distance changes its sign: above 0 at the first instant, 0 or below at the second.
+    fn crossing(&mut self, [outside, inside]: [&Instant; 2]) -> f64 {
+        let ends = [outside, inside];
+        let distance = |time| Ok::<f64, Infallible>(self.at(time).distance);
+        let Ok(time) = root(ends.map(|at| at.time), ends.map(|at| at.distance), SHORTEST, distance);
+        time
     }
 }
 

@@ -1,7 +1,7 @@
 //! Least distances and overlaps of pairs of bodies over the phases of a case.
 
 use super::bodies::{BodyPair, ClearanceBody};
-use super::search::{Findings, IntervalSearch, PartDistance};
+use super::search::{Findings, PartDistance, WindowSearch};
 use super::{ClearanceError, Exhausted};
 use crate::capture::assembly::Attachment;
 use crate::capture::proximity::motion::FrameKinematics;
@@ -9,7 +9,11 @@ use crate::capture::proximity::part_pair::PartPair;
 use crate::capture::proximity::workspace::PathWorkspace;
 use crate::capture::target_motion::TargetMotion;
 use crate::frames::{Frame, FrameMotion};
-use crate::simulate::path::Path;
+use crate::simulate::path::{Path, PathPart};
+
+/// Intervals of a path that are looked at together: what is far apart, or comes steadily nearer, needs no more instants
+/// over many of them than over one.
+const WINDOW: usize = 16;
 
 /// Pairs of bodies, and what has been found of them.
 #[derive(Clone)]
@@ -78,10 +82,11 @@ impl DistanceTracker {
         };
         let mut end = start;
         distances.iter_mut().flat_map(|known| &mut known.parts).for_each(|part| part.last = None);
-        path.try_for_each(|interval| {
-            let length = interval.span[1] - interval.span[0];
-            end = start + interval.span[1];
-            workspace.set_bounds(motions, &interval);
+        path.try_for_each_window(WINDOW, |window| {
+            let [first, last] = window.span();
+            let length = last - first;
+            end = start + last;
+            workspace.set_bounds(motions, &window);
             for (pair, known) in pairs.iter().zip(distances.iter_mut()) {
                 if holds(pair) {
                     known.parts.iter_mut().for_each(|part| part.open = None);
@@ -92,7 +97,7 @@ impl DistanceTracker {
                 if known.parts.iter().all(|part| part.open.is_none()) {
                     let (goal, away) = (found.goal(pair), workspace.speed(frames, [0.0; 2]) * length);
                     if known.circles - away < goal {
-                        let between = workspace.origin_distance(motions, &interval, frames, interval.span[0]);
+                        let between = workspace.origin_distance(motions, &window, frames, first);
                         known.circles = between - a.reach() - b.reach();
                     }
                     known.circles -= away;
@@ -113,11 +118,11 @@ impl DistanceTracker {
                         continue;
                     }
                     let acceleration = workspace.acceleration(frames, reaches);
-                    let mut search = IntervalSearch {
+                    let mut search = WindowSearch {
                         shapes: PartPair { parts: shapes, speed, acceleration },
                         frames,
                         motions,
-                        interval,
+                        window,
                         start,
                         workspace: &mut workspace,
                         instants: &mut instants,

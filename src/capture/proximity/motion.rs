@@ -4,7 +4,7 @@ use crate::capture::assembly::TargetPlacement;
 use crate::capture::target_motion::TargetMotion;
 use crate::frames::{Frame, FrameMotion};
 use crate::scalar::Scalar;
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::PathPart;
 use crate::simulate::system::Body;
 
 /// The motion of all frames during a phase.
@@ -41,8 +41,8 @@ pub(in crate::capture) struct MotionBound {
 }
 
 /// [vx, vy] of the base at the start of an interval, m/s.
-pub(super) fn velocity_of_base(interval: &PathInterval<'_>) -> [f64; 2] {
-    let [_, rates] = interval.start;
+pub(super) fn velocity_of_base(part: &impl PathPart) -> [f64; 2] {
+    let rates = part.first_rates();
     [rates[1], rates[2]]
 }
 
@@ -78,6 +78,9 @@ impl MotionBound {
 }
 
 impl FrameState {
+    /// Of the inertial frame.
+    const INERTIAL: Self = Self { pose: [0.0; 3], twist: [0.0; 3], direction: (0.0, 1.0) };
+
     pub(in crate::capture) fn new(pose: [f64; 3], twist: [f64; 3]) -> Self {
         Self { pose, twist, direction: Scalar::sin_cos(pose[0]) }
     }
@@ -91,64 +94,71 @@ impl FrameState {
     fn carried(&self, [angle, x, y]: [f64; 3], rate: f64) -> Self {
         let ([yaw, ox, oy], [omega, vx, vy]) = (self.pose, self.twist);
         let [dx, dy] = self.rotated([x, y]);
-        Self::new([yaw + angle, ox + dx, oy + dy], [omega + rate, vx - omega * dy, vy + omega * dx])
+        let (pose, twist) = ([yaw + angle, ox + dx, oy + dy], [omega + rate, vx - omega * dy, vy + omega * dx]);
+        if angle == 0.0 { Self { pose, twist, ..*self } } else { Self::new(pose, twist) }
     }
 }
 
 impl FrameKinematics<'_> {
-    /// The states of all frames at a time within the interval.
-    pub(in crate::capture) fn at(
+    /// The state of a frame where the coordinates and their rates are these; it is added to the `states` that are known, with
+    /// those of the frames that carry it.
+    pub(in crate::capture) fn state(
         &self,
-        interval: &PathInterval<'_>,
+        index: usize,
         time: f64,
-        coordinates: &mut [Vec<f64>; 2],
-        states: &mut Vec<FrameState>,
-    ) {
+        coordinates: &[Vec<f64>; 2],
+        states: &mut [Option<FrameState>],
+    ) -> FrameState {
+        if let Some(known) = states[index] {
+            return known;
+        }
         let [positions, rates] = coordinates;
-        interval.at(time, positions, rates);
         let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
         let body = |i: usize| FrameState::new(three(positions, i), three(rates, i));
-        states.clear();
-        for (k, frame) in self.frames.iter().enumerate() {
-            let [angle, x, y] = frame.pose;
-            let parent = frame.parent.map_or_else(|| FrameState::new([0.0; 3], [0.0; 3]), |parent| states[parent]);
-            let state = match frame.motion {
-                FrameMotion::Base => body(0),
-                FrameMotion::Joint(joint) => parent.carried([angle + positions[3 + joint], x, y], rates[3 + joint]),
-                FrameMotion::Fixed => parent.carried(frame.pose, 0.0),
-                FrameMotion::Target(target) => match self.targets {
-                    TargetMotion::Free(bodies) => {
-                        let Body { pose, twist, .. } = bodies[target].after(time);
-                        FrameState::new(pose, twist)
+        let frame = &self.frames[index];
+        let mut carried = |by: Option<usize>, pose, rate| {
+            by.map_or(FrameState::INERTIAL, |by| self.state(by, time, coordinates, states)).carried(pose, rate)
+        };
+        let state = match frame.motion {
+            FrameMotion::Base => body(0),
+            FrameMotion::Joint(joint) => {
+                let [angle, x, y] = frame.pose;
+                carried(frame.parent, [angle + positions[3 + joint], x, y], rates[3 + joint])
+            }
+            FrameMotion::Fixed => carried(frame.parent, frame.pose, 0.0),
+            FrameMotion::Target(target) => match self.targets {
+                TargetMotion::Free(bodies) => {
+                    let Body { pose, twist, .. } = bodies[target].after(time);
+                    FrameState::new(pose, twist)
+                }
+                TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
+                    TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
+                    TargetPlacement::Merged { arm, offset: [x, y], yaw } => {
+                        carried(Some(self.end_effector(index, arm)), [yaw, x, y], 0.0)
                     }
-                    TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
-                        TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
-                        TargetPlacement::Merged { arm, offset: [x, y], yaw } => {
-                            states[self.end_effector(k, arm)].carried([yaw, x, y], 0.0)
-                        }
-                    },
                 },
-            };
-            states.push(state);
-        }
+            },
+        };
+        states[index] = Some(state);
+        state
     }
 
     /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start.
     pub(in crate::capture) fn bounds(
         &self,
-        interval: &PathInterval<'_>,
+        part: &impl PathPart,
         coordinates: &mut [Vec<f64>; 2],
         bounds: &mut Vec<MotionBound>,
     ) {
         let [rates, accelerations] = coordinates;
         // all bodies move together in an orbit
-        let [bx, by] = velocity_of_base(interval);
+        let [bx, by] = velocity_of_base(part);
         let reference = |i: usize| {
             // of a pose: that of the base before the joints, or that of a body after them
             let component = i.checked_sub(3 + self.joints).map_or(i, |of_bodies| of_bodies % 3);
             [0.0, bx, by].get(component).copied().unwrap_or(0.0)
         };
-        interval.bounds(reference, rates, accelerations);
+        part.bounds(reference, rates, accelerations);
         let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);
         bounds.clear();
         for (k, frame) in self.frames.iter().enumerate() {

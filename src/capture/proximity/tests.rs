@@ -13,7 +13,7 @@ use crate::frames::{Frame, FrameMotion, frames, point, poses};
 use crate::outline::Outline;
 use crate::owned::RobotState;
 use crate::registry;
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::{PathInterval, PathPart};
 use crate::simulate::system::Body;
 use planar_proof::layout;
 use planar_proof::sample::config;
@@ -45,9 +45,16 @@ impl Motion<'_> {
     }
 
     fn states(&self, time: f64) -> Vec<FrameState> {
-        let mut states = Vec::new();
-        self.kinematics.at(&self.interval(), time, &mut self.buffers(), &mut states);
-        states
+        let mut coordinates = self.buffers();
+        let [positions, rates] = &mut coordinates;
+        self.interval().at(time, positions, rates);
+        let count = self.kinematics.frames.len();
+        let mut states = vec![None; count];
+        // the last one first, which adds those that carry it
+        let mut found: Vec<_> =
+            (0..count).rev().map(|frame| self.kinematics.state(frame, time, &coordinates, &mut states)).collect();
+        found.reverse();
+        found
     }
 
     fn bounds(&self) -> Vec<MotionBound> {

@@ -3,18 +3,26 @@
 use super::convex::PlacedPart;
 use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
-use crate::simulate::path::PathInterval;
+use crate::simulate::path::PathPart;
 
 /// Most instants whose states are kept: pairs of bodies are looked at one after the other, at the same times.
 const MOST_KEPT: usize = 64;
+
+/// Coordinates and their rates at a time, s, and the states of the frames that were asked for.
+#[derive(Default)]
+struct KnownInstant {
+    time: f64,
+    coordinates: [Vec<f64>; 2],
+    states: Vec<Option<FrameState>>,
+}
 
 /// Bounds over one interval, and states at instants within it.
 #[derive(Default)]
 pub(in crate::capture) struct PathWorkspace {
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
-    /// Times and states of all frames, of which the first `kept` are of this interval.
-    states: Vec<(f64, Vec<FrameState>)>,
+    /// Of which the first `kept` are of this interval.
+    instants: Vec<KnownInstant>,
     kept: usize,
     /// Where the next ones take the place of others.
     next: usize,
@@ -23,28 +31,41 @@ pub(in crate::capture) struct PathWorkspace {
 
 impl PathWorkspace {
     /// Computes the bounds over an interval.
-    pub(in crate::capture) fn set_bounds(&mut self, motions: FrameKinematics<'_>, interval: &PathInterval<'_>) {
+    pub(in crate::capture) fn set_bounds(&mut self, motions: FrameKinematics<'_>, part: &impl PathPart) {
         for half in &mut self.coordinates {
-            half.resize(interval.start[0].len(), 0.0);
+            half.resize(part.first_rates().len(), 0.0);
         }
-        motions.bounds(interval, &mut self.coordinates, &mut self.bounds);
+        motions.bounds(part, &mut self.coordinates, &mut self.bounds);
         (self.kept, self.next) = (0, 0);
     }
 
-    /// Index of the states at a time within the interval whose bounds were computed.
-    fn states_at(&mut self, motions: FrameKinematics<'_>, interval: &PathInterval<'_>, time: f64) -> usize {
-        let known = self.states[..self.kept].iter().position(|(other, _)| other.to_bits() == time.to_bits());
-        known.unwrap_or_else(|| {
+    /// The states of two frames at a time within the interval whose bounds were computed.
+    fn states(
+        &mut self,
+        motions: FrameKinematics<'_>,
+        part: &impl PathPart,
+        frames: [usize; 2],
+        time: f64,
+    ) -> [FrameState; 2] {
+        let known = self.instants[..self.kept].iter().rposition(|instant| instant.time.to_bits() == time.to_bits());
+        let place = known.unwrap_or_else(|| {
             let place = self.next;
-            if place == self.states.len() {
-                self.states.push((time, Vec::new()));
+            if place == self.instants.len() {
+                self.instants.push(KnownInstant::default());
             }
-            let (at, states) = &mut self.states[place];
+            let KnownInstant { time: at, coordinates: [positions, rates], states } = &mut self.instants[place];
             *at = time;
-            motions.at(interval, time, &mut self.coordinates, states);
+            let size = part.first_rates().len();
+            positions.resize(size, 0.0);
+            rates.resize(size, 0.0);
+            part.at(time, positions, rates);
+            states.clear();
+            states.resize(motions.frames.len(), None);
             (self.kept, self.next) = (self.kept.max(place + 1), (place + 1) % MOST_KEPT);
             place
-        })
+        });
+        let KnownInstant { coordinates, states, .. } = &mut self.instants[place];
+        frames.map(|frame| motions.state(frame, time, coordinates, states))
     }
 
     /// Bound of the relative speed of points up to these distances from the origins of two frames, m/s.
@@ -61,12 +82,11 @@ impl PathWorkspace {
     pub(in crate::capture) fn origin_distance(
         &mut self,
         motions: FrameKinematics<'_>,
-        interval: &PathInterval<'_>,
+        part: &impl PathPart,
         frames: [usize; 2],
         time: f64,
     ) -> f64 {
-        let at = self.states_at(motions, interval, time);
-        let [[_, ax, ay], [_, bx, by]] = frames.map(|frame| self.states[at].1[frame].pose);
+        let [[_, ax, ay], [_, bx, by]] = self.states(motions, part, frames, time).map(|state| state.pose);
         libm::hypot(ax - bx, ay - by)
     }
 
@@ -74,11 +94,11 @@ impl PathWorkspace {
     pub(in crate::capture) fn instant(
         &mut self,
         motions: FrameKinematics<'_>,
-        interval: &PathInterval<'_>,
+        part: &impl PathPart,
         (frames, pair): ([usize; 2], &PartPair<'_>),
         time: f64,
     ) -> Instant {
-        let at = self.states_at(motions, interval, time);
-        pair.at(time, frames.map(|frame| self.states[at].1[frame]), &mut self.placed)
+        let states = self.states(motions, part, frames, time);
+        pair.at(time, states, &mut self.placed)
     }
 }
