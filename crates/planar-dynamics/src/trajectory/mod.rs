@@ -2,6 +2,8 @@
 //!
 //! Before t = 0 and after the duration a trajectory has the values at its nearer end.
 
+#![allow(clippy::inline_always, reason = "in a loop over joints the powers of the time are then computed once")]
+
 mod constant_setpoint;
 mod cycloidal;
 mod end_effector_path;
@@ -75,14 +77,14 @@ impl<T: Real> PointToPoint<'_, T> {
     }
 
     /// [`quintic()`] of a joint with these initial and final rates.
-    #[inline]
+    #[inline(always)]
     fn quintic(&self, joint: usize, rates: [T; 2], time: T) -> Option<DesiredJoint<T>> {
         Some(quintic(self.angles(joint)?, rates, self.duration, normalized_time(time, self.duration)))
     }
 }
 
 /// τ = t/T, limited to 0..=1.
-#[inline]
+#[inline(always)]
 fn normalized_time<T: Real>(time: T, duration: T) -> T {
     (time / duration).minimum(T::ONE).maximum(T::ZERO)
 }
@@ -128,7 +130,7 @@ macro_rules! kinds {
         }
 
         impl<T: Real> Trajectory<T> for AnyTrajectory<'_, T> {
-            #[inline]
+            #[inline(always)]
             fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
                 match self {
                     $(Self::$kind(trajectory) => trajectory.joint(joint, time),)*

@@ -22,7 +22,7 @@ pub struct Quartic<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for Quartic<'_, T> {
-    #[inline]
+    #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
         self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)?], time)
     }
@@ -47,7 +47,7 @@ pub struct QuarticAsPrinted<'a, T> {
 }
 
 impl<T: Real> Trajectory<T> for QuarticAsPrinted<'_, T> {
-    #[inline]
+    #[inline(always)]
     fn joint(&self, joint: usize, time: T) -> Option<DesiredJoint<T>> {
         self.motion.quintic(joint, [T::ZERO, *self.final_rates.get(joint)? / self.motion.duration], time)
     }

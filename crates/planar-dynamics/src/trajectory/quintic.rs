@@ -38,7 +38,7 @@ impl<'a, T: Real> JointTrajectory<'a, T> for Quintic<'a, T> {
 
 /// The polynomial of [`Quintic`] for one joint and any scalar, from the initial and final angles (rad) and rates (rad/s),
 /// the duration T (s) and τ = t/T, not limited to 0..=1.
-#[inline]
+#[inline(always)]
 pub fn quintic<T: Scalar>([from, to]: [T; 2], [start, end]: [T; 2], duration: T, tau: T) -> DesiredJoint<T> {
     let n = T::constant;
     let (tau2, tau3) = (tau * tau, tau * tau * tau);
