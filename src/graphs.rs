@@ -12,6 +12,7 @@ use crate::registry::SHIPPED;
 use crate::structure::{Structure, fingerprint, in_words, parameters};
 use planar_build::evaluator::Evaluator;
 use planar_build::graph;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::{fs, io};
@@ -75,7 +76,7 @@ pub struct FoundGraph {
     /// In words.
     pub origin: String,
     /// Its text, JSON.
-    pub text: String,
+    pub text: Cow<'static, str>,
 }
 
 /// The graph of a layout's structure: the one in the user's cache folder, else of those that the program carries the one
@@ -93,7 +94,7 @@ pub fn find(layout: &Layout) -> Result<FoundGraph, NoGraph> {
     let Carried { name, text, .. } = best.ok_or_else(missing)?;
     let unusable = |problem| NoGraph::Unusable { path: PathBuf::from(name), problem };
     let evaluator = evaluator(text, layout).map_err(unusable)?;
-    Ok(FoundGraph { evaluator, origin: format!("the graph `{name}`"), text: (*text).to_owned() })
+    Ok(FoundGraph { evaluator, origin: format!("the graph `{name}`"), text: Cow::Borrowed(text) })
 }
 
 /// A shipped layout of the same structure, and the text of its graph.
@@ -131,7 +132,7 @@ fn cached(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
         return Err(unusable("it is not as it was derived and proved".to_owned()));
     }
     let origin = "the graph derived for its structure".to_owned();
-    Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin, text }))
+    Ok(Some(FoundGraph { evaluator: evaluator(&text, layout).map_err(unusable)?, origin, text: Cow::Owned(text) }))
 }
 
 /// The evaluator of a graph that is to have the layout's structure.

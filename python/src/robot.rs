@@ -13,6 +13,7 @@ use planar_capture::named_layout::named_layout;
 use planar_capture::registry::Robots as Known;
 use planar_capture::structure::parameters;
 use pyo3::prelude::{Bound, PyErr, PyResult, Python, pyclass, pymethods};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
@@ -30,7 +31,7 @@ pub struct Robot {
     model: GraphModel,
     values: Vec<f64>,
     origin: String,
-    graph: String,
+    graph: Cow<'static, str>,
 }
 
 impl Robot {
