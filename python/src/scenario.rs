@@ -14,6 +14,7 @@ use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
 use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source};
+use planar_capture::simulate::Timing;
 use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
 use std::path::PathBuf;
 
@@ -35,9 +36,6 @@ impl From<Value> for VariedValue {
         }
     }
 }
-
-/// Relative difference of a sample time from whole steps.
-const TOLERANCE: f64 = 1e-6;
 
 /// A scenario.
 #[pyclass(frozen, module = "planar_capture._native")]
@@ -68,7 +66,8 @@ impl Scenario {
     /// Holds the torques of the laws that are given for this long, s.
     fn sampled(&self, sample_time: Option<f64>, approach: bool, after: bool) -> PyResult<Read> {
         let mut scenario = self.scenario.clone();
-        let set = |table: &str, step: f64, actuation: &mut Actuation| -> PyResult<()> {
+        let set = |table: &str, timing: Timing, actuation: &mut Actuation| -> PyResult<()> {
+            let step = timing.step_length();
             let Some(time) = sample_time else {
                 return match actuation.steps_per_sample {
                     Some(_) => Ok(()),
@@ -78,22 +77,20 @@ impl Scenario {
                     ))),
                 };
             };
-            let steps = (time / step).round();
-            if !(1.0..=f64::from(u32::MAX)).contains(&steps) || (time / step - steps).abs() > TOLERANCE {
-                return Err(Failure::Input.with(format!(
+            let other = || {
+                Failure::Input.with(format!(
                     "sample_time is {time:?} s, expected a multiple of the step of `{table}`, {step:?} s"
-                )));
-            }
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of that range")]
-            let steps = steps as u32;
-            actuation.steps_per_sample = Some(steps);
+                ))
+            };
+            actuation.steps_per_sample = Some(timing.whole_steps(time).ok_or_else(other)?);
             Ok(())
         };
         if approach {
-            set("approach", scenario.approach.step, &mut scenario.approach.actuation)?;
+            let approach = &mut scenario.approach;
+            set("approach", Timing::of_steps(approach.duration, approach.step), &mut approach.actuation)?;
         }
         if let Some(phase) = scenario.post_impact.as_mut().filter(|_| after) {
-            set("post_impact", phase.step, &mut phase.actuation)?;
+            set("post_impact", Timing::of_steps(phase.duration, phase.step), &mut phase.actuation)?;
         }
         Ok(scenario)
     }

@@ -128,6 +128,10 @@ def test_a_sample_time_is_needed_and_whole_steps():
         pc.run(PAPER, proportional_derivative)
     with pytest.raises(pc.InputError, match=r"multiple of the step of `approach`, 0\.005 s"):
         pc.run(PAPER, proportional_derivative, sample_time=0.0123)
+    # 20 s have no whole number of steps of 0.03 s: they are shorter
+    shorter = PAPER.read_text().replace("step = 0.005", "step = 0.03", 1)
+    with pytest.raises(pc.InputError, match=r"multiple of the step of `approach`, 0\.02998\d* s"):
+        pc.run(shorter, proportional_derivative, sample_time=0.06)
     for wrong in (0.0, -1.0, np.nan):
         with pytest.raises(pc.InputError, match="sample_time is"):
             pc.run(PAPER, proportional_derivative, sample_time=wrong)

@@ -56,7 +56,7 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
 }
 
 fn steps(duration: f64, step: f64) -> String {
-    let steps = Timing { duration, step, sample: step, ..Timing::default() }.steps();
+    let steps = Timing::of_steps(duration, step).steps();
     format!("{} s in {steps} steps of {} s", short(duration), short(step))
 }
 

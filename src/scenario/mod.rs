@@ -8,6 +8,7 @@ mod key_path;
 mod keys;
 mod post_impact;
 mod reader;
+mod sample_time;
 mod target;
 
 use crate::frames::{Frame, frames};
