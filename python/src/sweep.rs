@@ -4,11 +4,10 @@ use crate::failure::{Failure, of_output, of_report};
 use crate::scenario::choose;
 use planar_capture::campaign::Campaign;
 use planar_capture::campaign::manifest::{ManifestError, claim};
-use planar_capture::campaign::report::{page, report};
-use planar_capture::campaign::row::Status;
+use planar_capture::campaign::report::write_report;
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
-use planar_capture::output::atomic_file::{create_folder, write_text};
+use planar_capture::output::atomic_file::create_folder;
 use planar_capture::registry::SHIPPED;
 use pyo3::prelude::{Py, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
 use std::num::NonZero;
@@ -64,11 +63,10 @@ pub fn sweep(
     let Claimed { campaign, choice, folder } = Claimed::new(&path, out, dynamics)?;
     let shard = match shard {
         None => Shard::WHOLE,
-        Some((number, of)) if (1..=of).contains(&number) => Shard { number, of },
-        Some((number, of)) => {
-            let message = format!("shard is ({number}, {of}), expected (I, N) with 1 ≤ I ≤ N, for example (2, 8)");
-            return Err(Failure::Input.with(message));
-        }
+        Some((number, of)) => Shard::new(number, of).ok_or_else(|| {
+            Failure::Input
+                .with(format!("shard is ({number}, {of}), expected (I, N) with 1 ≤ I ≤ N, for example (2, 8)"))
+        })?,
     };
     let plan = Plan::new(&campaign, &folder, shard).map_err(of_output)?;
     let tally = Tally::default();
@@ -98,11 +96,9 @@ pub fn sweep(
         .map_err(of_output)?;
     show(py, progress.as_ref(), &tally, plan.cases)?;
     if report {
-        write_report(&campaign, &path, &folder)?;
+        write_report(&campaign, &path, &folder).map_err(of_output)?;
     }
-    let by_status = Status::ALL.iter().zip(&tally.by_status);
-    let by_status = by_status.map(|((name, _), count)| (*name, count.load(Ordering::Relaxed))).collect();
-    Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, by_status, plan.present))
+    Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, tally.counts().collect(), plan.present))
 }
 
 /// What is to be done of a sweep: its name, folder and numbers of cases and of files, the numbers of files that are
@@ -122,15 +118,7 @@ pub fn sweep_plan(path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResu
 #[pyfunction]
 pub fn sweep_report(path: PathBuf, folder: PathBuf) -> PyResult<PathBuf> {
     let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
-    write_report(&campaign, &path, &folder)
-}
-
-fn write_report(campaign: &Campaign, path: &Path, folder: &Path) -> PyResult<PathBuf> {
-    let command = format!("planar-capture sweep '{}' --out '{}' --replay", path.display(), folder.display());
-    let page = page(&report(campaign, folder).map_err(of_output)?, &command);
-    let file = folder.join("report.html");
-    write_text(&file, &page).map_err(of_output)?;
-    Ok(file)
+    write_report(&campaign, &path, &folder).map_err(of_output)
 }
 
 fn show(py: Python<'_>, progress: Option<&Py<PyAny>>, tally: &Tally, cases: u64) -> Result<(), PyErr> {

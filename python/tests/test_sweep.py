@@ -1,5 +1,9 @@
 """Sweeps: the command's bytes, interruption, refusals."""
 
+import html
+import re
+import shlex
+
 import planar_capture as pc
 import pytest
 from conftest import SCENARIOS
@@ -36,14 +40,17 @@ def blocks(folder):
 def test_files_have_the_bytes_of_the_command(command, file, tmp_path):
     done = command("sweep", file, "--out", tmp_path / "command", "-q")
     assert done.returncode == 0, done.stderr
-    result = pc.sweep(file, tmp_path / "python", threads=2)
+    result = pc.sweep(file, tmp_path / "it's python", threads=2)
     assert result.cases == 60 and sum(result.computed.values()) == 60 and result.present == 0
     assert blocks(result.folder) == blocks(tmp_path / "command")
     assert (result.folder / "manifest.json").read_bytes() == (tmp_path / "command" / "manifest.json").read_bytes()
     frame = result.to_pandas()
     assert frame["case"].tolist() == list(range(60))
     assert frame["target.target1.mass"].between(5.0, 20.0).all()
-    assert "arm1_impulse_magnitude" in result.report().read_text()
+    page = result.report().read_text()
+    assert "arm1_impulse_magnitude" in page
+    words = shlex.split(html.unescape(re.findall("<code>(.*?)</code>", page)[-1]))
+    assert words == ["planar-capture", "sweep", str(file), "--out", str(result.folder), "--replay", "INDEX", "--report"]
     again = pc.sweep(file, tmp_path / "command")
     assert again.present == 60 and not again.computed
 

@@ -22,14 +22,20 @@ use std::thread;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     /// From 1.
-    pub number: u64,
+    number: u64,
     /// How many there are.
-    pub of: u64,
+    of: u64,
 }
 
 impl Shard {
     /// All files.
     pub const WHOLE: Self = Self { number: 1, of: 1 };
+
+    /// The one of this number, from 1, of so many; `None` where there is no such one.
+    #[must_use]
+    pub fn new(number: u64, of: u64) -> Option<Self> {
+        (1..=of).contains(&number).then_some(Self { number, of })
+    }
 }
 
 /// What has been done so far; threads write it, and the display reads it.
@@ -41,6 +47,14 @@ pub struct Tally {
     pub by_status: [AtomicU64; Status::ALL.len()],
     /// Set to end early.
     pub is_interrupted: AtomicBool,
+}
+
+impl Tally {
+    /// The names of all statuses, and how many cases have each.
+    pub fn counts(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        let all = Status::ALL.iter().zip(&self.by_status);
+        all.map(|((name, _), count)| (*name, count.load(Ordering::Relaxed)))
+    }
 }
 
 /// What a run is to do.

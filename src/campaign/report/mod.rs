@@ -6,13 +6,13 @@ pub mod statistics;
 
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
+use crate::output::atomic_file::write_text;
 use crate::output::output_error::OutputError;
 use columns::{Column, Columns};
+use page::page;
 use statistics::{Percentile, PercentileRanks, correlation, first_order, ranks};
 use std::collections::HashMap;
-use std::path::Path;
-
-pub use page::page;
+use std::path::{Path, PathBuf};
 
 /// The percentiles of an output, in hundredths.
 pub const PERCENTILES: [u8; 5] = [5, 25, 50, 75, 95];
@@ -115,6 +115,20 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, OutputE
         outputs,
         is_independent,
     })
+}
+
+/// Writes the report on all files of a sweep that are in a folder, whoever computed them; returns its path. `sweep` is
+/// the file of the sweep as the command to replay a case has it.
+///
+/// # Errors
+/// [`OutputError`].
+pub fn write_report(campaign: &Campaign, sweep: &Path, folder: &Path) -> Result<PathBuf, OutputError> {
+    let words = ["planar-capture", "sweep", &*sweep.to_string_lossy(), "--out", &*folder.to_string_lossy()];
+    // only a NUL cannot be quoted, which no path has
+    let command = format!("{} --replay", shlex::try_join(words).unwrap_or_default());
+    let file = folder.join("report.html");
+    write_text(&file, &page(&report(campaign, folder)?, &command))?;
+    Ok(file)
 }
 
 impl OutputReport {

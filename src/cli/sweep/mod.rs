@@ -9,11 +9,10 @@ use super::terminal::{note, print};
 use super::{CommandError, file_error};
 use crate::campaign::Campaign;
 use crate::campaign::manifest::claim;
-use crate::campaign::report::{page, report};
-use crate::campaign::row::Status;
+use crate::campaign::report::write_report;
 use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
 use crate::engine::Choice;
-use crate::output::atomic_file::{create_folder, write_text};
+use crate::output::atomic_file::create_folder;
 use crate::registry::Robots;
 use progress::Progress;
 use std::num::NonZero;
@@ -69,7 +68,7 @@ fn shard(text: &str) -> Result<Shard, String> {
     let wrong = || "expected I/N with 1 ≤ I ≤ N, for example 2/8".to_owned();
     let (number, of) = text.split_once('/').ok_or_else(wrong)?;
     let [number, of]: [u64; 2] = [number.parse().map_err(|_| wrong())?, of.parse().map_err(|_| wrong())?];
-    if (1..=of).contains(&number) { Ok(Shard { number, of }) } else { Err(wrong()) }
+    Shard::new(number, of).ok_or_else(wrong)
 }
 
 /// Computes the files that are missing; exit code 0 whatever became of single cases.
@@ -95,21 +94,13 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     result?;
     print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
     if arguments.report {
-        write_report(&campaign, arguments, &folder)?;
+        write_report(&campaign, &arguments.sweep, &folder)?;
     }
     if tally.is_interrupted.load(Ordering::Relaxed) {
         note("interrupted: the same command goes on from here");
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)
-}
-
-/// Of all files that are there, whoever computed them.
-fn write_report(campaign: &Campaign, arguments: &Arguments, folder: &Path) -> Result<(), CommandError> {
-    let words = ["planar-capture", "sweep", &*arguments.sweep.to_string_lossy(), "--out", &*folder.to_string_lossy()];
-    let command = format!("{} --replay", shlex::try_join(words).unwrap_or_default());
-    let page = page(&report(campaign, folder)?, &command);
-    Ok(write_text(&folder.join("report.html"), &page)?)
 }
 
 /// What computes the cases: chosen for a layout whose numbers that vary are as different from 0 as in the cases.
@@ -125,13 +116,8 @@ fn choose(campaign: &Campaign, dynamics: Dynamics, robots: Robots<'_>, quiet: bo
 /// How many cases ended how.
 fn sentence(campaign: &Campaign, plan: &Plan, tally: &Tally) -> String {
     let computed = tally.computed.load(Ordering::Relaxed);
-    let mut parts: Vec<String> = Status::ALL
-        .iter()
-        .zip(&tally.by_status)
-        .map(|((name, _), count)| (name, count.load(Ordering::Relaxed)))
-        .filter(|(_, count)| *count > 0)
-        .map(|(name, count)| format!("{count} {}", name.replace('_', " ")))
-        .collect();
+    let counts = tally.counts().filter(|(_, count)| *count > 0);
+    let mut parts: Vec<String> = counts.map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
     if plan.present > 0 {
         parts.push(format!("{} were there before", plan.present));
     }
