@@ -7,7 +7,7 @@ use planar_capture::campaign::key_path::KeyPath;
 use planar_capture::campaign::variation::{Unusable, Variation};
 use planar_capture::campaign::varied_value::VariedValue;
 use planar_capture::capture::{Silent, StudyError, study_with};
-use planar_capture::check::help_with_gains;
+use planar_capture::check::study_report;
 use planar_capture::engine::Choice;
 use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
@@ -97,9 +97,7 @@ impl Scenario {
 
     /// A study without a result, at its key in the scenario.
     fn without_result(&self, error: &StudyError, scenario: &Read) -> PyErr {
-        let help = error.stopped().and_then(|(phase, _)| help_with_gains(scenario, phase));
-        let source = &self.source.scenario;
-        let report = error.report(scenario, &source.text, &source.file, help);
+        let report = study_report(error, scenario, &self.source.scenario);
         let failure = if error.is_breakdown() { Failure::Computation } else { Failure::Input };
         failure.with(report.render(false))
     }

@@ -6,6 +6,7 @@
 mod approach;
 mod arms;
 mod bodies;
+mod breakdown;
 mod clearance;
 mod kind;
 mod link;
@@ -27,9 +28,9 @@ use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
 use crate::scenario::Scenario;
+pub use breakdown::study_report;
 use kind::kind;
 use std::path::Path;
-pub use stiffness::help_with_gains;
 
 /// A valid file.
 #[derive(Clone, Debug)]

@@ -19,8 +19,7 @@ pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
 
 /// What helps where a phase, `approach` or `post_impact`, breaks down: for gains that are too high for its step or its
 /// sample time, what they and the robot's inertia make of the joints, and what would do.
-#[must_use]
-pub fn help_with_gains(scenario: &Scenario, phase: &str) -> Option<String> {
+pub(super) fn help_with_gains(scenario: &Scenario, phase: &str) -> Option<String> {
     let law = closed_loops(scenario).into_iter().find(|law| law.phase == phase)?;
     let Warning { why, help, .. } = law.long_step().or_else(|| law.long_sample_time())?;
     let remedy = format!("{why}: {help}");

@@ -7,7 +7,7 @@ use super::super::terminal::note;
 use super::product::Printed;
 use super::{Arguments, DEFAULT_SAMPLE};
 use crate::capture::{Study, StudyError, study};
-use crate::check::help_with_gains;
+use crate::check::study_report;
 use crate::engine::Choice;
 use crate::output::console::table;
 use crate::output::html_report::write_report;
@@ -144,9 +144,7 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
 /// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
 pub fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
     let exit_code = if error.is_breakdown() { 1 } else { 2 };
-    let help = error.stopped().and_then(|(phase, _)| help_with_gains(scenario, phase));
-    let report = error.report(scenario, &source.text, &source.file, help);
-    CommandError::Computation { report, exit_code }
+    CommandError::Computation { report: study_report(error, scenario, source), exit_code }
 }
 
 /// The command line, as it can be typed again.
