@@ -26,8 +26,7 @@ def derive(layout: str | os.PathLike[str], *, progress: Callable[[str], object] 
     text, file = layout_source(layout)
     source = _native.Robot.layout_of(file) if text is None else text
     interpreter = sys.executable if has_casadi() else None
-    robot, _ = _native.derive(source, file, interpreter, progress)
-    return Robot(robot)
+    return Robot(_native.derive(source, file, interpreter, progress))
 
 
 def has_casadi() -> bool:

@@ -84,9 +84,8 @@ impl Captures<'_> {
 
     fn one<'o>(&self, index: usize, outputs: impl Iterator<Item = &'o mut [f64]>) -> Status {
         let rows = Self::rows(self.model);
-        let of_instance = |all: &&'_ [f64], rows: usize| -> Vec<f64> { all[index * rows..][..rows].to_vec() };
-        let inputs: Vec<Vec<f64>> = self.inputs.iter().zip(rows).map(|(all, rows)| of_instance(all, rows)).collect();
-        let instance = Instance::of(INPUTS.into_iter().zip(inputs.iter().map(Vec::as_slice)), &[]);
+        let inputs = self.inputs.iter().zip(rows).map(|(all, rows)| &all[index * rows..][..rows]);
+        let instance = Instance::of(INPUTS.into_iter().zip(inputs), &[]);
         let own = self.parameters.map(|all| {
             let count = self.evaluator.parameters().len();
             all[index * count..][..count].to_vec()

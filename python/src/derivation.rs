@@ -18,11 +18,11 @@ pub fn derive(
     file: &str,
     interpreter: Option<OsString>,
     say: Option<Py<PyAny>>,
-) -> PyResult<(Robot, String)> {
+) -> PyResult<Robot> {
     let layout = Layout::parse(layout, file).map_err(crate::failure::of_report)?;
     let path = cache_path(&layout).map_err(|error| Failure::Derivation.with(error))?;
     let mut raised: Option<PyErr> = None;
-    let (text, proof) = py.detach(|| {
+    let text = py.detach(|| {
         let mut show = |line: &str| {
             let shown = Python::attach(|py| {
                 py.check_signals()?;
@@ -34,15 +34,15 @@ pub fn derive(
         };
         let text = derive_by(interpreter.as_deref(), &layout, &[], PYTHON_PACKAGE, &mut show);
         let text = text.map_err(|error| Failure::Derivation.with(error))?;
-        let Proved { text, proof, .. } = complete(&text, &layout).map_err(|error| match error {
+        let Proved { text, .. } = complete(&text, &layout).map_err(|error| match error {
             GenerateError::Disagreement { .. } => Failure::Computation.with(error),
             other => Failure::Derivation.with(other),
         })?;
-        Ok::<_, PyErr>((text, proof.to_string()))
+        Ok::<_, PyErr>(text)
     })?;
     if let Some(raised) = raised {
         return Err(raised);
     }
     keep(&path, &text).map_err(of_output)?;
-    Ok((Robot::of(layout)?, proof))
+    Robot::of(layout)
 }

@@ -211,6 +211,6 @@ impl Scenario {
         }
         let study = study.map_err(|error| self.without_result(&error, &scenario))?;
         let manifest = RunManifest::new(&scenario, self.source.clone(), command);
-        Ok(Study { scenario, computed: study, manifest, engine: choice.engine, origin: choice.origin, warning })
+        Ok(Study { scenario, computed: study, manifest, engine: choice.engine, warning })
     }
 }

@@ -24,7 +24,6 @@ pub struct Study {
     pub computed: Computed,
     pub manifest: RunManifest,
     pub engine: Engine,
-    pub origin: String,
     pub warning: Option<String>,
 }
 
@@ -40,12 +39,6 @@ impl Study {
     #[getter]
     fn cases(&self) -> Vec<&str> {
         self.computed.cases.iter().map(|case| case.name.as_str()).collect()
-    }
-
-    /// Which implementation computed it, in words.
-    #[getter]
-    fn origin(&self) -> &str {
-        &self.origin
     }
 
     /// Why a graph that is there was not used.
