@@ -3,7 +3,7 @@
 import json
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,14 @@ STATE = ("base_pose", "joint_angles", "base_twist", "joint_rates")
 TARGETS = ("target_masses", "target_inertias", "contacts", "target_twists")
 
 Parameters = Mapping[str, ArrayLike] | None
+
+
+class Options(TypedDict, total=False):
+    """The keywords of all functions: see :class:`Robot`."""
+
+    parameters: Parameters
+    on_singular: OnSingular
+    threads: int | None
 
 
 class Robot:
@@ -127,10 +135,7 @@ class Robot:
         joint_torques: ArrayLike | None = None,
         base_wrench: ArrayLike | None = None,
         end_effector_wrenches: ArrayLike | None = None,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Accelerations:
         """Eq. (1) solved for the accelerations.
 
@@ -147,19 +152,16 @@ class Robot:
         elif base_wrench is not None:
             name = "forward_dynamics_with_base_wrench"
             inputs.append(base_wrench)
-        return Accelerations(*self._values(name, inputs, parameters, on_singular, threads))
+        return Accelerations(*self._values(name, inputs, **options))
 
     def mass_matrix(
         self,
         base_pose: ArrayLike,
         joint_angles: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """M (…, 3 + joints, 3 + joints) of eq. (1), base then joints; kg m², kg m, kg."""
-        return self._value("mass_matrix", [base_pose, joint_angles], parameters, on_singular, threads)
+        return self._value("mass_matrix", [base_pose, joint_angles], **options)
 
     def bias(
         self,
@@ -167,14 +169,11 @@ class Robot:
         joint_angles: ArrayLike,
         base_twist: ArrayLike,
         joint_rates: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """[c_b; c_m] (…, 3 + joints) of eq. (1): centripetal and Coriolis terms; N m, N, N, then N m."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._value("bias", inputs, parameters, on_singular, threads)
+        return self._value("bias", inputs, **options)
 
     def reduced_dynamics(
         self,
@@ -182,39 +181,30 @@ class Robot:
         joint_angles: ArrayLike,
         base_twist: ArrayLike,
         joint_rates: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> ReducedDynamics:
         """Generalized inertia I, bias c and Jacobian J: I θ̈ + c = τ, eq. (2), and end effector twists J θ̇ of a robot
         of zero momentum."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return ReducedDynamics(*self._values("reduced_dynamics", inputs, parameters, on_singular, threads))
+        return ReducedDynamics(*self._values("reduced_dynamics", inputs, **options))
 
     def generalized_jacobian(
         self,
         base_pose: ArrayLike,
         joint_angles: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """J (…, 3 arms, joints): rows [ω, vx, vy] per arm, inertial axes; 1, m, m."""
-        return self._value("generalized_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)
+        return self._value("generalized_jacobian", [base_pose, joint_angles], **options)
 
     def end_effector_poses(
         self,
         base_pose: ArrayLike,
         joint_angles: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """(…, arms, 3) [yaw, x, y] in the inertial frame; rad, m. The yaw is not wrapped."""
-        return self._value("end_effector_poses", [base_pose, joint_angles], parameters, on_singular, threads)
+        return self._value("end_effector_poses", [base_pose, joint_angles], **options)
 
     def end_effector_twists(
         self,
@@ -222,38 +212,29 @@ class Robot:
         joint_angles: ArrayLike,
         base_twist: ArrayLike,
         joint_rates: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """(…, arms, 3) [ω, vx, vy], inertial axes; rad/s, m/s."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._value("end_effector_twists", inputs, parameters, on_singular, threads)
+        return self._value("end_effector_twists", inputs, **options)
 
     def end_effector_jacobian(
         self,
         base_pose: ArrayLike,
         joint_angles: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """[J_be J_me] (…, 3 arms, 3 + joints): rows [ω, vx, vy] per arm, columns base then joints; 1, m."""
-        return self._value("end_effector_jacobian", [base_pose, joint_angles], parameters, on_singular, threads)
+        return self._value("end_effector_jacobian", [base_pose, joint_angles], **options)
 
     def body_poses(
         self,
         base_pose: ArrayLike,
         joint_angles: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """(…, 1 + joints, 3) [yaw, x, y] of every body's COM, inertial frame: base, then links arm by arm; rad, m."""
-        return self._value("body_poses", [base_pose, joint_angles], parameters, on_singular, threads)
+        return self._value("body_poses", [base_pose, joint_angles], **options)
 
     def body_twists(
         self,
@@ -261,14 +242,11 @@ class Robot:
         joint_angles: ArrayLike,
         base_twist: ArrayLike,
         joint_rates: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Array:
         """(…, 1 + joints, 3) [ω, vx, vy] of every body's COM, inertial axes: base, then links; rad/s, m/s."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return self._value("body_twists", inputs, parameters, on_singular, threads)
+        return self._value("body_twists", inputs, **options)
 
     def momentum(
         self,
@@ -276,14 +254,11 @@ class Robot:
         joint_angles: ArrayLike,
         base_twist: ArrayLike,
         joint_rates: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> Momentum:
         """Linear momentum, angular momentum about the inertial origin, and kinetic energy."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
-        return Momentum(*self._values("momentum", inputs, parameters, on_singular, threads))
+        return Momentum(*self._values("momentum", inputs, **options))
 
     def reduced_impact(
         self,
@@ -294,14 +269,11 @@ class Robot:
         target_inertias: ArrayLike,
         contacts: ArrayLike,
         target_twists: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> ReducedImpact:
         """The impact by the paper's reduced equations, (15) and (16), as printed; targets as in :class:`Targets`."""
         inputs = [base_pose, joint_angles, joint_rates, target_masses, target_inertias, contacts, target_twists]
-        return ReducedImpact(*self._values("reduced_impact", inputs, parameters, on_singular, threads))
+        return ReducedImpact(*self._values("reduced_impact", inputs, **options))
 
     def full_impact(
         self,
@@ -313,10 +285,7 @@ class Robot:
         target_inertias: ArrayLike,
         contacts: ArrayLike,
         target_twists: ArrayLike,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> FullImpact:
         """The exact impact in full coordinates, (10) and (11); targets as in :class:`Targets`.
 
@@ -325,7 +294,7 @@ class Robot:
         """
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
         inputs += [target_masses, target_inertias, contacts, target_twists]
-        return FullImpact(*self._values("full_impact", inputs, parameters, on_singular, threads))
+        return FullImpact(*self._values("full_impact", inputs, **options))
 
     def capture(
         self,
@@ -366,32 +335,28 @@ class Robot:
         base_wrench: ArrayLike | None = None,
         end_effector_wrenches: ArrayLike | None = None,
         targets: "tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None" = None,
-        *,
-        parameters: Parameters = None,
-        on_singular: OnSingular = "raise",
-        threads: int | None = None,
+        **options: Unpack[Options],
     ) -> dict[str, Any]:
         """Everything under the keys of ``planar-capture eval``; with ``targets`` (:class:`Targets`) the blocks
         ``impact`` (``G``, ``H``, ``joint_rates_after``) and ``capture``, too."""
-        how: dict[str, Any] = {"parameters": parameters, "on_singular": on_singular, "threads": threads}
         state = State(base_pose, joint_angles, base_twist, joint_rates)  # type: ignore[arg-type]
         forces = (joint_torques, base_wrench, end_effector_wrenches)
-        reduced = self.reduced_dynamics(*state, **how)
+        reduced = self.reduced_dynamics(*state, **options)
         result: dict[str, Any] = {
-            "mass_matrix": self.mass_matrix(base_pose, joint_angles, **how),
-            "bias": self.bias(*state, **how),
+            "mass_matrix": self.mass_matrix(base_pose, joint_angles, **options),
+            "bias": self.bias(*state, **options),
             "generalized_inertia": reduced.generalized_inertia,
             "generalized_bias": reduced.generalized_bias,
-            "end_effector_poses": self.end_effector_poses(base_pose, joint_angles, **how),
-            "end_effector_jacobian": self.end_effector_jacobian(base_pose, joint_angles, **how),
+            "end_effector_poses": self.end_effector_poses(base_pose, joint_angles, **options),
+            "end_effector_jacobian": self.end_effector_jacobian(base_pose, joint_angles, **options),
             "generalized_jacobian": reduced.generalized_jacobian,
-            **self.forward_dynamics(*state, *forces, **how)._asdict(),
-            **self.momentum(*state, **how)._asdict(),
+            **self.forward_dynamics(*state, *forces, **options)._asdict(),
+            **self.momentum(*state, **options)._asdict(),
         }
         if targets is not None:
-            matrix, momentum, rates = self.reduced_impact(base_pose, joint_angles, joint_rates, *targets, **how)
+            matrix, momentum, rates = self.reduced_impact(base_pose, joint_angles, joint_rates, *targets, **options)
             result["impact"] = {"G": matrix, "H": momentum, "joint_rates_after": rates}
-            result["capture"] = self.capture(*state, *targets, **how)._asdict()
+            result["capture"] = self.capture(*state, *targets, **options)._asdict()
         return result
 
     def casadi_function(self, name: str, *, symbolic_parameters: bool = False) -> Any:
@@ -409,25 +374,18 @@ class Robot:
             raise InputError(f"the graph has no function `{name}`: it has {known}")
         return self._batches.functions[name]
 
-    def _value(
-        self,
-        name: str,
-        inputs: list[ArrayLike],
-        parameters: Parameters,
-        on_singular: OnSingular,
-        threads: int | None,
-    ) -> Array:
+    def _value(self, name: str, inputs: list[ArrayLike], **options: Unpack[Options]) -> Array:
         """The output of a function of one output."""
-        value: Array = self._values(name, inputs, parameters, on_singular, threads)[0]
+        value: Array = self._values(name, inputs, **options)[0]
         return value
 
     def _values(
         self,
         name: str,
         inputs: list[ArrayLike],
-        parameters: Parameters,
-        on_singular: OnSingular,
-        threads: int | None,
+        parameters: Parameters = None,
+        on_singular: OnSingular = "raise",
+        threads: int | None = None,
     ) -> list[Any]:
         """The outputs of a function, but for the pivot, which is told by the statuses."""
         function = self._function(name)
