@@ -3,9 +3,6 @@
 use crate::control::Callable;
 use crate::failure::{Failure, of_report};
 use crate::study::Study;
-use planar_capture::campaign::key_path::KeyPath;
-use planar_capture::campaign::variation::{Unusable, Variation};
-use planar_capture::campaign::varied_value::VariedValue;
 use planar_capture::capture::{Silent, StudyError, study_with};
 use planar_capture::check::study_report;
 use planar_capture::engine::Choice;
@@ -13,6 +10,7 @@ use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
+use planar_capture::scenario::variation::{KeyPath, Unusable, VariedValue, Variation};
 use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source};
 use planar_capture::simulate::Timing;
 use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};

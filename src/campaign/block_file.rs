@@ -3,9 +3,9 @@
 use super::outputs::Output;
 use super::row::Row;
 use super::sweep::Sweep;
-use super::varied_value::VariedValue;
 use crate::output::atomic_file::StagedFile;
 use crate::output::output_error::OutputError;
+use crate::scenario::variation::VariedValue;
 use arrow_array::types::Int8Type;
 use arrow_array::{Array, ArrayRef, BooleanArray, DictionaryArray, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field, Schema};

@@ -1,7 +1,7 @@
 //! Distributions of varied values, drawn by their quantile functions.
 
 use super::normal;
-use super::varied_value::VariedValue;
+use crate::scenario::variation::VariedValue;
 
 /// How a value varies, truncated where it has bounds.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,8 +3,6 @@
 pub mod block_file;
 pub mod copula;
 pub mod distribution;
-pub mod key_path;
-mod key_place;
 mod keys;
 pub mod manifest;
 pub mod normal;
@@ -16,8 +14,6 @@ pub mod run;
 pub mod sampling;
 pub mod sweep;
 pub mod uniform;
-pub mod variation;
-pub mod varied_value;
 
 pub use keys::FORMAT;
 pub use reader::Campaign;

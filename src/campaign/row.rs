@@ -2,11 +2,10 @@
 
 use super::outputs::{Output, is_captured};
 use super::sweep::Draw;
-use super::variation::Variation;
-use super::varied_value::VariedValue;
 use crate::capture::{CaseResult, Silent, Study, study};
 use crate::engine::Choice;
 use crate::scenario::Scenario;
+use crate::scenario::variation::{Variation, VariedValue};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 

@@ -4,7 +4,7 @@ use super::copula::Copula;
 use super::distribution::Distribution;
 use super::outputs::OutputGroup;
 use super::sampling::{KeySampling, Sampling};
-use super::varied_value::VariedValue;
+use crate::scenario::variation::VariedValue;
 
 /// One case of a scenario, many times with other values.
 #[derive(Clone, Debug)]

@@ -9,7 +9,9 @@ mod keys;
 mod post_impact;
 mod reader;
 mod sample_time;
+mod source;
 mod target;
+pub mod variation;
 
 use crate::frames::{Frame, frames};
 use crate::layout::Layout;
@@ -24,7 +26,7 @@ pub use contact::{ContactRules, Detection};
 pub use key_path::{KeyFile, find_key};
 pub use keys::FORMAT;
 pub use post_impact::{PostCaptureControl, PostImpact};
-pub use reader::{ScenarioSource, Source};
+pub use source::{ScenarioSource, Source};
 pub use target::{PlannedContact, Target, contact_name};
 
 /// An approach and, where there are targets, their capture and the motion after it.

@@ -1,5 +1,5 @@
 use super::{Distribution, Kind};
-use crate::campaign::varied_value::VariedValue;
+use crate::scenario::variation::VariedValue;
 
 /// `scipy.stats`: `norm`, `truncnorm`, `lognorm`, `uniform`, `triang`.
 #[test]

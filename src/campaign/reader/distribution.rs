@@ -2,8 +2,8 @@
 
 use super::super::distribution::{Distribution, Kind};
 use super::super::keys::DISTRIBUTION;
-use super::super::varied_value::VariedValue;
 use crate::diagnostic::{Table, Value, every, listing};
+use crate::scenario::variation::VariedValue;
 
 /// The least probability that bounds may leave.
 const LEAST_MASS: f64 = 1e-250;

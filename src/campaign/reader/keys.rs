@@ -1,11 +1,9 @@
 //! The keys that vary, each tried with a value of its distribution.
 
 use super::super::distribution::Distribution;
-use super::super::key_path::KeyPath;
-use super::super::variation::{Unusable, Variation};
-use super::super::varied_value::VariedValue;
 use crate::diagnostic::Table;
 use crate::format::Step;
+use crate::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
 use crate::scenario::{Scenario, ScenarioSource};
 
 /// Reads the paths, and sets each of them once, alone, to the median of its distribution.

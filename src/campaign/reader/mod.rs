@@ -9,9 +9,9 @@ use super::distribution::Distribution;
 use super::keys::{FORMAT, MOST_CASES};
 use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
-use super::variation::Variation;
 use crate::diagnostic::{Report, Table, Value, every, listing, read_document, read_text};
 use crate::layout::Layout;
+use crate::scenario::variation::Variation;
 use crate::scenario::{Scenario, ScenarioSource, Source};
 use std::path::{Path, PathBuf};
 

@@ -4,13 +4,13 @@ use super::{Arguments, choose};
 use crate::campaign::Campaign;
 use crate::campaign::manifest::engine_of;
 use crate::campaign::sweep::Draw;
-use crate::campaign::variation::LAYOUT_FILE;
 use crate::cli::CommandError;
 use crate::cli::dynamics::Dynamics;
 use crate::cli::run::{self, RunOptions};
 use crate::cli::terminal::note;
 use crate::output::atomic_file::{create_folder, write_together};
 use crate::registry::Robots;
+use crate::scenario::variation::LAYOUT_FILE;
 use std::path::Path;
 use std::process::ExitCode;
 

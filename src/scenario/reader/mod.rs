@@ -16,7 +16,7 @@ use crate::diagnostic::{Report, Table, Value, read_document, read_text, read_tex
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::{ClearanceRules, FORMAT, Scenario, Tracking};
+use crate::scenario::{ClearanceRules, FORMAT, Scenario, ScenarioSource, Source, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
 use std::io::Read;
@@ -24,24 +24,6 @@ use std::path::{Path, PathBuf};
 
 /// The most steps that one phase may take; more would run for days and fill the disk.
 const MOST_STEPS: f64 = 1e8;
-
-/// What a file was read from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Source {
-    /// TOML.
-    pub text: String,
-    /// As shown to the user.
-    pub file: String,
-}
-
-/// What a scenario was read from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ScenarioSource {
-    /// The scenario's file.
-    pub scenario: Source,
-    /// The file of the layout that it names.
-    pub layout: Source,
-}
 
 impl Scenario {
     /// Reads a scenario file and the layout that it names.

@@ -1,17 +1,22 @@
 //! The texts of scenario and layout with other values at some keys: written once with places for these, filled for every
 //! case, and read by the same readers as files.
 
-use super::key_path::KeyPath;
-use super::key_place::{Place, place, set};
-use super::varied_value::VariedValue;
+mod key_path;
+mod key_place;
+mod varied_value;
+
 use crate::diagnostic::Report;
 use crate::format::Step;
 use crate::layout::Layout;
 use crate::scenario::{KeyFile, Scenario, ScenarioSource};
+use key_place::{Place, place, set};
 use std::ops::Range;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
+
+pub use key_path::KeyPath;
+pub use varied_value::VariedValue;
 
 /// The name of the file that a case's scenario names as its layout.
 pub const LAYOUT_FILE: &str = "layout.toml";
