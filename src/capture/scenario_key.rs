@@ -180,9 +180,9 @@ fn index(scenario: &Scenario, target: &str) -> usize {
     scenario.targets.iter().position(|other| other.name == target).unwrap_or_default()
 }
 
-/// Index and content of the case of this name.
+/// Index in the file and content of the case of this name.
 fn case_of<'a>(scenario: &'a Scenario, case: &str) -> Option<(usize, &'a Case)> {
-    scenario.cases.iter().enumerate().find(|(_, other)| other.name == case)
+    scenario.cases.iter().map(|case| (case.index, case)).find(|(_, other)| other.name == case)
 }
 
 /// The restitution of a target: the case's own, or the target's.

@@ -23,12 +23,12 @@ mod targets;
 #[cfg(feature = "sweep")]
 use crate::campaign::Campaign;
 use crate::capture::StudyError;
-use crate::diagnostic::{Report, Warning, report_warnings};
+use crate::diagnostic::{Report, Warning, report_error, report_warnings};
 use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
-use crate::scenario::Scenario;
-pub use breakdown::study_report;
+use crate::scenario::{Scenario, Variant};
+pub use breakdown::{study_report, variant_report};
 use kind::kind;
 use std::path::Path;
 
@@ -73,11 +73,29 @@ pub fn inspect_with(
         }
         FileFormat::Scenario => {
             let (scenario, source) = Scenario::parse_with_source(text, file, folder, shipped)?;
-            let (warnings, refusal) = scenario_findings(&scenario, robots);
+            let (mut warnings, error) = match &scenario.cases[..] {
+                // every case has other values
+                [] => (Vec::new(), None),
+                _ => scenario_findings(&scenario, robots),
+            };
+            let mut refusal = error.map(|error| error.report(&scenario, text, file, None));
+            for variant in &scenario.variants {
+                let (own, error) = variant_findings(variant, &scenario, robots);
+                let own: Vec<_> = own.into_iter().filter(|warning| !warnings.contains(warning)).collect();
+                warnings.extend(own.into_iter().map(|warning| variant.at_its_key(warning)));
+                if let Some(error) = error {
+                    let why = format!("with these values, `{}`: {error}", error.key(&variant.scenario).path);
+                    let report = report_error(text, file, (&variant.key(), "none"), &why, None);
+                    refusal = Some(match refusal {
+                        Some(before) => before.and(report),
+                        None => report,
+                    });
+                }
+            }
             Ok(CheckReport {
                 description: study::description(&scenario, robots),
                 warnings: scenario_warnings(&scenario, &warnings, [(text, file), (&source.text, &source.file)]),
-                refusal: refusal.map(|error| error.report(&scenario, text, file, None)),
+                refusal,
             })
         }
         #[cfg(feature = "sweep")]
@@ -92,6 +110,9 @@ pub fn inspect_with(
                 }),
             );
             let texts = [&sources.scenario, &sources.layout].map(|source| (&*source.text, &*source.file));
+            if let Some(variant) = &campaign.variant {
+                warnings = warnings.into_iter().map(|warning| variant.at_its_key(warning)).collect();
+            }
             Ok(CheckReport {
                 description: sweep::description(&campaign),
                 warnings: scenario_warnings(scenario, &warnings, texts),
@@ -114,13 +135,26 @@ fn scenario_findings(scenario: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, 
     }
 }
 
+/// The same about a case with values of its own; about its layout, what is not true of the scenario's.
+fn variant_findings(variant: &Variant, common: &Scenario, robots: Robots<'_>) -> (Vec<Warning>, Option<StudyError>) {
+    let (mut warnings, error) = scenario_findings(&variant.scenario, robots);
+    let known = of_layout(&common.layout);
+    let own = of_layout(&variant.scenario.layout).into_iter().filter(|warning| !known.contains(warning));
+    warnings.extend(own.map(|warning| Warning { key: format!("layout.{}", warning.key), ..warning }));
+    (warnings, error)
+}
+
+fn of_layout(layout: &Layout) -> Vec<Warning> {
+    [bodies::warnings(layout), arms::warnings(layout)].concat()
+}
+
 /// The report of warnings about a scenario, and of those about its layout; the texts are theirs, with their files.
 fn scenario_warnings(scenario: &Scenario, warnings: &[Warning], [(text, file), layout]: [(&str, &str); 2]) -> Report {
     report_warnings(text, file, warnings).and(layout_warnings(&scenario.layout, layout.0, layout.1))
 }
 
 fn layout_warnings(layout: &Layout, text: &str, file: &str) -> Report {
-    report_warnings(text, file, &[bodies::warnings(layout), arms::warnings(layout)].concat())
+    report_warnings(text, file, &of_layout(layout))
 }
 
 /// A warning about the value of a key, with the reason and the expected value.

@@ -200,10 +200,13 @@ fn targets(scenario: &Scenario) -> String {
 }
 
 fn cases(scenario: &Scenario) -> String {
-    let number = count(scenario.cases.len(), "case");
-    let width = scenario.cases.iter().map(|case| case.name.len()).fold(12, usize::max);
+    let own = scenario.variants.iter().flat_map(|variant| &variant.scenario.cases);
+    let mut cases: Vec<_> = scenario.cases.iter().chain(own).collect();
+    cases.sort_by_key(|case| case.index);
+    let number = count(cases.len(), "case");
+    let width = cases.iter().map(|case| case.name.len()).fold(12, usize::max);
     let mut out = format!("\n  {number}, target twists [ω, vx, vy] in rad/s, m/s, and what the contacts do\n");
-    for case in &scenario.cases {
+    for case in cases {
         let each = scenario.targets.iter().zip(&case.target_twists).zip(case.kinds.iter().zip(&case.restitutions));
         let targets: Vec<_> = each
             .map(|((target, twist), (kinds, restitution))| {
@@ -212,6 +215,10 @@ fn cases(scenario: &Scenario) -> String {
             .collect();
         let (first, next) = (format!("  {:<width$}", case.name), " ".repeat(2 + width));
         out.extend(wrap(&first, &next, &targets.join(", ")).iter().flat_map(|line| [line.as_str(), "\n"]));
+        if let Some(variant) = scenario.variant(&case.name) {
+            let own = format!("its own approach, with {}", variant.values());
+            out.extend(wrap(&next, &next, &own).iter().flat_map(|line| [line.as_str(), "\n"]));
+        }
     }
     out
 }

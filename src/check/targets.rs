@@ -126,10 +126,10 @@ fn spin(key: impl Into<String>, [omega, ..]: &[f64; 3]) -> Option<Warning> {
 }
 
 fn spinning_cases(scenario: &Scenario) -> impl Iterator<Item = Warning> {
-    scenario.cases.iter().enumerate().filter_map(|(i, case)| {
+    scenario.cases.iter().filter_map(|case| {
         // a target with a warning of its own has no second one
         let mut own =
             case.target_twists.iter().zip(&scenario.targets).filter(|(_, target)| target.twist[0].abs() <= TAU);
-        own.find_map(|(twist, _)| spin(format!("case[{i}].target_twists"), twist))
+        own.find_map(|(twist, _)| spin(format!("case[{}].target_twists", case.index), twist))
     })
 }

@@ -2,7 +2,7 @@
 
 use super::dynamics::Dynamics;
 use super::progress::{Display, Progress};
-use super::run::study_error;
+use super::run::{study_error, variant_error};
 use super::seconds::{positive_seconds, seconds};
 use super::{CommandError, write_new};
 use crate::capture::study;
@@ -51,15 +51,18 @@ fn playing_time(text: &str) -> Result<f64, String> {
 /// Computes the case alone and writes the picture.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let (mut scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
-    if let Some(name) = &arguments.case {
-        let names: Vec<_> = scenario.cases.iter().map(|case| format!("`{}`", case.name)).collect();
-        scenario.cases.retain(|case| case.name == *name);
-        if scenario.cases.is_empty() {
-            let (file, names) = (arguments.scenario.display(), names.join(", "));
-            return Err(CommandError::Usage(format!("{file} has no case `{name}`, expected one of {names}")));
-        }
+    let names = scenario.case_names();
+    let wanted = arguments.case.as_deref().unwrap_or(names.first().copied().unwrap_or_default()).to_owned();
+    if !names.contains(&&*wanted) {
+        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+        let (file, names) = (arguments.scenario.display(), names.join(", "));
+        return Err(CommandError::Usage(format!("{file} has no case `{wanted}`, expected one of {names}")));
     }
-    scenario.cases.truncate(1);
+    let variant = scenario.variant(&wanted).cloned();
+    match &variant {
+        Some(variant) => scenario = variant.scenario.clone(),
+        None => scenario.cases.retain(|case| case.name == wanted),
+    }
     let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, robots)?;
     if !arguments.display.quiet {
         arguments.dynamics.announce(&choice, "");
@@ -73,7 +76,10 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     let mut progress = Progress::new(arguments.display);
     let result = study(&scenario, &|| model.clone_box(), sample, &mut progress);
     progress.finish();
-    let study = result.map_err(|error| study_error(&error, &scenario, &source.scenario))?;
+    let study = result.map_err(|error| match &variant {
+        Some(variant) => variant_error(&error, variant, &source.scenario),
+        None => study_error(&error, &scenario, &source.scenario),
+    })?;
     write_new(
         arguments.out.as_deref(),
         &animation(&scenario, &study, &study.cases[0], Excerpt { seconds: arguments.seconds, until }),

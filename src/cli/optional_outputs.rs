@@ -5,8 +5,7 @@ use crate::capture::{CaseResult, Study};
 use crate::diagnostic::nearest;
 use crate::output::figure_kinds::{FIGURE_KINDS, is_kind};
 use crate::output::result_folder::StagedFolder;
-use crate::output::run_manifest::RunManifest;
-use crate::scenario::Scenario;
+use crate::output::study_part::StudyPart;
 use std::fs::File;
 use std::io::{self, BufWriter};
 
@@ -21,7 +20,7 @@ pub struct OptionalOutput {
     write: Option<Write>,
 }
 
-type Write = fn(&StagedFolder, &Scenario, &Study, &RunManifest, &Flags) -> Result<(), CommandError>;
+type Write = fn(&StagedFolder, &StudyPart<'_>, &Flags) -> Result<(), CommandError>;
 
 pub const FIGURES: OptionalOutput = OptionalOutput {
     feature: "figures",
@@ -114,24 +113,15 @@ pub fn require(outputs: &[OptionalOutput]) -> Result<(), CommandError> {
 
 impl OptionalOutput {
     /// Writes its files for a study; none in a build that lacks the feature, see [`require`].
-    pub fn write(
-        self,
-        folder: &StagedFolder,
-        scenario: &Scenario,
-        study: &Study,
-        manifest: &RunManifest,
-        flags: &Flags,
-    ) -> Result<(), CommandError> {
-        self.write.map_or(Ok(()), |write| write(folder, scenario, study, manifest, flags))
+    pub fn write(self, folder: &StagedFolder, part: &StudyPart<'_>, flags: &Flags) -> Result<(), CommandError> {
+        self.write.map_or(Ok(()), |write| write(folder, part, flags))
     }
 }
 
 #[cfg(feature = "parquet")]
 fn parquet(
     folder: &StagedFolder,
-    scenario: &Scenario,
-    study: &Study,
-    manifest: &RunManifest,
+    StudyPart { scenario, study, manifest, .. }: &StudyPart<'_>,
     _: &Flags,
 ) -> Result<(), CommandError> {
     use crate::output::time_series::write_parquet;
@@ -141,9 +131,7 @@ fn parquet(
 #[cfg(feature = "mcap")]
 fn mcap(
     folder: &StagedFolder,
-    scenario: &Scenario,
-    study: &Study,
-    manifest: &RunManifest,
+    StudyPart { scenario, study, manifest, .. }: &StudyPart<'_>,
     _: &Flags,
 ) -> Result<(), CommandError> {
     use crate::output::mcap::write_mcap;
@@ -164,9 +152,7 @@ pub fn file_per_case(
 #[cfg(feature = "figures")]
 fn figures(
     folder: &StagedFolder,
-    scenario: &Scenario,
-    study: &Study,
-    _: &RunManifest,
+    StudyPart { scenario, study, variant, .. }: &StudyPart<'_>,
     flags: &Flags,
 ) -> Result<(), CommandError> {
     use crate::output::figure_kinds::begins_with;
@@ -180,6 +166,7 @@ fn figures(
     };
     let wanted: Vec<_> = flags.figures.iter().flatten().filter(|word| !word.is_empty()).collect();
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|word| begins_with(name, word));
+    let own = variant.map_or_else(String::new, |variant| format!("{}/", variant.name()));
     for figure in figures(scenario, study).iter().filter(|figure| is_wanted(&figure.name)) {
         let failed = |error: draw::DrawError| CommandError::Figures(error.into());
         let svg = draw::svg(figure, width).into_bytes();
@@ -189,7 +176,7 @@ fn figures(
             ("png", draw::png(figure, width).map_err(failed)?),
         ];
         for (extension, bytes) in files {
-            folder.write(&format!("figures/{}.{extension}", figure.name), |to| to.write_all(&bytes))?;
+            folder.write(&format!("figures/{own}{}.{extension}", figure.name), |to| to.write_all(&bytes))?;
         }
     }
     Ok(())

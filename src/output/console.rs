@@ -6,6 +6,7 @@ use crate::capture::clearance::{LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};
+use crate::output::study_part::StudyPart;
 use crate::plain_text::Column::{Left, Right};
 use crate::plain_text::{Column, Table, sentence};
 use crate::scenario::{Case, Detection, PostCaptureControl, Scenario, Tracking};
@@ -32,6 +33,16 @@ pub fn table(scenario: &Scenario, study: &Study) -> String {
         out += &residual_motion(study);
     }
     out + &clearance(study) + &closest_approaches(scenario, study) + &thinned(study)
+}
+
+/// The tables of all parts of a run, each case with values of its own after these.
+#[must_use]
+pub fn table_of_parts(parts: &[StudyPart<'_>]) -> String {
+    let each = parts.iter().map(|StudyPart { scenario, variant, study, .. }| {
+        let own = variant.map(|variant| sentence("", &format!("Case {}: {}", variant.name(), variant.values())));
+        own.unwrap_or_default() + &table(scenario, study)
+    });
+    each.collect::<Vec<_>>().join("\n")
 }
 
 /// Says that figures and report do not show all samples of a long phase.

@@ -19,6 +19,7 @@ pub mod result_folder;
 pub mod run_folder;
 pub mod run_manifest;
 pub mod scene;
+pub mod study_part;
 pub mod summary;
 mod sweep;
 mod temporary;

@@ -1,7 +1,7 @@
 //! The manifest of a run: what it was made of, by which program and command. All files of a run share it.
 
 use crate::layout::sha256;
-use crate::scenario::{Scenario, ScenarioSource};
+use crate::scenario::{Scenario, ScenarioSource, Variant};
 use crate::simulate::Timing;
 use crate::simulate::stepper::Integration;
 use serde_json::{Map, Value, json};
@@ -42,25 +42,47 @@ impl PhaseManifest {
     }
 }
 
+fn phases(scenario: &Scenario) -> Vec<PhaseManifest> {
+    let approach = &scenario.approach;
+    let before = PhaseManifest::new("approach", [approach.duration, approach.step], approach.integration);
+    let after = scenario.post_impact.as_ref();
+    let after = after.map(|after| PhaseManifest::new("post_impact", [after.duration, after.step], after.integration));
+    std::iter::once(before).chain(after).collect()
+}
+
 impl RunManifest {
     /// Of a scenario, the texts that it was read from, and the command that runs it.
     #[must_use]
     pub fn new(scenario: &Scenario, source: ScenarioSource, command: String) -> Self {
-        let approach = &scenario.approach;
-        let mut phases = vec![PhaseManifest::new("approach", [approach.duration, approach.step], approach.integration)];
-        phases.extend(
-            scenario
-                .post_impact
-                .as_ref()
-                .map(|after| PhaseManifest::new("post_impact", [after.duration, after.step], after.integration)),
-        );
         Self {
             command,
             scenario_toml: source.scenario.text,
             layout_toml: source.layout.text,
             layout_sha256: scenario.layout.sha256(),
-            phases,
+            phases: phases(scenario),
         }
+    }
+
+    /// That of a case with values of its own in the same run: with its layout and its phases.
+    #[must_use]
+    pub fn of_variant(&self, Variant { scenario, texts: [_, layout], .. }: &Variant) -> Self {
+        Self {
+            layout_toml: layout.clone(),
+            layout_sha256: scenario.layout.sha256(),
+            phases: phases(scenario),
+            ..self.clone()
+        }
+    }
+
+    /// What a case with values of its own has in the summary: how it was computed, where others may have it otherwise.
+    #[must_use]
+    pub fn to_json_of_case(&self, dynamics: &str) -> Value {
+        let mut value = self.to_json();
+        if let Value::Object(entries) = &mut value {
+            entries.retain(|key, _| ["layout_sha256", "integrator", "steps"].contains(&key.as_str()));
+        }
+        value["dynamics"] = json!(dynamics);
+        value
     }
 
     /// Hash of the scenario's text.

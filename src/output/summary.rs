@@ -8,7 +8,9 @@ use crate::capture::terminal_error::TerminalError;
 use crate::capture::{CaseResult, Study};
 use crate::output::finite::{NotFinite, finite};
 use crate::output::run_manifest::RunManifest;
+use crate::output::study_part::StudyPart;
 use crate::scenario::Scenario;
+use crate::scenario::variation::VariedValue;
 use crate::simulate::Phase;
 use crate::simulate::limits::{LimitViolation, LimitViolations};
 use serde_json::{Value, json};
@@ -18,13 +20,52 @@ use serde_json::{Value, json};
 /// # Errors
 /// A number that is not finite.
 pub fn summary(scenario: &Scenario, dynamics: &str, study: &Study, manifest: &RunManifest) -> Result<Value, NotFinite> {
+    let cases = study.cases.iter().map(|case| case_value(scenario, study, case));
+    of_cases(scenario, dynamics, &cases.collect::<Vec<_>>(), manifest)
+}
+
+/// The summary of all parts of a scenario's run, its cases in the order of the file.
+///
+/// # Errors
+/// A number that is not finite.
+pub fn summary_of_parts(
+    scenario: &Scenario,
+    dynamics: &str,
+    parts: &[StudyPart<'_>],
+    manifest: &RunManifest,
+) -> Result<Value, NotFinite> {
+    let mut cases = Vec::new();
+    for part in parts {
+        for (case, result) in part.scenario.cases.iter().zip(&part.study.cases) {
+            let mut value = case_value(part.scenario, &part.study, result);
+            if let Some(variant) = part.variant {
+                value["set"] = variant.set.iter().map(|(path, value)| (path.clone(), of_varied(value))).collect();
+                value["run"] = part.manifest.to_json_of_case(part.dynamics);
+            }
+            cases.push((case.index, value));
+        }
+    }
+    cases.sort_by_key(|(index, _)| *index);
+    let cases: Vec<_> = cases.into_iter().map(|(_, value)| value).collect();
+    of_cases(scenario, dynamics, &cases, manifest)
+}
+
+fn of_varied(value: &VariedValue) -> Value {
+    match value {
+        VariedValue::Number(number) => json!(number),
+        VariedValue::Text(text) => json!(text),
+        VariedValue::Flag(flag) => json!(flag),
+    }
+}
+
+fn of_cases(scenario: &Scenario, dynamics: &str, cases: &[Value], manifest: &RunManifest) -> Result<Value, NotFinite> {
     let layout = &scenario.layout;
     finite(json!({
         "scenario": scenario.name,
         "layout": {"name": layout.name, "sha256": layout.sha256()},
         "dynamics": dynamics,
         "run": manifest.to_json(),
-        "cases": study.cases.iter().map(|case| case_value(scenario, study, case)).collect::<Vec<_>>(),
+        "cases": cases,
     }))
 }
 

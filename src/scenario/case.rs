@@ -1,4 +1,4 @@
-//! Cases: variants of a capture that differ in the kinds of their contacts.
+//! Cases: variants of a capture that differ in the kinds of their contacts and the motion of their targets.
 
 use crate::contact::ContactKind;
 use crate::scenario::Target;
@@ -8,6 +8,8 @@ use crate::scenario::Target;
 pub struct Case {
     /// Unique in the scenario; usable as a file name.
     pub name: String,
+    /// Of its `[[case]]` in the file, from 0.
+    pub index: usize,
     /// Twist of each target before the impact; default the target's own.
     pub target_twists: Vec<[f64; 3]>,
     /// Kinds of each target's contacts, in the order of its arms; default the target's own.
@@ -25,6 +27,7 @@ impl Case {
     pub fn of_targets(name: &str, targets: &[Target]) -> Self {
         Self {
             name: name.to_owned(),
+            index: 0,
             target_twists: targets.iter().map(|target| target.twist).collect(),
             kinds: targets.iter().map(|target| target.contacts.iter().map(|contact| contact.kind).collect()).collect(),
             restitutions: targets.iter().map(|target| target.restitution).collect(),

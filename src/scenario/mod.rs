@@ -11,6 +11,7 @@ mod reader;
 mod sample_time;
 mod source;
 mod target;
+mod variant;
 pub mod variation;
 
 use crate::frames::{Frame, frames};
@@ -28,6 +29,7 @@ pub use keys::FORMAT;
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use source::{ScenarioSource, Source};
 pub use target::{PlannedContact, Target, contact_name};
+pub use variant::Variant;
 
 /// An approach and, where there are targets, their capture and the motion after it.
 ///
@@ -51,13 +53,38 @@ pub struct Scenario {
     pub contact: ContactRules,
     /// Which bodies may overlap, and what an overlap of others does.
     pub clearance: ClearanceRules,
-    /// The variants to run, at least one; without `[[case]]` a single one named after the scenario.
+    /// The cases that have this scenario's approach; without `[[case]]` a single one named after the scenario. None where
+    /// every case is in `variants`.
     pub cases: Vec<Case>,
+    /// The cases with values of their own, each a scenario that is computed by itself. A study of this one has none of
+    /// them.
+    pub variants: Vec<Variant>,
     /// The motion after the impact; given if and only if there are targets.
     pub post_impact: Option<PostImpact>,
 }
 
 impl Scenario {
+    /// The names of all cases, in the order of the file.
+    #[must_use]
+    pub fn case_names(&self) -> Vec<&str> {
+        let own = self.variants.iter().flat_map(|variant| &variant.scenario.cases);
+        let mut cases: Vec<_> = self.cases.iter().chain(own).collect();
+        cases.sort_by_key(|case| case.index);
+        cases.into_iter().map(|case| case.name.as_str()).collect()
+    }
+
+    /// The case of this name, where it has values of its own.
+    #[must_use]
+    pub fn variant(&self, case: &str) -> Option<&Variant> {
+        self.variants.iter().find(|variant| variant.name() == case)
+    }
+
+    /// What is computed: this scenario with its cases, where it has any, and each case with values of its own.
+    pub fn parts(&self) -> impl Iterator<Item = (&Self, Option<&Variant>)> {
+        let common = (!self.cases.is_empty()).then_some((self, None));
+        common.into_iter().chain(self.variants.iter().map(|variant| (&variant.scenario, Some(variant))))
+    }
+
     /// The frames of its robot and targets.
     #[must_use]
     pub fn frames(&self) -> Vec<Frame> {

@@ -5,6 +5,7 @@ compile_error!("the tests see every layout: `cargo test` in the root, without `-
 
 mod animate;
 mod c;
+mod case_set;
 mod check;
 mod closed_output;
 mod compare;

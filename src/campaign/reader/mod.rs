@@ -12,7 +12,7 @@ use super::sweep::{Sweep, Varied};
 use crate::diagnostic::{Report, Table, Value, every, listing, read_document, read_text};
 use crate::layout::Layout;
 use crate::scenario::variation::Variation;
-use crate::scenario::{Scenario, ScenarioSource, Source};
+use crate::scenario::{Scenario, ScenarioSource, Source, Variant};
 use std::path::{Path, PathBuf};
 
 /// A sweep with what it varies.
@@ -22,8 +22,10 @@ pub struct Campaign {
     pub sweep: Sweep,
     /// Its file.
     pub source: Source,
-    /// The scenario, with all its cases.
+    /// The scenario, with all its cases; where the case that is computed has values of its own, with these and it alone.
     pub scenario: Scenario,
+    /// That case with its values.
+    pub variant: Option<Variant>,
     /// Its files.
     pub scenario_source: ScenarioSource,
     /// The texts of the cases.
@@ -49,9 +51,13 @@ impl Campaign {
     /// All that is wrong with the content, and with the files of scenario and layout.
     pub fn parse(text: &str, file: &str, folder: &Path, layouts: &[(&str, &str)]) -> Result<Self, Report> {
         let read = |root: &Table<'_>| read_root(root, folder, layouts);
-        let (sweep, scenario, scenario_source, variation) = read_document(text, file, &FORMAT, read)?;
+        let (sweep, (mut scenario, scenario_source), variation) = read_document(text, file, &FORMAT, read)?;
         let source = Source { text: text.to_owned(), file: file.to_owned() };
-        Ok(Self { sweep, source, scenario, scenario_source, variation })
+        let variant = scenario.variant(&sweep.case).cloned();
+        if let Some(variant) = &variant {
+            scenario = variant.scenario.clone();
+        }
+        Ok(Self { sweep, source, scenario, variant, scenario_source, variation })
     }
 
     /// A layout for the choice of what computes the cases: what varies has the first value that is not 0, so that code
@@ -69,7 +75,7 @@ impl Campaign {
     }
 }
 
-type Read = (Sweep, Scenario, ScenarioSource, Variation);
+type Read = (Sweep, (Scenario, ScenarioSource), Variation);
 
 fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Option<Read> {
     let name = root.file_name("name");
@@ -90,12 +96,16 @@ fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Optio
     };
     let distributions: Vec<_> = tables.iter().map(distribution).collect();
     let cases = sampling.and_then(|sampling| cases(root, sampling, &tables, &distributions));
-    let (scenario, scenario_source) = scenario?;
+    let read = scenario?;
+    let (scenario, source) = &read;
     let case = case?;
-    let (paths, variation) = keys::keys(&tables, &distributions, (&scenario, &scenario_source), &case)?;
+    // a case with values of its own is a scenario with these
+    let own = scenario.variant(&case).map(|own| (&own.scenario, own.sources([&source.scenario, &source.layout])));
+    let (scenario, source) = own.as_ref().map_or((scenario, source), |(scenario, source)| (*scenario, source));
+    let (paths, variation) = keys::keys(&tables, &distributions, (scenario, source), &case)?;
     let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
     let copula = root.read_or("correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
-    let collect = collect::collect(root, cases, &scenario);
+    let collect = collect::collect(root, cases, scenario);
     let distributions: Vec<Distribution> = distributions.into_iter().collect::<Option<_>>()?;
     let sweep = Sweep {
         name: name?.to_owned(),
@@ -108,12 +118,12 @@ fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Optio
         copula: copula?,
         collect: collect?,
     };
-    Some((sweep, scenario, scenario_source, variation))
+    Some((sweep, read, variation))
 }
 
 /// The case that is computed.
 fn case(root: &Table<'_>, scenario: &Scenario) -> Option<String> {
-    let names: Vec<&str> = scenario.cases.iter().map(|case| case.name.as_str()).collect();
+    let names = scenario.case_names();
     let Some(value) = root.get("case") else {
         if let [only] = names[..] {
             return Some(only.to_owned());

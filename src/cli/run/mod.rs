@@ -19,7 +19,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use task::Task;
-pub use task::study_error;
+pub use task::{study_error, variant_error};
 
 /// Time between two rows where it is not given, s.
 const DEFAULT_SAMPLE: f64 = 0.05;
@@ -147,13 +147,13 @@ fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>)
     let mut tasks = Vec::new();
     for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
         let folder = ResultFolder::claim(folder, arguments.force, &keep, objection).map_err(CommandError::from);
-        let choice = match chosen.take() {
-            Some(choice) => Ok(choice),
-            None => arguments.dynamics.choose(&scenario.layout, &source.scenario.file, robots),
-        };
-        if let (Some(folder), Some(choice)) = (codes.take(folder), codes.take(choice)) {
+        let file = &source.scenario.file;
+        let choose = |scenario: &Scenario| arguments.dynamics.choose(&scenario.layout, file, robots);
+        let choice = chosen.take().map_or_else(|| choose(scenario), Ok);
+        let own = scenario.variants.iter().map(|variant| choose(&variant.scenario)).collect::<Result<_, _>>();
+        if let (Some(folder), Some(choice), Some(own)) = (codes.take(folder), codes.take(choice), codes.take(own)) {
             let named = if arguments.scenarios.len() > 1 { format!("{}: ", scenario.name) } else { String::new() };
-            tasks.push(Task { path, scenario, source, folder, choice, named });
+            tasks.push(Task { path, scenario, source, folder, choice, own, named });
         }
     }
     if codes.0 > 0 {

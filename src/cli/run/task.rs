@@ -6,17 +6,18 @@ use super::super::progress::Progress;
 use super::super::terminal::note;
 use super::product::Printed;
 use super::{Arguments, DEFAULT_SAMPLE};
-use crate::capture::{Study, StudyError, study};
-use crate::check::study_report;
+use crate::capture::{StudyError, study};
+use crate::check::{study_report, variant_report};
 use crate::engine::Choice;
-use crate::output::console::table;
+use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
 use crate::output::run_folder::SUMMARY;
 use crate::output::run_manifest::RunManifest;
-use crate::output::summary::summary;
+use crate::output::study_part::StudyPart;
+use crate::output::summary::summary_of_parts;
 use crate::output::time_series::write_csv;
-use crate::scenario::{Scenario, ScenarioSource, Source};
+use crate::scenario::{Scenario, ScenarioSource, Source, Variant};
 use serde_json::Value;
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
@@ -31,7 +32,10 @@ pub struct Task<'a> {
     pub scenario: &'a Scenario,
     pub source: &'a ScenarioSource,
     pub folder: ResultFolder<'a>,
+    /// Of the scenario.
     pub choice: Choice,
+    /// Of each of its variants.
+    pub own: Vec<Choice>,
     /// What its messages begin with.
     pub named: String,
 }
@@ -39,7 +43,7 @@ pub struct Task<'a> {
 impl Task<'_> {
     /// Computes the study and writes its files: what is printed, and what the audit objects to.
     pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Vec<String>), CommandError> {
-        let Self { path, scenario, source, folder, choice, named } = self;
+        let Self { path, scenario, source, folder, choice, own, named } = self;
         if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))
         {
             note(format_args!(
@@ -49,28 +53,43 @@ impl Task<'_> {
         }
         if !arguments.display.quiet {
             arguments.dynamics.announce(choice, named);
+            for (variant, own) in scenario.variants.iter().zip(own).filter(|(_, own)| own.origin != choice.origin) {
+                arguments.dynamics.announce(own, &format!("{named}case `{}`: ", variant.name()));
+            }
         }
         let manifest = RunManifest::new(scenario, (*source).clone(), command());
         if arguments.verbose {
             self.note_inputs(&manifest);
         }
         let begin = Instant::now();
-        let model = choice.model(&scenario.layout);
-        let mut progress = Progress::new(arguments.display);
-        let result = study(scenario, &|| model.clone_box(), arguments.sample.unwrap_or(DEFAULT_SAMPLE), &mut progress);
-        progress.finish();
-        let study = result.map_err(|error| study_error(&error, scenario, &source.scenario))?;
+        let parts = scenario.parts().map(|(scenario, variant)| {
+            let own = |variant| scenario_choice(self, variant);
+            let choice = variant.map_or(choice, own);
+            let model = choice.model(&scenario.layout);
+            let mut progress = Progress::new(arguments.display);
+            let sample = arguments.sample.unwrap_or(DEFAULT_SAMPLE);
+            let result = study(scenario, &|| model.clone_box(), sample, &mut progress);
+            progress.finish();
+            let study = result.map_err(|error| match variant {
+                Some(variant) => variant_error(&error, variant, &source.scenario),
+                None => study_error(&error, scenario, &source.scenario),
+            })?;
+            let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
+            Ok(StudyPart { scenario, variant, dynamics: choice.engine.name(), study, manifest })
+        });
+        let parts = parts.collect::<Result<Vec<_>, CommandError>>()?;
         let computed = begin.elapsed();
-        let summary = summary(scenario, choice.engine.name(), &study, &manifest)
+        let summary = summary_of_parts(scenario, choice.engine.name(), &parts, &manifest)
             .map_err(|source| CommandError::Numbers { file: path.display().to_string(), source })?;
-        let summary = self.write_results(arguments, &study, (&manifest, summary))?;
+        let summary = self.write_results(arguments, &parts, summary)?;
         if arguments.verbose {
             let written = begin.elapsed().saturating_sub(computed);
             note(format_args!("{named}computed in {computed:.2?}, written in {written:.2?}"));
             self.note_files(&summary);
         }
-        let table = format!("{}\nResults in {}\n", table(scenario, &study), folder.path().display());
-        Ok((Printed { table, summary }, study.audit_failures()))
+        let table = format!("{}\nResults in {}\n", table_of_parts(&parts), folder.path().display());
+        let objections = parts.iter().flat_map(StudyPart::audit_failures).collect();
+        Ok((Printed { table, summary }, objections))
     }
 
     /// Says what the audit objects to.
@@ -109,17 +128,21 @@ impl Task<'_> {
     fn write_results(
         &self,
         arguments: &Arguments,
-        study: &Study,
-        (manifest, mut summary): (&RunManifest, Value),
+        parts: &[StudyPart<'_>],
+        mut summary: Value,
     ) -> Result<Value, CommandError> {
-        let Self { scenario, folder, .. } = self;
+        let folder = &self.folder;
         let staged = folder.stage()?;
-        file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
-        if arguments.report {
-            staged.write("report.html", |to| write_report(scenario, study, manifest, to))?;
-        }
-        for output in arguments.optional_outputs.requested() {
-            output.write(&staged, scenario, study, manifest, &arguments.optional_outputs)?;
+        for part in parts {
+            let StudyPart { scenario, study, manifest, .. } = part;
+            file_per_case(&staged, study, "csv", |case, to| write_csv(scenario, study, case, to))?;
+            if arguments.report {
+                let name = part.variant.map_or_else(String::new, |variant| format!("{}.", variant.name()));
+                staged.write(&format!("{name}report.html"), |to| write_report(scenario, study, manifest, to))?;
+            }
+            for output in arguments.optional_outputs.requested() {
+                output.write(&staged, part, &arguments.optional_outputs)?;
+            }
         }
         let mut files = staged.files()?;
         files.push(SUMMARY.to_owned());
@@ -134,6 +157,12 @@ impl Task<'_> {
     }
 }
 
+/// What computes a variant of the task's scenario.
+fn scenario_choice<'a>(task: &'a Task<'_>, variant: &Variant) -> &'a Choice {
+    let own = task.scenario.variants.iter().zip(&task.own).find(|(other, _)| other.index() == variant.index());
+    own.map_or(&task.choice, |(_, own)| own)
+}
+
 /// The longest step of a phase that is longer than the interval of rows, s.
 fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
     let steps = [Some(scenario.approach.step), scenario.post_impact.as_ref().map(|phase| phase.step)];
@@ -145,6 +174,12 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
 pub fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
     let exit_code = if error.is_breakdown() { 1 } else { 2 };
     CommandError::Computation { report: study_report(error, scenario, source), exit_code }
+}
+
+/// The same of a case with values of its own, at these values.
+pub fn variant_error(error: &StudyError, variant: &Variant, source: &Source) -> CommandError {
+    let exit_code = if error.is_breakdown() { 1 } else { 2 };
+    CommandError::Computation { report: variant_report(error, variant, source), exit_code }
 }
 
 /// The command line, as it can be typed again.

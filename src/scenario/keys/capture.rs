@@ -14,6 +14,8 @@ const RANGE: Shape = Shape::OneOf(&[
 ]);
 const RATE: Shape = Shape::Number(NumberRule::positive("a largest joint rate (or one per joint)", "rad/s"));
 const IMPULSE: Shape = Shape::Number(NumberRule::non_negative("an impulse magnitude", "N s"));
+/// Of any key, which has a rule of its own.
+const SET_VALUE: Shape = Shape::Scalar(NumberRule::any("a number", ""));
 const BODY: Shape = Shape::Text("the name of a body");
 const PAIR: Shape = Shape::List(&BODY, Count::Exactly(2));
 
@@ -100,6 +102,14 @@ pub(super) static CASE: TableFormat = TableFormat {
             "the paper's magnitudes, shown beside those of its robot and used for nothing else",
         )
         .example("{ target1 = 0.0873 }"),
+        Key::optional(
+            "set",
+            Shape::ByName(&SET_VALUE, "path"),
+            Default::Nothing,
+            "other values at keys of the scenario, or after `layout.` of its layout, by their paths as in sweeps; the case \
+             then has an approach of its own",
+        )
+        .example("{ \"layout.base.mass\" = 480.0 }"),
     ],
     one_of: &[],
 };

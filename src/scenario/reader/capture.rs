@@ -1,6 +1,7 @@
 //! `[[target]]`, `[contact]`, `[[case]]` and `[post_impact]`, and the rules between them.
 
 use super::case::case;
+use super::case_set::{CaseSet, case_set};
 use super::joints::Joints;
 use super::post_impact::post_impact;
 use super::target::{NO_BOUNCE, target};
@@ -11,15 +12,18 @@ use crate::scenario::{Case, ContactRules, Detection, PostImpact, Target};
 use std::collections::HashSet;
 
 /// The contents of the tables.
-pub(super) struct Capture {
+pub(super) struct Capture<'a> {
     pub(super) targets: Vec<Target>,
     pub(super) contact: ContactRules,
+    /// All of them.
     pub(super) cases: Vec<Case>,
+    /// What some of them set.
+    pub(super) sets: Vec<CaseSet<'a>>,
     pub(super) post_impact: Option<PostImpact>,
 }
 
 /// Reads the tables; `name` is the scenario's.
-pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&str>) -> Option<Capture> {
+pub(super) fn capture<'a>(root: &Table<'a>, layout: Option<&Layout>, name: Option<&str>) -> Option<Capture<'a>> {
     let contact = root.read_or("contact", ContactRules::default(), |value| contact_rules(&value.table()?));
     let detection = contact.unwrap_or_default().detection;
     let tables = root.tables("target")?;
@@ -41,7 +45,10 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
         }
         let why = "case names must differ by more than upper and lower case: they are the names of files";
         Table::reject_repeats(&tables, "name", str::to_ascii_lowercase, why);
-        every(tables.iter().map(|table| case(table, target_names.as_deref(), targets.as_deref(), detection)))
+        let sets = every(tables.iter().enumerate().map(|(i, table)| case_set(table, i)));
+        let tables = tables.iter().enumerate();
+        let cases = every(tables.map(|table| case(table, target_names.as_deref(), targets.as_deref(), detection)));
+        Some((cases?, sets?.into_iter().flatten().collect::<Vec<_>>()))
     });
 
     let after = if no_targets { None } else { root.table("post_impact") };
@@ -52,7 +59,7 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
         after.as_ref().and_then(|table| post_impact(table, &Joints { layout })).map(Some)
     };
 
-    let (mut cases, targets) = (cases?, targets?);
+    let ((mut cases, sets), targets) = (cases?, targets?);
     if cases.is_empty() {
         cases.push(Case::of_targets(name?, &targets));
     }
@@ -63,7 +70,7 @@ pub(super) fn capture(root: &Table<'_>, layout: Option<&Layout>, name: Option<&s
     {
         value.reject("they are for a robot alone, but not every target becomes part of a link, expected `full`");
     }
-    Some(Capture { targets, contact: contact?, cases, post_impact: post_impact? })
+    Some(Capture { targets, contact: contact?, cases, sets, post_impact: post_impact? })
 }
 
 fn contact_rules(table: &Table<'_>) -> Option<ContactRules> {

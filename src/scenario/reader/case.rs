@@ -6,7 +6,7 @@ use crate::scenario::{Case, Detection, Target};
 
 /// `names` are the targets', where they differ; `targets`, where they could be read, are in the same order.
 pub(super) fn case<'a>(
-    table: &Table<'a>,
+    (index, table): (usize, &Table<'a>),
     names: Option<&[&'a str]>,
     targets: Option<&[Target]>,
     detection: Detection,
@@ -46,6 +46,7 @@ pub(super) fn case<'a>(
     });
     Some(Case {
         name: name?.to_owned(),
+        index,
         target_twists: target_twists?,
         kinds: kinds?,
         restitutions: restitutions?,

@@ -4,6 +4,7 @@ mod actuation;
 mod approach;
 mod capture;
 mod case;
+mod case_set;
 mod clearance;
 mod integration;
 mod joints;
@@ -12,7 +13,7 @@ mod magnitude;
 mod post_impact;
 mod target;
 
-use crate::diagnostic::{Report, Table, Value, read_document, read_text, read_text_from};
+use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, read_text_from};
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
@@ -120,7 +121,7 @@ impl Scenario {
                 let names: Vec<_> = bodies.filter(|f| f.motion != FrameMotion::Fixed).map(|f| f.name).collect();
                 clearance::clearance(&value.table()?, &names)
             });
-            let scenario = Self {
+            let mut scenario = Self {
                 name: name?.to_owned(),
                 layout: layout?,
                 initial: initial?,
@@ -130,9 +131,18 @@ impl Scenario {
                 contact: capture.contact,
                 clearance: clearance?,
                 cases: capture.cases,
+                variants: Vec::new(),
                 post_impact: capture.post_impact,
             };
-            Some((scenario, source?))
+            let layout = source?;
+            if !capture.sets.is_empty() {
+                let scenario_source = Source { text: text.to_owned(), file: file.to_owned() };
+                let source = ScenarioSource { scenario: scenario_source, layout: layout.clone() };
+                let variants = capture.sets.iter().map(|set| set.variant(&scenario, &source));
+                scenario.variants = every(variants)?;
+                scenario.cases.retain(|case| !capture.sets.iter().any(|set| set.index == case.index));
+            }
+            Some((scenario, layout))
         })
     }
 }

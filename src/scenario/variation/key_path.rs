@@ -31,7 +31,12 @@ impl KeyPath {
                 }
                 _ => format!("it is {}, expected one element of it: `{text}[0]`", shape.wanted()),
             }),
-            _ => Ok(Self { file, steps: place.steps }),
+            _ => match &place.steps[..] {
+                [Step::Key(first), _, Step::Key(set), Step::Key(key)] if first == "case" && set == "set" => {
+                    Err(format!("what a case sets varies at its own path, expected `{key}`"))
+                }
+                _ => Ok(Self { file, steps: place.steps }),
+            },
         }
     }
 
@@ -94,6 +99,7 @@ mod tests {
             ("initial.base_pose", "expected one element"),
             ("target.t.name", "a `name` cannot vary"),
             ("layout", "a `layout` cannot vary"),
+            ("case.c.set.\"layout.base.mass\"", "expected `layout.base.mass`"),
         ] {
             let error = KeyPath::parse(path).expect_err(path);
             assert!(error.contains(why), "{path}: {error}");

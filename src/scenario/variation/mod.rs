@@ -69,6 +69,8 @@ impl Variation {
         of_scenario.insert("layout".to_owned(), scenario.layout.name.as_str().into());
         if let Some(Value::Array(cases)) = of_scenario.get_mut("case") {
             cases.retain(|table| table.get("name").and_then(Value::as_str) == Some(case));
+            // the values are in the keys
+            cases.iter_mut().filter_map(Value::as_table_mut).for_each(|table| drop(table.remove("set")));
         }
         let mut places: Vec<(KeyFile, Place)> = Vec::new();
         for (key, (path, value)) in keys.iter().enumerate() {

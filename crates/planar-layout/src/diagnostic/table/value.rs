@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::{Keys, Table, every};
 use crate::diagnostic::document::Document;
 use crate::diagnostic::{Report, excerpt, is_hidden};
-use crate::format::{NumberRule, Refusal, Shape, form};
+use crate::format::{NumberRule, Refusal, Shape, form, quoted_key};
 use crate::names::{listing, nearest};
 
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
@@ -57,6 +57,12 @@ impl<'a> Value<'a> {
     #[must_use]
     pub fn is_array(&self) -> bool {
         self.tree.is_array()
+    }
+
+    /// Whether this is a table.
+    #[must_use]
+    pub fn is_table(&self) -> bool {
+        self.tree.is_table()
     }
 
     /// What the value must be by the format of its file, as it reads after "expected".
@@ -225,6 +231,29 @@ impl<'a> Value<'a> {
             _ => None,
         });
         self.table_with(&Keys::Names(names.to_vec(), shape))
+    }
+
+    /// The keys of a table that may have any, with their values, sorted.
+    ///
+    /// # Panics
+    /// See [`wanted`](Self::wanted).
+    #[must_use]
+    pub fn entries(&self) -> Option<Vec<(String, Self)>> {
+        let Some(Shape::ByName(item, _)) = self.shape else { unreachable!("{OTHER_SHAPE}") };
+        let DeValue::Table(entries) = self.tree else {
+            self.expected(&self.wanted(), None);
+            return None;
+        };
+        let mut all: Vec<_> = entries
+            .iter()
+            .map(|(key, value)| {
+                let key = key.get_ref().to_string();
+                let path = format!("{}.{}", self.path, quoted_key(&key));
+                (key, Self::new(self.document, value, path, Some(item)))
+            })
+            .collect();
+        all.sort_by(|(a, _), (b, _)| a.cmp(b));
+        Some(all)
     }
 
     fn table_with(&self, keys: &Keys<'a>) -> Option<Table<'a>> {
