@@ -52,14 +52,14 @@ pub enum AxisRange {
     Categories(Vec<String>),
 }
 
-/// A line, or points.
+/// A line, points, or bars.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
     /// In the legend; series of equal label share an entry.
     pub label: Option<String>,
-    /// Of line or symbols.
+    /// Of line, symbols or bars.
     pub colour: Colour,
-    /// Line or symbols.
+    /// Line, symbols or bars.
     pub mark: Mark,
     /// (x, y).
     pub points: Vec<(f64, f64)>,
@@ -72,6 +72,8 @@ pub enum Mark {
     Line(Dash, f64),
     /// A symbol at each point.
     Points(Symbol),
+    /// Bars from zero to the points, each as wide as up to the next one; the last point ends the last bar.
+    Bars,
 }
 
 impl Axis {

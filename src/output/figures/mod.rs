@@ -20,6 +20,7 @@ mod time_curves;
 mod width;
 
 pub use figure::{Axis, AxisRange, Figure, Mark, Panel, Series};
+pub(crate) use panel::power_of_ten;
 pub use style::{Colour, Dash, Symbol};
 pub use width::Width;
 

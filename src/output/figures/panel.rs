@@ -6,7 +6,7 @@ use super::scale::{Scale, scale};
 use super::style::{Dash, Symbol};
 use super::width::Width;
 use kuva::plot::line::LineStyle;
-use kuva::plot::{LegendEntry, LegendPosition, LegendShape, LinePlot, MarkerShape, ScatterPlot};
+use kuva::plot::{Histogram, LegendEntry, LegendPosition, LegendShape, LinePlot, MarkerShape, ScatterPlot};
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use std::sync::Arc;
@@ -187,7 +187,7 @@ fn ticks(axis: &Axis, scale: Scale) -> TickFormat {
 }
 
 /// 10⁻⁶ for −6.
-fn power_of_ten(exponent: f64) -> String {
+pub(crate) fn power_of_ten(exponent: f64) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let text = format!("{exponent:.0}");
     let raised: String = text.chars().map(|c| c.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize])).collect();
@@ -207,6 +207,7 @@ pub(super) fn legend_entries<'a>(all: impl IntoIterator<Item = &'a Series>, back
         let (shape, dasharray) = match series.mark {
             Mark::Line(dash, _) => (LegendShape::Line, lengths(dash, LEGEND_DASH, backend)),
             Mark::Points(symbol) => (LegendShape::Marker(marker(symbol)), None),
+            Mark::Bars => (LegendShape::Rect, None),
         };
         let color = series.colour.hexadecimal();
         entries.push(LegendEntry { label, color, shape, dasharray });
@@ -237,8 +238,14 @@ fn plot(series: &Series, points_per_unit: [f64; 2], backend: Backend) -> Vec<Plo
     let line =
         |points: Vec<(f64, f64)>, width| LinePlot::new().with_data(points).with_color(&colour).with_stroke_width(width);
     match (series.mark, backend) {
+        (Mark::Bars, _) => {
+            let (edges, mut heights): (Vec<f64>, Vec<f64>) = points.unzip();
+            heights.pop();
+            vec![Plot::Histogram(Histogram::from_bins(edges, heights).with_color(&colour))]
+        }
         (Mark::Points(symbol), _) => {
-            let scatter = ScatterPlot::new().with_data(points).with_color(&colour).with_size(4.5);
+            let size = if symbol == Symbol::Dot { 2.0 } else { 4.5 };
+            let scatter = ScatterPlot::new().with_data(points).with_color(&colour).with_size(size);
             vec![Plot::Scatter(scatter.with_marker(marker(symbol)))]
         }
         (Mark::Line(dash, width), Backend::Raster { .. }) => {
@@ -254,7 +261,7 @@ fn plot(series: &Series, points_per_unit: [f64; 2], backend: Backend) -> Vec<Plo
 
 fn marker(symbol: Symbol) -> MarkerShape {
     match symbol {
-        Symbol::Circle => MarkerShape::Circle,
+        Symbol::Circle | Symbol::Dot => MarkerShape::Circle,
         Symbol::Square => MarkerShape::Square,
         Symbol::Cross => MarkerShape::Cross,
         Symbol::Plus => MarkerShape::Plus,

@@ -30,6 +30,8 @@ pub enum Dash {
 pub enum Symbol {
     /// ●
     Circle,
+    /// Smaller, of many.
+    Dot,
     /// ■
     Square,
     /// ×
