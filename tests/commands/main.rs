@@ -30,6 +30,8 @@ mod several;
 mod study_errors;
 #[cfg(feature = "sweep")]
 mod sweep;
+#[cfg(feature = "sweep")]
+mod sweep_report;
 mod terminal;
 mod urdf;
 mod urdf_parts;

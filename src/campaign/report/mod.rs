@@ -1,15 +1,26 @@
 //! The report on a sweep: percentiles, failures, sensitivities, and the cases to look at.
 
+#[cfg(feature = "figures")]
+mod axis_unit;
 mod columns;
+#[cfg(feature = "figures")]
+mod gallery;
+pub mod histogram;
 mod page;
+#[cfg(feature = "figures")]
+mod pictures;
+pub mod scatter;
 pub mod statistics;
 
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
 use crate::output::output_error::OutputError;
+use crate::scenario::find_key;
 use columns::{Column, Columns};
+use histogram::Histogram;
 use page::page;
+use scatter::{Scatter, strongest_first};
 use statistics::{Percentile, PercentileRanks, correlation, first_order, ranks};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -31,8 +42,8 @@ pub struct SweepReport {
     pub statuses: Vec<(String, usize)>,
     /// Case, status and message of the first failures.
     pub failures: Vec<(u64, String, String)>,
-    /// Keys that vary with numbers.
-    pub keys: Vec<String>,
+    /// Names and units of the keys that vary with numbers.
+    pub keys: Vec<(String, String)>,
     /// Outputs that vary.
     pub outputs: Vec<OutputReport>,
     /// Whether keys are independent, as first-order indices suppose.
@@ -56,6 +67,25 @@ pub struct OutputReport {
     pub correlations: Vec<Option<f64>>,
     /// First-order index of each key; empty where keys are correlated.
     pub first_order: Vec<Option<f64>>,
+    /// How many cases have which values.
+    pub histogram: Option<Histogram>,
+    /// Over the key with the strongest rank correlation.
+    pub scatter: Option<Scatter>,
+}
+
+impl SweepReport {
+    /// The places of so many outputs, in their order: those with the strongest rank correlations, then the first ones.
+    #[must_use]
+    pub fn most_sensitive(&self, most: usize) -> Vec<usize> {
+        let strength =
+            |output: &OutputReport| strongest_first(&output.correlations).first().map_or(0.0, |of| of.1.abs());
+        let mut places: Vec<_> =
+            self.outputs.iter().enumerate().map(|(place, output)| (place, strength(output))).collect();
+        places.sort_by(|a, b| b.1.total_cmp(&a.1));
+        places.truncate(most);
+        places.sort_unstable_by_key(|(place, _)| *place);
+        places.into_iter().map(|(place, _)| place).collect()
+    }
 }
 
 /// Reads the files of a sweep that are there.
@@ -111,10 +141,16 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, OutputE
         cases: cases.len(),
         statuses: counts.filter(|(_, count)| *count > 0).collect(),
         failures: failures.collect(),
-        keys: keys.into_iter().map(|(key, _)| key).collect(),
+        keys: keys.into_iter().map(|(key, _)| key).map(|key| (key.clone(), unit_of(&key))).collect(),
         outputs,
         is_independent,
     })
+}
+
+/// The unit of a key; empty where another key decides on it, as it does for gains.
+fn unit_of(key: &str) -> String {
+    let place = find_key(key).ok().map(|(_, place)| place).filter(|place| place.keys.len() == 1);
+    place.and_then(|place| Some(place.number()?.unit().to_owned())).unwrap_or_default()
 }
 
 /// Writes the report on all files of a sweep that are in a folder, whoever computed them; returns its path. `sweep` is
@@ -155,11 +191,15 @@ impl OutputReport {
         let of_keys: Vec<Vec<f64>> =
             keys.iter().map(|(_, all)| ranks(&rows.iter().map(|row| all[*row]).collect::<Vec<_>>())).collect();
         let first_order = of_keys.iter().filter(|_| is_independent).map(|key| first_order(key, values)).collect();
+        let correlations: Vec<_> = of_keys.iter().map(|key| correlation(key, &of_values)).collect();
+        let of_key = |key: usize| rows.iter().map(|row| keys[key].1[*row]).collect();
         Some(Self {
             count: values.len(),
+            histogram: Histogram::of(&sorted),
+            scatter: Scatter::of(&correlations, of_key, values),
             percentiles: at.iter().map(|percentile| percentile.of(&sorted)).collect(),
             extremes: [smallest, largest].map(|i| (cases[rows[i]], values[i])),
-            correlations: of_keys.iter().map(|key| correlation(key, &of_values)).collect(),
+            correlations,
             first_order,
             ..self
         })

@@ -8,7 +8,9 @@ use std::fmt::Write;
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}\
     table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
     th,td{padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}\
-    th:first-child,td:first-child{text-align:left}small{color:#666}code{background:#f4f4f4;padding:0 .3em}";
+    th:first-child,td:first-child{text-align:left}.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
+    figure{margin:0;break-inside:avoid}figure img{width:100%}figcaption{color:#666;font-size:.85em}h3{margin:1.5em 0 .3em}\
+    small{color:#666}code{background:#f4f4f4;padding:0 .3em}";
 
 /// Below this a sensitivity is not shown: it is what chance leaves.
 const SHOWN: f64 = 0.005;
@@ -41,7 +43,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     head.extend(PERCENTILES.iter().map(|p| format!("{p} %")));
     add(&table(&head, report.outputs.iter().map(percentiles)));
     let keys: Vec<String> =
-        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|key| markup::attribute(key))).collect();
+        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|(key, _)| markup::attribute(key))).collect();
     if !report.keys.is_empty() {
         add("<h2>Rank correlations</h2>\n");
         add(&table(&keys, report.outputs.iter().map(|output| sensitivities(output, &output.correlations))));
@@ -65,10 +67,12 @@ pub fn page(report: &SweepReport, command: &str) -> String {
             vec![named(output), number(low), low_case.to_string(), number(high), high_case.to_string()]
         }),
     ));
-    add(&format!(
-        "<p>A case with all it has: <code>{} INDEX --report</code></p>\n</html>\n",
-        markup::attribute(command)
-    ));
+    add(&format!("<p>A case with all it has: <code>{} INDEX --report</code></p>\n", markup::attribute(command)));
+    #[cfg(feature = "figures")]
+    add(&super::gallery::gallery(report));
+    #[cfg(not(feature = "figures"))]
+    add("<p><small>Without pictures: this program was built without the feature <code>figures</code>.</small></p>\n");
+    add("</html>\n");
     html
 }
 

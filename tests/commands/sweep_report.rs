@@ -1,0 +1,51 @@
+//! `planar-capture sweep --report`: the page and its pictures.
+
+use crate::command;
+use planar_proof::{file, said};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// The page of a sweep of the scenario for sweeps, with what varies.
+fn page(folder: &Path, rest: &str) -> String {
+    let scenario = file("scenarios/sweeps/capture.toml");
+    let head = format!("name = \"reported\"\nscenario = '{}'\nseed = 1\n", scenario.display());
+    fs::write(folder.join("sweep.toml"), head + rest).expect("written");
+    let mut command = command();
+    command.arg("sweep").arg("sweep.toml").args(["--out", "out", "--report", "-q"]).current_dir(folder);
+    let (code, _, err) = said(command.output().expect("it runs"));
+    assert_eq!(code, 0, "{err}");
+    fs::read_to_string(folder.join("out/report.html")).expect("a report")
+}
+
+const MASS: &str = "[[vary]]\nkey = \"target.target1.mass\"\n";
+
+#[test]
+fn the_page_needs_nothing_beside_it_and_has_the_same_bytes_again() {
+    let folder = TempDir::new().expect("a folder");
+    let sweep = format!("cases = 60\n{MASS}distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n");
+    let found = page(folder.path(), &sweep);
+    assert_eq!(found, page(folder.path(), &sweep));
+    assert!(!found.contains("<script") && !found.contains("href=\"http") && !found.contains("src=\"http"));
+    let images = found.matches("src=\"data:image/svg+xml;charset=utf-8,%3Csvg").count();
+    assert_eq!(images, found.matches("<img").count());
+    if cfg!(feature = "figures") {
+        assert_eq!(images, 36, "three of each of twelve outputs");
+        for expected in ["60 of 60 cases in", "all 60 cases", "target.target1.mass [kg]"] {
+            assert!(found.contains(expected), "no `{expected}`");
+        }
+    } else {
+        assert!(found.contains("without the feature <code>figures</code>"));
+    }
+}
+
+#[test]
+fn sweeps_without_anything_to_draw_have_a_page_all_the_same() {
+    for (choices, expected) in [("[10.0]", "1 cases: 1 done"), ("[-1.0, 10.0, -2.0]", "3 cases: 1 done, 2 refused")] {
+        let folder = TempDir::new().expect("a folder");
+        let rest = format!("sampling = \"grid\"\n{MASS}distribution = {{ choice = {choices} }}\n");
+        let found = page(folder.path(), &rest);
+        assert!(found.contains(expected) && found.ends_with("</html>\n"), "{found}");
+        assert!(!found.contains("<img"), "{found}");
+    }
+}
