@@ -101,7 +101,8 @@ class Result:
         self._native = native
         if native.warning is not None:
             warnings.warn(native.warning, stacklevel=3)
-        #: As in ``summary.json`` (the book's chapter of results describes it), but for the command in ``run``, and without ``files``.
+        #: As in ``summary.json`` (the book's chapter of results describes it), but for the command in ``run``, and
+        #: without ``files``.
         self.summary: dict[str, Any] = json.loads(native.summary())
         cases = zip(native.cases, self.summary["cases"], strict=True)
         #: By name.
