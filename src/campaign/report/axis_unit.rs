@@ -52,14 +52,15 @@ impl AxisUnit {
 
     /// The axis of a quantity: its name, what is subtracted, and the unit.
     pub(super) fn axis(&self, name: &str, unit: &str) -> Axis {
+        // in the unit itself: the power of ten is of what is left
         let offset = self.offset.as_ref().map(|(text, _)| match text.strip_prefix('-') {
-            Some(positive) => format!(" + {positive}"),
-            None => format!(" − {text}"),
+            Some(positive) => format!(" + {positive} {unit}"),
+            None => format!(" − {text} {unit}"),
         });
         let power = (self.exponent != 0).then(|| power_of_ten(f64::from(self.exponent)));
         let units: Vec<&str> = power.as_deref().into_iter().chain((!unit.is_empty()).then_some(unit)).collect();
         let units = if units.is_empty() { String::new() } else { format!("[{}]", units.join(" ")) };
-        let label = format!("{name}{} {units}", offset.unwrap_or_default());
+        let label = format!("{name}{} {units}", offset.unwrap_or_default().trim_end());
         Axis::new(label.trim(), self.span)
     }
 }
@@ -85,10 +86,10 @@ mod tests {
         assert_eq!(label, "x [10⁻¹⁵ m]");
         assert!((low + 250.0).abs() < 1e-9 && (high - 10.0).abs() < 1e-9, "{low} to {high}");
         let (label, low, high) = shown(5.123_456_1, 5.123_456_9);
-        assert_eq!(label, "x − 5.1234561 [10⁻⁹ m]");
+        assert_eq!(label, "x − 5.1234561 m [10⁻⁹ m]");
         assert!(low.abs() < 1e-3 && (high - 800.0).abs() < 1e-3, "{low} to {high}");
-        assert_eq!(shown(-400.1, -400.0).0, "x + 400.1 [m]");
-        assert_eq!(shown(0.1042, 0.108).0, "x − 0.104 [10⁻³ m]");
+        assert_eq!(shown(-400.1, -400.0).0, "x + 400.1 m [m]");
+        assert_eq!(shown(0.1042, 0.108).0, "x − 0.104 m [10⁻³ m]");
         assert_eq!(shown(0.12, 0.13).0, "x [10⁻³ m]");
         assert_eq!(AxisUnit::between(0.0, 1.0).axis("x", "").label, "x");
         assert_eq!(AxisUnit::between(-3.0, -3.0).axis("", "1").label, "[1]");
