@@ -182,6 +182,8 @@ pub mod own_crate;
 #[cfg(feature = "std")]
 mod plain_text;
 #[cfg(feature = "std")]
+pub mod program;
+#[cfg(feature = "std")]
 pub mod python_package;
 #[cfg(feature = "std")]
 pub mod registry;

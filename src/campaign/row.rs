@@ -2,8 +2,9 @@
 
 use super::outputs::{Output, is_captured};
 use super::sweep::Draw;
-use crate::capture::{CaseResult, Silent, Study, study};
+use crate::capture::{CaseResult, Silent, Study, study_with};
 use crate::engine::Choice;
+use crate::laws::{Laws, RegisteredLaw};
 use crate::scenario::Scenario;
 use crate::scenario::variation::{Variation, VariedValue};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -71,6 +72,8 @@ pub struct CaseRunner<'a> {
     pub choice: &'a Choice,
     /// In the order of the columns.
     pub outputs: &'a [Output],
+    /// That scenarios may name beside the shipped ones.
+    pub laws: &'a [RegisteredLaw],
 }
 
 /// Takes what else is wanted of a case that has a result.
@@ -112,7 +115,9 @@ impl CaseRunner<'_> {
         };
         let scenario = self.variation.scenario(&row.values).map_err(refused)?;
         let model = self.choice.model(&scenario.layout);
-        let study = study(&scenario, &|| model.clone_box(), sample, &mut Silent)
+        let law = RegisteredLaw::of(&scenario, self.laws);
+        let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
+        let study = study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
             .map_err(|error| (Status::Stopped, error.to_string()))?;
         let [case] = &study.cases[..] else { unreachable!("a variation has one case") };
         row.captured = is_captured(&scenario, case);

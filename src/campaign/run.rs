@@ -148,6 +148,7 @@ impl Worker<'_> {
             draw: Draw::new(sweep),
             variation: &self.campaign.variation,
             choice: self.choice,
+            laws: &self.campaign.laws,
             outputs: self.outputs,
         };
         while !self.tally.is_interrupted.load(Ordering::Relaxed) {

@@ -134,6 +134,12 @@ pub struct CaptureResult {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
+    /// The scenario names a tracking law of the program's own, which was not handed to the study.
+    #[error("the law `{name}` is not a shipped one, and was not handed to the study: `study_with` takes it")]
+    NoLaw {
+        /// Its name.
+        name: &'static str,
+    },
     /// The terminal rates could not be computed.
     #[error(transparent)]
     TerminalRates(#[from] TerminalRatesError),
@@ -267,6 +273,9 @@ pub fn study_with(
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
+    if let (Tracking::Own { name, .. }, None) = (&scenario.approach.tracking, laws.tracking) {
+        return Err(StudyError::NoLaw { name });
+    }
     let about = |origin| OwnLaws { laws, scenario, origin };
     match Origin::of(scenario) {
         Some(origin) => {

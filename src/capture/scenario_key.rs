@@ -56,6 +56,7 @@ impl StudyError {
     #[must_use]
     pub fn key(&self, scenario: &Scenario) -> ScenarioKey {
         match self {
+            Self::NoLaw { .. } => key("approach.tracking", "none"),
             Self::TerminalRates(error) | Self::InverseKinematics(InverseKinematicsError::Rates(error)) => {
                 terminal_rates(scenario, error)
             }
@@ -117,7 +118,7 @@ fn terminal_rates(scenario: &Scenario, error: &TerminalRatesError) -> ScenarioKe
 fn of_approach(scenario: &Scenario, stopped: &PhaseError) -> ScenarioKey {
     let Approach { step, integration, .. } = scenario.approach;
     let gain = match &scenario.approach.tracking {
-        Tracking::InverseDynamics => None,
+        Tracking::InverseDynamics | Tracking::Own { .. } => None,
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain }
         | Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
             stiffer(proportional_gain, derivative_gain)

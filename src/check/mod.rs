@@ -27,7 +27,7 @@ use crate::diagnostic::{Report, Warning, report_error, report_warnings};
 use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
-use crate::scenario::{Scenario, Variant};
+use crate::scenario::{Known, Scenario, Variant};
 pub use breakdown::{study_report, variant_report};
 use kind::kind;
 use std::path::Path;
@@ -47,7 +47,12 @@ pub struct CheckReport {
 ///
 /// # Errors
 /// Those of [`Layout::parse`], [`Scenario::parse`], and the reader of sweeps.
-pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<CheckReport, Report> {
+pub fn inspect<'k>(
+    text: &str,
+    file: &str,
+    folder: &Path,
+    shipped: impl Into<Known<'k>>,
+) -> Result<CheckReport, Report> {
     inspect_with(text, file, folder, shipped, Robots::SHIPPED)
 }
 
@@ -55,11 +60,11 @@ pub fn inspect(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) 
 ///
 /// # Errors
 /// Those of [`inspect`].
-pub fn inspect_with(
+pub fn inspect_with<'k>(
     text: &str,
     file: &str,
     folder: &Path,
-    shipped: &[(&str, &str)],
+    shipped: impl Into<Known<'k>>,
     robots: Robots<'_>,
 ) -> Result<CheckReport, Report> {
     match kind(text, file)? {

@@ -57,7 +57,7 @@ fn closed_loops(scenario: &Scenario) -> Vec<ClosedLoop> {
 /// rates, eigenvalues of I⁻¹ Kd, and the natural frequencies, square roots of those of I⁻¹ Kp.
 pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
     let (proportional_gain, derivative_gain) = match &scenario.approach.tracking {
-        Tracking::InverseDynamics => return None,
+        Tracking::InverseDynamics | Tracking::Own { .. } => return None,
         Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } => return Some(pose_gain.max(*rate_gain)),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => (proportional_gain, derivative_gain),
         Tracking::ComputedTorque { proportional_gain, derivative_gain } => {

@@ -152,6 +152,10 @@ fn law(scenario: &Scenario) -> String {
             short(*singularity_threshold)
         ),
         Tracking::InverseDynamics => "exact, torques from inverse dynamics".to_owned(),
+        Tracking::Own { name, numbers } => {
+            let numbers: Vec<_> = numbers.iter().map(|(key, number)| format!("{key} {}", short(number))).collect();
+            format!("{name}, a law of this program, {}", numbers.join(", "))
+        }
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
             format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }

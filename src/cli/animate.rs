@@ -5,9 +5,10 @@ use super::progress::{Display, Progress};
 use super::run::{study_error, variant_error};
 use super::seconds::{positive_seconds, seconds};
 use super::{CommandError, write_new};
-use crate::capture::study;
+use crate::capture::study_with;
+use crate::laws::{Laws, RegisteredLaw};
 use crate::output::animation::{Excerpt, RATE, animation};
-use crate::registry::Robots;
+use crate::program::Program;
 use crate::scenario::Scenario;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -49,8 +50,8 @@ fn playing_time(text: &str) -> Result<f64, String> {
 }
 
 /// Computes the case alone and writes the picture.
-pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
-    let (mut scenario, source) = Scenario::read_with_source(&arguments.scenario, &robots.layouts())?;
+pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    let (mut scenario, source) = Scenario::read_with_source(&arguments.scenario, program.known())?;
     let names = scenario.case_names();
     let wanted = arguments.case.as_deref().unwrap_or(names.first().copied().unwrap_or_default()).to_owned();
     if !names.contains(&&*wanted) {
@@ -63,7 +64,7 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
         Some(variant) => scenario = variant.scenario.clone(),
         None => scenario.cases.retain(|case| case.name == wanted),
     }
-    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, robots)?;
+    let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, program.robots)?;
     if !arguments.display.quiet {
         arguments.dynamics.announce(&choice, "");
     }
@@ -74,7 +75,9 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     let sample = until / (arguments.seconds * RATE);
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
-    let result = study(&scenario, &|| model.clone_box(), sample, &mut progress);
+    let law = RegisteredLaw::of(&scenario, program.laws);
+    let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
+    let result = study_with(&scenario, &|| model.clone_box(), laws, sample, &mut progress);
     progress.finish();
     let study = result.map_err(|error| match &variant {
         Some(variant) => variant_error(&error, variant, &source.scenario),

@@ -3,7 +3,7 @@
 use super::terminal::{note, print};
 use super::{CommandError, color, layout};
 use crate::check::inspect_with;
-use crate::registry::Robots;
+use crate::program::Program;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -25,10 +25,10 @@ pub struct Arguments {
 }
 
 /// Prints the description and the warnings.
-pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
-    let (text, file) = layout::source(&arguments.file, robots)?;
+pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    let (text, file) = layout::source(&arguments.file, program.robots)?;
     let folder = Path::new(&arguments.file).parent().unwrap_or(Path::new(""));
-    let inspection = inspect_with(&text, &file, folder, &robots.layouts(), robots)?;
+    let inspection = inspect_with(&text, &file, folder, program.known(), program.robots)?;
     let warnings = inspection.warnings;
     let count = warnings.count();
     let none = if count == 0 && inspection.refusal.is_none() { "no warnings\n" } else { "" };

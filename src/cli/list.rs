@@ -3,10 +3,11 @@
 use super::{CommandError, write_new};
 use crate::engine;
 use crate::format::{Choice, Shape, TableFormat};
+use crate::laws::RegisteredLaw;
 use crate::layout::Layout;
 use crate::plain_text::wrap;
-use crate::registry::Robots;
-use crate::scenario;
+use crate::program::Program;
+use crate::scenario::{self, LawNumber};
 use std::process::ExitCode;
 
 /// List what this program knows by name.
@@ -20,13 +21,13 @@ pub struct Arguments {}
 const NAME: usize = 25;
 
 /// Prints the list.
-pub fn run(_: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+pub fn run(_: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
     let mut text = String::from("robots: arms of links, what computes them\n");
-    for (name, toml) in robots.layouts() {
+    for (name, toml) in program.robots.layouts() {
         let layout = Layout::parse(toml, name)?;
         let links: Vec<_> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
         let arms = if links.len() == 1 { "arm" } else { "arms" };
-        let engine = engine::Choice::fastest(&layout, robots).0.engine.name();
+        let engine = engine::Choice::fastest(&layout, program.robots).0.engine.name();
         text += &item(name, &format!("{} {arms} of {}, {engine}", links.len(), links.join(" + ")));
     }
     let mut all = Vec::new();
@@ -34,6 +35,9 @@ pub fn run(_: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> 
     for (keys, choices) in all {
         text.extend(["\n", &keys.join(", "), "\n"]);
         text.extend(choices.iter().map(|choice| item(choice.name, &choice.doc.replace('`', ""))));
+        if keys.iter().any(|key| key == "approach.tracking") {
+            text.extend(program.laws.iter().map(own_law));
+        }
     }
     write_new(None, &text)?;
     Ok(ExitCode::SUCCESS)
@@ -52,6 +56,17 @@ fn collect(all: &mut Vec<(Vec<String>, Vec<Choice>)>, path: &str, table: &'stati
             }
         }
     }
+}
+
+/// A law of the program's own, with the keys of `[approach.law]`.
+fn own_law(RegisteredLaw { format, .. }: &RegisteredLaw) -> String {
+    let numbers = format.numbers.iter().map(|LawNumber { key, rule, default }| match default {
+        Some(default) => format!("{key} = {default} {}", rule.unit()).trim_end().to_owned(),
+        None => format!("{key}, {rule}"),
+    });
+    let numbers: Vec<_> = numbers.collect();
+    let law = if numbers.is_empty() { String::new() } else { format!("; law: {}", numbers.join(", ")) };
+    item(format.name, &format!("of this program: {}{law}", format.doc))
 }
 
 /// A name with its explanation beside it.

@@ -35,10 +35,12 @@ mod template;
 mod terminal;
 
 use crate::diagnostic::Report;
+use crate::laws::RegisteredLaw;
 use crate::output::atomic_file::write_text;
 use crate::output::finite::NotFinite;
 use crate::output::output_error::OutputError;
 use crate::output::result_folder::ClaimError;
+use crate::program::Program;
 use crate::registry::{CompiledRobot, Robots};
 use clap::{Parser, Subcommand};
 use std::error::Error;
@@ -157,27 +159,42 @@ pub fn main() -> ExitCode {
 
 /// Runs the command line with robots of one's own ([`robot!`](crate::robot)): they are known by their names wherever a
 /// shipped layout is, and `--dynamics auto` and `generated` find their code.
-// what else a program can have of its own, as control laws, is an argument here and of the commands that use it
 #[must_use]
 pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
-    let robots = Robots::with(robots);
-    let result = match help::parse().command {
-        Command::Run(arguments) => run::run(&arguments, robots),
+    main_with_laws(robots, &[])
+}
+
+/// As [`main_with`], with control laws of one's own beside the robots: a scenario names one by `tracking = "NAME"` and gives
+/// its numbers in `[approach.law]`.
+#[must_use]
+pub fn main_with_laws(robots: &[CompiledRobot], laws: &[RegisteredLaw]) -> ExitCode {
+    let program = Program { robots: Robots::with(robots), laws };
+    let robots = program.robots;
+    let command = help::parse().command;
+    if let Some(name) = program.repeated_law() {
+        terminal::note(format_args!(
+            "error: two control laws have the name `{name}`: each law of a program has a name of its own, and none that \
+             `planar-capture list` shows"
+        ));
+        return ExitCode::from(2);
+    }
+    let result = match command {
+        Command::Run(arguments) => run::run(&arguments, program),
         #[cfg(feature = "sweep")]
-        Command::Sweep(arguments) => sweep::run(&arguments, robots),
-        Command::Animate(arguments) => animate::run(&arguments, robots),
+        Command::Sweep(arguments) => sweep::run(&arguments, program),
+        Command::Animate(arguments) => animate::run(&arguments, program),
         Command::Eval(arguments) => eval::run(&arguments, robots),
         Command::Compare(arguments) => compare::run(&arguments, robots),
         Command::Generate(arguments) => generate::run(&arguments, robots),
         Command::Derive(arguments) => derive::run(&arguments, robots),
         Command::New(arguments) => new::run(&arguments, robots),
-        Command::Check(arguments) => check::run(&arguments, robots),
+        Command::Check(arguments) => check::run(&arguments, program),
         Command::Import(arguments) => import::run(&arguments),
         Command::Export(arguments) => export::run(&arguments, robots),
         Command::Reproduce(arguments) => reproduce::run(&arguments),
-        Command::List(arguments) => list::run(&arguments, robots),
+        Command::List(arguments) => list::run(&arguments, program),
         Command::Template(arguments) => template::run(&arguments),
-        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Schema(arguments) => schema::run(&arguments, program),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => completions::manual(&arguments),
     };

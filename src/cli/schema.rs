@@ -2,6 +2,8 @@
 
 use super::{CommandError, write_new};
 use crate::file_format::FileFormat;
+use crate::program::Program;
+use serde_json::Value;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -27,7 +29,18 @@ pub struct Arguments {
 }
 
 /// Prints the schema.
-pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    write_new(arguments.out.as_deref(), &arguments.kind.schema())?;
+pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    let mut text = arguments.kind.schema();
+    if let (FileFormat::Scenario, [_, ..]) = (arguments.kind, program.laws) {
+        let mut schema: Value = serde_json::from_str(&text).map_err(std::io::Error::from)?;
+        let tracking = &mut schema["properties"]["approach"]["properties"]["tracking"];
+        for (path, word) in [("/enum", 0), ("/x-taplo/docs/enumValues", 1)] {
+            if let Some(Value::Array(words)) = tracking.pointer_mut(path) {
+                words.extend(program.laws.iter().map(|law| [law.format.name, law.format.doc][word].into()));
+            }
+        }
+        text = format!("{schema:#}\n");
+    }
+    write_new(arguments.out.as_deref(), &text)?;
     Ok(ExitCode::SUCCESS)
 }

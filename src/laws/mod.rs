@@ -8,11 +8,13 @@
 mod end_effector_feedback;
 mod inertial_frame;
 mod post_capture;
+mod registered;
 mod tracking;
 
 pub use end_effector_feedback::EndEffectorFeedback;
 pub(crate) use inertial_frame::InertialFrame;
 pub use post_capture::{PostCaptureLaw, PostCaptureTask};
+pub use registered::RegisteredLaw;
 pub use tracking::{TrackingLaw, TrackingTask};
 
 use crate::control::Control;

@@ -22,7 +22,8 @@ pub struct TrackingTask<'a> {
     pub timing: Timing,
 }
 
-/// A law that tracks an approach. The shipped ones are those of [`Tracking`].
+/// A law that tracks an approach. The shipped ones are those of [`Tracking`]; one of the program's own, which that only
+/// names, is not a law by itself.
 pub trait TrackingLaw {
     /// As it is to be called in results.
     fn name(&self) -> &'static str;
@@ -68,6 +69,7 @@ impl TrackingLaw for Tracking {
                 generalized_bias: &mut vec![0.0; joints],
                 generalized_jacobian: &mut generalized_jacobian(),
             }),
+            Self::Own { .. } => unreachable!("a study takes the law itself, or has no result"),
             Self::ResolvedMotionRate { pose_gain, rate_gain, singularity_threshold } => {
                 let mut end_effectors = EndEffectorFeedback::new(model, task.scenario)?;
                 run(&mut end_effectors.law([*pose_gain, *rate_gain], *singularity_threshold))

@@ -1,7 +1,7 @@
 //! The manifest of a run: what it was made of, by which program and command. All files of a run share it.
 
 use crate::layout::sha256;
-use crate::scenario::{Scenario, ScenarioSource, Variant};
+use crate::scenario::{LawNumbers, Scenario, ScenarioSource, Tracking, Variant};
 use crate::simulate::Timing;
 use crate::simulate::stepper::Integration;
 use serde_json::{Map, Value, json};
@@ -22,6 +22,8 @@ pub struct RunManifest {
     pub layout_sha256: String,
     /// Of each phase that the scenario has.
     pub phases: Vec<PhaseManifest>,
+    /// The tracking law with its numbers, where it is one of the program's own.
+    pub law: Option<(&'static str, LawNumbers)>,
 }
 
 /// How one phase is integrated.
@@ -39,6 +41,13 @@ impl PhaseManifest {
     fn new(phase: &'static str, [duration, step]: [f64; 2], integration: Integration) -> Self {
         let steps = Timing { duration, step, ..Timing::default() }.steps();
         Self { phase, integrator: integration.integrator.properties().name, steps }
+    }
+}
+
+fn law(scenario: &Scenario) -> Option<(&'static str, LawNumbers)> {
+    match &scenario.approach.tracking {
+        Tracking::Own { name, numbers } => Some((name, numbers.clone())),
+        _ => None,
     }
 }
 
@@ -60,6 +69,7 @@ impl RunManifest {
             layout_toml: source.layout.text,
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
+            law: law(scenario),
         }
     }
 
@@ -70,6 +80,7 @@ impl RunManifest {
             layout_toml: layout.clone(),
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
+            law: law(scenario),
             ..self.clone()
         }
     }
@@ -79,7 +90,7 @@ impl RunManifest {
     pub fn to_json_of_case(&self, dynamics: &str) -> Value {
         let mut value = self.to_json();
         if let Value::Object(entries) = &mut value {
-            entries.retain(|key, _| ["layout_sha256", "integrator", "steps"].contains(&key.as_str()));
+            entries.retain(|key, _| ["layout_sha256", "integrator", "steps", "law"].contains(&key.as_str()));
         }
         value["dynamics"] = json!(dynamics);
         value
@@ -97,7 +108,7 @@ impl RunManifest {
         let of_phases = |value: &dyn Fn(&PhaseManifest) -> Value| -> Map<String, Value> {
             self.phases.iter().map(|phase| (phase.phase.to_owned(), value(phase))).collect()
         };
-        json!({
+        let mut value = json!({
             "version": env!("CARGO_PKG_VERSION"),
             "command": self.command,
             "scenario_sha256": self.scenario_sha256(),
@@ -107,7 +118,13 @@ impl RunManifest {
             "features": FEATURES.split_terminator(',').collect::<Vec<_>>(),
             "scenario_toml": self.scenario_toml,
             "layout_toml": self.layout_toml,
-        })
+        });
+        if let Some((name, numbers)) = &self.law {
+            let numbers: Map<String, Value> =
+                numbers.iter().map(|(key, number)| (key.to_owned(), json!(number))).collect();
+            value["law"] = json!({"name": name, "numbers": numbers});
+        }
+        value
     }
 
     /// The same for the metadata of a file, as texts; what is no text is JSON.

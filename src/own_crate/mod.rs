@@ -27,11 +27,12 @@ pub struct OwnCrate<'a> {
 }
 
 /// Files that are the same but for the robot's name.
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
     (".gitignore", include_str!("templates/gitignore.txt")),
     ("Cargo.toml", include_str!("templates/manifest.txt")),
     ("README.md", include_str!("templates/readme.txt")),
     ("build.rs", include_str!("templates/build.txt")),
+    ("src/law.rs", include_str!("templates/law.txt")),
     ("src/main.rs", include_str!("templates/main.txt")),
     ("src/tests.rs", include_str!("templates/tests.txt")),
 ];

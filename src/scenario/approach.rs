@@ -1,5 +1,6 @@
 //! The `[approach]` table: the trajectory of the arms and its tracking.
 
+use super::LawNumbers;
 use crate::simulate::actuators::Actuation;
 use crate::simulate::stepper::Integration;
 use crate::trajectory::TrajectoryKind;
@@ -87,6 +88,14 @@ pub enum Tracking {
         /// Kd for each joint in 1/s, 0 or more.
         derivative_gain: Vec<f64>,
     },
+    /// A law that the program has of its own, and hands to the study:
+    /// [`RegisteredLaw`](crate::laws::RegisteredLaw).
+    Own {
+        /// As in the scenario.
+        name: &'static str,
+        /// Of `[approach.law]`.
+        numbers: LawNumbers,
+    },
 }
 
 impl FinalRates {
@@ -102,7 +111,7 @@ impl FinalRates {
 }
 
 impl Tracking {
-    /// All laws, without gains.
+    /// All shipped laws, without gains.
     pub(crate) const LAWS: &'static [Self] = &[
         Self::ProportionalDerivative { proportional_gain: Vec::new(), derivative_gain: Vec::new() },
         Self::InverseDynamics,
@@ -118,6 +127,7 @@ impl Tracking {
             Self::ProportionalDerivative { .. } => "pd",
             Self::ResolvedMotionRate { .. } => "resolved_motion_rate",
             Self::ComputedTorque { .. } => "computed_torque",
+            Self::Own { name, .. } => name,
         }
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use planar_capture::diagnostic::{Report, nearest};
 use planar_capture::layout::Layout;
-use planar_capture::scenario::{FinalRates, Scenario, Tracking};
+use planar_capture::scenario::{FinalRates, Known, Scenario, Tracking};
 use planar_capture::simulate::stepper::Integrator;
 use planar_capture::trajectory::TrajectoryKind;
 
@@ -732,13 +732,13 @@ fn a_broken_layout_shows_its_own_place_and_the_scenario_is_still_checked() -> Ou
     let path = folder.path().join("scenarios/demo.toml");
     let text = SCENARIO.replacen("\"one_arm\"", "\"../arm.toml\"", 1);
     fs::write(&path, text.replacen("radius = 0.5", "radius = -1", 1))?;
-    let shown = Scenario::read(&path, &[]).err().map(|r| r.to_string()).unwrap_or_default();
+    let shown = Scenario::read(&path, Known::default()).err().map(|r| r.to_string()).unwrap_or_default();
     assert!(shown.contains("arm.toml:3:8") && shown.contains("`base.mass` is 0"), "{shown}");
     assert!(shown.contains("demo.toml:16:10") && shown.contains("`target[0].radius`"), "{shown}");
 
     fs::write(folder.path().join("arm.toml"), LAYOUT)?;
     fs::write(&path, text)?;
-    assert_eq!(Scenario::read(&path, &[])?.layout, Layout::parse(LAYOUT, "")?);
+    assert_eq!(Scenario::read(&path, Known::default())?.layout, Layout::parse(LAYOUT, "")?);
 
     let shown = scenario(&SCENARIO.replacen("one_arm", "broken", 1)).err().map(|r| r.to_string());
     let shown = shown.unwrap_or_default();

@@ -61,6 +61,7 @@ fn a_crate_stands_alone() {
         "layouts/my_study.json",
         "layouts/my_study.toml",
         "scenarios/first.toml",
+        "src/law.rs",
         "src/main.rs",
         "src/tests.rs",
     ];

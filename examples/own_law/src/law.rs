@@ -2,8 +2,36 @@
 
 use crate::encoder::{Encoders, Measured};
 use planar_capture::control::{EstimatedState, ProportionalDerivative};
-use planar_capture::laws::{Run, TrackingLaw, TrackingTask};
+use planar_capture::format::NumberRule;
+use planar_capture::laws::{RegisteredLaw, Run, TrackingLaw, TrackingTask};
+use planar_capture::scenario::{LawFormat, LawNumber};
 use planar_capture::simulate::{Phase, PhaseError};
+
+/// Its name in scenarios, the keys of their `[approach.law]`, and how it is made of these.
+pub const ENCODER_CONTROL: RegisteredLaw = RegisteredLaw {
+    format: LawFormat {
+        name: "encoder_control",
+        doc: "PD control of the joints by encoders that are late by a sample and noisy",
+        numbers: &[
+            number("resolution", NumberRule::positive("a resolution of the encoders", "rad"), 1e-4),
+            number("proportional_gain", NumberRule::non_negative("a proportional gain", "N m/rad"), 49.0),
+            number("derivative_gain", NumberRule::non_negative("a derivative gain", "N m s/rad"), 14.0),
+            number("filter_time", NumberRule::positive("a time constant of the filter of the rates", "s"), 0.05),
+        ],
+    },
+    make: |numbers| {
+        Box::new(EncoderControl {
+            encoders: Encoders { resolution: numbers["resolution"], delay: 1, seed: 2017 },
+            proportional_gain: numbers["proportional_gain"],
+            derivative_gain: numbers["derivative_gain"],
+            filter_time: numbers["filter_time"],
+        })
+    },
+};
+
+const fn number(key: &'static str, rule: NumberRule, default: f64) -> LawNumber {
+    LawNumber { key, rule, default: Some(default) }
+}
 
 /// PD control of the joints by encoders.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +48,7 @@ pub struct EncoderControl {
 
 impl TrackingLaw for EncoderControl {
     fn name(&self) -> &'static str {
-        "encoder_control"
+        ENCODER_CONTROL.format.name
     }
 
     fn track(&self, task: &TrackingTask<'_>, run: Run<'_>) -> Result<Phase, PhaseError> {

@@ -11,7 +11,7 @@ pub fn target() -> Target {
 
 fn read(bytes: &[u8]) -> Result<bool, String> {
     let text = String::from_utf8_lossy(bytes);
-    let checked = check::inspect(&text, "robot.toml", Path::new(""), &[]);
+    let checked = check::inspect(&text, "robot.toml", Path::new(""), planar_capture::scenario::Known::default());
     let layout = match Layout::parse(&text, "robot.toml") {
         Ok(layout) => layout,
         Err(report) => return refused(&report),

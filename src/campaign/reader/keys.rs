@@ -4,13 +4,13 @@ use super::super::distribution::Distribution;
 use crate::diagnostic::Table;
 use crate::format::Step;
 use crate::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
-use crate::scenario::{Scenario, ScenarioSource};
+use crate::scenario::{LawFormat, Scenario, ScenarioSource};
 
 /// Reads the paths, and sets each of them once, alone, to the median of its distribution.
 pub(super) fn keys(
     tables: &[Table<'_>],
     distributions: &[Option<Distribution>],
-    (scenario, source): (&Scenario, &ScenarioSource),
+    (scenario, source, laws): (&Scenario, &ScenarioSource, &[LawFormat]),
     case: &str,
 ) -> Option<(Vec<KeyPath>, Variation)> {
     let medians: Vec<VariedValue> = distributions
@@ -26,7 +26,7 @@ pub(super) fn keys(
             let path = KeyPath::parse(text).map_err(|why| refuse(&why)).ok()?;
             check_case(&path, case).map_err(|why| refuse(&why)).ok()?;
             let variation = Variation::new(scenario, source, case, &[(path.clone(), median.clone())]);
-            let variation = variation.map_err(|Unusable { why, .. }| refuse(&why)).ok()?;
+            let variation = variation.map_err(|Unusable { why, .. }| refuse(&why)).ok()?.with_laws(laws);
             // without its distribution there is no value to try
             if distribution.is_some()
                 && let Err(report) = variation.scenario(std::slice::from_ref(median))
@@ -49,7 +49,7 @@ pub(super) fn keys(
             value.reject(&why);
         }
     });
-    Some((paths, variation.ok()?))
+    Some((paths, variation.ok()?.with_laws(laws)))
 }
 
 /// Only one case is computed.

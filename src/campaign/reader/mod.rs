@@ -10,9 +10,10 @@ use super::keys::{FORMAT, MOST_CASES};
 use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
 use crate::diagnostic::{Report, Table, Value, every, listing, read_document, read_text};
+use crate::laws::RegisteredLaw;
 use crate::layout::Layout;
 use crate::scenario::variation::Variation;
-use crate::scenario::{Scenario, ScenarioSource, Source, Variant};
+use crate::scenario::{Known, Scenario, ScenarioSource, Source, Variant};
 use std::path::{Path, PathBuf};
 
 /// A sweep with what it varies.
@@ -30,6 +31,8 @@ pub struct Campaign {
     pub scenario_source: ScenarioSource,
     /// The texts of the cases.
     pub variation: Variation,
+    /// Tracking laws that the scenario may name beside the shipped ones; none of them after reading.
+    pub laws: Vec<RegisteredLaw>,
 }
 
 impl Campaign {
@@ -37,7 +40,7 @@ impl Campaign {
     ///
     /// # Errors
     /// All that is wrong with them.
-    pub fn read(path: &Path, layouts: &[(&str, &str)]) -> Result<Self, Report> {
+    pub fn read<'k>(path: &Path, layouts: impl Into<Known<'k>>) -> Result<Self, Report> {
         let text = read_text(path, "TOML")?;
         let file = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -49,15 +52,16 @@ impl Campaign {
     ///
     /// # Errors
     /// All that is wrong with the content, and with the files of scenario and layout.
-    pub fn parse(text: &str, file: &str, folder: &Path, layouts: &[(&str, &str)]) -> Result<Self, Report> {
-        let read = |root: &Table<'_>| read_root(root, folder, layouts);
+    pub fn parse<'k>(text: &str, file: &str, folder: &Path, layouts: impl Into<Known<'k>>) -> Result<Self, Report> {
+        let known = layouts.into();
+        let read = |root: &Table<'_>| read_root(root, folder, &known);
         let (sweep, (mut scenario, scenario_source), variation) = read_document(text, file, &FORMAT, read)?;
         let source = Source { text: text.to_owned(), file: file.to_owned() };
         let variant = scenario.variant(&sweep.case).cloned();
         if let Some(variant) = &variant {
             scenario = variant.scenario.clone();
         }
-        Ok(Self { sweep, source, scenario, variant, scenario_source, variation })
+        Ok(Self { sweep, source, scenario, variant, scenario_source, variation, laws: Vec::new() })
     }
 
     /// A layout for the choice of what computes the cases: what varies has the first value that is not 0, so that code
@@ -77,13 +81,13 @@ impl Campaign {
 
 type Read = (Sweep, (Scenario, ScenarioSource), Variation);
 
-fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Option<Read> {
+fn read_root(root: &Table<'_>, folder: &Path, known: &Known<'_>) -> Option<Read> {
     let name = root.file_name("name");
     let scenario = root.require("scenario").and_then(|value| {
         let path = value.text()?;
         // collecting the components drops `./`
         let path: PathBuf = folder.join(path).components().collect();
-        Scenario::read_with_source(&path, layouts).map_err(|report| value.adopt(report)).ok()
+        Scenario::read_with_source(&path, known).map_err(|report| value.adopt(report)).ok()
     });
     let case = scenario.as_ref().and_then(|(scenario, _)| case(root, scenario));
     let sampling = root.choice("sampling", &Sampling::ALL);
@@ -102,7 +106,7 @@ fn read_root(root: &Table<'_>, folder: &Path, layouts: &[(&str, &str)]) -> Optio
     // a case with values of its own is a scenario with these
     let own = scenario.variant(&case).map(|own| (&own.scenario, own.sources([&source.scenario, &source.layout])));
     let (scenario, source) = own.as_ref().map_or((scenario, source), |(scenario, source)| (*scenario, source));
-    let (paths, variation) = keys::keys(&tables, &distributions, (scenario, source), &case)?;
+    let (paths, variation) = keys::keys(&tables, &distributions, (scenario, source, &known.laws), &case)?;
     let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
     let copula = root.read_or("correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
     let collect = collect::collect(root, cases, scenario);

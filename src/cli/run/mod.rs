@@ -12,7 +12,7 @@ use super::terminal::note;
 use crate::engine::Choice;
 use crate::output::result_folder::ResultFolder;
 use crate::output::run_folder::objection;
-use crate::registry::Robots;
+use crate::program::Program;
 use crate::scenario::{Scenario, ScenarioSource};
 use product::{Format, Product};
 use std::io;
@@ -91,7 +91,7 @@ pub struct RunOptions {
 pub fn run_file(
     scenario: &Path,
     RunOptions { out, choice, report, display }: RunOptions,
-    robots: Robots<'_>,
+    program: Program<'_>,
 ) -> Result<ExitCode, CommandError> {
     let arguments = Arguments {
         scenarios: vec![scenario.to_owned()],
@@ -105,7 +105,7 @@ pub fn run_file(
         display,
         verbose: false,
     };
-    run_by(&arguments, robots, Some(choice))
+    run_by(&arguments, program, Some(choice))
 }
 
 /// The greatest exit code so far; what it is of was said.
@@ -128,16 +128,19 @@ impl ExitCodes {
 }
 
 /// Reads all scenarios, claims their folders, then computes one after the other.
-pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
-    run_by(arguments, robots, None)
+pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    run_by(arguments, program, None)
 }
 
 /// The same, by what another command has chosen to compute the dynamics of its one scenario.
-fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
+fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice>) -> Result<ExitCode, CommandError> {
     optional_outputs::require(&arguments.optional_outputs.requested())?;
     let mut codes = ExitCodes(0);
-    let scenarios: Vec<_> =
-        arguments.scenarios.iter().filter_map(|path| codes.take(read(path, robots).map(|read| (path, read)))).collect();
+    let scenarios: Vec<_> = arguments
+        .scenarios
+        .iter()
+        .filter_map(|path| codes.take(read(path, program).map(|read| (path, read))))
+        .collect();
     let folders = folders(arguments, scenarios.iter().map(|(_, (scenario, _))| scenario.name.as_str()))?;
     let sources = scenarios.iter().flat_map(|(_, (_, source))| [&source.scenario.file, &source.layout.file]);
     let keep: Vec<_> = sources.map(Path::new).collect();
@@ -148,12 +151,12 @@ fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>)
     for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
         let folder = ResultFolder::claim(folder, arguments.force, &keep, objection).map_err(CommandError::from);
         let file = &source.scenario.file;
-        let choose = |scenario: &Scenario| arguments.dynamics.choose(&scenario.layout, file, robots);
+        let choose = |scenario: &Scenario| arguments.dynamics.choose(&scenario.layout, file, program.robots);
         let choice = chosen.take().map_or_else(|| choose(scenario), Ok);
         let own = scenario.variants.iter().map(|variant| choose(&variant.scenario)).collect::<Result<_, _>>();
         if let (Some(folder), Some(choice), Some(own)) = (codes.take(folder), codes.take(choice), codes.take(own)) {
             let named = if arguments.scenarios.len() > 1 { format!("{}: ", scenario.name) } else { String::new() };
-            tasks.push(Task { path, scenario, source, folder, choice, own, named });
+            tasks.push(Task { path, scenario, source, folder, choice, own, laws: program.laws, named });
         }
     }
     if codes.0 > 0 {
@@ -173,11 +176,11 @@ fn run_by(arguments: &Arguments, robots: Robots<'_>, mut chosen: Option<Choice>)
 }
 
 /// Reads a scenario from a file or the standard input.
-fn read(path: &Path, robots: Robots<'_>) -> Result<(Scenario, ScenarioSource), CommandError> {
+fn read(path: &Path, program: Program<'_>) -> Result<(Scenario, ScenarioSource), CommandError> {
     Ok(if path == Path::new(STANDARD_INPUT) {
-        Scenario::read_stream(io::stdin().lock(), "standard input", &robots.layouts())?
+        Scenario::read_stream(io::stdin().lock(), "standard input", program.known())?
     } else {
-        Scenario::read_with_source(path, &robots.layouts())?
+        Scenario::read_with_source(path, program.known())?
     })
 }
 

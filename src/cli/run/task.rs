@@ -6,9 +6,10 @@ use super::super::progress::Progress;
 use super::super::terminal::note;
 use super::product::Printed;
 use super::{Arguments, DEFAULT_SAMPLE};
-use crate::capture::{StudyError, study};
+use crate::capture::{StudyError, study_with};
 use crate::check::{study_report, variant_report};
 use crate::engine::Choice;
+use crate::laws::{Laws, RegisteredLaw};
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
@@ -36,6 +37,8 @@ pub struct Task<'a> {
     pub choice: Choice,
     /// Of each of its variants.
     pub own: Vec<Choice>,
+    /// That scenarios may name.
+    pub laws: &'a [RegisteredLaw],
     /// What its messages begin with.
     pub named: String,
 }
@@ -43,7 +46,7 @@ pub struct Task<'a> {
 impl Task<'_> {
     /// Computes the study and writes its files: what is printed, and what the audit objects to.
     pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Vec<String>), CommandError> {
-        let Self { path, scenario, source, folder, choice, own, named } = self;
+        let Self { path, scenario, source, folder, choice, own, named, .. } = self;
         if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))
         {
             note(format_args!(
@@ -68,7 +71,9 @@ impl Task<'_> {
             let model = choice.model(&scenario.layout);
             let mut progress = Progress::new(arguments.display);
             let sample = arguments.sample.unwrap_or(DEFAULT_SAMPLE);
-            let result = study(scenario, &|| model.clone_box(), sample, &mut progress);
+            let law = RegisteredLaw::of(scenario, self.laws);
+            let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
+            let result = study_with(scenario, &|| model.clone_box(), laws, sample, &mut progress);
             progress.finish();
             let study = result.map_err(|error| match variant {
                 Some(variant) => variant_error(&error, variant, &source.scenario),

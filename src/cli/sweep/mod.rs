@@ -13,6 +13,7 @@ use crate::campaign::report::write_report;
 use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
 use crate::engine::Choice;
 use crate::output::atomic_file::create_folder;
+use crate::program::Program;
 use crate::registry::Robots;
 use progress::Progress;
 use std::num::NonZero;
@@ -72,13 +73,14 @@ fn shard(text: &str) -> Result<Shard, String> {
 }
 
 /// Computes the files that are missing; exit code 0 whatever became of single cases.
-pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
-    let campaign = Campaign::read(&arguments.sweep, &robots.layouts())?;
+pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    let mut campaign = Campaign::read(&arguments.sweep, program.known())?;
+    campaign.laws = program.laws.to_vec();
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
     if let Some(case) = arguments.replay {
-        return replay::replay(&campaign, case, &folder, arguments, robots);
+        return replay::replay(&campaign, case, &folder, arguments, program);
     }
-    let choice = choose(&campaign, arguments.dynamics, robots, arguments.display.quiet)?;
+    let choice = choose(&campaign, arguments.dynamics, program.robots, arguments.display.quiet)?;
     let at_folder = |error| file_error(&campaign.source.file)(error);
     create_folder(&folder)?;
     claim(&folder, &campaign, choice.engine).map_err(at_folder)?;

@@ -9,7 +9,7 @@ use crate::cli::dynamics::Dynamics;
 use crate::cli::run::{self, RunOptions};
 use crate::cli::terminal::note;
 use crate::output::atomic_file::{create_folder, write_together};
-use crate::registry::Robots;
+use crate::program::Program;
 use crate::scenario::variation::LAYOUT_FILE;
 use std::path::Path;
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ pub fn replay(
     case: u64,
     folder: &Path,
     arguments: &Arguments,
-    robots: Robots<'_>,
+    program: Program<'_>,
 ) -> Result<ExitCode, CommandError> {
     let cases = campaign.sweep.cases;
     if case >= cases {
@@ -44,7 +44,7 @@ pub fn replay(
         Dynamics::Auto => engine_of(folder).map_or(Dynamics::Auto, |name| Dynamics::of_name(&name)),
         chosen => chosen,
     };
-    let choice = choose(campaign, dynamics, robots, arguments.display.quiet)?;
+    let choice = choose(campaign, dynamics, program.robots, arguments.display.quiet)?;
     let options = RunOptions { out: own.join("results"), choice, report: arguments.report, display: arguments.display };
-    run::run_file(&scenario, options, robots)
+    run::run_file(&scenario, options, program)
 }

@@ -13,6 +13,9 @@ const ANGLE_ERROR_GAIN: Shape =
 const RATE_ERROR_GAIN: Shape =
     Shape::Number(NumberRule::non_negative("a derivative gain of computed torque (or one per joint)", "1/s"));
 
+/// Of any law, which has a rule for it.
+const LAW_NUMBER: Shape = Shape::Number(NumberRule::any("a number", ""));
+
 const IN_JOINT_SPACE: &[&str] = &["pd", "exact", "computed_torque"];
 const WITH_LIMITS: &[&str] = &["pd", "computed_torque", "resolved_motion_rate"];
 const BY_END_EFFECTORS: &[&str] = &["resolved_motion_rate"];
@@ -120,6 +123,13 @@ pub(super) static APPROACH: TableFormat = TableFormat {
             "singular values below this part of the largest, with translations in units of the reach, are damped",
         )
         .with("tracking", BY_END_EFFECTORS),
+        Key::optional(
+            "law",
+            Shape::ByName(&LAW_NUMBER, "key"),
+            Default::Words("the law's defaults"),
+            "the numbers of a law that the program has of its own, which `tracking` names",
+        )
+        .example("{ gain = 49.0 }"),
         TORQUE_LIMITS.with("tracking", WITH_LIMITS),
         SAMPLE_TIME.with("tracking", WITH_LIMITS),
         INTEGRATOR,
@@ -149,6 +159,7 @@ fn laws() -> Vec<Choice> {
         Tracking::ResolvedMotionRate { .. } => {
             "`I (θ̈_d + k (θ̇_d − θ̇)) + c` with `θ̇_d = J⁺ (t_d + K e − b)`: the end effectors follow straight paths"
         }
+        Tracking::Own { .. } => "of the program's own",
     };
     Tracking::LAWS.iter().map(|law| Choice { name: law.name(), doc: doc(law) }).collect()
 }

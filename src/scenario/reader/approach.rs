@@ -4,10 +4,13 @@ use super::actuation::actuation;
 use super::duration_and_step;
 use super::integration::integration;
 use super::joints::{Joints, check_length};
+use super::own_law::own_law;
 use crate::diagnostic::{Table, Value, every};
-use crate::scenario::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, Tracking};
+use crate::scenario::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, LawFormat, LawNumbers, Tracking};
 use crate::simulate::actuators::Actuation;
 use crate::trajectory::TrajectoryKind;
+
+const GAINS: [&str; 2] = ["proportional_gain", "derivative_gain"];
 
 /// The trajectory of an approach and its end; `None` where a part is invalid.
 #[allow(clippy::option_option, reason = "None where it is invalid, Some(None) where it is not given")]
@@ -19,14 +22,31 @@ struct Goal {
 }
 
 /// Reads the table; `initial` are the initial joint angles.
-pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&[f64]>) -> Option<Approach> {
+pub(super) fn approach(
+    table: &Table<'_>,
+    joints: &Joints<'_>,
+    initial: Option<&[f64]>,
+    own: &[LawFormat],
+) -> Option<Approach> {
     let times = duration_and_step(table);
-    let laws: Vec<_> = Tracking::LAWS.iter().map(|law| (law.name(), law)).collect();
+    let unmade: Vec<_> =
+        own.iter().map(|law| Tracking::Own { name: law.name, numbers: LawNumbers::default() }).collect();
+    let laws: Vec<_> = Tracking::LAWS.iter().chain(&unmade).map(|law| (law.name(), law)).collect();
     let law = table.choice("tracking", &laws);
-    if let Some(law) = law {
-        for key in table.keys_without("tracking", law.name()) {
-            table.reject_keys(&[key], why_not(law, key));
+    match law {
+        // its numbers are in its own table; all else is as under any law of the joints
+        Some(Tracking::Own { .. }) => {
+            for key in table.keys_without("tracking", "computed_torque").into_iter().chain(GAINS) {
+                table.reject_keys(&[key], "the numbers of a law of one's own are in `[approach.law]`");
+            }
         }
+        Some(law) => {
+            for key in table.keys_without("tracking", law.name()) {
+                table.reject_keys(&[key], why_not(law, key));
+            }
+            table.reject_keys(&["law"], "only `tracking` with the name of a law of the program's own has it");
+        }
+        None => {}
     }
     let by_end_effectors = matches!(law, Some(Tracking::ResolvedMotionRate { .. }));
     // the first guess of the inverse kinematics
@@ -34,7 +54,7 @@ pub(super) fn approach(table: &Table<'_>, joints: &Joints<'_>, initial: Option<&
     let goal =
         if by_end_effectors { end_effector_goal(table, joints, initial) } else { joint_goal(table, joints, initial) };
     let trajectory_duration = trajectory_duration(table, times, goal.end.as_ref(), by_end_effectors);
-    let tracking = law.and_then(|law| tracking(table, joints, law));
+    let tracking = law.and_then(|law| tracking(table, joints, law, own));
     let actuation = match law {
         Some(Tracking::InverseDynamics) => Some(Actuation::default()),
         _ => actuation(table, times, joints),
@@ -242,12 +262,13 @@ fn why_not(law: &Tracking, key: &str) -> &'static str {
 }
 
 /// A law with its gains.
-fn tracking(table: &Table<'_>, joints: &Joints<'_>, law: &Tracking) -> Option<Tracking> {
+fn tracking(table: &Table<'_>, joints: &Joints<'_>, law: &Tracking, own: &[LawFormat]) -> Option<Tracking> {
     let gains = || {
         let gain = |key| joints.gain(table, table.entry_with(key, "tracking", law.name()));
-        ["proportional_gain", "derivative_gain"].map(gain)
+        GAINS.map(gain)
     };
     Some(match law {
+        Tracking::Own { name, .. } => own_law(table, own.iter().find(|known| known.name == *name)?)?,
         Tracking::InverseDynamics => Tracking::InverseDynamics,
         Tracking::ProportionalDerivative { .. } => {
             let [proportional_gain, derivative_gain] = gains();

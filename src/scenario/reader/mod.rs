@@ -10,6 +10,7 @@ mod integration;
 mod joints;
 mod limits;
 mod magnitude;
+mod own_law;
 mod post_impact;
 mod target;
 
@@ -17,7 +18,7 @@ use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, r
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
-use crate::scenario::{ClearanceRules, FORMAT, Scenario, ScenarioSource, Source, Tracking};
+use crate::scenario::{ClearanceRules, FORMAT, Known, Scenario, ScenarioSource, Source, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
 use std::io::Read;
@@ -30,11 +31,12 @@ impl Scenario {
     /// Reads a scenario file and the layout that it names.
     ///
     /// A layout that ends in `.toml` or contains a `/` is a path relative to the scenario file;
-    /// any other is the name of a `shipped` one, given as pairs of name and TOML text.
+    /// any other is the name of a `shipped` one, given as pairs of name and TOML text, or beside control laws of one's own as
+    /// [`Known`].
     ///
     /// # Errors
     /// All that is wrong with the scenario and with the layout file.
-    pub fn read(path: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+    pub fn read<'k>(path: &Path, shipped: impl Into<Known<'k>>) -> Result<Self, Report> {
         Self::read_with_source(path, shipped).map(|(scenario, _)| scenario)
     }
 
@@ -42,7 +44,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`read`](Self::read).
-    pub fn read_with_source(path: &Path, shipped: &[(&str, &str)]) -> Result<(Self, ScenarioSource), Report> {
+    pub fn read_with_source<'k>(path: &Path, shipped: impl Into<Known<'k>>) -> Result<(Self, ScenarioSource), Report> {
         let text = read_text(path, "TOML")?;
         let folder = path.parent().unwrap_or(Path::new(""));
         Self::from_text(text, path.display().to_string(), folder, shipped)
@@ -53,20 +55,20 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`read`](Self::read).
-    pub fn read_stream(
+    pub fn read_stream<'k>(
         stream: impl Read,
         name: &str,
-        shipped: &[(&str, &str)],
+        shipped: impl Into<Known<'k>>,
     ) -> Result<(Self, ScenarioSource), Report> {
         let text = read_text_from(stream, name, "TOML")?;
         Self::from_text(text, name.to_owned(), Path::new(""), shipped)
     }
 
-    fn from_text(
+    fn from_text<'k>(
         text: String,
         file: String,
         folder: &Path,
-        shipped: &[(&str, &str)],
+        shipped: impl Into<Known<'k>>,
     ) -> Result<(Self, ScenarioSource), Report> {
         let (scenario, layout) = Self::parse_with_source(&text, &file, folder, shipped)?;
         Ok((scenario, ScenarioSource { scenario: Source { text, file }, layout }))
@@ -77,27 +79,29 @@ impl Scenario {
     ///
     /// # Errors
     /// All that is wrong with the content and with the layout file.
-    pub fn parse(text: &str, file: &str, folder: &Path, shipped: &[(&str, &str)]) -> Result<Self, Report> {
+    pub fn parse<'k>(text: &str, file: &str, folder: &Path, shipped: impl Into<Known<'k>>) -> Result<Self, Report> {
         Self::parse_with_source(text, file, folder, shipped).map(|(scenario, _)| scenario)
     }
 
     /// As [`parse`](Self::parse), with the text that the layout was read from.
-    pub(crate) fn parse_with_source(
+    pub(crate) fn parse_with_source<'k>(
         text: &str,
         file: &str,
         folder: &Path,
-        shipped: &[(&str, &str)],
+        shipped: impl Into<Known<'k>>,
     ) -> Result<(Self, Source), Report> {
+        let known = shipped.into();
         read_document(text, file, &FORMAT, |root| {
             let name = root.file_name("name");
             let (layout, source) =
-                root.require("layout").and_then(|value| find_layout(&value, folder, shipped)).unzip();
+                root.require("layout").and_then(|value| find_layout(&value, folder, &known.layouts)).unzip();
             let joints = Joints { layout: layout.as_ref() };
 
             let initial_table = root.table("initial");
             let initial = initial_table.as_ref().and_then(|table| initial_state(table, &joints));
             let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
-            let approach = root.table("approach").and_then(|table| approach::approach(&table, &joints, start));
+            let approach =
+                root.table("approach").and_then(|table| approach::approach(&table, &joints, start, &known.laws));
             let limits = root.read_or("limits", Vec::new(), |value| limits::joint_limits(&value.table()?, &joints));
             if let (Some(table), Some(initial)) = (&initial_table, &initial) {
                 if let Some(value) = table.get("base_pose") {
@@ -138,7 +142,7 @@ impl Scenario {
             if !capture.sets.is_empty() {
                 let scenario_source = Source { text: text.to_owned(), file: file.to_owned() };
                 let source = ScenarioSource { scenario: scenario_source, layout: layout.clone() };
-                let variants = capture.sets.iter().map(|set| set.variant(&scenario, &source));
+                let variants = capture.sets.iter().map(|set| set.variant(&scenario, &source, &known.laws));
                 scenario.variants = every(variants)?;
                 scenario.cases.retain(|case| !capture.sets.iter().any(|set| set.index == case.index));
             }

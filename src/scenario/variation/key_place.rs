@@ -141,7 +141,7 @@ fn default_list(path: &KeyPath, scenario: &Scenario) -> Option<Vec<f64>> {
                 "derivative_gain" => Some(derivative_gain.clone()),
                 _ => None,
             },
-            Tracking::InverseDynamics | Tracking::ResolvedMotionRate { .. } => None,
+            Tracking::InverseDynamics | Tracking::ResolvedMotionRate { .. } | Tracking::Own { .. } => None,
         },
         ["post_impact", gain] => match (&scenario.post_impact.as_ref()?.control, gain) {
             (PostCaptureControl::Hold { proportional_gain, .. }, "proportional_gain") => {

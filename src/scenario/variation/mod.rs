@@ -8,7 +8,7 @@ mod varied_value;
 use crate::diagnostic::Report;
 use crate::format::Step;
 use crate::layout::Layout;
-use crate::scenario::{KeyFile, Scenario, ScenarioSource};
+use crate::scenario::{KeyFile, Known, LawFormat, Scenario, ScenarioSource};
 use key_place::{Place, place, set};
 use std::ops::Range;
 use std::path::Path;
@@ -27,6 +27,7 @@ pub struct Variation {
     scenario: Template,
     layout: Template,
     layout_name: String,
+    laws: Vec<LawFormat>,
 }
 
 /// The texts of one case.
@@ -99,7 +100,18 @@ impl Variation {
         } else {
             Template { text: source.layout.text.clone(), places: Vec::new() }
         };
-        Ok(Self { scenario: of(KeyFile::Scenario, &of_scenario), layout, layout_name: scenario.layout.name.clone() })
+        Ok(Self {
+            scenario: of(KeyFile::Scenario, &of_scenario),
+            layout,
+            layout_name: scenario.layout.name.clone(),
+            laws: Vec::new(),
+        })
+    }
+
+    /// With tracking laws that the scenario may name beside the shipped ones.
+    #[must_use]
+    pub fn with_laws(self, laws: &[LawFormat]) -> Self {
+        Self { laws: laws.to_vec(), ..self }
     }
 
     /// The scenario of a case with these values, one per key.
@@ -108,7 +120,8 @@ impl Variation {
     /// What the readers of scenarios and layouts refuse.
     pub fn scenario(&self, values: &[VariedValue]) -> Result<Scenario, Report> {
         let [scenario, layout] = [&self.scenario, &self.layout].map(|template| template.fill(values));
-        Scenario::parse(&scenario, "scenario.toml", Path::new(""), &[(&self.layout_name, &layout)])
+        let known = Known { layouts: vec![(&self.layout_name, &layout)], laws: self.laws.clone() };
+        Scenario::parse(&scenario, "scenario.toml", Path::new(""), known)
     }
 
     /// Texts for files of a case, the scenario naming its layout by [`LAYOUT_FILE`].

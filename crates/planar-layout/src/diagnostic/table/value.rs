@@ -136,6 +136,12 @@ impl<'a> Value<'a> {
         self.number_of(rule).map(|number| number as u64)
     }
 
+    /// A number in a range that the file's format does not have: that of a table with any keys.
+    #[must_use]
+    pub fn number_by(&self, rule: &NumberRule) -> Option<f64> {
+        self.number_of(rule)
+    }
+
     fn number_of(&self, quantity: &NumberRule) -> Option<f64> {
         let number = match self.tree {
             DeValue::Float(float) => float.as_str().parse().ok(),

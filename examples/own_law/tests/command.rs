@@ -1,0 +1,102 @@
+//! The law through the command line: named by a scenario, with its numbers, in a sweep of these, and refused where it is wrong.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// Exit code, standard output and standard error.
+fn said(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_own-law")).args(arguments).output().expect("it runs");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+    (output.status.code().expect("a code"), text(output.stdout), text(output.stderr))
+}
+
+fn folder(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder.display().to_string()
+}
+
+fn scenario() -> String {
+    let text = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/scenario.toml")).expect("the scenario");
+    text.replace("duration = 10.0", "duration = 1.0")
+}
+
+fn written(folder: &str, name: &str, text: &str) -> String {
+    let path = format!("{folder}/{name}");
+    fs::write(&path, text).expect("written");
+    path
+}
+
+/// The summary of a run of this text.
+fn run(name: &str, text: &str) -> String {
+    let folder = folder(name);
+    let (out, file) = (format!("{folder}/out"), written(&folder, "scenario.toml", text));
+    let (code, _, err) = said(&["run", &file, "--out", &out, "--force", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    fs::read_to_string(format!("{out}/summary.json")).expect("a summary")
+}
+
+#[test]
+fn a_scenario_names_the_law_and_gives_its_numbers() {
+    let found = run("named", &scenario());
+    assert!(found.contains("\"name\": \"encoder_control\"") && found.contains("\"filter_time\": 0.05"), "{found}");
+    let stiff = run("stiff", &scenario().replace("proportional_gain = 49.0", "proportional_gain = 60.0"));
+    let end = |summary: &str| {
+        summary.lines().skip_while(|line| !line.trim() == "\"joint_angles\": [").nth(1).map(str::to_owned)
+    };
+    assert!(end(&found).is_some() && end(&found) != end(&stiff));
+    let set = "[[case]]\nname = \"stiff\"\nset = { \"approach.law.proportional_gain\" = 60.0 }\n[post_impact]";
+    let set = run("set", &scenario().replace("[post_impact]", set));
+    assert_eq!(end(&set), end(&stiff));
+}
+
+#[test]
+fn lists_checks_and_schemas_know_the_law() {
+    let (code, out, err) = said(&["list"]);
+    assert!(code == 0 && out.contains("encoder_control") && out.contains("filter_time = 0.05 s"), "{out}{err}");
+    let (_, out, _) = said(&["schema", "scenario"]);
+    assert!(out.contains("\"encoder_control\""));
+    let file = written(&folder("check"), "scenario.toml", &scenario());
+    let (code, out, err) = said(&["check", &file]);
+    assert!(code == 0 && out.contains("encoder_control, a law of this program, resolution 0.0001"), "{out}{err}");
+    let out = format!("{}/moving.svg", folder("check"));
+    let _ = fs::remove_file(&out);
+    let (code, _, err) = said(&["animate", &file, "--out", &out, "--seconds", "1", "-q"]);
+    assert_eq!(code, 0, "{err}");
+}
+
+#[test]
+fn what_is_wrong_is_refused() {
+    for (wrong, right, words) in [
+        ("\"encoder_control\"\nsample", "\"encoder_contro\"\nsample", "did you mean `encoder_control`?"),
+        (
+            "\"encoder_control\"\nsample",
+            "\"fuzzy\"\nsample",
+            "`computed_torque`, `resolved_motion_rate` or `encoder_control`",
+        ),
+        (
+            "resolution = 1e-4",
+            "resolution = 0",
+            "`approach.law.resolution` is 0, expected a resolution of the encoders in rad greater than 0",
+        ),
+        ("resolution = 1e-4", "resolutio = 1e-4", "did you mean `resolution`?"),
+        (
+            "\"encoder_control\"\nsample",
+            "\"pd\"\nsample",
+            "only `tracking` with the name of a law",
+        ),
+        ("sample_time", "pose_gain = 1.0\nsample_time", "the numbers of a law of one's own are in `[approach.law]`"),
+        (
+            "sample_time",
+            "proportional_gain = 1.0\nsample_time",
+            "the numbers of a law of one's own are in `[approach.law]`",
+        ),
+    ] {
+        let text = scenario();
+        assert!(text.contains(wrong), "{wrong}");
+        let file = written(&folder("wrong"), "scenario.toml", &text.replacen(wrong, right, 1));
+        let (code, _, err) = said(&["check", &file]);
+        assert!(code == 2 && err.contains(words), "{right}: {err}");
+    }
+}

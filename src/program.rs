@@ -1,0 +1,31 @@
+//! What a program has of its own: robots, and the control laws that its scenarios name.
+
+use crate::laws::RegisteredLaw;
+use crate::registry::Robots;
+use crate::scenario::{Known, Tracking};
+
+/// What the commands of a program know by name.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Program<'a> {
+    /// Its robots, and the shipped ones.
+    pub robots: Robots<'a>,
+    /// Its tracking laws, beside the shipped ones.
+    pub laws: &'a [RegisteredLaw],
+}
+
+impl Program<'_> {
+    /// What its scenarios can name.
+    #[must_use]
+    pub fn known(self) -> Known<'static> {
+        Known { layouts: self.robots.layouts(), laws: self.laws.iter().map(|law| law.format).collect() }
+    }
+
+    /// The name of a law that another one has, too, this program's or a shipped one.
+    #[must_use]
+    pub fn repeated_law(self) -> Option<&'static str> {
+        let names: Vec<_> = self.laws.iter().map(|law| law.format.name).collect();
+        let is_shipped = |name: &str| Tracking::LAWS.iter().any(|law| law.name() == name);
+        let mut each = names.iter().enumerate();
+        each.find(|(i, name)| is_shipped(name) || names[..*i].contains(name)).map(|(_, name)| *name)
+    }
+}
