@@ -10,7 +10,7 @@ use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
-use planar_capture::scenario::variation::{KeyPath, Unusable, VariedValue, Variation};
+use planar_capture::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
 use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source};
 use planar_capture::simulate::Timing;
 use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
@@ -191,6 +191,13 @@ impl Scenario {
     ) -> PyResult<Study> {
         if !(sample.is_finite() && sample > 0.0) {
             return Err(Failure::Input.with(format!("sample is {sample:?}, expected a time greater than 0 s")));
+        }
+        if let Some(variant) = self.scenario.variants.first() {
+            let name = variant.name();
+            let message = format!(
+                "case `{name}` has values of its own, `set`, which is for the command line: give them by `with_values`"
+            );
+            return Err(Failure::Input.with(message));
         }
         let scenario = self.sampled(sample_time, control.is_some(), post_capture.is_some())?;
         let (choice, warning) = choose(dynamics, &scenario.layout)?;
