@@ -43,7 +43,7 @@ fn a_scenario_names_the_law_and_gives_its_numbers() {
     assert!(found.contains("\"name\": \"encoder_control\"") && found.contains("\"filter_time\": 0.05"), "{found}");
     let stiff = run("stiff", &scenario().replace("proportional_gain = 49.0", "proportional_gain = 60.0"));
     let end = |summary: &str| {
-        summary.lines().skip_while(|line| !line.trim() == "\"joint_angles\": [").nth(1).map(str::to_owned)
+        summary.lines().skip_while(|line| line.trim() != "\"joint_angles\": [").nth(1).map(str::to_owned)
     };
     assert!(end(&found).is_some() && end(&found) != end(&stiff));
     let set = "[[case]]\nname = \"stiff\"\nset = { \"approach.law.proportional_gain\" = 60.0 }\n[post_impact]";
@@ -81,11 +81,7 @@ fn what_is_wrong_is_refused() {
             "`approach.law.resolution` is 0, expected a resolution of the encoders in rad greater than 0",
         ),
         ("resolution = 1e-4", "resolutio = 1e-4", "did you mean `resolution`?"),
-        (
-            "\"encoder_control\"\nsample",
-            "\"pd\"\nsample",
-            "only `tracking` with the name of a law",
-        ),
+        ("\"encoder_control\"\nsample", "\"pd\"\nsample", "only `tracking` with the name of a law"),
         ("sample_time", "pose_gain = 1.0\nsample_time", "the numbers of a law of one's own are in `[approach.law]`"),
         (
             "sample_time",
