@@ -15,7 +15,7 @@ pub struct ContactResponse {
     /// [ω, vx, vy] of the end effector relative to the contact point of the target.
     pub relative_twist: [f64; 3],
     /// The direction of the effective masses: the normal of a bounce, else that of the relative velocity; `None` where
-    /// that is zero.
+    /// that is zero, but for errors of the integration.
     pub direction: Option<[f64; 2]>,
     /// Of the end effector: Yoshida & Sashida's extended inverse inertia tensor.
     pub inverse_inertia: InverseInertia<f64>,
@@ -27,6 +27,10 @@ pub struct ContactResponse {
     /// The same impulses over all directions.
     pub impulse_ellipse: ImpulseEllipse<f64>,
 }
+
+/// The relative velocity of two points has a direction where it is more than this part of their speeds, which are relative
+/// to the base: less is of the errors of an integration that is to bring them to the same velocity.
+const LEAST_PART: f64 = 1e-6;
 
 /// The response of one contact.
 ///
@@ -42,9 +46,13 @@ pub fn response(
     model.end_effector_twists(&before.view(), &mut end_effectors)?;
     let [end_effector_omega, end_effector_x, end_effector_y] = end_effectors[touch.arm];
     let ([omega, vx, vy], [rx, ry]) = (target.twist, touch.offset);
-    let relative = [end_effector_omega - omega, end_effector_x - (vx - omega * ry), end_effector_y - (vy + omega * rx)];
+    let [target_x, target_y] = [vx - omega * ry, vy + omega * rx];
+    let relative = [end_effector_omega - omega, end_effector_x - target_x, end_effector_y - target_y];
     let speed = libm::hypot(relative[1], relative[2]);
-    let along_velocity = || (speed > 0.0).then(|| [relative[1] / speed, relative[2] / speed]);
+    let [_, base_x, base_y] = before.base_twist;
+    let from_base = |x: f64, y: f64| libm::hypot(x - base_x, y - base_y);
+    let speeds = from_base(end_effector_x, end_effector_y) + from_base(target_x, target_y);
+    let along_velocity = || (speed > LEAST_PART * speeds).then(|| [relative[1] / speed, relative[2] / speed]);
     let direction = touch.law.bounce().map(|(normal, _)| normal).or_else(along_velocity);
     let (pose, angles) = (&before.base_pose, &before.joint_angles);
     let mut scratch = vec![0.0; 2 * model.joints()];

@@ -39,4 +39,10 @@ fn a_contact_at_rest_has_no_direction() {
     let (_, [_, x, y]) = of([0.0; 3], ContactLaw::Rigid);
     let (found, _) = of([0.0, x, y], ContactLaw::Rigid);
     assert_eq!((found.direction, found.effective_masses, found.impulse_index), (None, None, None));
+    // what an integration leaves is none, and a slow approach is one
+    let (found, _) = of([0.0, x + 1e-10, y - 3e-10], ContactLaw::Rigid);
+    assert_eq!((found.direction, found.effective_masses, found.impulse_index), (None, None, None));
+    let (found, _) = of([0.0, x + 3e-5, y - 4e-5], ContactLaw::Rigid);
+    let direction = found.direction.expect("a direction");
+    assert!((direction[0] + 0.6).abs() < 1e-9 && (direction[1] - 0.8).abs() < 1e-9, "{direction:?}");
 }
