@@ -96,3 +96,30 @@ fn what_is_wrong_is_refused() {
         assert!(code == 2 && err.contains(words), "{right}: {err}");
     }
 }
+
+/// The numbers of the law vary as any others of the scenario.
+#[test]
+fn a_sweep_varies_the_numbers() {
+    let folder = folder("sweep");
+    written(&folder, "scenario.toml", &scenario());
+    let sweep = "name = \"gains\"\nscenario = \"scenario.toml\"\nsampling = \"grid\"\nseed = 1\n\
+                 [[vary]]\nkey = \"approach.law.proportional_gain\"\ndistribution = { choice = [49.0, 60.0] }\n\
+                 [collect]\nseries = [0, 1]\n";
+    let (out, file) = (format!("{folder}/out"), written(&folder, "sweep.toml", sweep));
+    let _ = fs::remove_dir_all(&out);
+    let (code, said_out, err) = said(&["sweep", &file, "--out", &out, "-q"]);
+    assert_eq!(code, 0, "{said_out}{err}");
+    let last = |case: u32| {
+        let rows = fs::read_to_string(format!("{out}/series/{case:06}.csv")).expect("rows");
+        rows.lines().next_back().expect("a row").to_owned()
+    };
+    let series = [0, 1].map(last);
+    assert!(series[0] != series[1] && series.iter().all(|row| row.split(',').count() > 20), "{series:?}");
+    // the second case is the scenario with the other gain
+    let stiff = scenario().replace("proportional_gain = 49.0", "proportional_gain = 60.0");
+    let (own, file) = (format!("{folder}/own"), written(&folder, "stiff.toml", &stiff));
+    let (code, _, err) = said(&["run", &file, "--out", &own, "--force", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    let rows = fs::read_to_string(format!("{own}/encoder_control.csv")).expect("rows");
+    assert_eq!(rows.lines().next_back(), Some(&*series[1]));
+}
