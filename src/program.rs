@@ -29,3 +29,22 @@ impl Program<'_> {
         each.find(|(i, name)| is_shipped(name) || names[..*i].contains(name)).map(|(_, name)| *name)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::LawFormat;
+
+    #[test]
+    fn a_law_has_a_name_of_its_own() {
+        let law = |name| RegisteredLaw {
+            format: LawFormat { name, doc: "of a test", numbers: &[] },
+            make: |_| unreachable!("no scenario names it"),
+        };
+        let repeated =
+            |names: [&'static str; 2]| Program { laws: &names.map(law), ..Program::default() }.repeated_law();
+        assert_eq!(repeated(["mine", "yours"]), None);
+        assert_eq!(repeated(["mine", "mine"]), Some("mine"));
+        assert_eq!(repeated(["mine", "pd"]), Some("pd"));
+    }
+}
