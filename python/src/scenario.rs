@@ -95,7 +95,7 @@ impl Scenario {
 
     /// A study without a result, at its key in the scenario.
     fn without_result(&self, error: &StudyError, scenario: &Read) -> PyErr {
-        let report = study_report(error, scenario, &self.source.scenario);
+        let report = study_report(error, scenario, None, &self.source.scenario);
         let failure = if error.is_breakdown() { Failure::Computation } else { Failure::Input };
         failure.with(report.render(false))
     }

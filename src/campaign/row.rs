@@ -2,9 +2,9 @@
 
 use super::outputs::{Output, is_captured};
 use super::sweep::Draw;
-use crate::capture::{CaseResult, Silent, Study, study_with};
+use crate::capture::{CaseResult, Silent, Study, study_registered};
 use crate::engine::Choice;
-use crate::laws::{Laws, RegisteredLaw};
+use crate::laws::RegisteredLaw;
 use crate::scenario::Scenario;
 use crate::scenario::variation::{Variation, VariedValue};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -115,9 +115,7 @@ impl CaseRunner<'_> {
         };
         let scenario = self.variation.scenario(&row.values).map_err(refused)?;
         let model = self.choice.model(&scenario.layout);
-        let law = RegisteredLaw::of(&scenario, self.laws);
-        let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
-        let study = study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
+        let study = study_registered(&scenario, &|| model.clone_box(), self.laws, sample, &mut Silent)
             .map_err(|error| (Status::Stopped, error.to_string()))?;
         let [case] = &study.cases[..] else { unreachable!("a variation has one case") };
         row.captured = is_captured(&scenario, case);

@@ -31,7 +31,7 @@ use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
-use crate::laws::{Laws, OwnLaws};
+use crate::laws::{Laws, OwnLaws, RegisteredLaw};
 use crate::owned::CloneModel;
 use crate::scalar::Real;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
@@ -260,6 +260,21 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     study_with(scenario, make, Laws::default(), sample, observer)
+}
+
+/// As [`study`], with the tracking law that the scenario names, where it is one of these.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn study_registered(
+    scenario: &Scenario,
+    make: ModelFactory<'_>,
+    laws: &[RegisteredLaw],
+    sample: f64,
+    observer: &mut dyn Observer,
+) -> Result<Study, StudyError> {
+    let law = RegisteredLaw::of(scenario, laws);
+    study_with(scenario, make, Laws { tracking: law.as_deref(), ..Laws::default() }, sample, observer)
 }
 
 /// As [`study`], with laws of one's own in place of those that the scenario names.

@@ -28,7 +28,7 @@ use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
 use crate::scenario::{Known, Scenario, Variant};
-pub use breakdown::{study_report, variant_report};
+pub use breakdown::study_report;
 use kind::kind;
 use std::path::Path;
 

@@ -2,11 +2,10 @@
 
 use super::dynamics::Dynamics;
 use super::progress::{Display, Progress};
-use super::run::{study_error, variant_error};
+use super::run::study_error;
 use super::seconds::{positive_seconds, seconds};
 use super::{CommandError, write_new};
-use crate::capture::study_with;
-use crate::laws::{Laws, RegisteredLaw};
+use crate::capture::study_registered;
 use crate::output::animation::{Excerpt, RATE, animation};
 use crate::program::Program;
 use crate::scenario::Scenario;
@@ -75,14 +74,9 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     let sample = until / (arguments.seconds * RATE);
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);
-    let law = RegisteredLaw::of(&scenario, program.laws);
-    let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
-    let result = study_with(&scenario, &|| model.clone_box(), laws, sample, &mut progress);
+    let result = study_registered(&scenario, &|| model.clone_box(), program.laws, sample, &mut progress);
     progress.finish();
-    let study = result.map_err(|error| match &variant {
-        Some(variant) => variant_error(&error, variant, &source.scenario),
-        None => study_error(&error, &scenario, &source.scenario),
-    })?;
+    let study = result.map_err(|error| study_error(&error, &scenario, variant.as_ref(), &source.scenario))?;
     write_new(
         arguments.out.as_deref(),
         &animation(&scenario, &study, &study.cases[0], Excerpt { seconds: arguments.seconds, until }),

@@ -10,7 +10,6 @@ use crate::output::finite::{NotFinite, finite};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::scenario::Scenario;
-use crate::scenario::variation::VariedValue;
 use crate::simulate::Phase;
 use crate::simulate::limits::{LimitViolation, LimitViolations};
 use serde_json::{Value, json};
@@ -39,7 +38,7 @@ pub fn summary_of_parts(
         for (case, result) in part.scenario.cases.iter().zip(&part.study.cases) {
             let mut value = case_value(part.scenario, &part.study, result);
             if let Some(variant) = part.variant {
-                value["set"] = variant.set.iter().map(|(path, value)| (path.clone(), of_varied(value))).collect();
+                value["set"] = variant.set.iter().map(|(path, value)| (path.clone(), json!(value.to_toml()))).collect();
                 value["run"] = part.manifest.to_json_of_case(part.dynamics);
             }
             cases.push((case.index, value));
@@ -48,14 +47,6 @@ pub fn summary_of_parts(
     cases.sort_by_key(|(index, _)| *index);
     let cases: Vec<_> = cases.into_iter().map(|(_, value)| value).collect();
     of_cases(scenario, dynamics, &cases, manifest)
-}
-
-fn of_varied(value: &VariedValue) -> Value {
-    match value {
-        VariedValue::Number(number) => json!(number),
-        VariedValue::Text(text) => json!(text),
-        VariedValue::Flag(flag) => json!(flag),
-    }
 }
 
 fn of_cases(scenario: &Scenario, dynamics: &str, cases: &[Value], manifest: &RunManifest) -> Result<Value, NotFinite> {

@@ -19,7 +19,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use task::Task;
-pub use task::{study_error, variant_error};
+pub use task::study_error;
 
 /// Time between two rows where it is not given, s.
 const DEFAULT_SAMPLE: f64 = 0.05;

@@ -6,10 +6,10 @@ use super::super::progress::Progress;
 use super::super::terminal::note;
 use super::product::Printed;
 use super::{Arguments, DEFAULT_SAMPLE};
-use crate::capture::{StudyError, study_with};
-use crate::check::{study_report, variant_report};
+use crate::capture::{StudyError, study_registered};
+use crate::check::study_report;
 use crate::engine::Choice;
-use crate::laws::{Laws, RegisteredLaw};
+use crate::laws::RegisteredLaw;
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
@@ -71,14 +71,9 @@ impl Task<'_> {
             let model = choice.model(&scenario.layout);
             let mut progress = Progress::new(arguments.display);
             let sample = arguments.sample.unwrap_or(DEFAULT_SAMPLE);
-            let law = RegisteredLaw::of(scenario, self.laws);
-            let laws = Laws { tracking: law.as_deref(), ..Laws::default() };
-            let result = study_with(scenario, &|| model.clone_box(), laws, sample, &mut progress);
+            let result = study_registered(scenario, &|| model.clone_box(), self.laws, sample, &mut progress);
             progress.finish();
-            let study = result.map_err(|error| match variant {
-                Some(variant) => variant_error(&error, variant, &source.scenario),
-                None => study_error(&error, scenario, &source.scenario),
-            })?;
+            let study = result.map_err(|error| study_error(&error, scenario, variant, &source.scenario))?;
             let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
             Ok(StudyPart { scenario, variant, dynamics: choice.engine.name(), study, manifest })
         });
@@ -175,16 +170,16 @@ fn longer_step(scenario: &Scenario, sample: f64) -> Option<f64> {
     steps.into_iter().flatten().filter(|step| sample < step * (1.0 - 1e-6)).reduce(f64::max)
 }
 
-/// The error at its key in the scenario; exit code 1 where a valid simulation broke down.
-pub fn study_error(error: &StudyError, scenario: &Scenario, source: &Source) -> CommandError {
+/// The error at its key in the scenario, or at the values that a variant of it has; exit code 1 where a valid simulation
+/// broke down.
+pub fn study_error(
+    error: &StudyError,
+    scenario: &Scenario,
+    variant: Option<&Variant>,
+    source: &Source,
+) -> CommandError {
     let exit_code = if error.is_breakdown() { 1 } else { 2 };
-    CommandError::Computation { report: study_report(error, scenario, source), exit_code }
-}
-
-/// The same of a case with values of its own, at these values.
-pub fn variant_error(error: &StudyError, variant: &Variant, source: &Source) -> CommandError {
-    let exit_code = if error.is_breakdown() { 1 } else { 2 };
-    CommandError::Computation { report: variant_report(error, variant, source), exit_code }
+    CommandError::Computation { report: study_report(error, scenario, variant, source), exit_code }
 }
 
 /// The command line, as it can be typed again.
