@@ -162,12 +162,7 @@ impl Adaptive {
         motion.derivative(time + short, probe, changed)?;
         changed.iter_mut().zip(rate).for_each(|(changed, rate)| *changed -= rate);
         let most = of_rate.sqrt().max(norm(changed).sqrt() / short);
-        let by_change = if most <= 1e-15 {
-            short * 1e-3
-        } else {
-            #[allow(clippy::cast_precision_loss, reason = "a small number")]
-            libm::pow(0.01 / most, 1.0 / ORDER as f64)
-        };
+        let by_change = if most <= 1e-15 { short * 1e-3 } else { libm::pow(0.01 / most, 1.0 / ORDER) };
         Ok((100.0 * short).min(by_change))
     }
 
@@ -193,8 +188,7 @@ impl Adaptive {
                 self.add_stage(start, self.step, 1, stage, motion)?;
             }
             let error = self.error_at_end();
-            #[allow(clippy::cast_precision_loss, reason = "a small number")]
-            let allowed = SAFETY * libm::pow(error, -1.0 / ORDER as f64);
+            let allowed = SAFETY * libm::pow(error, -1.0 / ORDER);
             let [least, most] = RATIOS;
             let ratio = if error.is_finite() { allowed.min(most).max(least) } else { least };
             let length = self.step;

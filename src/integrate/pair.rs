@@ -8,8 +8,10 @@ use std::sync::LazyLock;
 pub(super) const STAGES: usize = 16;
 /// With those of the interpolant.
 pub(super) const ALL_STAGES: usize = 26;
-/// The order, and the degree of the interpolant.
-pub(super) const ORDER: usize = 9;
+/// The order.
+pub(super) const ORDER: f64 = 9.0;
+/// The degree of the interpolant.
+const DEGREE: usize = 9;
 /// Entries in a block: sums of stages are of whole blocks, in registers.
 pub(super) const BLOCK: usize = 8;
 
@@ -36,7 +38,7 @@ pub(super) struct Pair {
     /// It is zero for all but the first few.
     pub(super) defects: Vec<(usize, [f64; 4])>,
     /// Of each stage the polynomial of its weight within the step: the factors of s, s² ….
-    interpolant: [[f64; ORDER]; ALL_STAGES],
+    interpolant: [[f64; DEGREE]; ALL_STAGES],
 }
 
 /// The pair.
@@ -67,7 +69,7 @@ impl Pair {
 
     /// The weights of the stages at s, from 0 to 1, within a step.
     pub(super) fn weights_within(&self, s: f64) -> [(usize, f64); ALL_STAGES] {
-        let polynomial = |factors: &[f64; ORDER]| factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s;
+        let polynomial = |factors: &[f64; DEGREE]| factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s;
         std::array::from_fn(|stage| (stage, polynomial(&self.interpolant[stage])))
     }
 }

@@ -33,6 +33,11 @@ pub struct PathInterval<'a> {
     pub end: [&'a [f64]; 2],
 }
 
+/// Numbers of a knot with so many positions: time, positions, rates.
+fn record(size: usize) -> usize {
+    1 + 2 * size
+}
+
 /// A part of a path over which its bodies are looked at.
 pub trait PathPart {
     /// From and to, s.
@@ -58,9 +63,8 @@ pub struct PathWindow<'a> {
 }
 
 impl PathWindow<'_> {
-    /// Numbers of a knot: time, positions, rates.
     fn record(&self) -> usize {
-        1 + 2 * self.size
+        record(self.size)
     }
 
     fn interval(&self, index: usize) -> PathInterval<'_> {
@@ -129,9 +133,8 @@ impl Path {
         self.try_for_each_window(1, |window| window.intervals().try_for_each(&mut visit))
     }
 
-    /// Numbers of a knot: time, positions, rates.
     fn record(&self) -> usize {
-        1 + 2 * self.size
+        record(self.size)
     }
 
     fn push(&mut self, time: f64, state: &[f64]) {

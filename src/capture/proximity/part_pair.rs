@@ -102,7 +102,6 @@ impl PartPair<'_> {
     }
 
     /// A lower bound of the distance between two instants, at which it may be lower.
-    #[inline]
     pub(in crate::capture) fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
         let half = 0.5 * (right.time - left.time);
         self.bound(left, half).min(self.bound(right, -half))
