@@ -2,21 +2,24 @@
 
 use super::continuation::Continuation;
 use super::motion::Motion;
-use super::pair::{ALL_STAGES, BLOCK, Blocks, ORDER, PAIR, STAGES, combine, sum};
+use super::pair::{ALL_STAGES, BLOCK, Blocks, ORDER, PAIR, STAGES, combine, largest_error};
 use crate::error::Error;
-use crate::scalar::Real;
 
 /// The next step over the one that the error estimate allows.
 const SAFETY: f64 = 0.9;
 /// Least and largest ratio of a step to the one before.
 const RATIOS: [f64; 2] = [0.2, 10.0];
+/// Least part of the allowed step that is taken to end at a requested time: the interpolant takes 9 evaluations beside the
+/// 16 of a step.
+const LANDING: f64 = 0.64;
 /// Rejected steps without an accepted one between them that are too many.
 const MOST_REJECTED: u32 = 100;
 
 /// ẋ = f(t, x) by Verner's "most efficient" pair 9(8) with an interpolant of order 9 (`rkv989e`).
 ///
-/// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x, and
-/// continue beyond the requested times, at which x comes from the interpolant. An accepted step takes 16 evaluations, a
+/// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x. They end
+/// at a requested time where somewhat shorter ones do, and otherwise continue beyond it, where x comes from the
+/// interpolant. An accepted step takes 16 evaluations, a
 /// rejected one 15; the first time within a step for which x is asked takes 9 more. Steps take no memory.
 #[derive(Debug)]
 pub struct Adaptive {
@@ -110,7 +113,7 @@ impl Adaptive {
             if motion.restore(into)? {
                 self.start(reached, self.end, into, motion)?;
             }
-            self.take_step(motion)?;
+            self.take_step(wanted, motion)?;
         }
         let [_, now] = self.span;
         let reached = if wanted > now + rounding { now } else { time };
@@ -166,8 +169,8 @@ impl Adaptive {
         Ok((100.0 * short).min(by_change))
     }
 
-    /// One accepted step.
-    fn take_step(&mut self, motion: &mut dyn Motion) -> Result<(), Error> {
+    /// One accepted step; x is asked for at `wanted`.
+    fn take_step(&mut self, wanted: f64, motion: &mut dyn Motion) -> Result<(), Error> {
         let [_, start] = self.span;
         let blocks = self.rate.len();
         let mut rejected = 0;
@@ -180,6 +183,12 @@ impl Adaptive {
             }
             if start + self.step <= start || rejected >= MOST_REJECTED {
                 return Err(Error::Tolerance { tolerance: self.tolerance, step: self.step });
+            }
+            let steps = ((wanted - start) / self.step).ceil();
+            let even = (wanted - start) / steps;
+            let lands = even >= LANDING * self.step;
+            if lands {
+                self.step = self.step.min(even);
             }
             self.attempts += 1;
             self.stages[..blocks].copy_from_slice(&self.rate);
@@ -196,7 +205,7 @@ impl Adaptive {
             if error <= 1.0 {
                 self.ends.swap(0, 1);
                 std::mem::swap(&mut self.ends[1], &mut self.working);
-                self.span = [start, start + length];
+                self.span = [start, if lands && steps <= 1.0 { wanted } else { start + length }];
                 self.next_step = if is_cut { self.next_step.max(self.step) } else { self.step };
                 let x = &self.ends[1].as_flattened()[..self.size];
                 motion.derivative(self.span[1], x, &mut self.rate.as_flattened_mut()[..self.size])?;
@@ -212,15 +221,7 @@ impl Adaptive {
     fn error_at_end(&mut self) -> f64 {
         let Self { tolerance, step, ends: [_, start], stages, working: end, .. } = self;
         combine(start, *step, &PAIR.weights, stages, end);
-        let mut most = 0.0;
-        for (i, (start, end)) in start.iter().zip(end).enumerate() {
-            let error = sum(&PAIR.errors, stages, self.rate.len(), i);
-            for ((start, end), error) in start.iter().zip(end).zip(error) {
-                let allowed = *tolerance * (1.0 + start.abs().max(end.abs()));
-                most = Real::maximum(most, (*step * error / allowed).abs());
-            }
-        }
-        most
+        largest_error([start, end], *step, &PAIR.errors, stages, *tolerance)
     }
 
     /// Evaluates a stage of a step of a length, s, from `start`, s, where x is that of an end of the last step.

@@ -1,7 +1,9 @@
 //! Verner's "most efficient" pair of orders 9 and 8 with an interpolant of order 9 (`rkv989e`), from the tables of the
 //! crate `differential-equations`, which are full: here without their zeros.
 
+use crate::scalar::Real;
 use differential_equations::tableau::ButcherTableau;
+use multiversion::multiversion;
 use std::sync::LazyLock;
 
 /// Stages of a step.
@@ -12,7 +14,8 @@ pub(super) const ALL_STAGES: usize = 26;
 pub(super) const ORDER: f64 = 9.0;
 /// The degree of the interpolant.
 const DEGREE: usize = 9;
-/// Entries in a block: sums of stages are of whole blocks, in registers.
+/// Entries in a block: sums of stages are of whole blocks, in registers. Entries are added one by one, each product and sum
+/// rounded, so that the bits do not depend on the width of the processor's vectors.
 pub(super) const BLOCK: usize = 8;
 
 /// Larger defects of stages are not of rounding.
@@ -75,6 +78,7 @@ impl Pair {
 }
 
 /// `start + step Σ factor stage`, into the last argument; the stages one after the other.
+#[multiversion(targets("x86_64+avx2"))]
 pub(super) fn combine(
     start: &[[f64; BLOCK]],
     step: f64,
@@ -91,8 +95,31 @@ pub(super) fn combine(
     }
 }
 
-/// `Σ factor stage` of a block of so many.
-pub(super) fn sum(row: &[(usize, f64)], stages: &[[f64; BLOCK]], blocks: usize, block: usize) -> [f64; BLOCK] {
+/// The largest error of a step between `ends`, `step Σ factor stage`, over the one that is allowed.
+#[multiversion(targets("x86_64+avx2"))]
+pub(super) fn largest_error(
+    ends: [&[[f64; BLOCK]]; 2],
+    step: f64,
+    row: &[(usize, f64)],
+    stages: &[[f64; BLOCK]],
+    tolerance: f64,
+) -> f64 {
+    let mut most = 0.0;
+    let [starts, ends] = ends;
+    for (i, (start, end)) in starts.iter().zip(ends).enumerate() {
+        let error = sum(row, stages, starts.len(), i);
+        for ((start, end), error) in start.iter().zip(end).zip(error) {
+            let allowed = tolerance * (1.0 + start.abs().max(end.abs()));
+            most = Real::maximum(most, (step * error / allowed).abs());
+        }
+    }
+    most
+}
+
+/// `Σ factor stage` of a block of so many; inlined for the processor of who calls it.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
+fn sum(row: &[(usize, f64)], stages: &[[f64; BLOCK]], blocks: usize, block: usize) -> [f64; BLOCK] {
     let mut sum = [0.0; BLOCK];
     for (stage, factor) in row {
         let stage = &stages[stage * blocks + block];

@@ -62,7 +62,9 @@ fn the_first_step_is_that_of_the_crate() {
     let mut ours = Adaptive::new(1e-9);
     ours.start(0.0, 5.0, &PERIAPSIS, &mut orbit).expect("a start");
     let mut x = [0.0; 4];
-    let reached = ours.advance([0.0, 5.0], &mut x, &mut orbit).expect("a step");
+    // so early that the step does not end there
+    ours.advance([0.0, 1e-3], &mut x, &mut orbit).expect("a step");
+    let [_, reached] = ours.span;
     assert!((reached - end).abs() < 1e-12 * end, "{reached} {end}");
     for part in [0.1, 0.5, 0.9, 1.0] {
         ours.interpolate(part * end, &mut x, &mut orbit).expect("within");
@@ -104,6 +106,34 @@ fn the_interpolant_is_as_exact_as_the_steps() {
         time = next;
     }
     assert!(count > 40, "{count}");
+}
+
+/// At times that are farther apart than steps these end, so that no interpolant is needed; between nearer ones they go on.
+#[test]
+fn steps_end_at_requested_times() {
+    for (gain, spacing, of_interpolant) in [(20.0, 0.5, 0), (20.0, 0.05, 9), (1.0, 3.0, 0), (1.0, 0.25, 9)] {
+        let mut evaluations = 0;
+        let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
+            evaluations += 1;
+            feedback(gain)(time, x, rate)
+        };
+        let (mut solver, mut x, mut time) = (Adaptive::new(1e-10), [1.0], 0.0);
+        solver.start(0.0, 30.0, &x, &mut motion).expect("a start");
+        let mut next = spacing;
+        while time < 30.0 {
+            time = solver.advance([time, next], &mut x, &mut motion).expect("a step");
+            assert!((x[0] - libm::cos(time)).abs() < 1e-9, "{time}: {:e}", x[0] - libm::cos(time));
+            next = if time >= next { (next + spacing).min(30.0) } else { next };
+        }
+        // two for the first step; a rejected one takes one less
+        let most = 2 + (16 + of_interpolant) * solver.attempts();
+        let least = (15 + of_interpolant / 2) * solver.attempts();
+        assert!(
+            (least..=most).contains(&evaluations),
+            "{gain} {spacing}: {evaluations} of {} steps",
+            solver.attempts()
+        );
+    }
 }
 
 /// Where feedback is faster than the motion, continuing the last step saves half of the steps of the method alone and
