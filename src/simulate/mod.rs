@@ -4,6 +4,7 @@
 pub mod actuators;
 pub(crate) mod bodies;
 pub mod conservation;
+mod continued_motion;
 mod equation;
 pub mod event;
 mod event_location;

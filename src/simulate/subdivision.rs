@@ -3,17 +3,20 @@
 //! An accurate step may be long: those of an adaptive integrator and of Gauss–Legendre follow motions that turn far
 //! within one, which the cubic through its ends does not show. Interpolant and integrator are compared in the middle of
 //! an interval, where the error of the interpolant is largest: in positions, and in rates, as an error that is odd about
-//! the middle has a slope there.
+//! the middle has a slope there. A motion that the parts before a step continue needs no evaluations for it.
 
 use crate::error::Error;
+use crate::simulate::continued_motion::ContinuedMotion;
 use crate::simulate::path::{PathInterval, PathPart};
 use crate::simulate::stepper::StateAt;
 use crate::simulate::system::System;
-use crate::state::split;
+use crate::state::{split, split_mut};
 
 /// Largest deviation of a point of the bodies from its motion, m: a hundredth of the resolution of distances.
 const TOLERANCE: f64 = 1e-8;
-/// The same relative to a position, for rounding.
+/// The part of the tolerance that is left for a motion which bends more within a part than the parts before show.
+const MARGIN: f64 = 4.0;
+/// The tolerance relative to a position, for rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// The states within the last part of a step, and what is needed to divide the next one.
@@ -25,6 +28,8 @@ pub(crate) struct Subdivision {
     /// Most bisections of an interval; 0 where the interpolant is not compared.
     divisions: u32,
     middle: Vec<f64>,
+    /// The ends of the last parts; nothing where the interpolant is not compared.
+    continued: ContinuedMotion,
     /// Memory of knots that are gone.
     spare: Vec<Vec<f64>>,
     found: [Vec<f64>; 2],
@@ -41,7 +46,15 @@ impl Subdivision {
             }
         }
         let found = [vec![0.0; weights.len()], vec![0.0; weights.len()]];
-        Self { knots: Vec::new(), weights, divisions, middle: Vec::new(), spare: Vec::new(), found }
+        Self {
+            knots: Vec::new(),
+            weights,
+            divisions,
+            middle: Vec::new(),
+            continued: ContinuedMotion::default(),
+            spare: Vec::new(),
+            found,
+        }
     }
 
     /// Divides the part of a step from `start` to `end`, integrated vectors at the times of `span`.
@@ -63,11 +76,34 @@ impl Subdivision {
         };
         self.spare.extend(before.map(|(_, state)| state));
         self.push(span[0], start);
+        if self.divisions > 0 {
+            self.continued.push(span, [start, end].map(|x| x.split_at(x.len() - 3).0));
+        }
         if self.divisions == 0 || is_reproduced {
             self.push(span[1], end);
             return Ok(());
         }
-        self.bisect(span, end, state_at)
+        if !self.is_continued(span, start)? {
+            return self.bisect(span, end, state_at);
+        }
+        let continued = std::mem::take(&mut self.continued);
+        let mut state_at = |time: f64, into: &mut Vec<f64>| {
+            into.clear();
+            into.extend_from_slice(end);
+            split_mut(into).map(|into| continued.at(time, [into.positions, into.rates]))
+        };
+        let divided = self.bisect(span, end, &mut state_at);
+        self.continued = continued;
+        divided
+    }
+
+    /// Whether the ends of the parts before show the motion within this one, from `start`.
+    fn is_continued(&mut self, [from, to]: [f64; 2], start: &[f64]) -> Result<bool, Error> {
+        let [positions, rates] = &mut self.found;
+        let Some(share) = self.continued.start_by_others([positions, rates]) else { return Ok(false) };
+        self.continued.follow();
+        let start = split(start)?;
+        Ok(self.is_found(to - from, [start.positions, start.rates], MARGIN * share))
     }
 
     fn push(&mut self, time: f64, state: &[f64]) {
@@ -120,12 +156,19 @@ impl Subdivision {
         let (interval, between) = (PathInterval::between(span, start, end)?, split(between)?);
         let [positions, rates] = &mut self.found;
         interval.at(time, positions, rates);
+        Ok(self.is_found(span[1] - span[0], [between.positions, between.rates], 1.0))
+    }
+
+    /// Whether positions and rates are those that were found within an interval of a length, s, where a share of their
+    /// errors counts.
+    fn is_found(&self, length: f64, [expected, expected_rates]: [&[f64]; 2], share: f64) -> bool {
+        let [positions, rates] = &self.found;
         // the largest position error of a rate error: a quarter of the interval at most
-        let lever = 0.125 * (span[1] - span[0]);
-        Ok(self.weights.iter().enumerate().all(|(i, weight)| {
-            let error = (positions[i] - between.positions[i]).abs().max(lever * (rates[i] - between.rates[i]).abs());
-            weight * error <= TOLERANCE.max(weight * ROUNDING * between.positions[i].abs())
-        }))
+        let lever = 0.125 * length;
+        self.weights.iter().enumerate().all(|(i, weight)| {
+            let error = (positions[i] - expected[i]).abs().max(lever * (rates[i] - expected_rates[i]).abs());
+            weight * error * share <= TOLERANCE.max(weight * ROUNDING * expected[i].abs())
+        })
     }
 }
 
