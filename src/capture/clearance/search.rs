@@ -124,7 +124,7 @@ impl WindowSearch<'_> {
             let is_known = if left.distance.min(right.distance) < -RESOLUTION {
                 0.5 * (left.distance + right.distance) + self.shapes.speed * half <= GAP
             } else {
-                self.shapes.lowest(&left, right) >= found.goal(pair)
+                self.shapes.is_above(&left, right, found.goal(pair))
             };
             if is_known || self.shapes.is_shortest([left.time, right.time]) {
                 left = *right;
@@ -177,7 +177,7 @@ impl WindowSearch<'_> {
             rights.push(ends[1]);
             while let Some(right) = rights.last() {
                 let half = 0.5 * (right.time - left.time);
-                if self.shapes.lowest(&left, right) >= -depth - RESOLUTION
+                if self.shapes.is_above(&left, right, -depth - RESOLUTION)
                     || self.shapes.is_shortest([left.time, right.time])
                 {
                     left = *right;

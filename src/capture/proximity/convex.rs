@@ -1,6 +1,6 @@
 //! Convex parts of outlines, and the signed distance of two of them.
 
-use crate::outline::{Outline, edges, farthest, nearest_on_segment};
+use crate::outline::{Outline, edges, farthest};
 use earcut::Earcut;
 
 /// All points within a radius of a convex polygon, a segment or a point, in the frame of its body.
@@ -31,16 +31,13 @@ struct Axis {
 pub(in crate::capture) struct PlacedPart {
     corners: Vec<[f64; 2]>,
     axes: Vec<Axis>,
+    radius: f64,
 }
 
 impl PlacedPart {
-    /// Places a part whose frame is turned and has its origin at [x, y].
-    pub(in crate::capture) fn place(
-        &mut self,
-        part: &ConvexPart,
-        [x, y]: [f64; 2],
-        rotated: impl Fn([f64; 2]) -> [f64; 2],
-    ) {
+    /// Places a part whose frame has its origin at [x, y] and is turned by an angle of this sine and cosine.
+    pub(in crate::capture) fn place(&mut self, part: &ConvexPart, [x, y]: [f64; 2], (sin, cos): (f64, f64)) {
+        let rotated = |[along, across]: [f64; 2]| [cos * along - sin * across, sin * along + cos * across];
         self.corners.clear();
         self.corners.extend(part.corners.iter().map(|corner| {
             let [dx, dy] = rotated(*corner);
@@ -48,6 +45,7 @@ impl PlacedPart {
         }));
         self.axes.clear();
         self.axes.extend(part.axes.iter().map(|axis| Axis { normal: rotated(axis.normal), ..*axis }));
+        self.radius = part.radius;
     }
 }
 
@@ -152,42 +150,65 @@ pub(in crate::capture) struct Separation {
 /// Distance below which the nearest points give no direction, m: the largest gap along a normal takes its place.
 const TOUCHING: f64 = 1e-9;
 
-/// The separation of two parts in the same frame, by the theorem of the separating axis: the largest distance between
-/// their projections on the normals of their edges, or, where that is positive, the smallest distance of a corner from an
-/// edge.
+/// The separation of a part and another one that is placed in its frame, by the theorem of the separating axis: the
+/// largest distance between their projections on the normals of their edges, or, where that is positive, the smallest
+/// distance of a corner from an edge beside it or from a corner.
 ///
 /// A library (parry2d 0.31) was tried: it finds no depth for overlapping polygons with a common corner or edge line.
-pub(in crate::capture) fn separation(a: &PlacedPart, b: &PlacedPart, radii: f64) -> Separation {
+pub(in crate::capture) fn separation(a: &ConvexPart, b: &PlacedPart) -> Separation {
     let mut deepest = Separation { distance: f64::NEG_INFINITY, normal: [1.0, 0.0], edge_of: None };
-    let mut is_over_edge = false;
-    for (part, own, other) in [(0, a, b), (1, b, a)] {
-        for Axis { normal: [nx, ny], corner, length } in &own.axes {
-            let from = own.corners[*corner];
-            let (mut distance, mut at) = (f64::INFINITY, from);
-            for corner in &other.corners {
-                let along = nx * (corner[0] - from[0]) + ny * (corner[1] - from[1]);
-                if along < distance {
-                    (distance, at) = (along, *corner);
+    let mut beside = Separation { distance: f64::INFINITY, ..deepest };
+    for (part, axes, own, other) in [(0, &a.axes, &a.corners, &b.corners), (1, &b.axes, &b.corners, &a.corners)] {
+        for Axis { normal: [nx, ny], corner, length } in axes {
+            let from = own[*corner];
+            let (mut lowest, mut lowest_beside) = (f64::INFINITY, f64::INFINITY);
+            for corner in other {
+                let (dx, dy) = (corner[0] - from[0], corner[1] - from[1]);
+                let (outwards, along) = (nx * dx + ny * dy, nx * dy - ny * dx);
+                lowest = lowest.min(outwards);
+                if outwards > 0.0 && along >= 0.0 && along <= *length {
+                    lowest_beside = lowest_beside.min(outwards);
                 }
             }
-            if distance > deepest.distance {
+            let of_axis = |distance| {
                 let normal = if part == 0 { [*nx, *ny] } else { [-nx, -ny] };
-                deepest = Separation { distance, normal, edge_of: Some(part) };
-                is_over_edge = (0.0..=*length).contains(&(nx * (at[1] - from[1]) - ny * (at[0] - from[0])));
+                Separation { distance, normal, edge_of: Some(part) }
+            };
+            if lowest > deepest.distance {
+                deepest = of_axis(lowest);
+            }
+            if lowest_beside < beside.distance {
+                beside = of_axis(lowest_beside);
             }
         }
     }
     let is_apart = deepest.distance > TOUCHING || (a.axes.is_empty() && b.axes.is_empty());
-    let cores = if is_apart && !is_over_edge {
-        let nearest = nearest(&a.corners, &b.corners, deepest.normal);
-        // a corner over an edge: the normal of the edge has all its digits, that of a short difference of large
-        // coordinates has few
-        let is_over_edge = nearest.distance - deepest.distance <= TOUCHING;
-        if is_over_edge { Separation { distance: nearest.distance, ..deepest } } else { nearest }
-    } else {
-        deepest
-    };
-    Separation { distance: cores.distance - radii, ..cores }
+    let cores = if is_apart { nearest(&a.corners, &b.corners, &beside, deepest.normal) } else { deepest };
+    // the normal of an edge has all its digits, that of a short difference of large coordinates has few
+    let is_of_edge = cores.edge_of.is_none() && cores.distance - deepest.distance <= TOUCHING;
+    let cores = if is_of_edge { Separation { distance: cores.distance, ..deepest } } else { cores };
+    Separation { distance: cores.distance - a.radius - b.radius, ..cores }
+}
+
+/// The nearest points of two parts that do not overlap: a corner and the edge that it is `beside`, or two corners, whose
+/// difference is `otherwise` where it has no direction.
+fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], beside: &Separation, otherwise: [f64; 2]) -> Separation {
+    let (mut squared, mut shortest) = (f64::INFINITY, [0.0; 2]);
+    for [ax, ay] in a {
+        for [bx, by] in b {
+            let [dx, dy] = [bx - ax, by - ay];
+            let other = dx * dx + dy * dy;
+            if other < squared {
+                (squared, shortest) = (other, [dx, dy]);
+            }
+        }
+    }
+    let distance = squared.sqrt();
+    if beside.distance <= distance {
+        return *beside;
+    }
+    let normal = if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise };
+    Separation { distance, normal, edge_of: None }
 }
 
 /// The outward normals of the edges, anticlockwise; for a segment also its two directions.
@@ -206,39 +227,13 @@ fn axes(corners: &[[f64; 2]]) -> Vec<Axis> {
     axes
 }
 
-/// The nearest points of two parts that do not overlap.
-fn nearest(a: &[[f64; 2]], b: &[[f64; 2]], otherwise: [f64; 2]) -> Separation {
-    let (mut squared, mut shortest) = (f64::INFINITY, [0.0; 2]);
-    let mut compare = |[dx, dy]: [f64; 2]| {
-        let other = dx * dx + dy * dy;
-        if other < squared {
-            (squared, shortest) = (other, [dx, dy]);
-        }
-    };
-    let from_corners = |points: &[[f64; 2]], corners: &[[f64; 2]], compare: &mut dyn FnMut([f64; 2])| {
-        for point in points {
-            for (from, to) in edges(corners) {
-                let [x, y] = nearest_on_segment(from, to, *point);
-                compare([x - point[0], y - point[1]]);
-            }
-        }
-    };
-    from_corners(a, b, &mut compare);
-    from_corners(b, a, &mut |[dx, dy]| compare([-dx, -dy]));
-    let distance = squared.sqrt();
-    let normal = if distance > 0.0 { shortest.map(|x| x / distance) } else { otherwise };
-    Separation { distance, normal, edge_of: None }
-}
-
 /// The separation of parts whose corners are given where they are.
 #[cfg(test)]
 pub(in crate::capture) fn separation_of(a: &[[f64; 2]], b: &[[f64; 2]], radii: f64) -> Separation {
-    let [a, b] = [a, b].map(|corners| {
-        let mut placed = PlacedPart::default();
-        placed.place(&ConvexPart::new(corners.to_vec(), 0.0), [0.0; 2], |corner| corner);
-        placed
-    });
-    separation(&a, &b, radii)
+    let [a, b] = [(a, radii), (b, 0.0)].map(|(corners, radius)| ConvexPart::new(corners.to_vec(), radius));
+    let mut placed = PlacedPart::default();
+    placed.place(&b, [0.0; 2], (0.0, 1.0));
+    separation(&a, &placed)
 }
 
 #[cfg(test)]

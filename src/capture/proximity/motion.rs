@@ -91,6 +91,19 @@ impl FrameState {
         [cos * along - sin * across, sin * along + cos * across]
     }
 
+    /// A vector in inertial axes, in those of the frame.
+    pub(in crate::capture) fn seen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (sin, cos) = self.direction;
+        [cos * x + sin * y, cos * y - sin * x]
+    }
+
+    /// Sine and cosine of the angle from this frame to another.
+    pub(in crate::capture) fn turn_to(&self, other: &Self) -> (f64, f64) {
+        let (sin, cos) = other.direction;
+        let [cos, sin] = self.seen([cos, sin]);
+        (sin, cos)
+    }
+
     fn carried(&self, [angle, x, y]: [f64; 3], rate: f64) -> Self {
         let ([yaw, ox, oy], [omega, vx, vy]) = (self.pose, self.twist);
         let [dx, dy] = self.rotated([x, y]);

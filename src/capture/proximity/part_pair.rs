@@ -35,16 +35,13 @@ pub(in crate::capture) struct PartPair<'a> {
 }
 
 impl PartPair<'_> {
-    /// The separation at one instant; `placed` is working space.
-    pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2], placed: &mut [PlacedPart; 2]) -> Instant {
-        let [_, x, y] = states[0].pose;
-        for ((placed, part), state) in placed.iter_mut().zip(self.parts).zip(&states) {
-            let [_, ox, oy] = state.pose;
-            placed.place(part, [ox - x, oy - y], |vector| state.rotated(vector));
-        }
-        let radii = self.parts[0].radius + self.parts[1].radius;
-        let Separation { distance, normal, edge_of } = separation(&placed[0], &placed[1], radii);
-        Instant { time, distance, normal, edge_of, states }
+    /// The separation at one instant; `placed` is working space, for the second part in the frame of the first.
+    pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2], placed: &mut PlacedPart) -> Instant {
+        let [first, second] = &states;
+        let ([_, x, y], [_, ox, oy]) = (first.pose, second.pose);
+        placed.place(self.parts[1], first.seen([ox - x, oy - y]), first.turn_to(second));
+        let Separation { distance, normal, edge_of } = separation(self.parts[0], placed);
+        Instant { time, distance, normal: first.rotated(normal), edge_of, states }
     }
 
     /// The corners of a part in inertial axes from the position of a frame.
@@ -107,6 +104,13 @@ impl PartPair<'_> {
         self.bound(left, half).min(self.bound(right, -half))
     }
 
+    /// Whether the distance is at least so large between two instants, as far as the bounds of the motion show.
+    pub(in crate::capture) fn is_above(&self, left: &Instant, right: &Instant, level: f64) -> bool {
+        // it falls from both by the speed at most
+        let by_speed = 0.5 * (left.distance + right.distance - self.speed * (right.time - left.time));
+        by_speed >= level || self.lowest(left, right) >= level
+    }
+
     /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;
     /// `None` where it does not, as the bounds of the motion show. The distance is above `-depth` at the start.
     ///
@@ -124,7 +128,7 @@ impl PartPair<'_> {
         let mut rights = vec![instant_at(self, end)];
         while let Some(right) = rights.last() {
             let half = 0.5 * (right.time - left.time);
-            if self.lowest(&left, right) < -depth && !self.is_shortest([left.time, right.time]) {
+            if !self.is_above(&left, right, -depth) && !self.is_shortest([left.time, right.time]) {
                 if divisions == MAX_DIVISIONS {
                     let (what, change) = ("bounds of the distance between an end effector and its target", half);
                     return Err(Error::NotConverged { what, iterations: divisions, change });

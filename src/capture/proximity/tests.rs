@@ -1,7 +1,7 @@
 //! Motions and their bounds against differences of positions; bounds that are attained; first contacts against dense
 //! samples.
 
-use super::convex::{ConvexPart, separation_of};
+use super::convex::{ConvexPart, PlacedPart, separation_of};
 use super::motion::{FrameKinematics, FrameState, MotionBound, velocity_of_base};
 use super::part_pair::{Instant, PartPair};
 use super::workspace::PathWorkspace;
@@ -273,7 +273,7 @@ impl<'a> FreePair<'a> {
             let Body { pose, twist, .. } = body.after(time);
             FrameState::new(pose, twist)
         };
-        self.pair.at(time, self.bodies.each_ref().map(state), &mut Default::default())
+        self.pair.at(time, self.bodies.each_ref().map(state), &mut PlacedPart::default())
     }
 }
 
@@ -350,7 +350,7 @@ fn parts_without_a_bound_are_not_searched_for_ever() {
     let parts = [ConvexPart::point(), ConvexPart::point()];
     let still = |x: f64| Body { mass: 1.0, inertia: 1.0, pose: [0.0, x, 0.0], twist: [0.0; 3] };
     let mut free = FreePair::new(parts.each_ref(), [still(0.0), still(1.0)]);
-    free.pair.acceleration = 1e30;
+    (free.pair.speed, free.pair.acceleration) = (1e30, 1e30);
     let found = free.pair.first_contact([0.0, 100.0], 1e-9, |_, time| free.at(time));
     assert!(matches!(found, Err(Error::NotConverged { iterations: 1_000_000, .. })), "{found:?}");
 }

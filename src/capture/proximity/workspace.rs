@@ -5,13 +5,16 @@ use super::motion::{FrameKinematics, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use crate::simulate::path::PathPart;
 
-/// Most instants whose states are kept: pairs of bodies are looked at one after the other, at the same times.
-const MOST_KEPT: usize = 64;
+/// Places for instants whose states are kept: pairs of bodies are looked at one after the other, at the same times. A power
+/// of two.
+const PLACES: usize = 64;
 
 /// Coordinates and their rates at a time, s, and the states of the frames that were asked for.
 #[derive(Default)]
 struct KnownInstant {
     time: f64,
+    /// The interval that it is of.
+    interval: u64,
     coordinates: [Vec<f64>; 2],
     states: Vec<Option<FrameState>>,
 }
@@ -21,12 +24,17 @@ struct KnownInstant {
 pub(in crate::capture) struct PathWorkspace {
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
-    /// Of which the first `kept` are of this interval.
+    /// Each where its time has its place.
     instants: Vec<KnownInstant>,
-    kept: usize,
-    /// Where the next ones take the place of others.
-    next: usize,
-    placed: [PlacedPart; 2],
+    /// Counts the intervals.
+    interval: u64,
+    placed: PlacedPart,
+}
+
+/// The place of a time, by the highest bits of a product (Fibonacci hashing, Knuth 1998, section 6.4).
+fn place(time: f64) -> usize {
+    let product = time.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    usize::try_from(product >> (u64::BITS - PLACES.ilog2())).unwrap_or_default()
 }
 
 impl PathWorkspace {
@@ -36,7 +44,7 @@ impl PathWorkspace {
             half.resize(part.first_rates().len(), 0.0);
         }
         motions.bounds(part, &mut self.coordinates, &mut self.bounds);
-        (self.kept, self.next) = (0, 0);
+        self.interval += 1;
     }
 
     /// The states of two frames at a time within the interval whose bounds were computed.
@@ -47,24 +55,21 @@ impl PathWorkspace {
         frames: [usize; 2],
         time: f64,
     ) -> [FrameState; 2] {
-        let known = self.instants[..self.kept].iter().rposition(|instant| instant.time.to_bits() == time.to_bits());
-        let place = known.unwrap_or_else(|| {
-            let place = self.next;
-            if place == self.instants.len() {
-                self.instants.push(KnownInstant::default());
-            }
-            let KnownInstant { time: at, coordinates: [positions, rates], states } = &mut self.instants[place];
-            *at = time;
+        if self.instants.is_empty() {
+            self.instants.resize_with(PLACES, KnownInstant::default);
+        }
+        let known = &mut self.instants[place(time)];
+        if known.interval != self.interval || known.time.to_bits() != time.to_bits() {
+            (known.time, known.interval) = (time, self.interval);
+            let [positions, rates] = &mut known.coordinates;
             let size = part.first_rates().len();
             positions.resize(size, 0.0);
             rates.resize(size, 0.0);
             part.at(time, positions, rates);
-            states.clear();
-            states.resize(motions.frames.len(), None);
-            (self.kept, self.next) = (self.kept.max(place + 1), (place + 1) % MOST_KEPT);
-            place
-        });
-        let KnownInstant { coordinates, states, .. } = &mut self.instants[place];
+            known.states.clear();
+            known.states.resize(motions.frames.len(), None);
+        }
+        let KnownInstant { coordinates, states, .. } = known;
         frames.map(|frame| motions.state(frame, time, coordinates, states))
     }
 

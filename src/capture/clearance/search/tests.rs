@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::capture::clearance::bodies::ClearanceBody;
-use crate::capture::proximity::convex::ConvexPart;
+use crate::capture::proximity::convex::{ConvexPart, PlacedPart};
 use crate::capture::proximity::motion::FrameState;
 use crate::outline::Outline;
 
@@ -29,7 +29,7 @@ fn distances_count_for_their_pairs() {
     let shapes = PartPair { parts: [&point, &point], speed: 0.0, acceleration: 0.0 };
     let mut record = |index: usize, distance: f64, time: f64| {
         let at = |x: f64| FrameState::new([0.0, x, 0.0], [0.0; 3]);
-        let instant = shapes.at(time, [at(0.0), at(distance)], &mut Default::default());
+        let instant = shapes.at(time, [at(0.0), at(distance)], &mut PlacedPart::default());
         found.record((index, &pairs[index]), &instant, 5.0);
     };
     for (index, distance, time) in [(1, 3.0, 0.25), (2, 2.0, 0.5), (1, 2.5, 0.75), (0, 9.0, 1.0)] {
