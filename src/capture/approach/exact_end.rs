@@ -134,10 +134,14 @@ impl<R: Trajectory<f64>> JointMotion<'_, R> {
             *rate += sum(weights, &accelerations);
         }
         let mut yaw_rates = [0.0; POINTS];
+        let mut at_point = [vec![0.0; joints], vec![0.0; joints]];
         for (i, yaw_rate) in yaw_rates.iter_mut().enumerate() {
-            let [angles, rates] = [0, 1].map(|k| inner.iter().map(|joint| joint[k][i]).collect::<Vec<_>>());
+            for (k, values) in at_point.iter_mut().enumerate() {
+                values.iter_mut().zip(&inner).for_each(|(value, joint)| *value = joint[k][i]);
+            }
+            let [angles, rates] = &at_point;
             // from the center of mass there is no linear momentum, and no yaw is another one's
-            let twist = self.prescribed.base_twist(self.model, [self.spin, 0.0, 0.0], (&[0.0; 3], &angles, &rates))?;
+            let twist = self.prescribed.base_twist(self.model, [self.spin, 0.0, 0.0], (&[0.0; 3], angles, rates))?;
             *yaw_rate = twist[0];
         }
         Ok(sum(weights, &yaw_rates))

@@ -12,6 +12,8 @@ use nalgebra::DVector;
 const MAX_ITERATIONS: usize = 60;
 /// Largest change of a joint rate in a converged iteration, relative to the largest rate.
 const TOLERANCE: f64 = 1e-13;
+/// Longest secant, in changes of the last iteration: a contraction by half makes it 1.
+const LONGEST: f64 = 1.0;
 /// Largest error of the twists, relative to the largest component.
 const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
@@ -84,7 +86,8 @@ pub struct TerminalRates {
 /// The fixed point of: the end of an exactly tracked approach → final base pose → J⁻¹ → terminal rates → its end.
 ///
 /// The base turns along the path (the robot is non-holonomic), so the final pose depends on the terminal rates, but
-/// weakly: the iteration contracts.
+/// weakly: the iteration contracts. What it depends on is one number, the final yaw of the base, so that the secant
+/// through the last two iterations (Anderson 1965, with one step back) has half of them left.
 ///
 /// # Errors
 /// [`TerminalRatesError`].
@@ -94,11 +97,13 @@ pub fn terminal_rates(
     goals: &[EndEffectorTwistGoal],
     tick: &mut dyn FnMut(),
 ) -> Result<TerminalRates, TerminalRatesError> {
-    let mut rates = vec![0.0; model.joints()];
+    let mut rates = DVector::zeros(model.joints());
+    // the last image and its change
+    let mut before: Option<[DVector<f64>; 2]> = None;
     let (mut change, mut size, mut singularity_margin) = (f64::INFINITY, 0.0, 0.0);
     for iteration in 1..=MAX_ITERATIONS {
         tick();
-        let end = approach.exact_end(model, &rates).map_err(|source| {
+        let end = approach.exact_end(model, rates.as_slice()).map_err(|source| {
             if iteration == 1 {
                 return TerminalRatesError::PhaseError(source);
             }
@@ -113,15 +118,25 @@ pub fn terminal_rates(
             }
             error => error,
         })?;
-        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, x| most.max(x.abs()));
-        change = largest(&mut next.iter().zip(&rates).map(|(a, b)| a - b));
-        size = largest(&mut next.iter().copied());
-        (rates, singularity_margin) = (next, margin);
+        let next = DVector::from_vec(next);
+        let difference = &next - &rates;
+        (change, size, singularity_margin) = (difference.amax(), next.amax(), margin);
         if change <= TOLERANCE * size {
-            return Ok(TerminalRates { joint_rates: rates, singularity_margin, iterations: iteration });
+            let joint_rates = next.data.into();
+            return Ok(TerminalRates { joint_rates, singularity_margin, iterations: iteration });
         }
+        rates = before.as_ref().and_then(|before| secant(before, [&next, &difference])).unwrap_or_else(|| next.clone());
+        before = Some([next, difference]);
     }
     Err(TerminalRatesError::NotConverged { iterations: MAX_ITERATIONS, change })
+}
+
+/// Where the line through the last two changes is nearest to zero, in the line of their images; `None` where they show no
+/// contraction.
+fn secant([image, change]: &[DVector<f64>; 2], [next, next_change]: [&DVector<f64>; 2]) -> Option<DVector<f64>> {
+    let fall = next_change - change;
+    let part = fall.dot(next_change) / fall.norm_squared();
+    (part.abs() <= LONGEST).then(|| next - (next - image) * part)
 }
 
 /// The joint rates that give the desired twists in a state, rad/s, and the singularity margin there.
