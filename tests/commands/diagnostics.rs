@@ -115,6 +115,16 @@ const LAYOUT_EDITS: &[Edit] = &[
         &["`arm[0].link[1].length` is 1e-200", "0 or of a magnitude from 1e-100"],
     ),
     (
+        "length = 1.0\nmass = 10.0\ninertia = 1.05",
+        "length = 1e-5\nmass = 10.0\ninertia = 1e-9",
+        9,
+        &[
+            "`arm[0].link[0].length` is 1e-5",
+            "do not tell the joints at its two ends apart",
+            "by at least 3.550e-9 kg m², 1e-9 times what it carries has: here it is 2.250e-9 kg m²",
+        ],
+    ),
+    (
         "mass = 500.0",
         "mass = 1e15",
         3,

@@ -3,6 +3,7 @@
 //! `urdf_dynamics.py` compares their motion in other simulators.
 
 use crate::said;
+use planar_capture::diagnostic::is_hidden;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::registry;
 use planar_capture::urdf::{ImportOptions, ImportedLayout, export, import};
@@ -564,7 +565,8 @@ fn layouts() -> impl Strategy<Value = Layout> {
         outline: None,
     });
     let angle = prop_oneof![1 => Just(0.0), 1 => Just(PI), 4 => -TAU..TAU];
-    let name = prop_oneof!["[ -~]{0,8}[!-~]", "[a-z_]{1,4}_joint1", "\\PC{1,6}"];
+    let name = prop_oneof!["[ -~]{0,8}[!-~]", "[a-z_]{1,4}_joint1", "\\PC{1,6}"]
+        .prop_filter("hidden characters come back as escape sequences", |name| !name.contains(is_hidden));
     let arm = (name, [number(), number()], angle, vec(link, 1..5));
     let layouts = (positive(), positive(), vec(arm, 1..5)).prop_map(|(mass, inertia, arms)| Layout {
         name: "any".to_owned(),
@@ -576,7 +578,7 @@ fn layouts() -> impl Strategy<Value = Layout> {
     });
     let is_resolved = |layout: &Layout| {
         let refused = Layout::parse(&layout.to_toml(), "layout.toml").err();
-        refused.is_none_or(|report| !report.to_string().contains("16 digits do not resolve"))
+        refused.is_none_or(|report| !report.to_string().contains("16 digits do not "))
     };
     layouts.prop_filter("a body beside which the others are lost", is_resolved)
 }

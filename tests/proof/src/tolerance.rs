@@ -12,6 +12,9 @@ pub const PRINTED_IMPULSE: f64 = 6e-6;
 pub const APPROACH: f64 = 1e-9;
 /// The same 50 s after the impact: angles grow with the error of the rates times the time, 3e-10 measured.
 pub const POST_IMPACT: f64 = 5e-9;
+/// Joint accelerations of a robot with a short link of little inertia, relative to the largest: rounding over the least
+/// ratio of inertias that layouts may have, 1e-9.
+pub const UNRESOLVED_LINK: f64 = 1e-6;
 /// Momentum of robot and targets before and after the exact impact, per unit: rounding of a 9 × 9 solve.
 pub const MOMENTUM_JUMP: f64 = 1e-12;
 /// Two ways to the same velocities after an impact, relative: rounding times the condition of M, below 1e4 here.

@@ -8,7 +8,7 @@ use planar_dynamics::manifest::ParameterKind;
 
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
-use crate::proportion::{Disproportion, Inertia, disproportion};
+use crate::proportion::{Disproportion, Inertia, disproportion, unresolved_link};
 
 pub use keys::FORMAT;
 
@@ -221,7 +221,7 @@ impl Layout {
         self.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max)
     }
 
-    /// A body beside which the others are lost in rounding.
+    /// A body beside which others are lost in rounding, or that is lost beside them.
     fn disproportion(&self) -> Option<Disproportion> {
         let arms = self.arms.iter().enumerate();
         let links: Vec<_> = arms
@@ -231,7 +231,8 @@ impl Layout {
             })
             .collect();
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
-        disproportion(base, &links, self.reach_from_base())
+        let of_arms = || self.arms.iter().enumerate().find_map(|(i, arm)| unresolved_link(i, &arm.links));
+        disproportion(base, &links, self.reach_from_base()).or_else(of_arms)
     }
 
     fn canonical_text(&self) -> String {

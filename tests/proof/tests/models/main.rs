@@ -17,6 +17,7 @@ mod light_last_link;
 mod not_a_number;
 mod references;
 mod scalars;
+mod short_links;
 mod single_precision;
 mod strange_masses;
 mod trajectory;
