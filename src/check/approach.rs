@@ -4,7 +4,8 @@ use super::number::short;
 use super::warning;
 use crate::capture::reach::Reach;
 use crate::diagnostic::Warning;
-use crate::scenario::{FinalRates, Scenario, Tracking};
+use crate::layout::Arm;
+use crate::scenario::{EndEffectorTwistGoal, FinalRates, Scenario, Tracking};
 use std::f64::consts::TAU;
 
 /// Largest joint rate without a warning, rad/s: joints of space robots turn by degrees a second.
@@ -109,10 +110,8 @@ fn terminal_rates(scenario: &Scenario) -> Vec<Warning> {
             .collect()
         }
         FinalRates::EndEffectorTwists(twists) => {
-            let twists = twists.iter().map(|twist| twist.map(|part| part.unwrap_or(0.0)));
-            let fast = twists.zip(&scenario.layout.arms).enumerate().filter(|(_, ([omega, vx, vy], arm))| {
-                omega.abs() > MAX_RATE || libm::hypot(*vx, *vy) > MAX_RATE * arm.reach_from_base()
-            });
+            let of_arms = twists.iter().zip(&scenario.layout.arms).enumerate();
+            let fast = of_arms.filter(|(_, (twist, arm))| rate_of(twist, arm) > MAX_RATE);
             fast.map(|(index, (_, arm))| {
                 let why = format!("faster than {}, stretched, turning once a second", arm.name);
                 let help = "a twist is [ω, vx, vy] in rad/s, m/s, m/s";
@@ -121,6 +120,18 @@ fn terminal_rates(scenario: &Scenario) -> Vec<Warning> {
             .collect()
         }
     }
+}
+
+/// The rate of an end effector, rad/s: the larger one of its own and that of its arm, stretched, at its speed.
+fn rate_of(twist: &EndEffectorTwistGoal, arm: &Arm) -> f64 {
+    let [omega, vx, vy] = twist.map(|part| part.unwrap_or(0.0));
+    omega.abs().max(libm::hypot(vx, vy) / arm.reach_from_base())
+}
+
+/// The largest rate of an end effector at the end of the approach, rad/s; 0 where it is not given.
+pub(super) fn final_rate(scenario: &Scenario) -> f64 {
+    let FinalRates::EndEffectorTwists(twists) = &scenario.approach.end else { return 0.0 };
+    twists.iter().zip(&scenario.layout.arms).map(|(twist, arm)| rate_of(twist, arm)).fold(0.0, f64::max)
 }
 
 /// End effector poses that no configuration reaches, where the arms stretch towards them. (A joint trajectory to them is

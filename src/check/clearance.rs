@@ -19,6 +19,8 @@ use crate::simulate::stepper::Integration;
 const STEPS: f64 = 200.0;
 /// Most steps of a path that needs the scenario's own: a few seconds at most.
 const MAX_STEPS: u64 = 20_000;
+/// Most by which an end effector may turn, rad, of such a path: adaptive steps take a few seconds for it.
+const MAX_TURNED: f64 = 1000.0;
 /// Most distances of one case, which take some tenths of a second.
 const MAX_DISTANCES: u64 = 200_000;
 /// Depth of a reported overlap without a warning, m: end effectors may reach their targets a little from within.
@@ -62,8 +64,14 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     // feedback needs the scenario's steps
     if by_end_effectors {
         let steps = ApproachTracking::new(scenario, scenario.approach.duration).steps();
-        if steps > MAX_STEPS {
-            let why = format!("overlaps along the planned path were not looked for: it takes {steps} steps");
+        let turned = super::approach::final_rate(scenario) * scenario.approach.duration;
+        let reason = if steps > MAX_STEPS {
+            Some(format!("it takes {steps} steps"))
+        } else {
+            (turned > MAX_TURNED).then(|| format!("at its final rate an end effector turns by {} rad", short(turned)))
+        };
+        if let Some(reason) = reason {
+            let why = format!("overlaps along the planned path were not looked for: {reason}");
             return Ok(vec![warning("approach", why, "`run` looks at all of it")]);
         }
     } else {

@@ -349,6 +349,9 @@ fn overlaps_that_fail_a_run_are_warned_of() {
     // a path that takes as long to follow as a run
     let long = read("large_target").replace("duration = 20.0", "duration = 1000.0");
     assert!(shown(&long).contains("were not looked for: it takes 200000 steps"), "{}", shown(&long));
+    // steps in proportion to the turns
+    let fast = read("large_target").replace("twists = [[0.02,", "twists = [[1e3,");
+    assert!(shown(&fast).contains("an end effector turns by 20000 rad"), "{}", shown(&fast));
     // a joint trajectory to poses: the design gives the path
     let designed = |offset: &str| {
         let text = read("spinning_target").replace("contact = [-0.6, 0.0]", &format!("contact = [{offset}]"));
