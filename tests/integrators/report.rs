@@ -43,8 +43,8 @@ alone, and not for `gauss_legendre`, which conserves momentum already.
 | `semi_implicit_euler` | 1 | 1 | rates first, then positions with the new rates |
 | `gauss_legendre` | 6 | 3 per iteration: 8 to 12 iterations, more under a stiff law | Gauss–Legendre collocation with three stages in canonical \
 variables |
-| `adaptive` | 9 | 16 per accepted step, 15 per rejected one, 9 more where x is asked for within a step | Verner's pair \
-9(8) with an interpolant of order 9; each step begins on a polynomial through the last one; `tolerance` per step, relative \
+| `adaptive` | 9 | 16 per accepted step, 15 per rejected one, 9 more where x is asked for within a step: \
+steps end where rows are, unless these are much nearer | Verner's pair 9(8) with an interpolant of order 9; each step begins on a polynomial through the last one; `tolerance` per step, relative \
 and per unit |
 
 Gauss methods conserve invariants that are at most quadratic in the integrated variables. In positions and rates the momenta
