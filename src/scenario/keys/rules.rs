@@ -20,7 +20,8 @@ const VY: NumberRule = NumberRule::any("vy", "m/s").at_most(LARGEST_VELOCITY);
 pub(super) const JOINT_ANGLE: Shape = Shape::Number(NumberRule::any("a joint angle", "rad").not_degrees(LARGEST_ANGLE));
 pub(super) const JOINT_RATE: Shape = Shape::Number(NumberRule::any("a joint rate", "rad/s").at_most(LARGEST_RATE));
 pub(super) const POSITION: Shape = Shape::Vector(&[X, Y]);
-pub(super) const POSE: Shape = Shape::Vector(&[YAW, X, Y]);
+/// Of the base.
+pub(super) const POSE: Shape = Shape::Vector(&[YAW.not_degrees(LARGEST_ANGLE), X, Y]);
 pub(super) const TWIST: Shape = Shape::Vector(&[OMEGA, VX, VY]);
 /// Of an end effector: a pose, a position, or anywhere.
 pub(super) const GOAL: Shape = Shape::OneOf(&[&[YAW, X, Y], &[X, Y], &[]]);
