@@ -32,6 +32,11 @@ pub trait Events {
     /// Those of the model.
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error>;
 
+    /// Whether the phase ends where it starts.
+    fn end_at_start(&self) -> bool {
+        false
+    }
+
     /// Whether [`Events::crossings`] finds them by bounds of the motion, so that none is missed whatever the step.
     fn are_bounded(&self) -> bool {
         false
@@ -47,7 +52,7 @@ pub trait Events {
     }
 }
 
-/// A phase that ends at this time, s since its start.
+/// A phase that ends at this time, s since its start; where it starts, if that is 0.
 #[derive(Clone, Copy, Debug)]
 pub struct EndTime(pub f64);
 
@@ -59,6 +64,10 @@ impl Events for EndTime {
     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
         values.fill(self.0 - now.time);
         Ok(())
+    }
+
+    fn end_at_start(&self) -> bool {
+        self.0 <= 0.0
     }
 }
 

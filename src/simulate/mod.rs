@@ -229,6 +229,7 @@ pub fn simulate(
     let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
     let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let ends_at_start = events.end_at_start();
     let mut locator = EventLocator::new(system, events);
     let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
@@ -238,6 +239,11 @@ pub fn simulate(
     let mut subdivision = Subdivision::new(system, divisions);
     let mut before = x.clone();
     recorder.record_path(0.0, &x);
+    if ends_at_start {
+        stepper.begin_step(0.0, &x).map_err(at(0.0))?;
+        recorder.record(stepper.control(), 0.0, &x, true).map_err(at(0.0))?;
+        return Ok(recorder.end(0.0, Some((0, 0.0)), stepper.path_errors()));
+    }
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
         stepper.begin_step(time, &x).map_err(at(time))?;

@@ -137,6 +137,8 @@ fn rules_of_overlaps() {
             assert_eq!(after > 0.0, !ignored.is_empty());
             let end = case.approach(&stopped).duration + after;
             assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
+            // nothing of what would have come
+            assert!(case.clearance.overlaps.iter().all(|overlap| overlap.span == [first.span[0]; 2]), "{}", case.name);
             let failures = stopped.audit_failures();
             assert!(failures.iter().any(|failure| failure.starts_with(&format!("{}: `", case.name))), "{failures:?}");
         }
@@ -155,6 +157,27 @@ fn rules_of_overlaps() {
         overlaps.iter().any(|overlap| overlap.bodies.iter().all(|body| body.starts_with("targets/")))
     };
     assert!(is_of_targets(&failing) && !is_of_targets(&ignored));
+}
+
+/// Where bodies are inside each other from the start, or from the impact, `"stop"` ends the case there, with one row.
+#[test]
+fn overlaps_at_the_start_stop_the_case_there() {
+    let bar = |name: &str, arm: &str, kind: &str, [x, y]: [f64; 2], spin: f64| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"{kind}\"\nmass = 1.0\ninertia = 0.1\n\
+             polygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\nposition = [{x}, {y}]\ntwist = [{spin}, 0.0, 0.0]\n"
+        )
+    };
+    let both = bar("first", "arm1", "none", [30.0, 0.0], 1.0) + &bar("second", "arm2", "none", [30.1, 0.0], 0.0);
+    for (rule, rows) in [("report", 5), ("stop", 1)] {
+        let text = format!("{both}[clearance]\non_overlap = \"{rule}\"");
+        let study = run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, 0.1, &text), 5.0);
+        let case = &study.cases[0];
+        let approach = case.approach.as_ref().expect("its own");
+        let stopped = (rule == "stop").then_some(0.0);
+        assert_eq!((case.stopped, approach.samples.len()), (stopped, rows), "{rule}");
+        assert_eq!((approach.duration.to_bits() == 0, case.clearance.overlaps.len()), (rule == "stop", 1), "{rule}");
+    }
 }
 
 /// A wheel of a hundred teeth that turns beside a robot with one like it: their circles show that they are apart.

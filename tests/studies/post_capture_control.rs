@@ -50,6 +50,31 @@ fn hold_keeps_the_angles_of_the_capture() {
     }
 }
 
+/// After a rebound the angles of the first impact are held, not those of a later one.
+#[test]
+fn hold_keeps_the_angles_of_the_first_impact() {
+    let mut scenario = scenario("elastic_rebound");
+    let joints = scenario.layout.joints();
+    let post_impact = scenario.post_impact.as_mut().expect("impacts");
+    post_impact.control =
+        PostCaptureControl::Hold { proportional_gain: vec![49.0; joints], derivative_gain: vec![14.0; joints] };
+    post_impact.duration = 40.0;
+    let study = run(&scenario);
+    let mut rebounds = 0;
+    for captured in study.cases.iter().filter_map(|case| case.capture.as_ref()) {
+        let samples = &captured.post_impact.samples;
+        let (first, last) = (&samples[0].state.joint_angles, &samples[samples.len() - 1].state.joint_angles);
+        let difference = |angles: &[f64]| {
+            first.iter().zip(angles).fold(0.0, |most: f64, (first, angle)| most.max((first - angle).abs()))
+        };
+        let Some(impact) = captured.later_impacts.first() else { continue };
+        let at = samples.iter().find(|sample| sample.time >= impact.time).expect("a row at every impact");
+        assert!(difference(&at.state.joint_angles) > 2e-3 && difference(last) < 1e-3, "{:e}", difference(last));
+        rebounds += 1;
+    }
+    assert!(rebounds > 1, "{rebounds}");
+}
+
 #[test]
 fn damping_stops_the_joints_and_leaves_one_body() {
     for captured in study_with(PostCaptureControl::Damping { derivative_gain: vec![7.0; 6] }).1 {

@@ -352,6 +352,23 @@ fn overlaps_that_fail_a_run_are_warned_of() {
     // steps in proportion to the turns
     let fast = read("large_target").replace("twists = [[0.02,", "twists = [[1e3,");
     assert!(shown(&fast).contains("an end effector turns by 20000 rad"), "{}", shown(&fast));
+    // cases that differ by what the contact does alone: the one that has none goes on
+    let passes = "name = \"it\"\nlayout = \"./bars.toml\"\n[initial]\njoint_angles = [0.0, 0.0]\n[approach]\nduration = 2.0\n\
+        trajectory = \"cycloidal\"\nfinal_joint_angles = [0.0, 0.1]\n[clearance]\non_overlap = \"fail\"\n\
+        ignore = [[\"arms/a/link2\", \"targets/t\"]]\n[contact]\ndetection = \"event\"\n[[target]]\nname = \"t\"\narm = \"a\"\n\
+        mass = 5.0\ninertia = 0.1\nkind = \"pin\"\nradius = 0.2\nposition = [2.9, 0.0]\ntwist = [0.0, -1.0, 0.0]\n\
+        [[case]]\nname = \"held\"\n[[case]]\nname = \"missed\"\nkinds = { t = \"none\" }\n[post_impact]\nduration = 5.0\n";
+    let bar = "[[arm.link]]\nlength = 1.0\nmass = 5.0\ninertia = 0.4\noutline = { capsule = 0.05 }\n";
+    let bars = format!(
+        "name = \"bars\"\n[base]\nmass = 100.0\ninertia = 10.0\noutline = {{ disc = 0.4 }}\n[[arm]]\nname = \"a\"\n\
+         mount = [0.5, 0.0]\n{bar}{bar}"
+    );
+    let of_kinds = TempDir::new().expect("a folder");
+    fs::write(of_kinds.path().join("bars.toml"), bars).expect("written");
+    let of_kinds = |text: &str| inspect(text, "it.toml", of_kinds.path(), SHIPPED).expect("valid").warnings.to_string();
+    let inside = "`arms/a/link1` and `targets/t` are inside each other along the planned path";
+    assert!(of_kinds(passes).contains(inside), "{}", of_kinds(passes));
+    assert!(!of_kinds(&passes.replace("\"none\"", "\"pin\"")).contains(inside), "{}", of_kinds(passes));
     // a joint trajectory to poses: the design gives the path
     let designed = |offset: &str| {
         let text = read("spinning_target").replace("contact = [-0.6, 0.0]", &format!("contact = [{offset}]"));

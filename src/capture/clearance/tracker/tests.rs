@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::capture::proximity::convex::ConvexPart;
+use crate::contact::ContactKind;
 use crate::outline::Outline;
 use crate::simulate::path::PathRecorder;
 use crate::simulate::system::Body;
@@ -47,4 +48,31 @@ fn what_comes_near_from_far_away_is_looked_at_again() {
 fn a_curved_path_begins_at_its_interval() {
     let least = least_distance(&[[3.0, 0.0], [3.0, 0.0], [2.5, 0.0], [12.5, 30.0]]);
     assert!((least - 1.0).abs() < 1e-9, "{least}");
+}
+
+/// A body inside a target that two arms are to capture overlaps unless it is of the arm that holds the target.
+#[test]
+fn an_arm_overlaps_with_what_another_one_holds() {
+    let frame = |motion| Frame { name: String::new(), parent: None, pose: [0.0; 3], motion, arm: None };
+    let disc = |frame: usize| ClearanceBody {
+        frame,
+        name: frame.to_string(),
+        parts: ConvexPart::of(&Outline::Disc { center: [0.0; 2], radius: 0.5 }),
+        is_default: false,
+    };
+    let overlaps = |held: &[(usize, usize)]| {
+        let pairs = vec![BodyPair { bodies: [0, 1], contact: Some((1, 0)), group: 0 }];
+        let frames = [FrameMotion::Base, FrameMotion::Target(0)].map(frame).to_vec();
+        let mut tracker = DistanceTracker::new(frames, (0..2).map(disc).collect(), pairs, u64::MAX);
+        let mut path = PathRecorder::new(3);
+        [0.0, 1.0].iter().for_each(|time| path.record(*time, &[0.0; 6]));
+        let target = Body { mass: 1.0, inertia: 1.0, pose: [0.0, 0.3, 0.0], twist: [0.0; 3] };
+        let attachments: Vec<_> = held
+            .iter()
+            .map(|(arm, target)| Attachment { arm: *arm, target: *target, kind: ContactKind::Pin })
+            .collect();
+        tracker.add_phase(&path.end(), 0.0, TargetMotion::Free(&[target]), &attachments).expect("distances");
+        tracker.found.overlaps.len()
+    };
+    assert_eq!([&[][..], &[(0, 0)], &[(1, 1)], &[(1, 0)], &[(0, 0), (1, 0)]].map(overlaps), [1, 1, 1, 0, 0]);
 }
