@@ -138,7 +138,7 @@ fn rules_of_overlaps() {
             let end = case.approach(&stopped).duration + after;
             assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
             // nothing of what would have come
-            assert!(case.clearance.overlaps.iter().all(|overlap| overlap.span == [first.span[0]; 2]), "{}", case.name);
+            assert!(case.clearance.overlaps.iter().all(|overlap| overlap.span[1] <= first.span[0]), "{}", case.name);
             let failures = stopped.audit_failures();
             assert!(failures.iter().any(|failure| failure.starts_with(&format!("{}: `", case.name))), "{failures:?}");
         }

@@ -1,6 +1,5 @@
 //! Masses and inertias of one robot that 16 digits resolve beside each other.
 
-use crate::layout::Link;
 use planar_dynamics::manifest::ParameterKind;
 
 /// Largest ratio of the base's mass to that of all arms together.
@@ -20,6 +19,14 @@ const JOINT_RATIO: f64 = 1e-9;
 pub(crate) struct Inertia {
     pub mass: f64,
     pub inertia: f64,
+}
+
+/// A link, and how far its end and its centre of mass are from its joint, m.
+#[derive(Clone, Copy)]
+pub(crate) struct LinkSize {
+    pub length: f64,
+    pub com_distance: f64,
+    pub body: Inertia,
 }
 
 /// A body that is too heavy or too light for the others: what of it, of which arm and link, its value, and why.
@@ -58,19 +65,18 @@ pub(crate) fn disproportion(base: Inertia, links: &[((usize, usize), Inertia)], 
 }
 
 /// The first link between two joints that 16 digits do not tell apart: it is short, and has next to no inertia.
-pub(crate) fn unresolved_link(arm: usize, links: &[Link]) -> Option<Disproportion> {
+pub(crate) fn unresolved_link(arm: usize, links: &[LinkSize]) -> Option<Disproportion> {
     links.iter().enumerate().find_map(|(i, link)| {
-        let reach = |com: [f64; 2]| libm::hypot(com[0], com[1]);
         let mut distance = 0.0;
         let (mut mass, mut carried) = (0.0, 0.0);
         for beyond in links.iter().skip(i + 1) {
-            let farthest = distance + reach(beyond.com);
-            mass += beyond.mass;
-            carried += beyond.inertia + beyond.mass * farthest * farthest;
+            let farthest = distance + beyond.com_distance;
+            mass += beyond.body.mass;
+            carried += beyond.body.inertia + beyond.body.mass * farthest * farthest;
             distance += beyond.length;
         }
-        let Link { length, mass: own_mass, inertia, com, .. } = link;
-        let alone = inertia + own_mass * reach(*com).powi(2) + mass * length * length;
+        let LinkSize { length, com_distance, body } = link;
+        let alone = body.inertia + body.mass * com_distance * com_distance + mass * length * length;
         let why = format!(
             "16 digits do not tell the joints at its two ends apart, expected a longer link, or one whose inertia and mass \
              · distance² resist its turning by at least {:.3e} kg m², {JOINT_RATIO:e} times what it carries has: here it is \

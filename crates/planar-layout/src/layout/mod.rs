@@ -8,7 +8,7 @@ use planar_dynamics::manifest::ParameterKind;
 
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
-use crate::proportion::{Disproportion, Inertia, disproportion, unresolved_link};
+use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion, unresolved_link};
 
 pub use keys::FORMAT;
 
@@ -231,7 +231,13 @@ impl Layout {
             })
             .collect();
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
-        let of_arms = || self.arms.iter().enumerate().find_map(|(i, arm)| unresolved_link(i, &arm.links));
+        let size = |link: &Link| LinkSize {
+            length: link.length,
+            com_distance: libm::hypot(link.com[0], link.com[1]),
+            body: Inertia { mass: link.mass, inertia: link.inertia },
+        };
+        let sizes = |arm: &Arm| arm.links.iter().map(size).collect::<Vec<_>>();
+        let of_arms = || self.arms.iter().enumerate().find_map(|(i, arm)| unresolved_link(i, &sizes(arm)));
         disproportion(base, &links, self.reach_from_base()).or_else(of_arms)
     }
 

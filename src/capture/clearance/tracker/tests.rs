@@ -65,7 +65,9 @@ fn an_arm_overlaps_with_what_another_one_holds() {
         let frames = [FrameMotion::Base, FrameMotion::Target(0)].map(frame).to_vec();
         let mut tracker = DistanceTracker::new(frames, (0..2).map(disc).collect(), pairs, u64::MAX);
         let mut path = PathRecorder::new(3);
-        [0.0, 1.0].iter().for_each(|time| path.record(*time, &[0.0; 6]));
+        for time in [0.0, 1.0] {
+            path.record(time, &[0.0; 6]);
+        }
         let target = Body { mass: 1.0, inertia: 1.0, pose: [0.0, 0.3, 0.0], twist: [0.0; 3] };
         let attachments: Vec<_> = held
             .iter()
