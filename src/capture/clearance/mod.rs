@@ -20,6 +20,9 @@ use std::fmt::{self, Display, Formatter};
 use std::io;
 use tracker::DistanceTracker;
 
+/// Overlaps that begin within this time begin together, s: a contact is located to 1e-9 s.
+const SAME_TIME: f64 = 1e-8;
+
 /// The least distance of two bodies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -239,7 +242,9 @@ impl ClearanceTracker {
                 }
             }
         }
-        joined.sort_by(|(_, a), (_, b)| a.span[0].total_cmp(&b.span[0]));
+        // what begins together, as links do that a target reaches at their joint, stays in the order of the pairs
+        let begins = |overlap: &Overlap| (overlap.span[0] / SAME_TIME).round();
+        joined.sort_by(|(_, a), (_, b)| begins(a).total_cmp(&begins(b)));
         Clearance {
             least: found.least.iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0)).map(least),
             besides_contacts: found.least.first().and_then(Option::as_ref).map(least),
