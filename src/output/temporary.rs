@@ -42,6 +42,8 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
     loop {
         let folder = builder.tempdir_in(folder)?;
+        #[cfg(unix)]
+        check_mask(folder.path())?;
         let lock = match File::open(folder.path()) {
             Ok(lock) => Some(lock),
             Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
@@ -52,6 +54,20 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
             return Ok(TemporaryFolder { folder, _lock: lock });
         }
     }
+}
+
+/// Removes a folder again that the process's mask has taken from its owner: nothing can be put there, and nobody else may
+/// look whether it is empty.
+#[cfg(unix)]
+fn check_mask(folder: &Path) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    const OWNER: u32 = 0o700;
+    if fs::metadata(folder)?.permissions().mode() & OWNER == OWNER {
+        return Ok(());
+    }
+    fs::remove_dir(folder)?;
+    let why = "the process's mask takes the rights of new folders from their owner: `umask 022` is the usual one";
+    Err(io::Error::new(io::ErrorKind::PermissionDenied, why))
 }
 
 /// Locks a file that was just made; whether it is still there: another process may have taken it for a dead one's

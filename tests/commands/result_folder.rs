@@ -12,7 +12,7 @@ use planar_proof::file;
 use serde_json::Value;
 use std::fs::{self, File};
 use std::path::Path;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 /// The shortest study with a capture, under a name and with these cases.
@@ -292,6 +292,22 @@ fn results_of_a_killed_replacement_are_those_of_a_run() {
         assert_eq!(names(&results), ["a.csv", "b.csv", "summary.json"], "{away}");
         assert_eq!(fs::read(results.join("summary.json")).expect("a summary"), whole);
     }
+}
+
+/// A mask that takes new folders from their owner is said, and nothing of the run stays.
+#[cfg(unix)]
+#[test]
+fn a_mask_that_takes_the_owners_rights_is_refused() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let results = folder.path().join("results").display().to_string();
+    let script = "umask 777; exec \"$0\" run \"$1\" --out \"$2\" --dynamics generated";
+    let run = Command::new("sh").args(["-c", script, env!("CARGO_BIN_EXE_planar-capture"), &one, &results]).output();
+    let run = run.expect("a shell");
+    let said = String::from_utf8(run.stderr).expect("UTF-8");
+    assert_eq!(run.status.code(), Some(2), "{said}");
+    assert!(said.contains("the process's mask takes the rights of new folders from their owner"), "{said}");
+    assert_eq!(names(folder.path()), ["one.toml"]);
 }
 
 /// A run that is killed at any time leaves the results that were there or its own, never a mixture.
