@@ -8,6 +8,7 @@ pub mod contact_at_time;
 pub mod contact_detection;
 pub mod contact_pair;
 pub mod contact_response;
+pub mod heavy_target;
 pub mod impact;
 mod origin;
 pub mod post_capture;
@@ -26,6 +27,7 @@ use crate::capture::approach::inverse_kinematics::{
 };
 use crate::capture::approach::terminal_rates::{TerminalRates, TerminalRatesError, terminal_rates};
 use crate::capture::clearance::{Clearance, ClosestApproach, Exhausted};
+use crate::capture::heavy_target::HeavyTarget;
 use crate::capture::impact::{ImpactResult, ImpactSolution};
 use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
@@ -126,6 +128,8 @@ pub struct CaptureResult {
     pub later_impacts: Vec<LaterImpact>,
     /// Largest penetration of a target by an end effector that does not hold it, m.
     pub penetration: f64,
+    /// What is held at the end, where that is far heavier than the robot; else `None`.
+    pub heavy_target: Option<HeavyTarget>,
     /// The residual motion at the end; `None` without control, as in the paper.
     pub residual_motion: Option<ResidualMotion>,
 }
@@ -411,11 +415,11 @@ impl Study {
         let mut found = Vec::new();
         // the approach without contacts is not part of any case with contact detection
         if self.cases.iter().any(|case| case.approach.is_none()) {
-            found.extend(phase_failures("approach", &self.approach));
+            found.extend(phase_failures("approach", &self.approach, None));
         }
         for case in &self.cases {
             if let Some(own) = &case.approach {
-                found.extend(phase_failures(&format!("{}, approach", case.name), own));
+                found.extend(phase_failures(&format!("{}, approach", case.name), own, None));
             }
             let mut overlaps = case.clearance.failures();
             let named = overlaps.by_ref().take(NAMED_OVERLAPS);
@@ -437,7 +441,8 @@ impl Study {
             let impacts =
                 std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));
             found.extend(impacts.flat_map(|impact| impact_failures(&case.name, &impact.exact)));
-            found.extend(phase_failures(&format!("{}, post-impact", case.name), &captured.post_impact));
+            let name = format!("{}, post-impact", case.name);
+            found.extend(phase_failures(&name, &captured.post_impact, captured.heavy_target.as_ref()));
         }
         found
     }
@@ -463,9 +468,10 @@ fn impact_failures(case: &str, exact: &ImpactResult) -> Vec<String> {
     found
 }
 
-fn phase_failures(name: &str, phase: &Phase) -> Vec<String> {
+fn phase_failures(name: &str, phase: &Phase, heavy: Option<&HeavyTarget>) -> Vec<String> {
+    let drift = "momentum drift";
     let checks = [
-        ("momentum drift", phase.drift.momentum_drift, MOMENTUM_BOUND),
+        (drift, phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
         ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
         ("path error", phase.path_error, PATH_BOUND),
@@ -473,7 +479,10 @@ fn phase_failures(name: &str, phase: &Phase) -> Vec<String> {
         ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
     let out_of_bound = checks.into_iter().filter(|(_, value, bound)| exceeds(*value, *bound));
-    let drifts = out_of_bound.map(|(what, value, bound)| format!("{what} {value:.2e} is over its bound {bound:.0e}"));
+    let drifts = out_of_bound.map(|(what, value, bound)| {
+        let remedy = heavy.filter(|_| what == drift).map(|heavy| format!("; {}", heavy.remedy())).unwrap_or_default();
+        format!("{what} {value:.2e} is over its bound {bound:.0e}{remedy}")
+    });
     let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
     drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()
 }

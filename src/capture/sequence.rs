@@ -6,6 +6,7 @@ use crate::capture::clearance::{ClearanceError, ClearanceTracker};
 use crate::capture::contact_at_time::{ImpactContact, contact_at_time};
 use crate::capture::contact_detection::{ContactDetection, signed_distance};
 use crate::capture::contact_pair::ContactPair;
+use crate::capture::heavy_target::HeavyTarget;
 use crate::capture::impact::{ImpactSolution, solve_impact};
 use crate::capture::post_capture::wheels;
 use crate::capture::residual_motion::ResidualMotion;
@@ -195,7 +196,16 @@ impl<'a> CaptureSequence<'a> {
         let (law, _) = self.post_capture_law(after);
         let residual_motion = if law.acts() { Some(moving.residual_motion(law, &post_impact)?) } else { None };
         let penetration = clearance.penetration();
-        Ok(CaptureResult { impact, post_impact, targets: target_paths, later_impacts, penetration, residual_motion })
+        let heavy_target = HeavyTarget::of(self.scenario, &moving.assembly, &moving.targets, after.integration);
+        Ok(CaptureResult {
+            impact,
+            post_impact,
+            targets: target_paths,
+            later_impacts,
+            penetration,
+            heavy_target,
+            residual_motion,
+        })
     }
 
     /// The law of the motion after the impact, and one's own laws if it is one of these.

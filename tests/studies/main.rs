@@ -10,6 +10,7 @@ mod convergence;
 mod events;
 mod far_origin;
 mod figures;
+mod heavy_target;
 mod inverse_kinematics;
 mod laws;
 mod long_phases;

@@ -96,6 +96,9 @@ pub const EVENT_TIME: f64 = 1e-12;
 pub const LONG_STEPS: f64 = 1e-6;
 /// Least distances and depths, m: the resolution of the search.
 pub const CLEARANCE: f64 = 1e-6;
+/// Joint angles, rad, after a minute of motion on a target of 1e5 times the robot's mass and on one of 1e7: the share of the
+/// robot in the motion of the first, and what the motion makes of it.
+pub const HEAVY_TARGETS: f64 = 1e-3;
 /// Time of an event that passes zero by a nanometre, s: the value decreases by 2e-5 m/s there, and rounding over 600
 /// steps is 1e-12 m.
 pub const GRAZING: f64 = 1e-7;

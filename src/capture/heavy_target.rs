@@ -1,0 +1,66 @@
+//! A target that is merged with the robot and so heavy that the momentum is not conserved as usual, and what helps.
+
+use crate::capture::assembly::{Assembly, TargetPlacement};
+use crate::scalar::Real;
+use crate::scenario::Scenario;
+use crate::simulate::stepper::{Formulation, Integration};
+use crate::simulate::system::Body;
+
+/// Mass over the robot's from which the errors of the base's and joints' rates, times the target's mass, are seen in the
+/// momentum. At the default tolerance drifts of a target at rest exceed their bound from some 100.
+const FROM: f64 = 100.0;
+
+/// Mass over the robot's, or inertia over the robot's mass · reach², up to which the momentum is conserved within its bound
+/// whatever the motion. The target's velocity is a difference of those of base and joints, rounded to some 1e-16 of these.
+/// Where the target is all but at rest, its momentum is that of the robot, of which that rounding is 5e-15 times the
+/// ratio (measured, 1e3 to 1e8): 1e-9 at 2e5.
+const MOST: f64 = 1e5;
+
+/// Of the targets that are merged with the robot, how far the heaviest is from what double precision resolves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeavyTarget {
+    /// Its mass over the robot's.
+    pub mass: f64,
+    /// The largest inertia over the robot's mass · reach².
+    pub inertia: f64,
+    /// Whether reduced coordinates could integrate the motion and do not.
+    pub is_reducible: bool,
+}
+
+impl HeavyTarget {
+    /// Of an assembly and its targets in a phase; `None` where none is far heavier than the robot.
+    pub(crate) fn of(scenario: &Scenario, assembly: &Assembly, targets: &[Body], by: Integration) -> Option<Self> {
+        let (robot, reach) = (scenario.layout.mass(), scenario.reach());
+        let merged = targets.iter().zip(&assembly.places);
+        let merged = merged.filter(|(_, place)| matches!(place, TargetPlacement::Merged { .. }));
+        let sizes = merged.map(|(body, _)| [body.mass / robot, body.inertia / (robot * reach * reach)]);
+        let [mass, inertia] = sizes.fold([0.0; 2], |most, size| [0, 1].map(|i| Real::maximum(most[i], size[i])));
+        let is_alone = assembly.bodies.is_empty() && assembly.constraints.is_empty();
+        let is_full = by.coordinates == Formulation::Full && !by.integrator.properties().is_canonical;
+        (mass > FROM || inertia > MOST).then_some(Self { mass, inertia, is_reducible: is_alone && is_full })
+    }
+
+    /// What a drift of the momentum follows from, and what helps.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        let Self { mass, inertia, is_reducible } = *self;
+        let beyond = [(mass, "mass"), (inertia, "mass · reach²")].into_iter().find(|(ratio, _)| *ratio > MOST);
+        if let Some((ratio, what)) = beyond {
+            let till_there =
+                if is_reducible { " `post_impact.coordinates = \"reduced\"` does up to there," } else { "" };
+            return format!(
+                "the robot holds a target of {ratio:.1e} times its {what}, and beyond {MOST:.0e} times double precision does \
+                 not resolve the momentum of one that is all but at rest;{till_there} and a target of {MOST:.0e} times moves \
+                 the robot alike"
+            );
+        }
+        let help = if is_reducible {
+            "`post_impact.coordinates = \"reduced\"` conserves the momentum"
+        } else {
+            "a smaller `post_impact.tolerance` makes it less"
+        };
+        format!(
+            "the robot holds a target of {mass:.1e} times its mass, by which the errors of rates are multiplied: {help}"
+        )
+    }
+}
