@@ -38,8 +38,18 @@ pub(crate) struct Disproportion {
     pub why: String,
 }
 
-/// The first body beside which the others are lost; `links` are those of all arms, with the indices of arm and link.
-pub(crate) fn disproportion(base: Inertia, links: &[((usize, usize), Inertia)], reach: f64) -> Option<Disproportion> {
+/// The first body beside which the others are lost, or else the first link that is lost beside them; of the arms the
+/// links.
+pub(crate) fn disproportion(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
+    let of_arm = |(arm, links): (usize, &Vec<LinkSize>)| unresolved_link(arm, links);
+    too_heavy(base, arms, reach).or_else(|| arms.iter().enumerate().find_map(of_arm))
+}
+
+fn too_heavy(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
+    let of_arm = |(i, links): (usize, &Vec<LinkSize>)| {
+        links.iter().enumerate().map(|(k, link)| ((i, k), link.body)).collect::<Vec<_>>()
+    };
+    let links: Vec<_> = arms.iter().enumerate().flat_map(of_arm).collect();
     let arms: f64 = links.iter().map(|(_, link)| link.mass).sum();
     if base.mass > BASE_RATIO * arms {
         let wanted = format!("{:.3e} kg, {BASE_RATIO:e} times the mass of all arms", BASE_RATIO * arms);
@@ -65,7 +75,7 @@ pub(crate) fn disproportion(base: Inertia, links: &[((usize, usize), Inertia)], 
 }
 
 /// The first link between two joints that 16 digits do not tell apart: it is short, and has next to no inertia.
-pub(crate) fn unresolved_link(arm: usize, links: &[LinkSize]) -> Option<Disproportion> {
+fn unresolved_link(arm: usize, links: &[LinkSize]) -> Option<Disproportion> {
     links.iter().enumerate().find_map(|(i, link)| {
         let mut distance = 0.0;
         let (mut mass, mut carried) = (0.0, 0.0);
@@ -77,14 +87,15 @@ pub(crate) fn unresolved_link(arm: usize, links: &[LinkSize]) -> Option<Dispropo
         }
         let LinkSize { length, com_distance, body } = link;
         let alone = body.inertia + body.mass * com_distance * com_distance + mass * length * length;
-        let why = format!(
-            "16 digits do not tell the joints at its two ends apart, expected a longer link, or one whose inertia and mass \
-             · distance² resist its turning by at least {:.3e} kg m², {JOINT_RATIO:e} times what it carries has: here it is \
-             {alone:.3e} kg m²",
-            JOINT_RATIO * carried
-        );
-        let unresolved = Disproportion { kind: ParameterKind::LinkLength, arm, link: i, value: *length, why };
-        (alone < JOINT_RATIO * carried).then_some(unresolved)
+        let least = JOINT_RATIO * carried;
+        (alone < least).then(|| {
+            let why = format!(
+                "16 digits do not tell the joints at its two ends apart, expected a longer link, or one whose inertia and \
+                 mass · distance² resist its turning by at least {least:.3e} kg m², {JOINT_RATIO:e} times what it carries \
+                 has: here it is {alone:.3e} kg m²"
+            );
+            Disproportion { kind: ParameterKind::LinkLength, arm, link: i, value: *length, why }
+        })
     })
 }
 

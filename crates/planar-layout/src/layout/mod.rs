@@ -8,7 +8,7 @@ use planar_dynamics::manifest::ParameterKind;
 
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
-use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion, unresolved_link};
+use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion};
 
 pub use keys::FORMAT;
 
@@ -223,22 +223,14 @@ impl Layout {
 
     /// A body beside which others are lost in rounding, or that is lost beside them.
     fn disproportion(&self) -> Option<Disproportion> {
-        let arms = self.arms.iter().enumerate();
-        let links: Vec<_> = arms
-            .flat_map(|(i, arm)| {
-                let links = arm.links.iter().enumerate();
-                links.map(move |(k, link)| ((i, k), Inertia { mass: link.mass, inertia: link.inertia }))
-            })
-            .collect();
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
         let size = |link: &Link| LinkSize {
             length: link.length,
             com_distance: libm::hypot(link.com[0], link.com[1]),
             body: Inertia { mass: link.mass, inertia: link.inertia },
         };
-        let sizes = |arm: &Arm| arm.links.iter().map(size).collect::<Vec<_>>();
-        let of_arms = || self.arms.iter().enumerate().find_map(|(i, arm)| unresolved_link(i, &sizes(arm)));
-        disproportion(base, &links, self.reach_from_base()).or_else(of_arms)
+        let arms: Vec<Vec<_>> = self.arms.iter().map(|arm| arm.links.iter().map(size).collect()).collect();
+        disproportion(base, &arms, self.reach_from_base())
     }
 
     fn canonical_text(&self) -> String {
