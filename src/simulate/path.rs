@@ -33,6 +33,12 @@ pub struct PathInterval<'a> {
     pub end: [&'a [f64]; 2],
 }
 
+/// What a path has of an integrated vector: positions and rates, one after the other.
+pub(super) fn path_state(x: &[f64]) -> &[f64] {
+    let (halves, _) = x.split_at(x.len() - 3);
+    halves
+}
+
 /// Numbers of a knot with so many positions: time, positions, rates.
 fn record(size: usize) -> usize {
     1 + 2 * size

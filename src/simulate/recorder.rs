@@ -6,7 +6,7 @@ use crate::owned::RobotState;
 use crate::scalar::Real;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::limits::LimitViolations;
-use crate::simulate::path::PathRecorder;
+use crate::simulate::path::{PathRecorder, path_state};
 use crate::simulate::sample_list::SampleList;
 use crate::simulate::stepper::PathErrors;
 use crate::simulate::stored_samples::StoredSamples;
@@ -92,8 +92,7 @@ impl<'a> Recorder<'a> {
 
     /// Adds a state to the path.
     pub(crate) fn record_path(&mut self, time: f64, x: &[f64]) {
-        let (halves, _) = x.split_at(x.len() - 3);
-        self.path.record(time, halves);
+        self.path.record(time, path_state(x));
     }
 
     /// Adds the length of a step, s, to the saturation of the actuators that were saturated at its start.

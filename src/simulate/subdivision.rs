@@ -7,7 +7,7 @@
 
 use crate::error::Error;
 use crate::simulate::continued_motion::ContinuedMotion;
-use crate::simulate::path::{PathInterval, PathPart};
+use crate::simulate::path::{PathInterval, PathPart, path_state};
 use crate::simulate::stepper::StateAt;
 use crate::simulate::system::System;
 use crate::state::{split, split_mut};
@@ -77,7 +77,7 @@ impl Subdivision {
         self.spare.extend(before.map(|(_, state)| state));
         self.push(span[0], start);
         if self.divisions > 0 {
-            self.continued.push(span, [start, end].map(|x| x.split_at(x.len() - 3).0));
+            self.continued.push(span, [start, end].map(path_state));
         }
         if self.divisions == 0 || is_reproduced {
             self.push(span[1], end);
@@ -101,9 +101,12 @@ impl Subdivision {
     fn is_continued(&mut self, [from, to]: [f64; 2], start: &[f64]) -> Result<bool, Error> {
         let [positions, rates] = &mut self.found;
         let Some(share) = self.continued.start_by_others([positions, rates]) else { return Ok(false) };
-        self.continued.follow();
         let start = split(start)?;
-        Ok(self.is_found(to - from, [start.positions, start.rates], MARGIN * share))
+        let is_continued = self.is_found(to - from, [start.positions, start.rates], MARGIN * share);
+        if is_continued {
+            self.continued.follow();
+        }
+        Ok(is_continued)
     }
 
     fn push(&mut self, time: f64, state: &[f64]) {
