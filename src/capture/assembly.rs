@@ -158,7 +158,11 @@ impl Assembly {
 }
 
 /// A vector rotated by an angle, rad.
-pub(crate) fn rotated([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
-    let (sin, cos) = libm::sincos(angle);
+pub(crate) fn rotated(vector: [f64; 2], angle: f64) -> [f64; 2] {
+    turned(vector, libm::sincos(angle))
+}
+
+/// A vector rotated by an angle of this sine and cosine.
+pub(crate) fn turned([x, y]: [f64; 2], (sin, cos): (f64, f64)) -> [f64; 2] {
     [cos * x - sin * y, sin * x + cos * y]
 }

@@ -1,5 +1,6 @@
 //! Convex parts of outlines, and the signed distance of two of them.
 
+use crate::capture::assembly::turned;
 use crate::outline::{Outline, edges, farthest};
 use earcut::Earcut;
 
@@ -36,15 +37,14 @@ pub(in crate::capture) struct PlacedPart {
 
 impl PlacedPart {
     /// Places a part whose frame has its origin at [x, y] and is turned by an angle of this sine and cosine.
-    pub(in crate::capture) fn place(&mut self, part: &ConvexPart, [x, y]: [f64; 2], (sin, cos): (f64, f64)) {
-        let rotated = |[along, across]: [f64; 2]| [cos * along - sin * across, sin * along + cos * across];
+    pub(in crate::capture) fn place(&mut self, part: &ConvexPart, [x, y]: [f64; 2], turn: (f64, f64)) {
         self.corners.clear();
         self.corners.extend(part.corners.iter().map(|corner| {
-            let [dx, dy] = rotated(*corner);
+            let [dx, dy] = turned(*corner, turn);
             [x + dx, y + dy]
         }));
         self.axes.clear();
-        self.axes.extend(part.axes.iter().map(|axis| Axis { normal: rotated(axis.normal), ..*axis }));
+        self.axes.extend(part.axes.iter().map(|axis| Axis { normal: turned(axis.normal, turn), ..*axis }));
         self.radius = part.radius;
     }
 }

@@ -1,6 +1,6 @@
 //! Poses, twists and bounds of the motion of all frames over an interval of a path.
 
-use crate::capture::assembly::TargetPlacement;
+use crate::capture::assembly::{TargetPlacement, turned};
 use crate::capture::target_motion::TargetMotion;
 use crate::frames::{Frame, FrameMotion};
 use crate::scalar::Scalar;
@@ -86,15 +86,14 @@ impl FrameState {
     }
 
     /// A point of the frame from its origin, in inertial axes.
-    pub(in crate::capture) fn rotated(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let (sin, cos) = self.direction;
-        [cos * along - sin * across, sin * along + cos * across]
+    pub(in crate::capture) fn rotated(&self, point: [f64; 2]) -> [f64; 2] {
+        turned(point, self.direction)
     }
 
     /// A vector in inertial axes, in those of the frame.
-    pub(in crate::capture) fn seen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(in crate::capture) fn seen(&self, vector: [f64; 2]) -> [f64; 2] {
         let (sin, cos) = self.direction;
-        [cos * x + sin * y, cos * y - sin * x]
+        turned(vector, (-sin, cos))
     }
 
     /// Sine and cosine of the angle from this frame to another.

@@ -99,7 +99,7 @@ impl PartPair<'_> {
     }
 
     /// A lower bound of the distance between two instants, at which it may be lower.
-    pub(in crate::capture) fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
+    fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
         let half = 0.5 * (right.time - left.time);
         self.bound(left, half).min(self.bound(right, -half))
     }
