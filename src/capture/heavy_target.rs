@@ -35,7 +35,7 @@ impl HeavyTarget {
         let merged = merged.filter(|(_, place)| matches!(place, TargetPlacement::Merged { .. }));
         let sizes = merged.map(|(body, _)| [body.mass / robot, body.inertia / (robot * reach * reach)]);
         let [mass, inertia] = sizes.fold([0.0; 2], |most, size| [0, 1].map(|i| Real::maximum(most[i], size[i])));
-        let is_alone = assembly.bodies.is_empty() && assembly.constraints.is_empty();
+        let is_alone = assembly.system().beside() == 0;
         let is_full = by.coordinates == Formulation::Full && !by.integrator.properties().is_canonical;
         (mass > FROM || inertia > MOST).then_some(Self { mass, inertia, is_reducible: is_alone && is_full })
     }

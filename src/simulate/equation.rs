@@ -84,7 +84,7 @@ impl FormulationWorkspace {
     /// Reduced coordinates, with the momentum of `x`; [`Error::UnsupportedBodies`] where there are bodies beside the
     /// robot.
     pub(crate) fn reduced(system: &System<'_>, x: &[f64]) -> Result<Self, Error> {
-        let count = system.bodies.len() + system.constraints.len();
+        let count = system.beside();
         if count > 0 {
             return Err(Error::UnsupportedBodies { count });
         }

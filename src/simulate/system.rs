@@ -37,6 +37,11 @@ impl<'a> System<'a> {
         Self { model, bodies: &[], constraints: &[], joint_limits: &[], reach: 1.0, start_error: [&[]; 2] }
     }
 
+    /// The number of bodies and constraints beside the robot: 0 where it moves alone.
+    pub(crate) fn beside(&self) -> usize {
+        self.bodies.len() + self.constraints.len()
+    }
+
     /// The integrated vector at the start, from the robot's state.
     ///
     /// # Errors
