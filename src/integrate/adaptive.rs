@@ -19,8 +19,8 @@ const MOST_REJECTED: u32 = 100;
 ///
 /// Steps are as long as the error estimate allows, `|error| ≤ tolerance (1 + |x|)` per step for every entry of x. They end
 /// at a requested time where somewhat shorter ones do, and otherwise continue beyond it, where x comes from the
-/// interpolant. An accepted step takes 16 evaluations, a
-/// rejected one 15; the first time within a step for which x is asked takes 9 more. Steps take no memory.
+/// interpolant. An accepted step takes 16 evaluations, a rejected one 15; the first time within a step for which x is
+/// asked takes 9 more. Steps take no memory.
 #[derive(Debug)]
 pub struct Adaptive {
     tolerance: f64,
