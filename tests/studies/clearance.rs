@@ -162,13 +162,14 @@ fn rules_of_overlaps() {
 /// Where bodies are inside each other from the start, or from the impact, `"stop"` ends the case there, with one row.
 #[test]
 fn overlaps_at_the_start_stop_the_case_there() {
-    let bar = |name: &str, arm: &str, kind: &str, [x, y]: [f64; 2], spin: f64| {
+    let square = |name: &str, arm: &str, x: f64, spin: f64| {
         format!(
-            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"{kind}\"\nmass = 1.0\ninertia = 0.1\n\
-             polygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\nposition = [{x}, {y}]\ntwist = [{spin}, 0.0, 0.0]\n"
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"none\"\nmass = 1.0\ninertia = 0.1\n\
+             polygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\nposition = [{x}, 0.0]\n\
+             twist = [{spin}, 0.0, 0.0]\n"
         )
     };
-    let both = bar("first", "arm1", "none", [30.0, 0.0], 1.0) + &bar("second", "arm2", "none", [30.1, 0.0], 0.0);
+    let both = square("first", "arm1", 30.0, 1.0) + &square("second", "arm2", 30.1, 0.0);
     for (rule, rows) in [("report", 5), ("stop", 1)] {
         let text = format!("{both}[clearance]\non_overlap = \"{rule}\"");
         let study = run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, 0.1, &text), 5.0);

@@ -7,17 +7,20 @@ use crate::outline::Outline;
 use crate::simulate::path::PathRecorder;
 use crate::simulate::system::Body;
 
+fn frame(motion: FrameMotion) -> Frame {
+    Frame { name: String::new(), parent: None, pose: [0.0; 3], motion, arm: None }
+}
+
+/// A disc of 0.5 m about the origin of a frame.
+fn disc(frame: usize) -> ClearanceBody {
+    let parts = ConvexPart::of(&Outline::Disc { center: [0.0; 2], radius: 0.5 });
+    ClearanceBody { frame, name: frame.to_string(), parts, is_default: false }
+}
+
 /// The least distance of a base that moves along x, a disc, and of two discs at rest, 1 m apart. `knots` are the
 /// distance of the base from the first disc and its rate, each second.
 fn least_distance(knots: &[[f64; 2]]) -> f64 {
-    let frame = |motion| Frame { name: String::new(), parent: None, pose: [0.0; 3], motion, arm: None };
     let frames = [FrameMotion::Base, FrameMotion::Target(0), FrameMotion::Target(1)].map(frame).to_vec();
-    let disc = |frame: usize| ClearanceBody {
-        frame,
-        name: frame.to_string(),
-        parts: ConvexPart::of(&Outline::Disc { center: [0.0; 2], radius: 0.5 }),
-        is_default: false,
-    };
     let pair = |bodies| BodyPair { bodies, contact: None, group: 0 };
     let pairs = vec![pair([0, 1]), pair([1, 2])];
     let mut tracker = DistanceTracker::new(frames, (0..3).map(disc).collect(), pairs, u64::MAX);
@@ -53,13 +56,6 @@ fn a_curved_path_begins_at_its_interval() {
 /// A body inside a target that two arms are to capture overlaps unless it is of the arm that holds the target.
 #[test]
 fn an_arm_overlaps_with_what_another_one_holds() {
-    let frame = |motion| Frame { name: String::new(), parent: None, pose: [0.0; 3], motion, arm: None };
-    let disc = |frame: usize| ClearanceBody {
-        frame,
-        name: frame.to_string(),
-        parts: ConvexPart::of(&Outline::Disc { center: [0.0; 2], radius: 0.5 }),
-        is_default: false,
-    };
     let overlaps = |held: &[(usize, usize)]| {
         let pairs = vec![BodyPair { bodies: [0, 1], contact: Some((1, 0)), group: 0 }];
         let frames = [FrameMotion::Base, FrameMotion::Target(0)].map(frame).to_vec();

@@ -2,8 +2,8 @@
 //! having no result, in every instruction set that the processor has, for one robot and for as many as instances.
 #![cfg(not(feature = "fused"))]
 
+use crate::evaluator;
 use planar_capture::build::evaluator::{Batch, CallError, Evaluator, InstructionSet, Order, Status};
-use planar_capture::build::graph;
 use planar_capture::error::Error;
 use planar_capture::evaluation::EvaluationInput;
 use planar_capture::layout::Layout;
@@ -19,11 +19,6 @@ use std::sync::Arc;
 
 /// What results are before a batch.
 const UNTOUCHED: f64 = 7.0;
-
-fn evaluator(name: &str) -> Arc<Evaluator> {
-    let text = fs::read_to_string(file(&format!("codegen/graphs/{name}.json"))).expect("a graph");
-    Arc::new(Evaluator::new(&graph::read_any(&text).expect("sound")).expect("all functions"))
-}
 
 fn layout(name: &str) -> Layout {
     let text = fs::read_to_string(file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
@@ -244,7 +239,7 @@ const SETS: [InstructionSet; 3] = [InstructionSet::Detected, InstructionSet::Avx
 #[test]
 fn batches_of_all_layouts_have_the_bits_of_their_code() {
     for (index, name) in registry::GENERATED.iter().enumerate() {
-        let (evaluator, layout) = (evaluator(name), layout(name));
+        let (evaluator, layout) = (evaluator("graphs", name), layout(name));
         for own in [true, false] {
             let all = instances(&layout, 171, own);
             let results = check(&evaluator, &all, own, ORDERS[index % 2], InstructionSet::Detected);
@@ -256,7 +251,7 @@ fn batches_of_all_layouts_have_the_bits_of_their_code() {
 /// Blocks of all sizes and what is left of them, in every order and instruction set.
 #[test]
 fn batches_of_any_number_have_the_bits_of_their_code() {
-    let (evaluator, layout) = (evaluator("dual_arm_2r"), layout("dual_arm_2r"));
+    let (evaluator, layout) = (evaluator("graphs", "dual_arm_2r"), layout("dual_arm_2r"));
     for own in [true, false] {
         let all = instances(&layout, 150, own);
         for count in [0, 1, 2, 3, 7, 8, 9, 15, 16, 17, 31, 63, 64, 65, 88, 150] {
@@ -272,7 +267,7 @@ fn batches_of_any_number_have_the_bits_of_their_code() {
 /// Functions that no trait has, too: for each instance alone, and for all of them.
 #[test]
 fn batches_of_one_have_the_bits_of_batches_of_many() {
-    let (evaluator, layout) = (evaluator("dual_arm_3r"), layout("dual_arm_3r"));
+    let (evaluator, layout) = (evaluator("graphs", "dual_arm_3r"), layout("dual_arm_3r"));
     let model = evaluator.model(&layout).expect("its structure");
     let all = instances(&layout, 100, false);
     let angles: Vec<f64> = all.iter().flat_map(|i| input("joint_angles", &i.instant)).collect();
@@ -296,7 +291,7 @@ fn batches_of_one_have_the_bits_of_batches_of_many() {
 
 #[test]
 fn parameters_that_are_not_finite_are_given_so() {
-    let (evaluator, layout) = (evaluator("single_arm_2r"), layout("single_arm_2r"));
+    let (evaluator, layout) = (evaluator("graphs", "single_arm_2r"), layout("single_arm_2r"));
     let mut numbers =
         [parameters(evaluator.structure(), &layout).expect("its structure"), Vec::new()].concat().repeat(20);
     numbers[3] = f64::NAN;
@@ -313,7 +308,7 @@ fn parameters_that_are_not_finite_are_given_so() {
 
 #[test]
 fn calls_that_do_not_fit_are_refused() {
-    let evaluator = evaluator("single_arm_2r");
+    let evaluator = evaluator("graphs", "single_arm_2r");
     let model = evaluator.model(&layout("single_arm_2r")).expect("its structure");
     let (mut poses, mut statuses) = ([UNTOUCHED; 6], [Status::Singular; 2]);
     let mut refused = |batch: Batch<'_>, name: &str, inputs: &[&[f64]], outputs: usize| {

@@ -1,6 +1,6 @@
 //! Models that evaluate graphs: the bits of the code that is rendered from them.
 
-use planar_capture::build::evaluator::Evaluator;
+use crate::evaluator;
 use planar_capture::build::graph;
 use planar_capture::evaluation::evaluate_all;
 use planar_capture::generate;
@@ -12,15 +12,9 @@ use planar_capture::sampling::REGIMES;
 use planar_proof::file;
 use serde_json::Value;
 use std::fs;
-use std::sync::Arc;
 
 /// Samples of each regime.
 const SAMPLES: u64 = 20;
-
-fn evaluator(name: &str) -> Arc<Evaluator> {
-    let text = fs::read_to_string(file(&format!("codegen/graphs/{name}.json"))).expect("a graph");
-    Arc::new(Evaluator::new(&graph::read_any(&text).expect("sound")).expect("all functions"))
-}
 
 /// The bits of every quantity, or the error.
 fn bits(
@@ -37,7 +31,7 @@ fn bits(
 #[test]
 fn graphs_have_the_bits_of_their_code() {
     for name in registry::GENERATED {
-        let evaluator = evaluator(name);
+        let evaluator = evaluator("graphs", name);
         let text = fs::read_to_string(file(&format!("codegen/layouts/{name}.toml"))).expect("a layout");
         let layout = Layout::parse(&text, name).expect("a layout");
         for regime in REGIMES {

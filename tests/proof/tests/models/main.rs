@@ -21,3 +21,15 @@ mod short_links;
 mod single_precision;
 mod strange_masses;
 mod trajectory;
+
+use planar_capture::build::evaluator::Evaluator;
+use planar_capture::build::graph;
+use planar_proof::file;
+use std::fs;
+use std::sync::Arc;
+
+/// The evaluator of a graph of a folder of `codegen`.
+fn evaluator(folder: &str, name: &str) -> Arc<Evaluator> {
+    let text = fs::read_to_string(file(&format!("codegen/{folder}/{name}.json"))).expect("a graph");
+    Arc::new(Evaluator::new(&graph::read_any(&text).expect("sound")).expect("all functions"))
+}

@@ -1,22 +1,18 @@
 //! Short links with next to no inertia between two joints: what is not refused is right to 1e-6.
 
-use planar_build::evaluator::Evaluator;
-use planar_build::graph;
+use crate::evaluator;
 use planar_capture::dynamics::ForwardDynamics;
 use planar_capture::layout::Layout;
 use planar_capture::registry::generic;
 use planar_capture::state::{Forces, State};
 use planar_proof::{file, tolerance};
-use std::fs;
-use std::sync::Arc;
 
 /// Joint accelerations of the evaluated graph, which has no factorisation of the whole robot, against those of the generic
 /// implementation, which has: their difference grows as the inertia beside a joint falls, and is refused before it is seen.
 #[test]
 fn links_that_are_not_refused_are_resolved() {
     let mut layout = Layout::read(&file("codegen/structures/general_1x3.toml")).expect("a layout");
-    let text = fs::read_to_string(file("codegen/structures/general_1x3.json")).expect("a graph");
-    let evaluator = Arc::new(Evaluator::new(&graph::read_any(&text).expect("sound")).expect("all functions"));
+    let evaluator = evaluator("structures", "general_1x3");
     let (mut accepted, mut largest) = (0, 0.0_f64);
     for short in [0, 1] {
         let whole = layout.arms[0].links[short].clone();

@@ -1,14 +1,11 @@
 //! Robots of strange masses: the evaluated graph agrees with the generic implementation within what rounding explains.
 
-use planar_capture::build::evaluator::Evaluator;
-use planar_capture::build::graph;
+use crate::evaluator;
 use planar_capture::layout::Layout;
 use planar_capture::quantities::differences;
 use planar_capture::registry::generic;
 use planar_capture::sampling::REGIMES;
 use planar_proof::file;
-use std::fs;
-use std::sync::Arc;
 
 const SAMPLES: u64 = 40;
 const SEED: u64 = 11;
@@ -16,8 +13,7 @@ const SEED: u64 = 11;
 /// Evaluates the graph of a structure with other numbers, everywhere within the bounds of `compare`.
 fn agrees(structure: &str, change: impl FnOnce(&mut Layout)) {
     let mut layout = Layout::read(&file(&format!("codegen/structures/{structure}.toml"))).expect("a layout");
-    let text = fs::read_to_string(file(&format!("codegen/structures/{structure}.json"))).expect("a graph");
-    let evaluator = Arc::new(Evaluator::new(&graph::read_any(&text).expect("sound")).expect("all functions"));
+    let evaluator = evaluator("structures", structure);
     change(&mut layout);
     let layout = Layout::parse(&layout.to_toml(), "strange").expect("no layout that is refused");
     let mut compared = 0;
