@@ -159,7 +159,7 @@ impl<'a> Equation<'a> {
         system.derivative(*control, time, with_rates, rate, torques)?;
         let now = State::from_vector(with_rates, joints)?;
         let StateVector { rates, work: [.., base_torque], .. } = split_mut(rate)?;
-        if system.bodies.is_empty() && system.constraints.is_empty() {
+        if system.beside() == 0 {
             let forces = coordinates_mut(rates, joints)?;
             *forces.base = [*base_torque, 0.0, 0.0];
             forces.joints.copy_from_slice(torques);
