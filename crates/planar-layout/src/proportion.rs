@@ -38,18 +38,17 @@ pub(crate) struct Disproportion {
     pub why: String,
 }
 
-/// The first body beside which the others are lost, or else the first link that is lost beside them; of the arms the
-/// links.
+/// The first body beside which the others are lost, or else the first link that is lost beside them. `arms` has the
+/// links of each arm.
 pub(crate) fn disproportion(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
     let of_arm = |(arm, links): (usize, &Vec<LinkSize>)| unresolved_link(arm, links);
     too_heavy(base, arms, reach).or_else(|| arms.iter().enumerate().find_map(of_arm))
 }
 
 fn too_heavy(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
-    let of_arm = |(i, links): (usize, &Vec<LinkSize>)| {
-        links.iter().enumerate().map(|(k, link)| ((i, k), link.body)).collect::<Vec<_>>()
-    };
-    let links: Vec<_> = arms.iter().enumerate().flat_map(of_arm).collect();
+    let arms = arms.iter().enumerate();
+    let links: Vec<_> =
+        arms.flat_map(|(i, links)| links.iter().enumerate().map(move |(k, link)| ((i, k), link.body))).collect();
     let arms: f64 = links.iter().map(|(_, link)| link.mass).sum();
     if base.mass > BASE_RATIO * arms {
         let wanted = format!("{:.3e} kg, {BASE_RATIO:e} times the mass of all arms", BASE_RATIO * arms);
@@ -60,17 +59,19 @@ fn too_heavy(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Dispro
     let others = sums_of_others(comparable(base), &of_links);
     links.iter().zip(of_links).zip(others).find_map(|(((place, link), own), others)| {
         let most = LINK_RATIO * others;
-        let by_mass = link.inertia < 0.5 * own;
-        let (kind, value, share, unit) = if by_mass {
-            (ParameterKind::LinkMass, link.mass, most / (reach * reach), "kg")
-        } else {
-            (ParameterKind::LinkInertia, link.inertia, most, "kg m²")
-        };
-        let wanted = format!(
-            "about {share:.3e} {unit}: inertia + mass · reach² is {own:.3e} kg m², more than {LINK_RATIO:e} times that of \
-             all other bodies together, {others:.3e} kg m²"
-        );
-        (own > most).then(|| too_large(kind, *place, value, &wanted))
+        (own > most).then(|| {
+            let by_mass = link.inertia < 0.5 * own;
+            let (kind, value, share, unit) = if by_mass {
+                (ParameterKind::LinkMass, link.mass, most / (reach * reach), "kg")
+            } else {
+                (ParameterKind::LinkInertia, link.inertia, most, "kg m²")
+            };
+            let wanted = format!(
+                "about {share:.3e} {unit}: inertia + mass · reach² is {own:.3e} kg m², more than {LINK_RATIO:e} times that \
+                 of all other bodies together, {others:.3e} kg m²"
+            );
+            too_large(kind, *place, value, &wanted)
+        })
     })
 }
 
