@@ -29,7 +29,7 @@ pub use crate::names::{listing, nearest};
 pub use file::{read_text, read_text_from};
 pub use hidden_character::{is_hidden, printable};
 pub use table::{Table, Value, every};
-pub use warning::{Warning, report_error, report_warnings};
+pub use warning::{Warning, report_error, report_warnings, report_without_place};
 
 /// Number of problems that a report shows, about one screen; it counts the others.
 const SHOWN: usize = 8;

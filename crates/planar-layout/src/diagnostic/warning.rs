@@ -5,7 +5,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Document;
-use super::{Report, Severity, Value};
+use super::{Diagnostic, Report, Severity, Value};
 
 /// A value that is valid but probably a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +41,12 @@ pub fn report_error(text: &str, file: &str, (key, default): (&str, &str), why: &
     let (tree, _) = DeTable::parse_recoverable(document.source());
     report_at(&document, tree.get_ref(), (key, Some(default)), why, help);
     document.into_report()
+}
+
+/// The report of an error for which no value of a file is at fault.
+#[must_use]
+pub fn report_without_place(why: String, help: String) -> Report {
+    Diagnostic::with_file(why, help).into()
 }
 
 /// Adds a problem at the value of a key, or at the innermost table around a key that is not given.
