@@ -4,7 +4,7 @@ use crate::failure::{Failure, of_output, of_report};
 use crate::scenario::choose;
 use planar_capture::campaign::Campaign;
 use planar_capture::campaign::manifest::{ManifestError, claim};
-use planar_capture::campaign::report::write_report;
+use planar_capture::campaign::report::{ReportError, write_report};
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
 use planar_capture::output::atomic_file::create_folder;
@@ -96,7 +96,7 @@ pub fn sweep(
         .map_err(of_output)?;
     show(py, progress.as_ref(), &tally, plan.cases)?;
     if report {
-        write_report(&campaign, &path, &folder).map_err(of_output)?;
+        write_report(&campaign, &path, &folder).map_err(of_sweep_report)?;
     }
     Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, tally.counts().collect(), plan.present))
 }
@@ -118,7 +118,7 @@ pub fn sweep_plan(path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResu
 #[pyfunction]
 pub fn sweep_report(path: PathBuf, folder: PathBuf) -> PyResult<PathBuf> {
     let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
-    write_report(&campaign, &path, &folder).map_err(of_output)
+    write_report(&campaign, &path, &folder).map_err(of_sweep_report)
 }
 
 fn show(py: Python<'_>, progress: Option<&Py<PyAny>>, tally: &Tally, cases: u64) -> Result<(), PyErr> {
@@ -127,4 +127,12 @@ fn show(py: Python<'_>, progress: Option<&Py<PyAny>>, tally: &Tally, cases: u64)
         progress.bind(py).call1((tally.computed.load(Ordering::Relaxed), cases))?;
     }
     Ok(())
+}
+
+/// Of results that cannot be read, or of a report that cannot be written.
+fn of_sweep_report(error: ReportError) -> PyErr {
+    match error {
+        ReportError::Unreadable(error) => Failure::Input.with(error),
+        ReportError::Output(error) => of_output(error),
+    }
 }

@@ -34,6 +34,8 @@ mod sweep;
 mod template;
 mod terminal;
 
+#[cfg(feature = "sweep")]
+use crate::campaign::report::ReportError;
 use crate::diagnostic::Report;
 use crate::laws::RegisteredLaw;
 use crate::output::atomic_file::write_text;
@@ -100,6 +102,10 @@ enum CommandError {
     /// A result cannot be written.
     #[error("error: {0}")]
     Output(#[from] OutputError),
+    /// There is no report on a sweep.
+    #[cfg(feature = "sweep")]
+    #[error("error: {0}")]
+    SweepReport(#[from] ReportError),
     /// Results are not to be written to a folder.
     #[error("error: {0}")]
     Folder(#[from] ClaimError),

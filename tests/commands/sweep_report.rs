@@ -41,11 +41,31 @@ fn the_page_needs_nothing_beside_it_and_has_the_same_bytes_again() {
 
 #[test]
 fn sweeps_without_anything_to_draw_have_a_page_all_the_same() {
-    for (choices, expected) in [("[10.0]", "1 cases: 1 done"), ("[-1.0, 10.0, -2.0]", "3 cases: 1 done, 2 refused")] {
+    for (choices, expected) in [("[10.0]", "1 case: 1 done"), ("[-1.0, 10.0, -2.0]", "3 cases: 1 done, 2 refused")] {
         let folder = TempDir::new().expect("a folder");
         let rest = format!("sampling = \"grid\"\n{MASS}distribution = {{ choice = {choices} }}\n");
         let found = page(folder.path(), &rest);
         assert!(found.contains(expected) && found.ends_with("</html>\n"), "{found}");
         assert!(!found.contains("<img"), "{found}");
     }
+}
+
+/// A file of cases that is damaged is named as what cannot be read; the same command computes its cases again without it.
+#[test]
+fn a_damaged_file_of_cases_is_named() {
+    let folder = TempDir::new().expect("a folder");
+    let rest = format!("sampling = \"grid\"\n{MASS}distribution = {{ choice = [10.0, 11.0] }}\n");
+    let whole = page(folder.path(), &rest);
+    let block = folder.path().join("out/cases/000000.parquet");
+    let mut bytes = fs::read(&block).expect("cases");
+    // but for its end, by which a sweep that goes on sees that it is complete
+    bytes[4..400].fill(0);
+    fs::write(&block, bytes).expect("written");
+    let mut again = command();
+    again.args(["sweep", "sweep.toml", "--out", "out", "--report", "-q"]).current_dir(folder.path());
+    let (code, _, err) = said(again.output().expect("it runs"));
+    let expected = "error: cannot read out/cases/000000.parquet: ";
+    assert!(code == 2 && err.starts_with(expected) && err.contains("remove this file"), "{code}: {err}");
+    fs::remove_file(&block).expect("removed");
+    assert_eq!(page(folder.path(), &rest), whole);
 }

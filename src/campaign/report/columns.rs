@@ -1,7 +1,6 @@
 //! Single columns of the files of a sweep: memory for one of them at a time.
 
 use crate::campaign::block_file::CASES;
-use crate::output::output_error::OutputError;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int8Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
@@ -11,6 +10,37 @@ use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// Results of a sweep that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum UnreadableError {
+    /// The folder with the files of cases.
+    #[error("cannot read the folder {path}: {source}", path = path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A file of cases.
+    #[error(
+        "cannot read {path}: {source}; remove this file, and the same command computes its cases again",
+        path = path.display()
+    )]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+}
+
+impl UnreadableError {
+    /// For a file of cases.
+    fn file(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::File { path: path.to_owned(), source }
+    }
+}
 
 /// The files of cases that are there, in order.
 #[derive(Clone, Debug)]
@@ -31,11 +61,11 @@ impl Columns {
     /// Of a folder of results.
     ///
     /// # Errors
-    /// [`OutputError`].
-    pub fn of(folder: &Path) -> Result<Self, OutputError> {
+    /// [`UnreadableError`].
+    pub fn of(folder: &Path) -> Result<Self, UnreadableError> {
         let cases = folder.join(CASES);
         let read = || fs::read_dir(&cases)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>();
-        let mut files = read().map_err(OutputError::at(&cases))?;
+        let mut files = read().map_err(|source| UnreadableError::Folder { path: cases, source })?;
         files.retain(|path| path.extension().is_some_and(|extension| extension == "parquet"));
         files.sort();
         Ok(Self { files })
@@ -44,10 +74,10 @@ impl Columns {
     /// Name and unit of every column.
     ///
     /// # Errors
-    /// [`OutputError`].
-    pub fn names(&self) -> Result<Vec<(String, String)>, OutputError> {
+    /// [`UnreadableError`].
+    pub fn names(&self) -> Result<Vec<(String, String)>, UnreadableError> {
         let Some(path) = self.files.first() else { return Ok(Vec::new()) };
-        let builder = open(path).map_err(OutputError::at(path))?;
+        let builder = open(path).map_err(UnreadableError::file(path))?;
         let unit = |field: &Field| field.metadata().get("unit").cloned().unwrap_or_default();
         Ok(builder.schema().fields().iter().map(|field| (field.name().clone(), unit(field))).collect())
     }
@@ -55,8 +85,8 @@ impl Columns {
     /// The values of the column at a place, in the order of the cases.
     ///
     /// # Errors
-    /// [`OutputError`].
-    pub fn column(&self, place: usize) -> Result<Column, OutputError> {
+    /// [`UnreadableError`].
+    pub fn column(&self, place: usize) -> Result<Column, UnreadableError> {
         let (mut numbers, mut texts) = (Vec::new(), Vec::new());
         for path in &self.files {
             let mut read = || -> io::Result<()> {
@@ -67,7 +97,7 @@ impl Columns {
                 }
                 Ok(())
             };
-            read().map_err(OutputError::at(path))?;
+            read().map_err(UnreadableError::file(path))?;
         }
         Ok(if texts.is_empty() { Column::Numbers(numbers) } else { Column::Texts(texts) })
     }

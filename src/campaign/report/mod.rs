@@ -17,6 +17,7 @@ use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
 use crate::output::output_error::OutputError;
 use crate::scenario::find_key;
+pub use columns::UnreadableError;
 use columns::{Column, Columns};
 use histogram::Histogram;
 use page::page;
@@ -88,21 +89,32 @@ impl SweepReport {
     }
 }
 
+/// Why there is no report on a sweep.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The results cannot be read.
+    #[error(transparent)]
+    Unreadable(#[from] UnreadableError),
+    /// It cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
 /// Reads the files of a sweep that are there.
 ///
 /// # Errors
-/// [`OutputError`].
-pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, OutputError> {
+/// [`UnreadableError`].
+pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, UnreadableError> {
     let columns = Columns::of(folder)?;
     let names = columns.names()?;
     let place = |name: &str| names.iter().position(|(known, _)| known == name);
-    let numbers = |name: &str| -> Result<Vec<Option<f64>>, OutputError> {
+    let numbers = |name: &str| -> Result<Vec<Option<f64>>, UnreadableError> {
         Ok(match place(name).map(|place| columns.column(place)).transpose()? {
             Some(Column::Numbers(numbers)) => numbers,
             _ => Vec::new(),
         })
     };
-    let texts = |name: &str| -> Result<Vec<Option<String>>, OutputError> {
+    let texts = |name: &str| -> Result<Vec<Option<String>>, UnreadableError> {
         Ok(match place(name).map(|place| columns.column(place)).transpose()? {
             Some(Column::Texts(texts)) => texts,
             _ => Vec::new(),
@@ -157,8 +169,8 @@ fn unit_of(key: &str) -> String {
 /// the file of the sweep as the command to replay a case has it.
 ///
 /// # Errors
-/// [`OutputError`].
-pub fn write_report(campaign: &Campaign, sweep: &Path, folder: &Path) -> Result<PathBuf, OutputError> {
+/// [`ReportError`].
+pub fn write_report(campaign: &Campaign, sweep: &Path, folder: &Path) -> Result<PathBuf, ReportError> {
     let words = ["planar-capture", "sweep", &*sweep.to_string_lossy(), "--out", &*folder.to_string_lossy()];
     // only a NUL cannot be quoted, which no path has
     let command = format!("{} --replay", shlex::try_join(words).unwrap_or_default());

@@ -23,8 +23,9 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let mut add = |text: &str| html.push_str(text);
     add(&format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style>\n\
-         <h1>{name}</h1>\n<p>{} cases: ",
-        report.cases
+         <h1>{name}</h1>\n<p>{} case{}: ",
+        report.cases,
+        if report.cases == 1 { "" } else { "s" }
     ));
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
