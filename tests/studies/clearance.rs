@@ -159,7 +159,7 @@ fn rules_of_overlaps() {
     assert!(is_of_targets(&failing) && !is_of_targets(&ignored));
 }
 
-/// Where bodies are inside each other from the start, or from the impact, `"stop"` ends the case there, with one row.
+/// Where bodies are inside each other from the start `"stop"` ends the case there, with one row.
 #[test]
 fn overlaps_at_the_start_stop_the_case_there() {
     let square = |name: &str, arm: &str, x: f64, spin: f64| {
@@ -178,6 +178,44 @@ fn overlaps_at_the_start_stop_the_case_there() {
         let stopped = (rule == "stop").then_some(0.0);
         assert_eq!((case.stopped, approach.samples.len()), (stopped, rows), "{rule}");
         assert_eq!((approach.duration.to_bits() == 0, case.clearance.overlaps.len()), (rule == "stop", 1), "{rule}");
+    }
+}
+
+/// An overlap that begins with an impact, before it or after it by rounding, stops the case there; without the rule the
+/// motion goes on.
+#[test]
+fn an_overlap_at_an_impact_stops_the_case_there() {
+    let target = |name: &str, (arm, kind): (&str, &str), [x, y]: [f64; 2], speed: f64| {
+        format!(
+            "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nkind = \"{kind}\"\nmass = 1.0\ninertia = 0.1\n\
+             polygon = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]\nposition = [{x}, {y}]\n\
+             twist = [0.0, 0.0, {speed}]\n"
+        )
+    };
+    // the ball comes to the end effector from above, and the other to the ball, faster
+    let run_with = |[x, y]: [f64; 2], gap: f64, rule: &str| {
+        let ball = target("ball", ("arm1", "rigid"), [x, y + 2.1], -0.2);
+        let other = target("other", ("arm2", "none"), [x, y + 2.3 + gap], -0.3);
+        let text = format!("{ball}{other}[clearance]\non_overlap = \"{rule}\"");
+        run_sampled(&at_rest("dual_arm_3r", TWO_ARMS, 0.1, &text), 5.0)
+    };
+    let passing = run_with([30.0, 0.0], 9.0, "report");
+    let [_, x, y] = passing.cases[0].approach(&passing).end().end_effector_poses[0];
+    let far = run_with([x, y], 9.0, "report");
+    let impact = far.cases[0].approach(&far).duration;
+    assert!(far.cases[0].capture.is_some() && (impact - 10.0).abs() < 1e-5, "at {impact} s");
+    for shift in [-1e-9, -1e-13, 0.0, 1e-13, 1e-9] {
+        let gap = 0.1 * (impact + shift);
+        let free = run_with([x, y], gap, "report");
+        assert!(free.cases[0].stopped.is_none() && free.cases[0].capture.is_some(), "{shift}");
+        let stopped = run_with([x, y], gap, "stop");
+        let case = &stopped.cases[0];
+        let end = case.stopped.expect("an overlap");
+        assert!((end - impact).abs() < 1e-7, "{shift}: {end}, not {impact}");
+        let after = case.capture.as_ref().map_or(0.0, |captured| captured.post_impact.duration);
+        assert!((case.approach(&stopped).duration + after - end).abs() < 1e-12, "{shift}");
+        let [overlap] = &case.clearance.overlaps[..] else { panic!("{shift}: {:?}", case.clearance.overlaps) };
+        assert_eq!(overlap.bodies, ["targets/ball", "targets/other"], "{shift}");
     }
 }
 
