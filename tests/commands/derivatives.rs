@@ -64,8 +64,14 @@ fn derivatives_are_proved_and_rendered_from_a_graph() {
     assert!(stale.contains("--derivatives --directional momentum:parameters"), "{stale}");
     fs::write(at("held_out.toml"), LAYOUT).expect("written");
 
-    let layout = Layout::read(&at("held_out.toml")).expect("a layout");
-    let text = fs::read_to_string(at("held_out.json")).expect("a graph");
+    // each of the faults below is a proof: of a smaller layout
+    let small = file("codegen/layouts/single_arm_2r.toml");
+    fs::copy(small, at("single_arm_2r.toml")).expect("copied");
+    let arguments = [&["single_arm_2r.toml", "--out", "single_arm_2r.json"], &ALL[..]].concat();
+    let (code, _, err) = outcome(generate(folder.path(), &arguments));
+    assert_eq!(code, 0, "{err}");
+    let layout = Layout::read(&at("single_arm_2r.toml")).expect("a layout");
+    let text = fs::read_to_string(at("single_arm_2r.json")).expect("a graph");
     let whole: Value = serde_json::from_str(&text).expect("JSON");
     let read = |graph: &Value| graph::read(&graph.to_string(), &layout).unwrap_or_else(|e| panic!("{e}"));
     assert!(prove(&layout, &read(&whole)).is_ok());
