@@ -134,7 +134,7 @@ def attempt(fault: Fault, place: Place) -> list[str]:
     """Makes a fault in the copy, runs its tests, and restores the file; returns the tests that do not fail."""
     path = place.tree / fault.file
     text = right(fault, place.tree)
-    graphs = {graph: graph.read_bytes() for graph in (place.tree / "codegen" / "graphs").iterdir()}
+    graphs = {graph: graph.read_bytes() for graph in (place.tree / "codegen").rglob("*.json")}
     try:
         path.write_text(text.replace(fault.old, fault.new), encoding="utf-8")
         if path.suffix == ".py":
