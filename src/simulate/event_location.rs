@@ -19,6 +19,11 @@ const DIFFERENCE: f64 = 1e-3;
 /// The part of a bracket that a step of golden-section search keeps.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// Accuracy of the time of an event at about this time, s.
+pub(crate) fn time_tolerance(time: f64) -> f64 {
+    TIME_TOLERANCE * time.abs().max(1.0)
+}
+
 /// The values of events at the end of the last step.
 pub(crate) struct EventLocator<'a> {
     system: &'a System<'a>,
@@ -181,8 +186,7 @@ impl<'a> EventLocator<'a> {
         values: [f64; 2],
         state_at: &mut StateAt<'_>,
     ) -> Result<f64, Error> {
-        let tolerance = TIME_TOLERANCE * below.abs().max(1.0);
-        root(times, values, tolerance, |time| self.value_at(event, time, state_at))
+        root(times, values, time_tolerance(below), |time| self.value_at(event, time, state_at))
     }
 
     /// Golden-section search for a time at which a value that falls at the start and rises at the end is 0 or below;

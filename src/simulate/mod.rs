@@ -103,7 +103,8 @@ pub struct Phase {
     pub duration: f64,
     /// Index and time (s) of the event that ended it; `None` where the time was over.
     pub event: Option<(usize, f64)>,
-    /// The first instant, one per sampling interval, and the last; at least one. Of a long phase every second, fourth …
+    /// The first instant, one per sampling interval, and the last; at least one. None is within 2e-13 of its time, or s below one
+    /// second, before an event that ends the phase, but for the first. Of a long phase every second, fourth …
     /// of these: [`Phase::all_samples`] has all.
     pub samples: Vec<Sample>,
     /// Those that have more samples than these, in order.
@@ -264,7 +265,7 @@ pub fn simulate(
             recorder.record_path(until, &x);
             if let Some((_, when)) = event {
                 recorder.add_saturation(when - time);
-                recorder.record(stepper.control(), when, &x, true).map_err(at(when))?;
+                recorder.record_event(stepper.control(), when, &x).map_err(at(when))?;
                 return Ok(recorder.end(when, event, stepper.path_errors()));
             }
             from = to;

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::owned::RobotState;
 use crate::scalar::Real;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
+use crate::simulate::event_location::time_tolerance;
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::{PathRecorder, path_state};
 use crate::simulate::sample_list::SampleList;
@@ -88,6 +89,13 @@ impl<'a> Recorder<'a> {
         model.end_effector_twists(&state, &mut sample.end_effector_twists)?;
         self.samples.push(sample);
         Ok(())
+    }
+
+    /// Audits and samples the instant of an event. A sample that is earlier than this by less than twice the accuracy of event
+    /// times is the same instant, and is not kept beside it, but for the first of the phase, which may be after an impact.
+    pub(crate) fn record_event(&mut self, control: &mut dyn Control<f64>, time: f64, x: &[f64]) -> Result<(), Error> {
+        self.samples.discard_from(time - 2.0 * time_tolerance(time));
+        self.record(control, time, x, true)
     }
 
     /// Adds a state to the path.

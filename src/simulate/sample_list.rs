@@ -16,11 +16,24 @@ pub(crate) struct SampleList {
     count: usize,
     last: Option<Sample>,
     file: Option<SampleWriter>,
+    /// The latest, which may yet be discarded.
+    latest: Option<Sample>,
 }
 
 impl SampleList {
     /// Adds a sample.
     pub(crate) fn push(&mut self, sample: Sample) {
+        if let Some(before) = self.latest.replace(sample) {
+            self.keep(before);
+        }
+    }
+
+    /// Discards the latest sample where it is at this time, s, or later, and not the first.
+    pub(crate) fn discard_from(&mut self, time: f64) {
+        self.latest.take_if(|latest| self.count > 0 && latest.time >= time);
+    }
+
+    fn keep(&mut self, sample: Sample) {
         if self.in_memory.len() == MOST_IN_MEMORY {
             self.thin();
         }
@@ -53,7 +66,10 @@ impl SampleList {
     }
 
     /// The samples in memory, with the first and the last, and the file of all where these are not all.
-    pub(crate) fn end(self) -> (Vec<Sample>, Option<SampleFile>) {
+    pub(crate) fn end(mut self) -> (Vec<Sample>, Option<SampleFile>) {
+        if let Some(latest) = self.latest.take() {
+            self.keep(latest);
+        }
         let Self { mut in_memory, last, file, .. } = self;
         in_memory.extend(last);
         (in_memory, file.map(SampleWriter::finish))

@@ -290,6 +290,28 @@ fn samples_in_memory_are_evenly_spaced() {
     }
 }
 
+/// The latest sample is discarded where it is at a time or later, in memory and in the file; the first never is.
+#[test]
+fn the_latest_sample_can_be_discarded() {
+    let like = numbered(0);
+    for count in [2, MOST_IN_MEMORY + 1, MOST_IN_MEMORY + 2] {
+        let last = (count - 1) as f64;
+        for (from, expected) in [(last, count - 1), (last + 0.5, count)] {
+            let mut samples = SampleList::default();
+            (0..count).for_each(|i| samples.push(Sample { time: i as f64, ..like.clone() }));
+            samples.discard_from(from);
+            let (in_memory, file) = samples.end();
+            let end = (expected - 1) as f64;
+            assert_eq!(in_memory.last().map(|sample| sample.time), Some(end), "{count} {from}");
+            assert_eq!(file.map_or(in_memory.len(), |file| file.len()), expected, "{count} {from}");
+        }
+    }
+    let mut list = SampleList::default();
+    list.push(like);
+    list.discard_from(0.0);
+    assert_eq!(list.end().0.len(), 1);
+}
+
 /// The path within long adaptive steps is the motion, from knot to knot: that of the same tolerance at many samples.
 #[test]
 fn the_path_within_long_steps_is_the_motion() {

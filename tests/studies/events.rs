@@ -258,3 +258,25 @@ fn a_phase_with_an_event_is_a_part_of_one_without() {
         assert_close("torques", &part.end().joint_torques, &alone.end().joint_torques, tolerance::SAME_STEPS);
     }
 }
+
+/// A sample that is at the time of the event but for rounding is not kept beside that of the event; the first of a phase is.
+#[test]
+fn a_sample_is_not_kept_beside_an_event_at_its_time() {
+    let times_of = |event: fn(f64) -> f64, by: (Integrator, Formulation)| {
+        let phase = run(&tumbling(), 2.0, 0.25, by, &mut ZeroTorque, &mut Times(&[event]));
+        phase.samples.iter().map(|sample| sample.time).collect::<Vec<_>>()
+    };
+    for (integrator, coordinates, _) in ALL {
+        let by = (integrator, coordinates);
+        for event in [|t| 0.5 + 1e-13 - t, |t| 0.5 + 4e-16 - t] {
+            let times = times_of(event, by);
+            assert!(times.len() == 3 && times[2] - 0.5 > 0.0 && times[2] - 0.5 < 3e-13, "{by:?}: {times:?}");
+        }
+        // another instant
+        let times = times_of(|t| 0.5 + 1e-11 - t, by);
+        assert!(times.len() == 4 && times[2].to_bits() == 0.5f64.to_bits(), "{by:?}: {times:?}");
+        // from where the next phase may start, after an impact
+        let times = times_of(|t| 1e-13 - t, by);
+        assert!(times.len() == 2 && times[0].to_bits() == 0, "{by:?}: {times:?}");
+    }
+}
