@@ -3,6 +3,7 @@
 use super::atomic_file::{create_folder, write_whole};
 use super::output_error::OutputError;
 use super::replacement::{NEW, is_settled, replace};
+use super::run_folder::FIGURES;
 use super::sweep::{sweep, sweep_locked};
 use super::temporary::{self, TemporaryFolder, names};
 use std::ffi::OsString;
@@ -225,9 +226,6 @@ fn existing(path: &Path) -> &Path {
     let found = path.ancestors().find(|folder| folder.symlink_metadata().is_ok());
     found.unwrap_or(Path::new("."))
 }
-
-/// The folder in a folder of results; these have no other, and no name that begins with a point.
-const FIGURES: &str = "figures";
 
 /// Refuses a folder that is more than one of results: that contains the working folder, the user's own folder, one of the
 /// files, a folder other than that of figures, or a hidden file.

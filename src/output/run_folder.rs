@@ -1,12 +1,15 @@
 //! What the folder of a run has in it, to tell the results of one scenario from anything else.
 
+use super::output_error::OutputError;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+use std::{fs, io};
 
 /// The file that names the scenario, its cases, and the files of the run.
 pub const SUMMARY: &str = "summary.json";
+/// The folder in a folder of results; these have no other, and no name that begins with a point.
+pub const FIGURES: &str = "figures";
 
 /// What stands against replacing the content of a folder with a run of this scenario, as a predicate: a file that is not
 /// in the list of its summary, or the results of another scenario.
@@ -23,6 +26,33 @@ pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<Stri
     let listed: BTreeSet<_> = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
     let foreign = names.iter().find_map(|name| foreign(folder, Path::new(name), &listed))?;
     Some(format!("has `{}`, which is not from a run of `{scenario}`", foreign.display()))
+}
+
+/// The scenario whose results are in a folder, and not in folders in it.
+#[must_use]
+pub fn scenario_in(folder: &Path) -> Option<String> {
+    Some(read(&folder.join(SUMMARY))?["scenario"].as_str()?.to_owned())
+}
+
+/// Removes the results in a folder: the summary, without which they are none, and the files that it lists.
+///
+/// # Errors
+/// [`OutputError`] with the reason.
+pub fn remove(folder: &Path) -> Result<(), OutputError> {
+    let Some(summary) = read(&folder.join(SUMMARY)) else { return Ok(()) };
+    let files = summary["files"].as_array().into_iter().flatten().filter_map(Value::as_str).map(Path::new);
+    // no run lists a file beside its folder
+    let inside = |file: &&Path| file.components().all(|part| matches!(part, Component::Normal(_)));
+    for file in [Path::new(SUMMARY)].into_iter().chain(files.filter(inside)) {
+        let path = folder.join(file);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => return Err(OutputError { path, source }),
+            _ => {}
+        }
+    }
+    // where it has nothing else in it
+    let _ = fs::remove_dir(folder.join(FIGURES));
+    Ok(())
 }
 
 /// A summary: a JSON object with scenario and cases.

@@ -93,6 +93,35 @@ fn all_scenarios_are_checked_before_the_first_is_computed() {
     assert!(err.contains("two scenarios are named `good`"), "{err}");
 }
 
+/// A folder that holds one run takes no others beside it, unless they are to replace that.
+#[test]
+fn a_folder_that_holds_one_run_takes_no_others() {
+    let files = Files::new();
+    let [a, b, c] = ["a", "b", "c"].map(|name| files.write(&format!("{name}.toml"), &approach(name)));
+    assert_eq!(files.run(&[&c], &["--figures", "-q"]).0, 0);
+    fs::write(files.path("results/notes.txt"), "mine").expect("written");
+    let (code, out, err) = files.run(&[&a, &b], &[]);
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    let said = "results holds the results of `c`, not those of several scenarios, and a folder holds one run";
+    assert!(err.contains(said) && err.contains("--force") && !files.has("a"), "{err}");
+    assert!(files.has("c.csv") && files.has("summary.json") && files.has("figures"));
+
+    // nothing is written, and so nothing replaced, where a scenario cannot be read
+    let (code, _, err) = files.run(&[&a, "missing.toml"], &["--force"]);
+    assert!(code == 2 && files.has("c.csv"), "{err}");
+
+    // no run lists a file that is not in its folder
+    let summary = files.path("results/summary.json");
+    let text = fs::read_to_string(&summary).expect("a summary").replacen("\"c.csv\"", "\"c.csv\", \"../c.toml\"", 1);
+    fs::write(&summary, &text).expect("written");
+    let (code, _, err) = files.run(&[&a, &b], &["--force", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(text.contains("../c.toml") && files.path("c.toml").exists());
+    assert!(files.has("a/summary.json") && files.has("b/b.csv") && files.has("notes.txt"));
+    assert!(!files.has("c.csv") && !files.has("summary.json") && !files.has("figures"));
+    assert_eq!(files.run(&[&a, &b], &["-q"]).0, 0, "they replace their own results");
+}
+
 #[test]
 fn the_exit_code_is_the_worst() {
     let files = Files::new();

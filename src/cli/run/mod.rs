@@ -10,8 +10,8 @@ use super::progress::Display;
 use super::seconds::positive_seconds;
 use super::terminal::note;
 use crate::engine::Choice;
-use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::objection;
+use crate::output::result_folder::{ClaimError, ResultFolder};
+use crate::output::run_folder::{self, objection};
 use crate::program::Program;
 use crate::scenario::{Scenario, ScenarioSource};
 use product::{Format, Product};
@@ -49,7 +49,8 @@ pub struct Arguments {
     /// [default: results/NAME, NAME the scenario's].
     #[arg(long, value_name = "DIR", help_heading = "Results")]
     out: Option<PathBuf>,
-    /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder.
+    /// Replace the files in DIR, whatever they are; not folders in it, hidden files or your home folder. Of several
+    /// scenarios: in their folders, and the files of a run that DIR itself holds.
     #[arg(long, help_heading = "Results")]
     force: bool,
     /// What the standard output is: a table, or summary.json, of several scenarios an array of them.
@@ -147,6 +148,7 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     let each = scenarios.iter().map(|(_, (scenario, _))| scenario.name.as_str());
     let objections: Vec<_> =
         each.map(|name| move |folder: &Path, names: &[String]| objection(folder, names, name)).collect();
+    let above = codes.take(above(arguments)).flatten();
     let mut tasks = Vec::new();
     for (((path, (scenario, source)), folder), objection) in scenarios.iter().zip(&folders).zip(&objections) {
         let folder = ResultFolder::claim(folder, arguments.force, &keep, objection).map_err(CommandError::from);
@@ -164,12 +166,17 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
         return Ok(ExitCode::from(codes.0));
     }
     let mut product = Product::new(arguments.format, tasks.len());
+    let mut is_written = false;
     for task in &tasks {
         if let Some((printed, objections)) = codes.take(task.run(arguments)) {
+            is_written = true;
             codes.take(product.add(&printed));
             task.note_objections(&objections);
             codes.add(u8::from(!objections.is_empty()));
         }
+    }
+    if let Some(folder) = above.filter(|_| is_written) {
+        codes.take(run_folder::remove(folder).map_err(CommandError::from));
     }
     codes.take(product.finish());
     Ok(ExitCode::from(codes.0))
@@ -182,6 +189,19 @@ fn read(path: &Path, program: Program<'_>) -> Result<(Scenario, ScenarioSource),
     } else {
         Scenario::read_with_source(path, program.known())?
     })
+}
+
+/// The folder with those of several scenarios, where it holds the results of one run, which are to be replaced.
+fn above(arguments: &Arguments) -> Result<Option<&Path>, CommandError> {
+    let Some(out) = arguments.out.as_deref().filter(|_| arguments.scenarios.len() > 1) else { return Ok(None) };
+    match run_folder::scenario_in(out) {
+        Some(_) if arguments.force => Ok(Some(out)),
+        Some(scenario) => {
+            let found = format!("holds the results of `{scenario}`, not those of several scenarios");
+            Err(ClaimError::Occupied { path: out.to_owned(), found }.into())
+        }
+        None => Ok(None),
+    }
 }
 
 /// The folder of each scenario; they have different ones.
