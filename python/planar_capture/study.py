@@ -137,9 +137,13 @@ class Result:
         """The time series of a study of one case as a table. Needs pyarrow."""
         return self._only().series.to_arrow()
 
-    def report(self, path: str | os.PathLike[str]) -> None:
-        """Writes the report, one HTML file that opens without a network."""
-        self._native.write_html(path)
+    def report(self, path: str | os.PathLike[str], *, case: str | None = None) -> None:
+        """Writes the report, one HTML file that opens without a network.
+
+        A case with values of its own, ``set``, has a report of its own: that is the one of ``case``. By default it is
+        that of all other cases, or of the only one.
+        """
+        self._native.write_html(path, case)
 
     def __repr__(self) -> str:
         return f"<Result of {self.name} ({', '.join(self.cases)})>"
@@ -148,8 +152,10 @@ class Result:
         return self._native.table()
 
     def _repr_html_(self) -> str:
-        page = html.escape(self._native.html(), quote=True)
-        return f'<iframe srcdoc="{page}" style="width: 100%; height: {HEIGHT}px; border: 0"></iframe>'
+        # one for the cases that share an approach, and one for each other
+        pages = (html.escape(self._native.html(case), quote=True) for case in self._native.reports)
+        style = f"width: 100%; height: {HEIGHT}px; border: 0"
+        return "\n".join(f'<iframe srcdoc="{page}" style="{style}"></iframe>' for page in pages)
 
     def _only(self) -> Case:
         if len(self.cases) != 1:

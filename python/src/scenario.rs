@@ -2,7 +2,7 @@
 
 use crate::control::Callable;
 use crate::failure::{Failure, of_report};
-use crate::study::Study;
+use crate::study::{Part, Study};
 use planar_capture::capture::{Silent, StudyError, study_with};
 use planar_capture::check::study_report;
 use planar_capture::engine::Choice;
@@ -11,7 +11,7 @@ use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
 use planar_capture::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
-use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source};
+use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source, Variant};
 use planar_capture::simulate::Timing;
 use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
 use std::path::PathBuf;
@@ -62,8 +62,8 @@ pub fn choose(dynamics: &str, layout: &Layout) -> PyResult<(Choice, Option<Strin
 
 impl Scenario {
     /// Holds the torques of the laws that are given for this long, s.
-    fn sampled(&self, sample_time: Option<f64>, approach: bool, after: bool) -> PyResult<Read> {
-        let mut scenario = self.scenario.clone();
+    fn sampled(scenario: &Read, sample_time: Option<f64>, [approach, after]: [bool; 2]) -> PyResult<Read> {
+        let mut scenario = scenario.clone();
         let set = |table: &str, timing: Timing, actuation: &mut Actuation| -> PyResult<()> {
             let step = timing.step_length();
             let Some(time) = sample_time else {
@@ -94,8 +94,8 @@ impl Scenario {
     }
 
     /// A study without a result, at its key in the scenario.
-    fn without_result(&self, error: &StudyError, scenario: &Read) -> PyErr {
-        let report = study_report(error, scenario, None, &self.source.scenario);
+    fn without_result(&self, error: &StudyError, scenario: &Read, variant: Option<&Variant>) -> PyErr {
+        let report = study_report(error, scenario, variant, &self.source.scenario);
         let failure = if error.is_breakdown() { Failure::Computation } else { Failure::Input };
         failure.with(report.render(false))
     }
@@ -119,7 +119,7 @@ impl Scenario {
 
     /// The scenario of one case, by default the only one, with these values at keys of sweeps.
     fn with_values(&self, values: Vec<(String, Value)>, case: Option<&str>) -> PyResult<Self> {
-        let names: Vec<&str> = self.scenario.cases.iter().map(|case| case.name.as_str()).collect();
+        let names = self.scenario.case_names();
         let case = match (case, &names[..]) {
             (Some(case), names) if names.contains(&case) => case,
             (None, [only]) => only,
@@ -129,20 +129,24 @@ impl Scenario {
                 return Err(Failure::Input.with(message));
             }
         };
+        // a case with values of its own is a scenario with these
+        let own = self.scenario.variant(case);
+        let own = own.map(|own| (&own.scenario, own.sources([&self.source.scenario, &self.source.layout])));
+        let (scenario, source) = own.as_ref().map_or((&self.scenario, &self.source), |(own, source)| (*own, source));
         let keys = values.into_iter().map(|(key, value)| {
             let path = KeyPath::parse(&key).map_err(|why| Failure::Input.with(format!("key `{key}`: {why}")))?;
             Ok((path, value.into()))
         });
         let keys: Vec<(KeyPath, VariedValue)> = keys.collect::<PyResult<_>>()?;
-        let variation = Variation::new(&self.scenario, &self.source, case, &keys)
+        let variation = Variation::new(scenario, source, case, &keys)
             .map_err(|Unusable { key, why }| Failure::Input.with(format!("key `{}`: {why}", keys[key].0)))?;
         let values: Vec<VariedValue> = keys.into_iter().map(|(_, value)| value).collect();
         let scenario = variation.scenario(&values).map_err(of_report)?;
         let texts = variation.texts(&values);
-        let source = |text, of: &Source| Source { text, file: of.file.clone() };
+        let with = |text, of: &Source| Source { text, file: of.file.clone() };
         let source = ScenarioSource {
-            scenario: source(texts.scenario, &self.source.scenario),
-            layout: source(texts.layout, &self.source.layout),
+            scenario: with(texts.scenario, &source.scenario),
+            layout: with(texts.layout, &source.layout),
         };
         Ok(Self { scenario, source })
     }
@@ -164,7 +168,7 @@ impl Scenario {
 
     #[getter]
     fn cases(&self) -> Vec<&str> {
-        self.scenario.cases.iter().map(|case| case.name.as_str()).collect()
+        self.scenario.case_names()
     }
 
     #[getter]
@@ -192,30 +196,38 @@ impl Scenario {
         if !(sample.is_finite() && sample > 0.0) {
             return Err(Failure::Input.with(format!("sample is {sample:?}, expected a time greater than 0 s")));
         }
-        if let Some(variant) = self.scenario.variants.first() {
-            let name = variant.name();
-            let message = format!(
-                "case `{name}` has values of its own, `set`, which is for the command line: give them by `with_values`"
-            );
-            return Err(Failure::Input.with(message));
-        }
-        let scenario = self.sampled(sample_time, control.is_some(), post_capture.is_some())?;
-        let (choice, warning) = choose(dynamics, &scenario.layout)?;
         let [control, post_capture] = [control, post_capture].map(|law| law.map(Callable::new));
-        let study = py.detach(|| {
-            let model = choice.model(&scenario.layout);
-            let laws = Laws {
-                tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
-                post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
-            };
-            study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
-        });
-        // a law may end a study that has a result all the same, where a search takes another way around it
-        if let Some(raised) = [&control, &post_capture].into_iter().flatten().find_map(Callable::raised) {
-            return Err(raised);
+        let of_python = [control.is_some(), post_capture.is_some()];
+        let (of_scenario, warning) = choose(dynamics, &self.scenario.layout)?;
+        let mut warnings: Vec<String> = warning.into_iter().collect();
+        let mut chosen = Vec::new();
+        for (scenario, variant) in self.scenario.parts() {
+            let (choice, warning) = choose(dynamics, &scenario.layout)?;
+            warnings.extend(warning.filter(|warning| !warnings.contains(warning)));
+            chosen.push((Self::sampled(scenario, sample_time, of_python)?, variant, choice));
         }
-        let study = study.map_err(|error| self.without_result(&error, &scenario))?;
+        let mut parts = Vec::new();
+        for (i, (scenario, variant, choice)) in chosen.into_iter().enumerate() {
+            let study = py.detach(|| {
+                let model = choice.model(&scenario.layout);
+                let laws = Laws {
+                    tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
+                    post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
+                };
+                study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
+            });
+            // a law may end a study that has a result all the same, where a search takes another way around it
+            if let Some(raised) = [&control, &post_capture].into_iter().flatten().find_map(Callable::raised) {
+                return Err(raised);
+            }
+            let computed = study.map_err(|error| self.without_result(&error, &scenario, variant))?;
+            // the cases without values of their own, where there are some, are the first part
+            let variant = variant.map(|_| i - usize::from(!self.scenario.cases.is_empty()));
+            parts.push(Part { scenario, variant, computed, engine: choice.engine });
+        }
+        let scenario = self.scenario.clone();
         let manifest = RunManifest::new(&scenario, self.source.clone(), command);
-        Ok(Study { scenario, computed: study, manifest, engine: choice.engine, warning })
+        let warning = (!warnings.is_empty()).then(|| warnings.join("\n"));
+        Ok(Study { scenario, parts, manifest, engine: of_scenario.engine, warning })
     }
 }

@@ -5,32 +5,78 @@ use numpy::{IntoPyArray, PyArray1};
 use planar_capture::capture::{CaseResult, Study as Computed};
 use planar_capture::engine::Engine;
 use planar_capture::output::atomic_file::StagedFile;
-use planar_capture::output::console::table;
+use planar_capture::output::console::table_of_parts;
 use planar_capture::output::html_report::write_report;
 use planar_capture::output::run_manifest::RunManifest;
-use planar_capture::output::summary::summary;
+use planar_capture::output::study_part::StudyPart;
+use planar_capture::output::summary::summary_of_parts;
 use planar_capture::output::time_series::{all_rows, columns, write_csv};
 use planar_capture::scenario::Scenario;
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 /// A column of a time series: name, unit, values.
 type Column<'py> = (String, &'static str, Bound<'py, PyArray1<f64>>);
 
+/// The study of the cases that share an approach, or of a case with values of its own.
+pub struct Part {
+    /// With the values of its cases.
+    pub scenario: Scenario,
+    /// The index of the case among the scenario's variants; `None` for all others.
+    pub variant: Option<usize>,
+    pub computed: Computed,
+    pub engine: Engine,
+}
+
 /// The results of a study.
 #[pyclass(frozen, module = "planar_capture._native")]
 pub struct Study {
     pub scenario: Scenario,
-    pub computed: Computed,
+    /// At least one.
+    pub parts: Vec<Part>,
     pub manifest: RunManifest,
+    /// Of the scenario.
     pub engine: Engine,
     pub warning: Option<String>,
 }
 
 impl Study {
-    fn case(&self, name: &str) -> PyResult<&CaseResult> {
+    fn case(&self, name: &str) -> PyResult<(&Part, &CaseResult)> {
         let missing = || Failure::Input.with(format!("there is no case `{name}`"));
-        self.computed.cases.iter().find(|case| case.name == name).ok_or_else(missing)
+        let mut cases = self.parts.iter().flat_map(|part| part.computed.cases.iter().map(move |case| (part, case)));
+        cases.find(|(_, case)| case.name == name).ok_or_else(missing)
+    }
+
+    /// The part that a case is in; without its name that of the cases that share an approach, or the only one.
+    fn part(&self, case: Option<&str>) -> PyResult<&Part> {
+        if let Some(name) = case {
+            return self.case(name).map(|(part, _)| part);
+        }
+        match &self.parts[..] {
+            [part] => Ok(part),
+            [part, ..] if part.variant.is_none() => Ok(part),
+            _ => Err(Failure::Input.with(format!(
+                "each case has values of its own, and a report of its own: choose one, report(path, case=NAME), of {}",
+                self.scenario.case_names().join(", ")
+            ))),
+        }
+    }
+
+    fn study_parts(&self) -> Vec<StudyPart<'_>> {
+        let each = self.parts.iter().map(|part| StudyPart {
+            scenario: &part.scenario,
+            variant: part.variant.map(|i| &self.scenario.variants[i]),
+            dynamics: part.engine.name(),
+            study: Cow::Borrowed(&part.computed),
+            manifest: self.manifest_of(part),
+        });
+        each.collect()
+    }
+
+    fn manifest_of(&self, part: &Part) -> RunManifest {
+        let of_variant = |i: usize| self.manifest.of_variant(&self.scenario.variants[i]);
+        part.variant.map_or_else(|| self.manifest.clone(), of_variant)
     }
 }
 
@@ -38,7 +84,13 @@ impl Study {
 impl Study {
     #[getter]
     fn cases(&self) -> Vec<&str> {
-        self.computed.cases.iter().map(|case| case.name.as_str()).collect()
+        self.scenario.case_names()
+    }
+
+    /// A case of each report.
+    #[getter]
+    fn reports(&self) -> Vec<&str> {
+        self.parts.iter().filter_map(|part| Some(part.computed.cases.first()?.name.as_str())).collect()
     }
 
     /// Why a graph that is there was not used.
@@ -50,27 +102,27 @@ impl Study {
     /// What the audit objects to.
     #[getter]
     fn audit_failures(&self) -> Vec<String> {
-        self.computed.audit_failures()
+        self.study_parts().iter().flat_map(StudyPart::audit_failures).collect()
     }
 
     /// The text of summary.json.
     fn summary(&self) -> PyResult<String> {
-        let summary = summary(&self.scenario, self.engine.name(), &self.computed, &self.manifest);
+        let summary = summary_of_parts(&self.scenario, self.engine.name(), &self.study_parts(), &self.manifest);
         summary.map(|summary| summary.to_string()).map_err(|error| Failure::Computation.with(error))
     }
 
     /// The table that the command prints.
     fn table(&self) -> String {
-        table(&self.scenario, &self.computed)
+        table_of_parts(&self.study_parts())
     }
 
     /// The phase of each row of a case, and its columns.
     fn series<'py>(&self, py: Python<'py>, case: &str) -> PyResult<(Vec<&'static str>, Vec<Column<'py>>)> {
-        let case = self.case(case)?;
-        let columns = columns(&self.scenario, case);
+        let (part, case) = self.case(case)?;
+        let columns = columns(&part.scenario, case);
         let (mut phases, mut times) = (Vec::new(), Vec::new());
         let mut values = vec![Vec::new(); columns.len()];
-        for row in all_rows(&self.computed, case) {
+        for row in all_rows(&part.computed, case) {
             let row = row?;
             phases.push(row.phase);
             times.push(row.time);
@@ -81,23 +133,25 @@ impl Study {
         Ok((phases, all.map(|(name, unit, values)| (name, unit, values.into_pyarray(py))).collect()))
     }
 
-    /// The report as HTML.
-    fn html(&self) -> PyResult<String> {
-        let mut page = Vec::new();
-        write_report(&self.scenario, &self.computed, &self.manifest, &mut page)?;
+    /// The report that a case is in as HTML.
+    fn html(&self, case: Option<&str>) -> PyResult<String> {
+        let (part, mut page) = (self.part(case)?, Vec::new());
+        write_report(&part.scenario, &part.computed, &self.manifest_of(part), &mut page)?;
         Ok(String::from_utf8_lossy(&page).into_owned())
     }
 
-    /// Writes the report to a file, whole or not at all.
-    fn write_html(&self, path: PathBuf) -> PyResult<()> {
-        let staged = StagedFile::new(&path, |to| write_report(&self.scenario, &self.computed, &self.manifest, to));
+    /// Writes the report that a case is in to a file, whole or not at all.
+    fn write_html(&self, path: PathBuf, case: Option<&str>) -> PyResult<()> {
+        let part = self.part(case)?;
+        let manifest = self.manifest_of(part);
+        let staged = StagedFile::new(&path, |to| write_report(&part.scenario, &part.computed, &manifest, to));
         staged.and_then(StagedFile::commit).map_err(of_output)
     }
 
     /// Writes the time series of a case to a CSV file, whole or not at all.
     fn write_csv(&self, case: &str, path: PathBuf) -> PyResult<()> {
-        let case = self.case(case)?;
-        let staged = StagedFile::new(&path, |to| write_csv(&self.scenario, &self.computed, case, to));
+        let (part, case) = self.case(case)?;
+        let staged = StagedFile::new(&path, |to| write_csv(&part.scenario, &part.computed, case, to));
         staged.and_then(StagedFile::commit).map_err(of_output)
     }
 }

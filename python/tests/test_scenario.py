@@ -11,9 +11,65 @@ from conftest import SCENARIOS
 STUDIES = ["raina_shah_2017", "elastic_rebound", "redysim_single_arm_3r", "three_arms"]
 
 
+SET = 'set = { "layout.base.mass" = 480.0, "approach.duration" = 12.0 }'
+
+
+def with_set(folder, *names):
+    """The paper's scenario, cases of which have values of their own."""
+    text = (SCENARIOS / "raina_shah_2017.toml").read_text().replace("duration = 50.0", "duration = 1.0")
+    for name in names:
+        assert f'name = "{name}"\n' in text
+        text = text.replace(f'name = "{name}"\n', f'name = "{name}"\n{SET}\n')
+    file = folder / "it.toml"
+    file.write_text(text)
+    return file
+
+
 @pytest.mark.parametrize("name", STUDIES)
 def test_summary_series_and_report_are_those_of_the_command(name, command, tmp_path):
-    file = SCENARIOS / f"{name}.toml"
+    same_as_the_command(SCENARIOS / f"{name}.toml", name, command, tmp_path)
+
+
+def test_cases_with_values_of_their_own_are_those_of_the_command(command, tmp_path):
+    result = same_as_the_command(with_set(tmp_path, "case2"), "raina_shah_2017", command, tmp_path)
+    assert list(result.cases) == ["case1", "case2", "case3"]
+    assert result.cases["case2"].summary["set"] == {"layout.base.mass": 480.0, "approach.duration": 12.0}
+    assert 12.0 < result.cases["case2"].series["t"][-1] < 14.0 < 20.0 < result.cases["case3"].series["t"][-1]
+    # the report of the cases that share an approach is the one by default
+    result.report(tmp_path / "own.html", case="case2")
+    own, same = ((tmp_path / path).read_text() for path in ("own.html", "out/case2.report.html"))
+    assert own[:5000] == same[:5000] and '"name":"case2"' in own and '"name":"case1"' not in own
+    assert '"name":"case1"' in (tmp_path / "report.html").read_text()
+    assert result._repr_html_().count("<iframe") == 2
+    with pytest.raises(pc.InputError, match="there is no case `light`"):
+        result.report(tmp_path / "none.html", case="light")
+
+
+def test_cases_that_all_have_values_of_their_own(tmp_path):
+    result = pc.run(with_set(tmp_path, "case1", "case2", "case3"), sample=1.0)
+    assert list(result.cases) == ["case1", "case2", "case3"] and result._repr_html_().count("<iframe") == 3
+    with pytest.raises(pc.InputError, match=r"choose one.*of case1, case2, case3"):
+        result.report(tmp_path / "report.html")
+    # each has the approach of its own, and those of a controller in Python
+    scenario = pc.Scenario.from_toml(with_set(tmp_path, "case3"))
+    times = []
+
+    def control(time, state, desired):
+        times.append(time)
+        return 49.0 * (desired.joint_angles - state.joint_angles) - 14.0 * state.joint_rates
+
+    scenario.run(control, sample_time=0.01, sample=1.0)
+    assert sum(time == 0.0 for time in times) == 2 and max(times) > 19.0
+
+
+def test_other_values_beside_those_of_a_case(tmp_path):
+    scenario = pc.Scenario.from_toml(with_set(tmp_path, "case2"))
+    assert scenario.cases == ["case1", "case2", "case3"]
+    changed = scenario.with_values({"target.target1.mass": 12.0}, case="case2")
+    assert changed.cases == ["case2"] and changed.robot.parameters["base_mass"].value == 480.0
+
+
+def same_as_the_command(file, name, command, tmp_path):
     done = command("run", file, "--out", tmp_path / "out", "--report")
     assert done.returncode in (0, 1), done.stderr
     result = pc.run(file)
@@ -43,6 +99,7 @@ def test_summary_series_and_report_are_those_of_the_command(name, command, tmp_p
     result.report(tmp_path / "report.html")
     said = [(tmp_path / path).read_text() for path in ("report.html", "out/report.html")]
     assert len(said[0]) > 100_000 and said[0][:5000] == said[1][:5000]
+    return result
 
 
 def test_scenarios_from_text():

@@ -3,6 +3,7 @@
 use crate::capture::Study;
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::{Scenario, Variant};
+use std::borrow::Cow;
 
 /// The study of a scenario's common cases, or of a case with values of its own.
 #[derive(Clone, Debug)]
@@ -14,7 +15,7 @@ pub struct StudyPart<'a> {
     /// The implementation of the dynamics.
     pub dynamics: &'a str,
     /// The results.
-    pub study: Study,
+    pub study: Cow<'a, Study>,
     /// For the files of its cases.
     pub manifest: RunManifest,
 }

@@ -20,6 +20,7 @@ use crate::output::summary::summary_of_parts;
 use crate::output::time_series::write_csv;
 use crate::scenario::{Scenario, ScenarioSource, Source, Variant};
 use serde_json::Value;
+use std::borrow::Cow;
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
 use std::io::Write;
@@ -75,6 +76,7 @@ impl Task<'_> {
             progress.finish();
             let study = result.map_err(|error| study_error(&error, scenario, variant, &source.scenario))?;
             let manifest = variant.map_or_else(|| manifest.clone(), |variant| manifest.of_variant(variant));
+            let study = Cow::Owned(study);
             Ok(StudyPart { scenario, variant, dynamics: choice.engine.name(), study, manifest })
         });
         let parts = parts.collect::<Result<Vec<_>, CommandError>>()?;
