@@ -68,19 +68,26 @@ def count(tool, *command):
     return int(found.group(1))
 
 
-def built(flags, target):
-    """The program of a build."""
+def built(flags):
+    """The program of a build; with flags for a named target, so that build scripts and macros need no build of their own."""
     command = ["cargo", "build", "--quiet", "--release", "--locked", "--manifest-path", CRATE / "Cargo.toml"]
     environment = {**os.environ, "RUSTFLAGS": flags}
-    subprocess.run([*command, "--target-dir", target], check=True, env=environment)
-    return target / "release/instructions"
+    folder = ROOT / "target"
+    command += ["--target-dir", folder]
+    if flags:
+        said = subprocess.run(["rustc", "-vV"], check=True, stdout=subprocess.PIPE, text=True).stdout
+        host = re.search(r"(?m)^host: (\S+)", said)[1]
+        command += ["--target", host]
+        folder /= host
+    subprocess.run(command, check=True, env=environment)
+    return folder / "release/instructions"
 
 
 def counts(tool, study):
     """Name and number of instructions of all that is counted."""
     found = {}
     for build, flags in BUILDS.items():
-        program = built(flags, ROOT / "target" / f"instructions-{build}")
+        program = built(flags)
         for function in FUNCTIONS:
             # reading a graph takes some ten thousand instructions more or less, by the seeds of hash tables
             calls = 5000 if function.startswith("graph_") else 1000
