@@ -92,8 +92,9 @@ def fails(test: str, place: Place) -> bool:
     if kind == "build":
         code, text = run([*CARGO_TEST, "--test", "models", "--no-run"], place)
         return code != 0 and "failed to run custom build command" in text and name in text
-    # a crate's own tests; with planar-proof it is built as for the binaries. Pictures are tested where they are built in
+    # a crate's own tests; with planar-proof it is built as for the binaries
     chosen = ["--lib", "-p", kind, "-p", "planar-proof"] if "-" in kind else ["--test", kind]
+    # for the tests of pictures
     if kind == "planar-capture":
         chosen += ["--features", "figures"]
     code, text = run([*CARGO_TEST, *chosen, "--", "--exact", name], place)

@@ -69,7 +69,7 @@ def count(tool, *command):
 
 
 def built(flags):
-    """The program of a build; with flags for a named target, so that build scripts and macros need no build of their own."""
+    """The program of a build; with flags for a named target, so that build scripts and macros are shared."""
     command = ["cargo", "build", "--quiet", "--release", "--locked", "--manifest-path", CRATE / "Cargo.toml"]
     environment = {**os.environ, "RUSTFLAGS": flags}
     folder = ROOT / "target"
