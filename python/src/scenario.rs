@@ -202,12 +202,17 @@ impl Scenario {
         let mut warnings: Vec<String> = warning.into_iter().collect();
         let mut chosen = Vec::new();
         for (scenario, variant) in self.scenario.parts() {
-            let (choice, warning) = choose(dynamics, &scenario.layout)?;
-            warnings.extend(warning.filter(|warning| !warnings.contains(warning)));
+            let choice = if variant.is_some() {
+                let (choice, warning) = choose(dynamics, &scenario.layout)?;
+                warnings.extend(warning.filter(|warning| !warnings.contains(warning)));
+                choice
+            } else {
+                of_scenario.clone()
+            };
             chosen.push((Self::sampled(scenario, sample_time, of_python)?, variant, choice));
         }
         let mut parts = Vec::new();
-        for (i, (scenario, variant, choice)) in chosen.into_iter().enumerate() {
+        for (scenario, variant, choice) in chosen {
             let study = py.detach(|| {
                 let model = choice.model(&scenario.layout);
                 let laws = Laws {
@@ -221,9 +226,7 @@ impl Scenario {
                 return Err(raised);
             }
             let computed = study.map_err(|error| self.without_result(&error, &scenario, variant))?;
-            // the cases without values of their own, where there are some, are the first part
-            let variant = variant.map(|_| i - usize::from(!self.scenario.cases.is_empty()));
-            parts.push(Part { scenario, variant, computed, engine: choice.engine });
+            parts.push(Part { scenario, computed, engine: choice.engine });
         }
         let scenario = self.scenario.clone();
         let manifest = RunManifest::new(&scenario, self.source.clone(), command);

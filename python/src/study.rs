@@ -11,7 +11,7 @@ use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::output::study_part::StudyPart;
 use planar_capture::output::summary::summary_of_parts;
 use planar_capture::output::time_series::{all_rows, columns, write_csv};
-use planar_capture::scenario::Scenario;
+use planar_capture::scenario::{Scenario, Variant};
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
 use std::borrow::Cow;
 use std::path::PathBuf;
@@ -23,8 +23,6 @@ type Column<'py> = (String, &'static str, Bound<'py, PyArray1<f64>>);
 pub struct Part {
     /// With the values of its cases.
     pub scenario: Scenario,
-    /// The index of the case among the scenario's variants; `None` for all others.
-    pub variant: Option<usize>,
     pub computed: Computed,
     pub engine: Engine,
 }
@@ -55,7 +53,7 @@ impl Study {
         }
         match &self.parts[..] {
             [part] => Ok(part),
-            [part, ..] if part.variant.is_none() => Ok(part),
+            [part, ..] if self.variant(part).is_none() => Ok(part),
             _ => Err(Failure::Input.with(format!(
                 "each case has values of its own, and a report of its own: choose one, report(path, case=NAME), of {}",
                 self.scenario.case_names().join(", ")
@@ -66,7 +64,7 @@ impl Study {
     fn study_parts(&self) -> Vec<StudyPart<'_>> {
         let each = self.parts.iter().map(|part| StudyPart {
             scenario: &part.scenario,
-            variant: part.variant.map(|i| &self.scenario.variants[i]),
+            variant: self.variant(part),
             dynamics: part.engine.name(),
             study: Cow::Borrowed(&part.computed),
             manifest: self.manifest_of(part),
@@ -74,9 +72,13 @@ impl Study {
         each.collect()
     }
 
+    /// The case of a part, where it has values of its own.
+    fn variant(&self, part: &Part) -> Option<&Variant> {
+        self.scenario.variant(&part.scenario.cases.first()?.name)
+    }
+
     fn manifest_of(&self, part: &Part) -> RunManifest {
-        let of_variant = |i: usize| self.manifest.of_variant(&self.scenario.variants[i]);
-        part.variant.map_or_else(|| self.manifest.clone(), of_variant)
+        self.variant(part).map_or_else(|| self.manifest.clone(), |variant| self.manifest.of_variant(variant))
     }
 }
 

@@ -28,8 +28,3 @@ pub(super) fn point([x, y]: [f64; 2]) -> String {
 pub(super) fn list(values: &[f64]) -> String {
     format!("[{}]", values.iter().map(|value| short(*value)).collect::<Vec<_>>().join(", "))
 }
-
-/// `1 link`, `2 links`.
-pub(super) fn count(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
-}

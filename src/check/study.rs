@@ -1,14 +1,14 @@
 //! The description of a scenario: robot, approach, control laws, targets and cases.
 
 use super::approach::{largest_turn, peak_rate};
-use super::number::{count, list, point, short};
+use super::number::{list, point, short};
 use super::pose::{FinalPose, final_pose};
 use super::robot::{code, digest, freedom};
 use super::stiffness::{fastest_mode, fastest_mode_afterwards};
 use super::targets::contact_reach;
 use crate::contact::ContactKind;
 use crate::plain_text::Column::{Left, Right};
-use crate::plain_text::{Table, entry, wrap};
+use crate::plain_text::{Table, count, entry, wrap};
 use crate::registry::{self, Robots};
 use crate::scenario::{
     Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, PostCaptureControl, Scenario, Tracking,

@@ -1,8 +1,9 @@
 //! The description of a sweep: what is computed how many times, and what varies.
 
-use super::number::{count, short};
+use super::number::short;
 use crate::campaign::Campaign;
 use crate::campaign::distribution::{Distribution, Kind};
+use crate::plain_text::count;
 use std::fmt::{self, Write};
 
 pub(super) fn description(campaign: &Campaign) -> String {

@@ -3,6 +3,7 @@
 use super::statistics::Percentile;
 use super::{OutputReport, PERCENTILES, SweepReport};
 use crate::output::markup;
+use crate::plain_text::count;
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}\
@@ -23,9 +24,8 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let mut add = |text: &str| html.push_str(text);
     add(&format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style>\n\
-         <h1>{name}</h1>\n<p>{} case{}: ",
-        report.cases,
-        if report.cases == 1 { "" } else { "s" }
+         <h1>{name}</h1>\n<p>{}: ",
+        count(report.cases, "case")
     ));
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
