@@ -10,7 +10,18 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 _Described = tuple[str, list[int], str, str]
 
-__all__ = ["VERSION", "Robot", "Scenario", "Study", "derive", "layouts", "sweep", "sweep_plan", "sweep_report"]
+__all__ = [
+    "VERSION",
+    "Robot",
+    "Scenario",
+    "Study",
+    "derive",
+    "layouts",
+    "sweep",
+    "sweep_plan",
+    "sweep_report",
+    "sweep_statuses",
+]
 
 VERSION: str
 
@@ -111,4 +122,5 @@ def sweep_plan(
     path: str | os.PathLike[str], out: str | os.PathLike[str] | None, dynamics: str
 ) -> tuple[str, str, int, int, list[int], int]: ...
 def sweep_report(path: str | os.PathLike[str], folder: str | os.PathLike[str]) -> str: ...
+def sweep_statuses(folder: str | os.PathLike[str], block: int) -> list[tuple[str, int]]: ...
 def derive(layout: str, file: str, interpreter: str | None, say: Callable[[str], object] | None) -> Robot: ...

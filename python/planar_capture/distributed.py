@@ -88,8 +88,9 @@ def sweep(
 
 def compute(block: int, path: str, folder: str, total: int, dynamics: str) -> list[tuple[str, int]]:
     """Computes one file, on a worker; the numbers of its cases by status."""
-    *_, computed, _ = _native.sweep(path, folder, 1, (block + 1, total), dynamics, False, None)
-    return computed
+    *_, computed, present = _native.sweep(path, folder, 1, (block + 1, total), dynamics, False, None)
+    # a worker that was lost may have written the file, and not said so
+    return _native.sweep_statuses(folder, block) if present else computed
 
 
 def allow_failures(dask_scheduler: Any) -> None:

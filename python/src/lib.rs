@@ -33,7 +33,7 @@ mod _native {
     #[pymodule_export]
     use super::study::Study;
     #[pymodule_export]
-    use super::sweep::{sweep, sweep_plan, sweep_report};
+    use super::sweep::{sweep, sweep_plan, sweep_report, sweep_statuses};
     use planar_capture::registry::SHIPPED;
     use pyo3::prelude::pyfunction;
 

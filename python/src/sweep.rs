@@ -4,7 +4,7 @@ use crate::failure::{Failure, of_output, of_report};
 use crate::scenario::choose;
 use planar_capture::campaign::Campaign;
 use planar_capture::campaign::manifest::{ManifestError, claim};
-use planar_capture::campaign::report::{ReportError, write_report};
+use planar_capture::campaign::report::{ReportError, statuses_of_block, write_report};
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
 use planar_capture::output::atomic_file::create_folder;
@@ -119,6 +119,12 @@ pub fn sweep_plan(path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResu
 pub fn sweep_report(path: PathBuf, folder: PathBuf) -> PyResult<PathBuf> {
     let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
     write_report(&campaign, &path, &folder).map_err(of_sweep_report)
+}
+
+/// How many cases of a file of a sweep have each status.
+#[pyfunction]
+pub fn sweep_statuses(folder: PathBuf, block: u64) -> PyResult<Vec<(&'static str, usize)>> {
+    statuses_of_block(&folder, block).map_err(|error| Failure::Input.with(error))
 }
 
 fn show(py: Python<'_>, progress: Option<&Py<PyAny>>, tally: &Tally, cases: u64) -> Result<(), PyErr> {

@@ -62,6 +62,14 @@ def test_killed_workers_change_nothing(client, file, tmp_path):
     assert again.present == 605 and not again.computed and (result.folder / "report.html").exists()
 
 
+def test_a_file_that_a_lost_worker_has_left_is_counted(file, tmp_path):
+    pc.sweep(file, tmp_path / "there")
+    arguments = {"path": str(file), "folder": str(tmp_path / "there"), "total": 6, "dynamics": "auto"}
+    (tmp_path / "there/cases/000002.parquet").unlink()
+    first, again = (dict(distributed.compute(2, **arguments)) for _ in range(2))
+    assert {status: count for status, count in first.items() if count} == again == {"done": 10}
+
+
 def test_refusals(client, file, tmp_path):
     with pytest.raises(pc.InputError, match=r"no file `.*missing\.toml`"):
         distributed.sweep(tmp_path / "missing.toml", client, tmp_path / "out")

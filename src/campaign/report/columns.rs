@@ -71,6 +71,11 @@ impl Columns {
         Ok(Self { files })
     }
 
+    /// Of one file.
+    pub fn of_file(file: PathBuf) -> Self {
+        Self { files: vec![file] }
+    }
+
     /// Name and unit of every column.
     ///
     /// # Errors

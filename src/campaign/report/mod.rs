@@ -12,6 +12,7 @@ mod pictures;
 pub mod scatter;
 pub mod statistics;
 
+use crate::campaign::block_file;
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
@@ -100,6 +101,25 @@ pub enum ReportError {
     Output(#[from] OutputError),
 }
 
+/// How many cases have each status, those that occur.
+fn by_status(statuses: &[Option<String>]) -> Vec<(&'static str, usize)> {
+    let count = |name: &str| statuses.iter().filter(|status| status.as_deref() == Some(name)).count();
+    Status::ALL.iter().map(|(name, _)| (*name, count(name))).filter(|(_, count)| *count > 0).collect()
+}
+
+/// How many cases of a file have each status, those that occur.
+///
+/// # Errors
+/// [`UnreadableError`].
+pub fn statuses_of_block(folder: &Path, block: u64) -> Result<Vec<(&'static str, usize)>, UnreadableError> {
+    let columns = Columns::of_file(block_file::path(folder, block));
+    let place = columns.names()?.iter().position(|(name, _)| name == "status");
+    Ok(match place.map(|place| columns.column(place)).transpose()? {
+        Some(Column::Texts(statuses)) => by_status(&statuses),
+        _ => Vec::new(),
+    })
+}
+
 /// Reads the files of a sweep that are there.
 ///
 /// # Errors
@@ -123,11 +143,9 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices of cases")]
     let cases: Vec<u64> = numbers("case")?.into_iter().map(|case| case.unwrap_or_default() as u64).collect();
     let (statuses, messages) = (texts("status")?, texts("message")?);
-    let is = |status: &Option<String>, name: &str| status.as_deref() == Some(name);
-    let counts = Status::ALL
-        .iter()
-        .map(|(name, _)| ((*name).to_owned(), statuses.iter().filter(|status| is(status, name)).count()));
-    let failures = statuses.iter().enumerate().filter(|(_, status)| !is(status, Status::Done.name())).take(LISTED);
+    let counts = by_status(&statuses).into_iter().map(|(name, count)| (name.to_owned(), count)).collect();
+    let is_done = |status: &Option<String>| status.as_deref() == Some(Status::Done.name());
+    let failures = statuses.iter().enumerate().filter(|(_, status)| !is_done(status)).take(LISTED);
     let failures = failures.map(|(row, status)| {
         let message = messages.get(row).cloned().flatten().unwrap_or_default();
         (cases[row], status.clone().unwrap_or_default(), message)
@@ -151,7 +169,7 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
     Ok(SweepReport {
         name: campaign.sweep.name.clone(),
         cases: cases.len(),
-        statuses: counts.filter(|(_, count)| *count > 0).collect(),
+        statuses: counts,
         failures: failures.collect(),
         keys: keys.into_iter().map(|(key, _)| key).map(|key| (key.clone(), unit_of(&key))).collect(),
         outputs,
