@@ -7,6 +7,7 @@ use crate::simulate::system::Body;
 
 /// One contact of an end effector with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpactContact {
     /// Index of the target.
     pub target: usize,

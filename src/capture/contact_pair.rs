@@ -2,6 +2,7 @@
 
 /// By indices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactPair {
     /// Of the target.
     pub target: usize,

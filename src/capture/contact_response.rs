@@ -11,6 +11,7 @@ use crate::simulate::system::Body;
 /// The response before an impact to one contact alone, as if there were no other.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactResponse {
     /// [ω, vx, vy] of the end effector relative to the contact point of the target.
     pub relative_twist: [f64; 3],

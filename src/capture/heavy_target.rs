@@ -18,6 +18,7 @@ const MOST: f64 = 1e5;
 
 /// Of the targets that are merged with the robot, how far the heaviest is from what double precision resolves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HeavyTarget {
     /// Its mass over the robot's.
     pub mass: f64,

@@ -19,6 +19,7 @@ use crate::target::Target;
 /// The impact by both models.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpactSolution {
     /// In full coordinates.
     pub exact: ImpactResult,
@@ -33,6 +34,7 @@ pub struct ImpactSolution {
 /// One contact, by the exact equations.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactResult {
     /// Target, arm, contact point and law.
     pub contact: ImpactContact,
@@ -44,6 +46,7 @@ pub struct ContactResult {
 
 /// The result of an impact. Lists per arm have `None` for an arm without contact.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpactResult {
     /// rad/s.
     pub joint_rates_after: Vec<f64>,

@@ -72,6 +72,7 @@ pub type ModelFactory<'a> = &'a dyn Fn() -> Box<dyn CloneModel>;
 /// The results of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Study {
     /// Of the approach, where end effector twists are given.
     pub terminal_rates: Option<TerminalRates>,
@@ -88,6 +89,7 @@ pub struct Study {
 /// The results of one case.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CaseResult {
     /// Its name.
     pub name: String,
@@ -107,6 +109,7 @@ pub struct CaseResult {
 
 /// An impact after the first one.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaterImpact {
     /// Since the first impact, s.
     pub time: f64,
@@ -117,6 +120,7 @@ pub struct LaterImpact {
 /// A capture and the motion after it.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CaptureResult {
     /// The first impact, by the exact and the paper's equations.
     pub impact: ImpactSolution,

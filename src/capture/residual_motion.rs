@@ -10,6 +10,7 @@ use crate::simulate::system::Body;
 /// Momentum and rates of robot and captured targets together.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ResidualMotion {
     /// Name of the control law, as in a scenario.
     pub control: &'static str,

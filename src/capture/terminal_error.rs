@@ -10,6 +10,7 @@ const TOLERANCE: f64 = 1e-3;
 /// Desired less reached pose of an end effector at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TerminalError {
     /// As the goal has them: [yaw, x, y] or [x, y]; rad to the nearest turn, m.
     pub parts: Vec<f64>,

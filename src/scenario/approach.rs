@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 /// A trajectory, its final state and its tracking law.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Approach {
     /// Length in s, greater than 0.
     pub duration: f64,
@@ -35,6 +36,7 @@ pub struct Approach {
 
 /// The desired pose of an end effector at the end of an approach, inertial frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EndEffectorGoal {
     /// Anywhere.
     Any,
@@ -49,6 +51,7 @@ pub type EndEffectorTwistGoal = [Option<f64>; 3];
 
 /// The desired rates at the end of an approach.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum FinalRates {
     /// Rest, for trajectories that end at rest.
     Rest,
@@ -61,6 +64,7 @@ pub enum FinalRates {
 
 /// Tracking laws.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Tracking {
     /// Without error, with torques from inverse dynamics; the arms start at rest.
     InverseDynamics,

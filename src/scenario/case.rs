@@ -5,6 +5,7 @@ use crate::scenario::Target;
 
 /// One variant of the capture. All lists are in the targets' order.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Case {
     /// Unique in the scenario; usable as a file name.
     pub name: String,

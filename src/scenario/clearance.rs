@@ -2,6 +2,7 @@
 
 /// Which bodies may overlap, and what an overlap of others does.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ClearanceRules {
     /// Default: report it.
     pub on_overlap: OnOverlap,
@@ -22,6 +23,7 @@ impl Default for ClearanceRules {
 
 /// What an overlap does, of bodies whose outlines are both given; others are reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum OnOverlap {
     /// It is in the results.
     #[default]

@@ -2,6 +2,7 @@
 
 /// When contacts begin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Detection {
     /// At the end of the approach, wherever the end effectors are, as in the paper: the default.
     #[default]
@@ -17,6 +18,7 @@ impl Detection {
 
 /// The `[contact]` table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactRules {
     /// When contacts begin.
     pub detection: Detection,

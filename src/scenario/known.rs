@@ -36,6 +36,7 @@ pub struct LawNumber {
 
 /// The numbers that a law gets, one for each of its keys, given or default.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LawNumbers(pub(super) Vec<(&'static str, f64)>);
 
 impl LawNumbers {

@@ -37,6 +37,7 @@ pub use variant::Variant;
 ///
 /// SI units, radians, inertial axes; twists are [ω, vx, vy], poses [yaw, x, y].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Scenario {
     /// Names the results; usable as a file name.
     pub name: String,

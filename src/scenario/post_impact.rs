@@ -5,6 +5,7 @@ use crate::simulate::stepper::Integration;
 
 /// The motion of robot and targets after the capture.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PostImpact {
     /// Length in s, greater than 0.
     pub duration: f64,
@@ -20,6 +21,7 @@ pub struct PostImpact {
 
 /// Post-capture control laws.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PostCaptureControl {
     /// No torques, as in the paper: the default.
     None,

@@ -5,6 +5,7 @@ use crate::outline::Outline;
 
 /// A free rigid body that arms capture.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Target {
     /// Unique in the scenario.
     pub name: String,
@@ -29,6 +30,7 @@ pub struct Target {
 
 /// The contact of an arm with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlannedContact {
     /// Index of the arm.
     pub arm: usize,

@@ -7,6 +7,7 @@ use std::fmt::Write;
 
 /// A case that has other values at keys of the scenario or of its layout, `set`, and with them an approach of its own.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Variant {
     /// Paths, as sweeps name them, with their values.
     pub set: Vec<(String, VariedValue)>,

@@ -9,6 +9,7 @@ use crate::simulate::{Phase, PhaseError, Timing, simulate};
 
 /// Limits and sample time of a control law.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Actuation {
     /// The largest torque of each joint in N m, 0 or more; default none.
     pub torque_limits: Option<Vec<f64>>,

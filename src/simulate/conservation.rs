@@ -9,6 +9,7 @@ use crate::state::State;
 
 /// Violations of the conservation laws in a phase, relative to the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConservationErrors {
     /// Largest change of momentum, less the external impulse, over the largest Σ m|v|, or the same for the angular
     /// momentum about the inertial origin over the largest Σ |Iω| + m|r × v|: the larger of the two; 0 where nothing

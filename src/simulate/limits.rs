@@ -4,6 +4,7 @@ use crate::state::State;
 
 /// The limits of one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct JointLimits {
     /// The joint, as in messages: `joint 2 of arm1`.
     pub name: String,
@@ -30,6 +31,7 @@ impl JointLimits {
 
 /// A joint beyond its limit.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LimitViolation {
     /// `joint 2 of arm1`.
     pub joint: String,
@@ -51,6 +53,7 @@ impl LimitViolation {
 
 /// The largest violations of a phase.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LimitViolations {
     /// Of an angle, rad.
     pub joint_angle: Option<LimitViolation>,

@@ -41,6 +41,7 @@ use crate::state::ActuatorWork;
 
 /// State, torques, end effectors, momentum and bodies at one instant.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sample {
     /// Since the start of the phase, s.
     pub time: f64,
@@ -98,6 +99,7 @@ impl Timing {
 
 /// The result of one phase.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Phase {
     /// s; up to the event where one ended the phase.
     pub duration: f64,
@@ -108,6 +110,7 @@ pub struct Phase {
     /// of these: [`Phase::all_samples`] has all.
     pub samples: Vec<Sample>,
     /// Those that have more samples than these, in order.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub stored: Vec<StoredSamples>,
     /// The largest of all steps.
     pub drift: ConservationErrors,
@@ -126,11 +129,13 @@ pub struct Phase {
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
     /// Positions and rates of the integrated vector; empty for a motion with impacts and in the results of a study.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub path: Path,
 }
 
 /// How long actuators were at their limits, by their torques at the start of each step.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Saturation {
     /// One per joint, s; empty where the law has no limits.
     pub joints: Vec<f64>,

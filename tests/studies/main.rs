@@ -23,6 +23,7 @@ mod redysim;
 mod reported;
 mod reproduction;
 mod resolved_motion_rate;
+mod serialized;
 mod study;
 
 use planar_capture::capture::{Silent, Study};

@@ -4,6 +4,7 @@ use super::scalar::Scalar;
 
 /// A free rigid body, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body<T> {
     /// kg.
     pub mass: T,

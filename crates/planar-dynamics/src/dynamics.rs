@@ -93,6 +93,7 @@ pub trait ForwardDynamics<T: Real> {
 
 /// Momentum and kinetic energy at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Momentum<T> {
     /// [px, py], inertial axes, N s.
     pub linear_momentum: [T; 2],

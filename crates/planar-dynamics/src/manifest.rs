@@ -2,6 +2,7 @@
 
 /// The number of a layout that a parameter of a generated model stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ParameterKind {
     /// Mass of the base, kg.
     BaseMass,
@@ -43,6 +44,7 @@ impl ParameterKind {
 
 /// One run-time parameter of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Parameter {
     /// Name of the field in the model's `Parameters`.
     pub name: &'static str,
@@ -60,6 +62,7 @@ pub struct Parameter {
 
 /// One of the full coordinates: the base's three, then the joints arm by arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Coordinate {
     /// `base yaw`, or the arm's name and the joint's number.
     pub name: &'static str,
@@ -69,6 +72,7 @@ pub struct Coordinate {
 
 /// Operation counts of one call of a function, its configuration stage included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Operations {
     /// The function of the model.
     pub function: &'static str,
@@ -94,6 +98,7 @@ impl Operations {
 
 /// The description of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Manifest {
     /// Name of the layout.
     pub name: &'static str,

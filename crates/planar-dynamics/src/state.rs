@@ -6,6 +6,7 @@ use crate::scalar::Scalar;
 
 /// Positions and velocities of a robot; J holds one number per joint: an array, a vector or a slice.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RobotState<T, J> {
     /// [yaw, x, y] of the base COM, inertial frame; rad, m.
     pub base_pose: [T; 3],
@@ -164,6 +165,7 @@ pub fn coordinates_mut<T>(
 
 /// Work and angular impulse of the actuators, integrated with the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ActuatorWork<T> {
     /// Work of the joint torques, J.
     pub joint_work: T,

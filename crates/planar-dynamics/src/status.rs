@@ -3,6 +3,7 @@
 /// What became of one instance of a batch; its results are written where it is `Done`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[repr(u8)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Status {
     /// Computed.
     #[default]

@@ -5,6 +5,7 @@ use super::scalar::Scalar;
 
 /// A free-floating rigid body that an end effector captures at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Target<T> {
     /// kg.
     pub mass: T,
@@ -86,6 +87,7 @@ impl<T: Scalar> Target<T> {
 
 /// Inertial properties of one link.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinkInertia<T> {
     /// kg.
     pub mass: T,

@@ -32,6 +32,7 @@ pub enum Mismatch {
 
 /// The structure that some code or graph was derived for.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Structure {
     /// Number of links of each arm.
     pub links: Vec<usize>,

@@ -23,6 +23,7 @@ const MAX_HALVINGS: u32 = 12;
 
 /// Final joint angles whose exactly tracked approach ends with the end effectors at the desired poses.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InverseKinematics {
     /// rad.
     pub joint_angles: Vec<f64>,

@@ -74,6 +74,7 @@ pub enum TerminalRatesError {
 
 /// Terminal joint rates θ̇(T) such that `J(q(T)) θ̇(T)` is the desired end effector twist for a robot from rest.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TerminalRates {
     /// θ̇(T), rad/s, the final rates of the trajectory.
     pub joint_rates: Vec<f64>,

@@ -26,6 +26,7 @@ const SAME_TIME: f64 = 1e-8;
 /// The least distance of two bodies.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeastDistance {
     /// m; negative for the depth of an overlap.
     pub distance: f64,
@@ -38,6 +39,7 @@ pub struct LeastDistance {
 /// Two bodies inside each other by more than 1 µm.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Overlap {
     /// As in [`LeastDistance`].
     pub bodies: [String; 2],
@@ -67,6 +69,7 @@ impl Overlap {
 /// The clearance of a case.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Clearance {
     /// Of all pairs; `None` where all bodies are joined.
     pub least: Option<LeastDistance>,
@@ -95,6 +98,7 @@ impl Clearance {
 
 /// The smallest distance of an end effector from a target that it is to meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ClosestApproach {
     /// Index of the target.
     pub target: usize,

@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 /// A scalar of TOML.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum VariedValue {
     /// Also for integers.
     Number(f64),

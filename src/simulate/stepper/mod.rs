@@ -18,6 +18,7 @@ pub(crate) type PathErrors = (f64, [Vec<f64>; 2]);
 
 /// By which integrator, in which coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Integration {
     /// The integrator.
     pub integrator: Integrator,
@@ -27,6 +28,7 @@ pub struct Integration {
 
 /// What is integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Formulation {
     /// Base and joints.
     #[default]
@@ -52,6 +54,7 @@ pub struct Properties {
 
 /// An integrator. Each has a file of its own with its properties and steps; this file lists them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Integrator {
     /// Classical Runge–Kutta steps of order 4.
     #[default]

@@ -13,11 +13,13 @@ use crate::validate::length;
 ///
 /// Symmetric, rows of inertial axes; 1/(kg m²), 1/(kg m), 1/kg.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct InverseInertia<T>(pub [[T; 3]; 3]);
 
 /// The impulses that stop relative velocities of 1 m/s in all directions at a point contact: the ellipse `F̄ᵀ G² F̄ = 1`
 /// with the force part G of the sum of both inverse inertias.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ImpulseEllipse<T> {
     /// The longer and the shorter one, N s per m/s = kg.
     pub semi_axes: [T; 2],

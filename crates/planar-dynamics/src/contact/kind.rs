@@ -4,6 +4,7 @@ use crate::scalar::Scalar;
 
 /// A kind of contact, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactKind {
     /// A rigid grasp: no relative twist after the impact.
     Rigid,
@@ -58,6 +59,7 @@ impl ContactKind {
 
 /// The relation between the impulse of a contact and the motion of the end effector relative to its partner.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactLaw<T> {
     /// See [`ContactKind::Rigid`].
     Rigid,

@@ -5,6 +5,7 @@ use crate::scalar::{Real, Scalar};
 
 /// A lasting contact between an end effector and a free body or another end effector.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoopConstraint<T> {
     /// The arm of the end effector.
     pub arm: usize,

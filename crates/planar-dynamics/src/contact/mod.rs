@@ -37,6 +37,7 @@ use crate::scalar::Real;
 
 /// The body or end effector with which an end effector is in contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactPartner {
     /// The free body of this index.
     Body(usize),
@@ -70,6 +71,7 @@ fn entry_mut<'a, X>(what: &'static str, list: &'a mut [X], index: usize) -> Resu
 
 /// One contact at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Contact<T> {
     /// The arm of the end effector.
     pub arm: usize,

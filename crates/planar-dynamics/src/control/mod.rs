@@ -87,6 +87,7 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
 
 /// An external moment on the base, from thrusters or magnetic torquers.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BaseTorque<T> {
     /// N m.
     pub torque: T,

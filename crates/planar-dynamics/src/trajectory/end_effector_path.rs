@@ -5,6 +5,7 @@ use crate::scalar::Real;
 
 /// Desired motion of one end effector at one time, inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesiredEndEffector<T> {
     /// [yaw, x, y]; rad, m.
     pub pose: [T; 3],

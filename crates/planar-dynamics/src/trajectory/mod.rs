@@ -20,6 +20,7 @@ use crate::scalar::Real;
 
 /// Desired motion of one joint at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DesiredJoint<T> {
     /// rad.
     pub angle: T,
@@ -37,6 +38,7 @@ pub trait Trajectory<T> {
 
 /// The properties of a kind of joint trajectory.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TrajectoryProperties {
     /// Its name in scenarios.
     pub name: &'static str,
@@ -93,6 +95,7 @@ macro_rules! kinds {
     ($($kind:ident),*) => {
         /// A kind of joint trajectory.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum TrajectoryKind {
             $(#[doc = concat!("[`", stringify!($kind), "`].")] $kind,)*
         }

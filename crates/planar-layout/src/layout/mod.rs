@@ -19,6 +19,7 @@ const KEYWORDS: &str = "abstract as async await become box break const continue 
 
 /// A free-floating robot: a base and the arms mounted on it. All joints are revolute.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Layout {
     /// Names the generated Rust module: lower-case letters, digits and underscores.
     pub name: String,
@@ -30,6 +31,7 @@ pub struct Layout {
 
 /// The base body; its frame has its origin at the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Base {
     /// Mass in kg, greater than 0.
     pub mass: f64,
@@ -41,6 +43,7 @@ pub struct Base {
 
 /// A chain of links; joint k moves link k.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Arm {
     /// The name that scenarios use; unique in the layout.
     pub name: String,
@@ -54,6 +57,7 @@ pub struct Arm {
 
 /// A rigid link; its frame has its origin at its joint and x towards the next joint or the end effector.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Link {
     /// Distance to the next joint, or to the end effector, in m; 0 for a reaction wheel.
     pub length: f64,

@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The outline of a rigid body in its own frame: that of a link, or one with the COM as its origin.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Outline {
     /// A circle.
     Disc {
@@ -54,6 +55,7 @@ pub enum OutlineError {
 
 /// The signed distance of a point from an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SignedDistance {
     /// Distance to the outline, m; negative inside.
     pub distance: f64,
