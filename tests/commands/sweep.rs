@@ -292,6 +292,10 @@ fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
         ("initial.joint_angles", "expected one element of it"),
         ("case.case1.target_twists.target1[0]", "the sweep computes the case `case2`"),
         ("post_impact.derivative_gain[0]", "is not given"),
+        (
+            "target.target1.twist[0]",
+            "it has no effect: the case `case2` has a value of its own, `case.case2.target_twists.target1[0]`",
+        ),
     ];
     let place = Workplace::sampled("random");
     for (key, expected) in wrong_keys {

@@ -3,6 +3,7 @@
 
 mod key_path;
 mod key_place;
+mod replaced;
 mod varied_value;
 
 use crate::diagnostic::Report;
@@ -10,6 +11,7 @@ use crate::format::Step;
 use crate::layout::Layout;
 use crate::scenario::{KeyFile, Known, LawFormat, Scenario, ScenarioSource};
 use key_place::{Place, place, set};
+use replaced::replaced;
 use std::ops::Range;
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
@@ -53,7 +55,7 @@ impl Variation {
     /// name stays.
     ///
     /// # Errors
-    /// The first key that names nothing.
+    /// The first key that names nothing, or what the case replaces.
     ///
     /// # Panics
     /// Where the texts are not those of the scenario.
@@ -89,6 +91,12 @@ impl Variation {
             }
             set(tree, &place, value.to_toml());
             places.push((path.file, place));
+        }
+        for (key, (path, _)) in keys.iter().enumerate() {
+            if let Some(own) = replaced(path, &of_scenario) {
+                let why = format!("it has no effect: the case `{case}` has a value of its own, `{own}`");
+                return Err(Unusable { key, why });
+            }
         }
         let of = |wanted: KeyFile, tree: &Table| {
             let of_tree = places.iter().enumerate().filter(|(_, (file, _))| *file == wanted);
