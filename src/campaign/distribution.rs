@@ -2,6 +2,7 @@
 
 use super::normal;
 use crate::scenario::variation::VariedValue;
+use std::fmt::{self, Display, Formatter};
 
 /// How a value varies, truncated where it has bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +48,30 @@ pub enum Kind {
     },
     /// Values that are equally likely, at least one.
     Choice(Vec<VariedValue>),
+}
+
+/// In words: `normal, mean 10, standard deviation 1, at least 5`.
+impl Display for Distribution {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            Kind::Normal { mean, std } => write!(f, "normal, mean {mean}, standard deviation {std}"),
+            Kind::LogNormal { mean, std } => write!(f, "lognormal, mean {mean}, standard deviation {std}"),
+            Kind::Uniform { min, max } => write!(f, "uniform from {min} to {max}"),
+            Kind::Triangular { min, mode, max } => write!(f, "triangular from {min} to {max}, most likely {mode}"),
+            Kind::Choice(values) => {
+                let values: Vec<_> = values.iter().map(ToString::to_string).collect();
+                write!(f, "one of {}", values.join(", "))
+            }
+        }?;
+        let [low, high] = self.bounds;
+        if low.is_finite() {
+            write!(f, ", at least {low}")?;
+        }
+        if high.is_finite() {
+            write!(f, ", at most {high}")?;
+        }
+        Ok(())
+    }
 }
 
 impl Distribution {

@@ -18,7 +18,7 @@ pub(super) fn gallery(report: &SweepReport) -> String {
     if places.len() < report.outputs.len() {
         let _ = writeln!(
             html,
-            "<p>Of the {} outputs with the strongest rank correlations; the tables have all {}.</p>",
+            "<p>Of the {} outputs on which a key has the strongest effect, by rank correlation or the root of the first-order index; the tables have all {}.</p>",
             places.len(),
             report.outputs.len()
         );

@@ -22,34 +22,58 @@ pub use columns::UnreadableError;
 use columns::{Column, Columns};
 use histogram::Histogram;
 use page::page;
-use scatter::{Scatter, strongest_first};
+use scatter::{Scatter, effects, strongest_first};
 use statistics::{Percentile, PercentileRanks, correlation, first_order, ranks};
+use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// The percentiles of an output, in hundredths.
 pub const PERCENTILES: [u8; 5] = [5, 25, 50, 75, 95];
 
-/// Most failures that are listed.
+/// Most kinds of failures that are listed.
 const LISTED: usize = 20;
+
+/// An output of which no two cases differ by more, in SI units and relative to its largest value, is the same in all: what
+/// is left are rounding and the tolerance of the integration.
+pub const SAME: f64 = 1e-10;
 
 /// What there is to say about a sweep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SweepReport {
     /// The sweep's name.
     pub name: String,
+    /// What was computed: scenario, case, robot, sampling and seed, each with its name.
+    pub about: Vec<(&'static str, String)>,
+    /// Every key that varies, with its distribution in words.
+    pub varied: Vec<(String, String)>,
     /// Rows that were read.
     pub cases: usize,
     /// Rows by status, those that occur.
     pub statuses: Vec<(String, usize)>,
-    /// Case, status and message of the first failures.
-    pub failures: Vec<(u64, String, String)>,
+    /// The kinds of failures, the most frequent one first.
+    pub failures: Vec<FailureKind>,
     /// Names and units of the keys that vary with numbers.
     pub keys: Vec<(String, String)>,
     /// Outputs that vary.
     pub outputs: Vec<OutputReport>,
+    /// Name, unit and largest magnitude of those that are the same in all cases, to [`SAME`].
+    pub same: Vec<(String, String, f64)>,
     /// Whether keys are independent, as first-order indices suppose.
     pub is_independent: bool,
+}
+
+/// Failures whose messages are alike but for numbers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FailureKind {
+    /// How many there are.
+    pub count: usize,
+    /// The first case.
+    pub case: u64,
+    /// Its status.
+    pub status: String,
+    /// Its message.
+    pub message: String,
 }
 
 /// One output.
@@ -71,16 +95,18 @@ pub struct OutputReport {
     pub first_order: Vec<Option<f64>>,
     /// How many cases have which values.
     pub histogram: Option<Histogram>,
-    /// Over the key with the strongest rank correlation.
+    /// Over the key with the strongest effect.
     pub scatter: Option<Scatter>,
 }
 
 impl SweepReport {
-    /// The places of so many outputs, in their order: those with the strongest rank correlations, then the first ones.
+    /// The places of so many outputs, in their order: those with the strongest effects of a key, then the first ones.
     #[must_use]
     pub fn most_sensitive(&self, most: usize) -> Vec<usize> {
-        let strength =
-            |output: &OutputReport| strongest_first(&output.correlations).first().map_or(0.0, |of| of.1.abs());
+        let strength = |output: &OutputReport| {
+            let effects = effects(&output.correlations, &output.first_order);
+            strongest_first(&effects).first().map_or(0.0, |of| of.1.abs())
+        };
         let mut places: Vec<_> =
             self.outputs.iter().enumerate().map(|(place, output)| (place, strength(output))).collect();
         places.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -145,10 +171,9 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
     let (statuses, messages) = (texts("status")?, texts("message")?);
     let counts = by_status(&statuses).into_iter().map(|(name, count)| (name.to_owned(), count)).collect();
     let is_done = |status: &Option<String>| status.as_deref() == Some(Status::Done.name());
-    let failures = statuses.iter().enumerate().filter(|(_, status)| !is_done(status)).take(LISTED);
-    let failures = failures.map(|(row, status)| {
+    let failures = statuses.iter().enumerate().filter(|(_, status)| !is_done(status)).map(|(row, status)| {
         let message = messages.get(row).cloned().flatten().unwrap_or_default();
-        (cases[row], status.clone().unwrap_or_default(), message)
+        FailureKind { count: 1, case: cases[row], status: status.clone().unwrap_or_default(), message }
     });
     let mut keys = Vec::new();
     for varied in &campaign.sweep.varied {
@@ -157,24 +182,67 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
     }
     let is_independent = campaign.sweep.copula.is_none();
     let mut of_count = HashMap::new();
-    let mut outputs = Vec::new();
+    let (mut outputs, mut same) = (Vec::new(), Vec::new());
     let first = place("captured").unwrap_or_default();
     for (name, unit) in &names[first.min(names.len())..] {
         let values = numbers(name)?;
         let rows: Vec<usize> = (0..values.len()).filter(|row| values[*row].is_some()).collect();
         let values: Vec<f64> = values.into_iter().flatten().collect();
+        if let Some(largest) = same_in_all(&values) {
+            same.push((name.clone(), unit.clone(), largest));
+            continue;
+        }
         let found = OutputReport { name: name.clone(), unit: unit.clone(), ..OutputReport::default() };
         outputs.extend(found.of(&cases, (&rows, &values), &keys, is_independent, &mut of_count));
     }
+    let (sweep, scenario) = (&campaign.sweep, &campaign.scenario);
     Ok(SweepReport {
-        name: campaign.sweep.name.clone(),
+        name: sweep.name.clone(),
+        about: vec![
+            ("scenario", scenario.name.clone()),
+            ("case", sweep.case.clone()),
+            ("robot", scenario.layout.name.clone()),
+            ("sampling", sweep.sampling.name().replace('_', " ")),
+            ("seed", sweep.seed.to_string()),
+        ],
+        varied: sweep.varied.iter().map(|varied| (varied.key.clone(), varied.distribution.to_string())).collect(),
         cases: cases.len(),
         statuses: counts,
-        failures: failures.collect(),
+        failures: kinds_of(failures),
         keys: keys.into_iter().map(|(key, _)| key).map(|key| (key.clone(), unit_of(&key))).collect(),
         outputs,
+        same,
         is_independent,
     })
+}
+
+/// The largest magnitude of values that are the same to [`SAME`]; `None` of others, and of none.
+fn same_in_all(values: &[f64]) -> Option<f64> {
+    let bounds = |(least, most): (f64, f64), value: &f64| (least.min(*value), most.max(*value));
+    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    let size = least.abs().max(most.abs());
+    (most - least <= SAME * size.max(1.0)).then_some(size)
+}
+
+/// Failures by their messages without numbers, the most frequent kind first.
+fn kinds_of(failures: impl Iterator<Item = FailureKind>) -> Vec<FailureKind> {
+    let mut places = HashMap::new();
+    let mut kinds: Vec<FailureKind> = Vec::new();
+    for failure in failures {
+        let words: Vec<_> = failure.message.split_whitespace().filter(|word| !word.contains(is_digit)).collect();
+        let place = *places.entry((failure.status.clone(), words.join(" "))).or_insert(kinds.len());
+        match kinds.get_mut(place) {
+            Some(kind) => kind.count += 1,
+            None => kinds.push(failure),
+        }
+    }
+    // stable: equally frequent kinds stay in their order
+    kinds.sort_by_key(|kind| Reverse(kind.count));
+    kinds
+}
+
+fn is_digit(c: char) -> bool {
+    c.is_ascii_digit()
 }
 
 /// The unit of a key; empty where another key decides on it, as it does for gains.
@@ -220,13 +288,14 @@ impl OutputReport {
         let of_values = ranks(values);
         let of_keys: Vec<Vec<f64>> =
             keys.iter().map(|(_, all)| ranks(&rows.iter().map(|row| all[*row]).collect::<Vec<_>>())).collect();
-        let first_order = of_keys.iter().filter(|_| is_independent).map(|key| first_order(key, values)).collect();
+        let first_order: Vec<_> =
+            of_keys.iter().filter(|_| is_independent).map(|key| first_order(key, values)).collect();
         let correlations: Vec<_> = of_keys.iter().map(|key| correlation(key, &of_values)).collect();
         let of_key = |key: usize| rows.iter().map(|row| keys[key].1[*row]).collect();
         Some(Self {
             count: values.len(),
             histogram: Histogram::of(&sorted),
-            scatter: Scatter::of(&correlations, of_key, values),
+            scatter: Scatter::of(&effects(&correlations, &first_order), of_key, values),
             percentiles: at.iter().map(|percentile| percentile.of(&sorted)).collect(),
             extremes: [smallest, largest].map(|i| (cases[rows[i]], values[i])),
             correlations,

@@ -1,17 +1,20 @@
 //! The report as one page of HTML, which opens from disk.
 
 use super::statistics::Percentile;
-use super::{OutputReport, PERCENTILES, SweepReport};
+use super::{LISTED, OutputReport, PERCENTILES, SweepReport};
 use crate::output::markup;
 use crate::plain_text::count;
 use std::fmt::Write;
 
-const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}\
+const STYLE: &str = ":root{color-scheme:light dark;--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}\
+    @media(prefers-color-scheme:dark){:root{--text:#ddd;--page:#16181c;--line:#3a3f47;--quiet:#a0a6ae;--code:#262a30}}\
+    body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:var(--text);background:var(--page)}\
     table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
-    th,td{padding:.25em .7em;border-bottom:1px solid #ddd;text-align:right;white-space:nowrap}\
-    th:first-child,td:first-child{text-align:left}.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
-    figure{margin:0;break-inside:avoid}figure img{width:100%}figcaption{color:#666;font-size:.85em}h3{margin:1.5em 0 .3em}\
-    small{color:#666}code{background:#f4f4f4;padding:0 .3em}";
+    th,td{padding:.25em .7em;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
+    th:first-child,td:first-child,.words th,.words td{text-align:left}.words td{white-space:normal}\
+    .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
+    figure{margin:0;break-inside:avoid}figure img{width:100%;background:#fff}figcaption{color:var(--quiet);font-size:.85em}\
+    h3{margin:1.5em 0 .3em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}code{background:var(--code);padding:0 .3em}";
 
 /// Below this a sensitivity is not shown: it is what chance leaves.
 const SHOWN: f64 = 0.005;
@@ -23,22 +26,24 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let name = markup::attribute(&report.name);
     let mut add = |text: &str| html.push_str(text);
     add(&format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style>\n\
-         <h1>{name}</h1>\n<p>{}: ",
+        "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
+         <title>{name}</title><style>{STYLE}</style>\n<h1>{name}</h1>\n<p>{}: ",
         count(report.cases, "case")
     ));
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
-    add(&format!("{}.</p>\n", counts.join(", ")));
-    if !report.failures.is_empty() {
-        add("<h2>Failures</h2>\n");
-        let rows = report.failures.iter().map(|(case, status, message)| {
-            vec![case.to_string(), status.replace('_', " "), markup::attribute(message)]
-        });
-        add(&table(&["case", "status", "message"].map(str::to_owned), rows));
+    add(&format!("{}.", counts.join(", ")));
+    let about: Vec<_> =
+        report.about.iter().map(|(what, value)| format!("{what} <b>{}</b>", markup::attribute(value))).collect();
+    add(&format!(" {}</p>\n", about.join(", ")));
+    if !report.varied.is_empty() {
+        let rows = report.varied.iter().map(|(key, values)| [key, values].map(|text| markup::attribute(text)).to_vec());
+        add(&table(&["varies", "distribution"].map(str::to_owned), rows));
     }
+    add(&failures(report));
     add(
-        "<h2>Percentiles</h2>\n<p><small>in brackets: between these order statistics with a confidence of 95 %</small></p>\n",
+        "<h2>Percentiles</h2>\n<p class=\"note\">In brackets: the order statistics between which the percentile is with a \
+         confidence of 95 %; – where there are too few cases for one.</p>\n",
     );
     let mut head = vec!["output".to_owned(), "cases".to_owned()];
     head.extend(PERCENTILES.iter().map(|p| format!("{p} %")));
@@ -46,17 +51,22 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let keys: Vec<String> =
         std::iter::once("output".to_owned()).chain(report.keys.iter().map(|(key, _)| markup::attribute(key))).collect();
     if !report.keys.is_empty() {
-        add("<h2>Rank correlations</h2>\n");
+        add(
+            "<h2>Rank correlations</h2>\n<p class=\"note\">From −1 to 1: how far an output only falls or only rises with a key; \
+             · is less than 0.005. An output that is least in the middle of a key's range has one near 0 although the key \
+             decides it: its first-order index and its scatter show that.</p>\n",
+        );
         add(&table(&keys, report.outputs.iter().map(|output| sensitivities(output, &output.correlations))));
         add("<h2>First-order indices</h2>\n");
         if report.is_independent {
             add(
-                "<p><small>the part of an output's variance that a key explains alone; from the given cases, in classes of \
-                 the key</small></p>\n",
+                "<p class=\"note\">The part of an output's variance that a key explains alone; from the given cases, in \
+                 classes of the key.</p>\n",
             );
             add(&table(&keys, report.outputs.iter().map(|output| sensitivities(output, &output.first_order))));
         } else {
-            add("<p>None: keys are correlated, and what one of them explains another one does, too.</p>\n");
+            add("<p>None: keys are correlated, and what one of them explains another one does, too. A sweep without \
+                 <code>[[correlation]]</code> has them.</p>\n");
         }
     }
     add("<h2>Extremes</h2>\n");
@@ -68,6 +78,18 @@ pub fn page(report: &SweepReport, command: &str) -> String {
             vec![named(output), number(low), low_case.to_string(), number(high), high_case.to_string()]
         }),
     ));
+    if !report.same.is_empty() {
+        let shown = |(name, unit, size): &(String, String, f64)| {
+            let unit = if unit.is_empty() { String::new() } else { format!(" {}", markup::attribute(unit)) };
+            format!("{} ({}{unit})", markup::attribute(name), number(*size))
+        };
+        let all: Vec<_> = report.same.iter().map(shown).collect();
+        add(&format!(
+            "<h2>The same in all cases</h2>\n<p class=\"note\">To 1e-10 of the largest value, or in SI units where that is \
+             less than 1; with the largest magnitude: {}.</p>\n",
+            all.join(", ")
+        ));
+    }
     add(&format!("<p>A case with all it has: <code>{} INDEX --report</code></p>\n", markup::attribute(command)));
     #[cfg(feature = "figures")]
     add(&super::gallery::gallery(report));
@@ -75,6 +97,23 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     add("<p><small>Without pictures: this program was built without the feature <code>figures</code>.</small></p>\n");
     add("</html>\n");
     html
+}
+
+/// What failed how often, with the first case of each kind.
+fn failures(report: &SweepReport) -> String {
+    if report.failures.is_empty() {
+        return String::new();
+    }
+    let mut html = "<h2>Failures</h2>\n".to_owned();
+    let rows = report.failures.iter().take(LISTED).map(|kind| {
+        let [status, message] = [kind.status.replace('_', " "), markup::attribute(&kind.message)];
+        vec![kind.count.to_string(), kind.case.to_string(), status, message]
+    });
+    html.push_str(&table(&["cases", "the first", "status", "its message"].map(str::to_owned), rows));
+    if report.failures.len() > LISTED {
+        let _ = writeln!(html, "<p>{LISTED} of {} kinds, those with the most cases.</p>", report.failures.len());
+    }
+    html.replace("<table>", "<table class=\"words\">")
 }
 
 fn named(output: &OutputReport) -> String {

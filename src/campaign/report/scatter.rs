@@ -15,15 +15,28 @@ pub struct Scatter {
 }
 
 impl Scatter {
-    /// Of the key with the strongest correlation, the first one of several; `None` without one, or with values that are not
+    /// Of the key with the strongest effect, the first one of several; `None` without one, or with values that are not
     /// finite. `values_of` has a key's values of the same cases.
     #[must_use]
-    pub fn of(correlations: &[Option<f64>], values_of: impl FnOnce(usize) -> Vec<f64>, output: &[f64]) -> Option<Self> {
-        let (key, _) = strongest_first(correlations).into_iter().next()?;
+    pub fn of(effects: &[Option<f64>], values_of: impl FnOnce(usize) -> Vec<f64>, output: &[f64]) -> Option<Self> {
+        let (key, _) = strongest_first(effects).into_iter().next()?;
         let stride = output.len().div_ceil(MOST).max(1);
         let points: Vec<_> = values_of(key).into_iter().zip(output.iter().copied()).step_by(stride).collect();
         points.iter().all(|(x, y)| x.is_finite() && y.is_finite()).then_some(Self { key, stride, points })
     }
+}
+
+/// How strong the effect of each key is: its rank correlation or, where that is greater, the root of its first-order index,
+/// which also sees an output that is least in the middle of the key's range.
+#[must_use]
+pub fn effects(correlations: &[Option<f64>], first_order: &[Option<f64>]) -> Vec<Option<f64>> {
+    let indices = first_order.iter().copied().chain(std::iter::repeat(None));
+    let larger = |(correlation, index): (&Option<f64>, Option<f64>)| {
+        let of_index = index.map(|index| index.max(0.0).sqrt());
+        let is_larger = of_index > correlation.map(f64::abs);
+        if is_larger { of_index } else { *correlation }
+    };
+    correlations.iter().zip(indices).map(larger).collect()
 }
 
 /// The places of correlations and these, by their absolute values; without those that there are not.
@@ -37,7 +50,14 @@ pub fn strongest_first(correlations: &[Option<f64>]) -> Vec<(usize, f64)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Scatter, strongest_first};
+    use super::{Scatter, effects, strongest_first};
+
+    #[test]
+    fn an_effect_that_no_correlation_shows_is_that_of_the_index() {
+        let found = effects(&[Some(-0.5), Some(0.01), None], &[Some(0.2), Some(0.81), None]);
+        assert_eq!(found, [Some(-0.5), Some(0.9), None]);
+        assert_eq!(effects(&[Some(0.3)], &[]), [Some(0.3)], "keys that are correlated have no indices");
+    }
 
     #[test]
     fn correlations_are_sorted_by_strength() {
