@@ -8,7 +8,8 @@
 - Pages: every link and picture leads to a file and an anchor that are there, nothing is loaded from a network, no TeX
   is left.
 - Names: `path/of/file.rs::name` and `path/of/file.rs` in the chapters of the book and the texts that they include
-  exist, and so do the files that README.md links to.
+  exist, and so do the files that README.md links to. A block of code after `<!-- copy of PATH -->` is that file of the
+  repository, one after `<!-- part of PATH -->` stands in it.
 - Commands: a block of code after `<!-- run -->` has lines `$ COMMAND` with what the command prints, where `...` stands
   for any lines; one after `<!-- file NAME -->` is that file, and `<!-- files CHAPTER.md -->` stands for those of
   another chapter. The blocks of a chapter are run in one folder, which is removed, with the scenarios of the repository
@@ -32,6 +33,7 @@ SOURCE = ROOT / "docs" / "book" / "src"
 MARK = re.compile(
     r"^<!-- (?:(run|file|shown)(?: ([^ ]+))? -->\n+```[^\n]*\n(.*?)^```$|(files) ([^ ]+) -->)", re.MULTILINE | re.DOTALL
 )
+COPY = re.compile(r"^<!-- (copy|part) of ([^ ]+) -->\n```[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INCLUDED = re.compile(r"\{\{#include ([^}]+\.md)\}\}")
 LINKED = re.compile(r"(?:\]\(|src=\")([^)#:\"]+)(?:#[^)]*)?[)\"]")
 NAME = re.compile(r"`((?:\.ci|codegen|crates|src|tests|examples|scenarios|python)/[\w./-]*[\w/])(?:::([\w.]+))?`")
@@ -92,11 +94,15 @@ def pages(folder):
 
 
 def names():
-    """Files and names in them that the book or README.md gives and that do not exist."""
+    """Files and names in them that the book or README.md gives and that do not exist, and copies that are none."""
     texts = sorted(SOURCE.rglob("*.md"))
     for chapter in list(texts):
         texts += [(chapter.parent / path).resolve() for path in INCLUDED.findall(chapter.read_text(encoding="utf-8"))]
     for text in texts:
+        for kind, path, copied in COPY.findall(text.read_text(encoding="utf-8")):
+            source = (ROOT / path).read_text(encoding="utf-8")
+            if copied not in source or (kind == "copy" and copied != source):
+                yield f"{text.relative_to(ROOT)}: the block after `{kind} of {path}` is not what is there"
         for path, name in NAME.findall(text.read_text(encoding="utf-8")):
             place = f"{text.relative_to(ROOT)}: {path}{'::' + name if name else ''}"
             # NAME stands for any name; an example's own text gives its own files

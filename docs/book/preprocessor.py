@@ -1,8 +1,9 @@
 """Makes pages of chapters, for mdBook: links between files of the repository, pictures and formulas.
 
-A chapter that only includes a file of the repository has the links of that file. Links to a file that is a chapter
-lead to it, those to other files become the path in the repository, and SVG pictures are put into the page. In the other
-chapters $...$ and $$...$$ are TeX, which becomes MathML. Code is left alone.
+A chapter that only includes a file of the repository begins with a line that links to it, for readers of the chapter's
+file: the page is without. It has the links of that file, and links to that file, not to the chapter's, lead to the
+page. Links to files that are no chapter become the path in the repository, and SVG pictures are put into the page. In
+the other chapters $...$ and $$...$$ are TeX, which becomes MathML. Code is left alone.
 
     python3 preprocessor.py supports html
     python3 preprocessor.py <BOOK.json
@@ -21,15 +22,24 @@ FOLDER = Path(__file__).resolve().parent
 SOURCE, ROOT = FOLDER / "src", FOLDER.parent.parent
 CODE = re.compile(r"^(```|~~~)[^\n]*\n.*?^\1[^\n]*$|`[^`\n]+`", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(!?)\[((?:`[^`\n]*`|[^\[\]`]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
-INCLUDE = re.compile(r"\{\{#include ([^}]+)\}\}\s*")
+INCLUDING = re.compile(r"(This page is \[([^\]\n]+)\]\(([^()\s]+)\)\.\n\n)\{\{#include ([^}\n]+)\}\}\n")
 EXTERNAL = re.compile(r"[a-z][a-z+.-]*:", re.IGNORECASE)
 
 
 def origin(chapter):
-    """The file that a chapter's text is in: its own, or the only thing that it includes."""
+    """The file that a chapter's text is in, its own or the one that it includes, and the line that says so."""
     path = SOURCE / chapter
-    included = INCLUDE.fullmatch(path.read_text(encoding="utf-8"))
-    return (path.parent / included[1]).resolve() if included else path
+    text = path.read_text(encoding="utf-8")
+    including = INCLUDING.fullmatch(text)
+    if not including:
+        if "{{#include" in text:
+            sys.exit(f"{chapter}: a chapter includes nothing beside its own text; one that is a file is two lines")
+        return path, ""
+    line, name, link, included = including.groups()
+    file = (path.parent / included).resolve()
+    if link != included or file != ROOT / name:
+        sys.exit(f"{chapter}: the first line names another file than the one that is included")
+    return file, line
 
 
 def outside_code(text, change):
@@ -55,7 +65,7 @@ class Links:
     """The links of one chapter."""
 
     def __init__(self, chapter, pages):
-        self.chapter, self.pages, self.origin = chapter, pages, origin(chapter)
+        self.chapter, self.pages, (self.origin, _) = chapter, pages, origin(chapter)
 
     def replace_all(self, text):
         return LINK.sub(self.replace, text)
@@ -68,6 +78,8 @@ class Links:
         file = (self.origin.parent / path).resolve()
         if not file.exists() or not file.is_relative_to(ROOT):
             sys.exit(f"{self.origin.relative_to(ROOT)}: {target} does not exist")
+        if file.is_relative_to(SOURCE) and file.suffix == ".md" and origin(file)[1]:
+            sys.exit(f"{self.origin.relative_to(ROOT)}: {target} only includes a file: link to that one")
         if picture:
             if file.suffix != ".svg":
                 sys.exit(f"{self.origin.relative_to(ROOT)}: {target} is no SVG")
@@ -87,9 +99,9 @@ def main():
     found = list(chapters(book.get("sections", book.get("items"))))
     pages = {}
     for chapter in found:
-        for file in (SOURCE / chapter["path"], origin(chapter["path"])):
-            pages.setdefault(file, chapter["path"])
+        pages[origin(chapter["path"])[0]] = chapter["path"]
     for chapter in found:
+        chapter["content"] = chapter["content"].removeprefix(origin(chapter["path"])[1])
         links = Links(chapter["path"], pages)
         if links.origin.is_relative_to(SOURCE):
             chapter["content"] = with_formulas(chapter["content"], chapter["path"], outside_code)
