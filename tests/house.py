@@ -9,6 +9,7 @@
 - An exact requirement of a dependency has its reason on the line; Cargo.toml, CITATION.cff and CHANGELOG.md have one
   version.
 - Modules of a crate, and those of each of its folders, use each other in one direction: no circles.
+- Every public module has an example that rustdoc runs, in its own files or in those of its private modules.
 """
 
 import argparse
@@ -175,6 +176,29 @@ def shortest(edges, start):
     return None
 
 
+def public_modules(file):
+    """The files of a public module and of its private ones, then the same of each public module below it."""
+    folder = file.parent if file.stem in OWN_FILES else file.with_suffix("")
+    own, below = [file], []
+    for hidden, public, name in re.findall(r"(?m)^(#\[doc\(hidden\)\]\n)?(pub )?mod (\w+);", (ROOT / file).read_text()):
+        (inner,) = [path for path in (folder / f"{name}.rs", folder / name / "mod.rs") if (ROOT / path).exists()]
+        modules = public_modules(inner)
+        if public and not hidden:
+            below += modules
+        else:
+            own += [path for files in modules for path in files]
+    return [own, *below]
+
+
+def without_example(library):
+    """The public modules below a library without an example that rustdoc compiles."""
+    for files in public_modules(library)[1:]:
+        lines = "\n".join((ROOT / file).read_text(encoding="utf-8") for file in files)
+        fences = re.findall(r"(?m)^\s*//[/!] ```(.*)$", lines)[::2]
+        if not any(set(fence.split(",")) <= {"", "no_run", "rust"} for fence in fences):
+            yield f"{files[0]}: a public module without an example"
+
+
 def main():
     """Exit code 1 if there is a violation."""
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter).parse_args()
@@ -194,6 +218,9 @@ def main():
         problems += [
             circle for folder in folders if source in [folder, *folder.parents] for circle in circles(source, folder)
         ]
+        library = source / "lib.rs"
+        if package["publish"] is None:
+            problems += without_example(library)
     for problem in problems:
         print(f"house: {problem}")
     sys.exit(1 if problems else 0)
