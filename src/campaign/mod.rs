@@ -1,11 +1,11 @@
 //! Campaigns: one case of a scenario many times, with values drawn from distributions.
 
-pub mod block_file;
-pub mod copula;
+mod block_file;
+mod copula;
 pub mod distribution;
 mod keys;
 pub mod manifest;
-pub mod normal;
+mod normal;
 pub mod outputs;
 mod reader;
 pub mod report;
@@ -13,7 +13,8 @@ pub mod row;
 pub mod run;
 pub mod sampling;
 pub mod sweep;
-pub mod uniform;
+mod uniform;
 
+pub use copula::{Copula, NotPositiveDefinite};
 pub use keys::FORMAT;
 pub use reader::Campaign;

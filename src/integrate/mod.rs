@@ -2,7 +2,7 @@
 //! order 9: 16 evaluations per step, and 9 where dense output is asked for; its error is the tolerance.
 
 #[cfg(feature = "std")]
-pub mod adaptive;
+mod adaptive;
 #[cfg(feature = "std")]
 mod continuation;
 #[cfg(feature = "std")]

@@ -5,12 +5,12 @@ mod axis_unit;
 mod columns;
 #[cfg(feature = "figures")]
 mod gallery;
-pub mod histogram;
+mod histogram;
 mod page;
 #[cfg(feature = "figures")]
 mod pictures;
-pub mod scatter;
-pub mod statistics;
+mod scatter;
+mod statistics;
 
 use crate::campaign::block_file;
 use crate::campaign::reader::Campaign;
@@ -20,10 +20,12 @@ use crate::output::output_error::OutputError;
 use crate::scenario::find_key;
 pub use columns::UnreadableError;
 use columns::{Column, Columns};
-use histogram::Histogram;
+pub use histogram::Histogram;
 use page::page;
-use scatter::{Scatter, effects, strongest_first};
-use statistics::{Percentile, PercentileRanks, correlation, first_order, ranks};
+pub use scatter::Scatter;
+use scatter::{effects, strongest_first};
+pub use statistics::Percentile;
+use statistics::{PercentileRanks, correlation, first_order, ranks};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
