@@ -5,6 +5,18 @@ use super::normal;
 use std::f64::consts::PI;
 
 /// How the probabilities of a case are mixed.
+///
+/// # Example
+/// ```
+/// use planar_capture::campaign::Copula;
+///
+/// let copula = Copula::new(&[([0, 1], 0.5)]).expect("a correlation that two keys can have");
+/// let mut numbers = [0.9, 0.5];
+/// copula.mix(&mut numbers);
+/// // the first key keeps 0.9, of which the normal score is 1.2816; that of the second becomes 2 sin(π/12) as much
+/// assert_eq!(numbers[0], 0.9);
+/// assert!((numbers[1] - 0.7464).abs() < 1e-4);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Copula {
     /// Indices of the keys that have a correlation, in order.

@@ -1,4 +1,13 @@
 //! Distributions of varied values, drawn by their quantile functions.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::distribution::{Distribution, Kind};
+//!
+//! let mass = Distribution { kind: Kind::Uniform { min: 8.0, max: 12.0 }, bounds: [f64::NEG_INFINITY, 11.0] };
+//! assert_eq!(mass.mass_within_bounds(), 0.75);
+//! assert_eq!(mass.quantile(0.5).number(), Some(9.5)); // kg, in the middle of what the bound leaves
+//! ```
 
 use super::normal;
 use crate::scenario::variation::VariedValue;

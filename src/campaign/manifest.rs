@@ -1,5 +1,22 @@
 //! `manifest.json`: what the files of a folder were computed with. Other files of the same sweep join them only where all
 //! of it is the same.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::Campaign;
+//! use planar_capture::campaign::manifest::{claim, engine_of};
+//! use planar_capture::engine::Engine;
+//! use planar_capture::registry::SHIPPED;
+//!
+//! let campaign = Campaign::read("scenarios/sweeps/uncertain_capture.toml".as_ref(), SHIPPED)?;
+//! let folder = tempfile::tempdir()?;
+//! claim(folder.path(), &campaign, Engine::Generated)?;
+//! assert_eq!(engine_of(folder.path()).as_deref(), Some("generated"));
+//! // results of another engine have other bits
+//! let refused = claim(folder.path(), &campaign, Engine::Generic).unwrap_err();
+//! assert!(refused.to_string().contains(r#"engine: was "generated", is "generic""#));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::reader::Campaign;
 use crate::engine::Engine;

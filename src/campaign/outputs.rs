@@ -1,4 +1,26 @@
 //! The numbers that a case leaves: the default ones, and groups of others.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::outputs::{OutputGroup, outputs};
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::registry::{SHIPPED, generic};
+//! use planar_capture::scenario::Scenario;
+//!
+//! let text = r#"
+//! name = "elbow"
+//! layout = "single_arm_2r"
+//! initial = { joint_angles = [0.0, 0.0] }
+//! approach = { duration = 1.0, trajectory = "cycloidal", final_joint_angles = [0.5, -0.5], tracking = "exact" }
+//! "#;
+//! let scenario = Scenario::parse(text, "elbow.toml", "".as_ref(), SHIPPED)?;
+//! let study = study(&scenario, &|| generic(&scenario.layout), f64::INFINITY, &mut Silent)?;
+//! let outputs = outputs(&scenario, &[OutputGroup::ApproachEnd]);
+//! let angle = outputs.iter().find(|output| output.name == "approach_arm1_joint2_angle").expect("one of the group");
+//! let value = angle.value(&study, &study.cases[0]).expect("every approach has an end");
+//! assert!(angle.unit == "rad" && (value + 0.5).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::impact::ImpactResult;
 use crate::capture::{CaptureResult, CaseResult, Study};

@@ -1,4 +1,31 @@
 //! One case of a sweep: what it was computed with and what came of it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::Campaign;
+//! use planar_capture::campaign::outputs::outputs;
+//! use planar_capture::campaign::row::{CaseRunner, Status};
+//! use planar_capture::campaign::sweep::Draw;
+//! use planar_capture::engine::Choice;
+//! use planar_capture::registry::{Robots, SHIPPED};
+//!
+//! let text = r#"
+//! name = "masses"
+//! scenario = "redysim_single_arm_3r.toml"
+//! seed = 1
+//! sampling = "grid"
+//! vary = [{ key = "layout.base.mass", distribution = { choice = [-1.0, 600.0] } }]
+//! "#;
+//! let Campaign { sweep, variation, scenario, .. } =
+//!     Campaign::parse(text, "masses.toml", "scenarios".as_ref(), SHIPPED)?;
+//! let (choice, _) = Choice::fastest(&scenario.layout, Robots::SHIPPED);
+//! let (draw, outputs) = (Draw::new(&sweep), outputs(&scenario, &[]));
+//! let runner = CaseRunner { draw, variation: &variation, choice: &choice, outputs: &outputs, laws: &[] };
+//! // a base has a positive mass
+//! let rows = [0, 1].map(|case| runner.run(case, f64::INFINITY, &mut |_, _, _| {}));
+//! assert_eq!(rows.map(|row| row.status), [Status::Refused, Status::Done]);
+//! # Ok::<(), planar_capture::diagnostic::Report>(())
+//! ```
 
 use super::outputs::{Output, is_captured};
 use super::sweep::Draw;

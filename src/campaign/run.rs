@@ -2,6 +2,36 @@
 //!
 //! Threads take cases in order, whatever file these are in: there are never more open files than threads. Whoever computes
 //! the last case of a file writes it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::Campaign;
+//! use planar_capture::campaign::run::{Plan, Shard, Tally, run};
+//! use planar_capture::engine::Choice;
+//! use planar_capture::registry::{Robots, SHIPPED};
+//!
+//! let text = r#"
+//! name = "masses"
+//! scenario = "redysim_single_arm_3r.toml"
+//! cases = 3
+//! seed = 1
+//! block = 2
+//! vary = [{ key = "layout.base.mass", distribution = { normal = { mean = 500.0, std = 10.0 } } }]
+//! "#;
+//! let campaign = Campaign::parse(text, "masses.toml", "scenarios".as_ref(), SHIPPED)?;
+//! let folder = tempfile::tempdir()?;
+//! // the second of two processes has the second file, with the third case alone
+//! let shard = Shard::new(2, 2).expect("one of two");
+//! let plan = Plan::new(&campaign, folder.path(), shard)?;
+//! assert_eq!((plan.blocks.as_slice(), plan.cases), (&[1][..], 1));
+//! let (choice, _) = Choice::fastest(&campaign.general_layout(), Robots::SHIPPED);
+//! let tally = Tally::default();
+//! run(&campaign, &choice, folder.path(), &plan, 1, &tally)?;
+//! assert_eq!(tally.counts().next(), Some(("done", 1)));
+//! // what is there is not computed again
+//! assert_eq!(Plan::new(&campaign, folder.path(), shard)?.present, 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::block_file::{self, CASES, SERIES, TIMING};
 use super::outputs::{Output, outputs};

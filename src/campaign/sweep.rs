@@ -1,4 +1,29 @@
 //! A sweep as plain data.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::Campaign;
+//! use planar_capture::campaign::sweep::Draw;
+//! use planar_capture::registry::SHIPPED;
+//! use planar_capture::scenario::variation::VariedValue::Number;
+//!
+//! let text = r#"
+//! name = "heavier_base"
+//! scenario = "redysim_single_arm_3r.toml"
+//! seed = 1
+//! sampling = "grid"
+//! block = 4
+//! vary = [
+//!     { key = "layout.base.mass", distribution = { choice = [400.0, 500.0, 600.0] } },
+//!     { key = "approach.duration", distribution = { choice = [10.0, 20.0] } },
+//! ]
+//! "#;
+//! let sweep = Campaign::parse(text, "heavier_base.toml", "scenarios".as_ref(), SHIPPED)?.sweep;
+//! // the last key varies fastest; the second file has what is left of six cases
+//! assert_eq!(Draw::new(&sweep).values(3), [Number(500.0), Number(20.0)]);
+//! assert_eq!((sweep.blocks(), sweep.cases_of(1)), (2, 4..6));
+//! # Ok::<(), planar_capture::diagnostic::Report>(())
+//! ```
 
 use super::copula::Copula;
 use super::distribution::Distribution;

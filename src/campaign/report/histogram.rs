@@ -4,6 +4,16 @@
 const MOST: f64 = 60.0;
 
 /// Numbers of values in bins of equal width.
+///
+/// # Example
+/// ```
+/// use planar_capture::campaign::report::Histogram;
+///
+/// // by the rule of Sturges log₂ 4 + 1 bins, as many as by that of Freedman and Diaconis
+/// let histogram = Histogram::of(&[0.0, 1.0, 2.0, 3.0]).expect("values that are not all equal");
+/// assert_eq!(histogram.edges, [0.0, 1.0, 2.0, 3.0]);
+/// assert_eq!(histogram.counts, [1, 1, 2]);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
     /// The ends of the bins, one more than bins.

@@ -1,4 +1,15 @@
 //! The report on a sweep: percentiles, failures, sensitivities, and the cases to look at.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::report::{OutputReport, SweepReport};
+//!
+//! // of three outputs the rank correlations with the only key that varies
+//! let output = |correlation| OutputReport { correlations: vec![correlation], ..OutputReport::default() };
+//! let outputs = [Some(0.1), Some(-0.9), Some(0.5)].map(output).to_vec();
+//! let report = SweepReport { outputs, ..SweepReport::default() };
+//! assert_eq!(report.most_sensitive(2), [1, 2]);
+//! ```
 
 #[cfg(feature = "figures")]
 mod axis_unit;

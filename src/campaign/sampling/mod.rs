@@ -1,4 +1,17 @@
 //! Which probability a case has of each key: u(seed, key, index), for every sampling.
+//!
+//! # Example
+//! ```
+//! use planar_capture::campaign::sampling::{KeySampling, Sampling};
+//!
+//! let keys = [("target.ball.mass", None), ("target.ball.inertia", None)];
+//! for key in KeySampling::of_keys(Sampling::LatinHypercube, 1, 5, &keys) {
+//!     // each fifth of the probability has one of five cases
+//!     let mut fifths: Vec<f64> = (0..5).map(|case| (5.0 * key.number(case)).floor()).collect();
+//!     fifths.sort_by(f64::total_cmp);
+//!     assert_eq!(fifths, [0.0, 1.0, 2.0, 3.0, 4.0]);
+//! }
+//! ```
 
 mod latin_hypercube;
 mod sobol;
