@@ -1,5 +1,21 @@
 //! Compares generated code, or a graph, with the generic implementation: every quantity at random states of every regime, errors
 //! relative to the natural size of each entry.
+//!
+//! # Example
+//! ```
+//! use planar_capture::compare::compare;
+//! use planar_capture::engine::Choice;
+//! use planar_capture::layout::Layout;
+//! use planar_capture::quantity::Quantity;
+//! use planar_capture::sampling::REGIMES;
+//!
+//! let layout = Layout::read("codegen/layouts/single_arm_3r.toml".as_ref())?;
+//! let comparison = compare(&layout, &Choice::graph(&layout)?, 2, 7);
+//! assert_eq!(comparison.states, 2 * REGIMES.len() as u64);
+//! assert_eq!(comparison.largest_errors.len(), Quantity::ALL.len());
+//! assert!(comparison.agrees());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::engine::Choice;
 use crate::error::Error;

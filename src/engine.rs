@@ -1,4 +1,22 @@
 //! The implementation of the dynamics that a layout is computed with.
+//!
+//! # Example
+//! ```
+//! use planar_capture::engine::{Choice, Engine};
+//! use planar_capture::layout::Layout;
+//! use planar_capture::registry::Robots;
+//!
+//! let layout = Layout::read("codegen/layouts/dual_arm_3r.toml".as_ref())?;
+//! let (fastest, _) = Choice::fastest(&layout, Robots::SHIPPED);
+//! assert_eq!(fastest.engine, Engine::Generated);
+//! for choice in [fastest, Choice::graph(&layout)?, Choice::generic()] {
+//!     let mut mass_matrix = [0.0; 9 * 9];
+//!     choice.model(&layout).mass_matrix(&[0.0; 3], &[0.5; 6], &mut mass_matrix)?;
+//!     // the entry of vx twice is the mass of all bodies
+//!     assert!((mass_matrix[9 + 1] - 560.0).abs() < 1e-9);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::evaluator::Evaluator;
 use crate::graphs::{self, FoundGraph, NoGraph};

@@ -2,6 +2,25 @@
 //!
 //! The frames form a tree: `base` and `targets/TARGET` (at the target's COM) in the inertial frame, `arms/ARM/link1` in
 //! `base`, `arms/ARM/link2` in `arms/ARM/link1` and so on to `arms/ARM/tip`.
+//!
+//! # Example
+//! ```
+//! use planar_capture::frames::{frames, poses};
+//! use planar_capture::layout::Layout;
+//! use planar_capture::owned::RobotState;
+//! use std::f64::consts::FRAC_PI_2;
+//!
+//! let layout = Layout::read("codegen/layouts/dual_arm_3r.toml".as_ref())?;
+//! let frames = frames(&layout, ["ball"]);
+//! // the first arm, of three links of 1 m on a mount at (0.5, 0), is straight and points along y
+//! let joint_angles = vec![FRAC_PI_2, 0.0, 0.0, 0.0, 0.0, 0.0];
+//! let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates: vec![0.0; 6] };
+//! let poses = poses(&frames, &state, &[[0.0, 2.0, -2.0]]);
+//! let tip = frames.iter().position(|frame| frame.name == "arms/arm1/tip").expect("every arm has one");
+//! let [yaw, x, y] = poses[tip];
+//! assert!((yaw - FRAC_PI_2).abs() + (x - 0.5).abs() + (y - 3.0).abs() < 1e-12);
+//! # Ok::<(), planar_capture::diagnostic::Report>(())
+//! ```
 
 use crate::layout::Layout;
 use crate::owned::RobotState;

@@ -1,4 +1,17 @@
 //! The graphs that the program carries, and those that were derived into the user's cache folder.
+//!
+//! # Example
+//! ```
+//! use planar_capture::graphs;
+//! use planar_capture::layout::Layout;
+//!
+//! let mut layout = Layout::read("codegen/layouts/single_arm_3r.toml".as_ref())?;
+//! layout.base.mass = 250.0; // a graph is that of a structure, whatever its numbers are
+//! let (shipped, graph) = graphs::of_shipped(&layout).expect("a layout of the same structure");
+//! assert_eq!(shipped.name, "single_arm_3r");
+//! assert!(graphs::carried().any(|carried| carried == ("graphs/single_arm_3r.json", graph)));
+//! # Ok::<(), planar_capture::diagnostic::Report>(())
+//! ```
 
 use crate::generate::{DerivationError, home, package_hash};
 use crate::layout::{Layout, sha256};

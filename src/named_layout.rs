@@ -1,4 +1,17 @@
 //! The layout that an argument names: a path, or the name of a shipped one.
+//!
+//! # Example
+//! ```
+//! use planar_capture::layout::Layout;
+//! use planar_capture::named_layout::named_layout;
+//! use planar_capture::registry::Robots;
+//!
+//! let (text, name) = named_layout("dual_arm_3r", Robots::SHIPPED)?;
+//! assert_eq!(Layout::parse(&text, &name)?.mass(), 560.0); // kg
+//! let unknown = named_layout("dual_arm3r", Robots::SHIPPED).unwrap_err();
+//! assert!(unknown.to_string().contains("did you mean `dual_arm_3r`?"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::diagnostic::{Report, nearest, read_text};
 use crate::layout::Layout;

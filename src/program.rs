@@ -1,4 +1,28 @@
 //! What a program has of its own: robots, and the control laws that its scenarios name.
+//!
+//! # Example
+//! ```
+//! use planar_capture::laws::RegisteredLaw;
+//! use planar_capture::program::Program;
+//! use planar_capture::registry::Robots;
+//! use planar_capture::scenario::{LawFormat, Scenario, Tracking};
+//!
+//! const AHEAD: RegisteredLaw = RegisteredLaw {
+//!     format: LawFormat { name: "ahead", doc: "torques of inverse dynamics alone", numbers: &[] },
+//!     make: |_| Box::new(Tracking::InverseDynamics),
+//! };
+//! let program = Program { robots: Robots::SHIPPED, laws: &[AHEAD] };
+//! assert_eq!(program.repeated_law(), None);
+//! let text = r#"
+//! name = "elbow"
+//! layout = "single_arm_2r"
+//! initial = { joint_angles = [0.0, 0.0] }
+//! approach = { duration = 1.0, trajectory = "cycloidal", final_joint_angles = [0.5, -0.5], tracking = "ahead" }
+//! "#;
+//! let scenario = Scenario::parse(text, "elbow.toml", "".as_ref(), program.known())?;
+//! assert!(RegisteredLaw::of(&scenario, program.laws).is_some_and(|law| law.name() == "exact"));
+//! # Ok::<(), planar_capture::diagnostic::Report>(())
+//! ```
 
 use crate::laws::RegisteredLaw;
 use crate::registry::Robots;

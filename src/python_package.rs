@@ -1,4 +1,14 @@
 //! The Python package `codegen`, carried in the binary.
+//!
+//! # Example
+//! ```
+//! use planar_capture::python_package::PYTHON_PACKAGE;
+//!
+//! let text = |wanted: &str| PYTHON_PACKAGE.iter().find(|(file, _)| *file == wanted).map_or("", |(_, text)| text);
+//! // the derivation is symbolic, by one version of CasADi
+//! assert!(text("requirements.txt").lines().any(|line| line.starts_with("casadi==")));
+//! assert!(text("inputs.py").contains("import casadi"));
+//! ```
 
 macro_rules! package {
     ($($name:literal),*) => {

@@ -1,5 +1,21 @@
 //! The model of a layout: generated code of its structure, with the layout's numbers as parameters, or the generic
 //! implementation.
+//!
+//! # Example
+//! ```
+//! use planar_capture::layout::Layout;
+//! use planar_capture::registry::{GENERATED, generated};
+//! use planar_capture::state::State;
+//!
+//! let mut layout = Layout::read("codegen/layouts/dual_arm_3r.toml".as_ref())?;
+//! layout.base.mass = 600.0; // kg; the code is that of the structure
+//! assert!(GENERATED.contains(&"dual_arm_3r"));
+//! let still = [0.0; 6];
+//! let state = State { base_pose: [0.0; 3], joint_angles: &still, base_twist: [0.0, 0.1, 0.0], joint_rates: &still };
+//! let momentum = generated(&layout)?.momentum(&state)?;
+//! assert!((momentum.linear_momentum[0] - 66.0).abs() < 1e-12); // 660 kg at 0.1 m/s
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[allow(unused_imports, reason = "a build may be without any layout")]
 use crate::generated;

@@ -2,6 +2,21 @@
 //!
 //! Errors are found by the readers. A warning is about a valid number that is probably not what was meant; each has a
 //! threshold, a named constant, that no realistic robot comes near.
+//!
+//! # Example
+//! ```
+//! use planar_capture::check::inspect;
+//! use planar_capture::registry::SHIPPED;
+//!
+//! let text = std::fs::read_to_string("codegen/layouts/dual_arm_3r.toml")?;
+//! let report = inspect(&text, "dual_arm_3r.toml", "".as_ref(), SHIPPED)?;
+//! assert!(report.description.contains("560 kg") && report.warnings.count() == 0);
+//! // valid, but probably in another unit: the radius of gyration is √(8e7 kg m² / 500 kg)
+//! let text = text.replace("inertia = 83.61", "inertia = 8e7");
+//! let report = inspect(&text, "dual_arm_3r.toml", "".as_ref(), SHIPPED)?;
+//! assert!(report.warnings.render(false).contains("400 m"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod approach;
 mod arms;

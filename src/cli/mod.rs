@@ -1,6 +1,16 @@
 //! The command line: results on the standard output, errors and progress on the standard error, exit codes.
 //!
 //! [`main_with`] is the same command line for a program of one's own, with the robots that are compiled into it.
+//!
+//! # Example
+//! The program of a crate with no robot or law of its own; `planar-capture new` writes one with a robot.
+//! ```no_run
+//! use std::process::ExitCode;
+//!
+//! fn main() -> ExitCode {
+//!     planar_capture::cli::main_with_laws(&[], &[])
+//! }
+//! ```
 
 #![warn(
     clippy::print_stdout,

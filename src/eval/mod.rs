@@ -2,6 +2,26 @@
 //!
 //! `[{base_pose, joint_angles, base_twist, joint_rates, joint_torques?, base_wrench?, end_effector_wrenches?,
 //! targets?}, …]`; an optional entry may be `null`.
+//!
+//! # Example
+//! ```
+//! use planar_capture::eval::{States, result_to_json};
+//! use planar_capture::evaluation::evaluate;
+//! use planar_capture::layout::Layout;
+//! use planar_capture::registry::generic;
+//!
+//! let layout = Layout::read("codegen/layouts/single_arm_3r.toml".as_ref())?;
+//! let text = r#"[{ "base_pose": [0, 0, 0], "joint_angles": [0.3, -0.6, 1.2],
+//!                  "base_twist": [0, 0.1, 0], "joint_rates": [0, 0, 0] }]"#;
+//! let mut states = States::new(text.as_bytes(), &layout);
+//! let state = states.next_state()?.expect("the first state");
+//! let values = result_to_json(&evaluate(&*generic(&layout), &state)?, &state.targets);
+//! // 530 kg at 0.1 m/s
+//! let energy = values["kinetic_energy"].as_f64().expect("a number");
+//! assert!((energy - 0.5 * 530.0 * 0.1 * 0.1).abs() < 1e-12);
+//! assert_eq!(states.next_state()?, None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod elements;
 mod magnitude;

@@ -2,6 +2,20 @@
 //! JSON Schema for editors, and a commented file to start from.
 //!
 //! It never contains: a key.
+//!
+//! # Example
+//! ```
+//! use planar_capture::file_format::FileFormat;
+//! use planar_capture::layout::Layout;
+//!
+//! let layout = Layout::parse(&FileFormat::Layout.template(), "template.toml")?;
+//! let schema: serde_json::Value = serde_json::from_str(&FileFormat::Layout.schema())?;
+//! assert_eq!(schema["required"], serde_json::json!(["name", "base", "arm"]));
+//! // what is not required has a default: a link's centre of mass is in its middle
+//! let link = &layout.arms[0].links[0];
+//! assert_eq!(link.com, [0.5 * link.length, 0.0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod json_schema;
 mod reference;

@@ -1,6 +1,23 @@
 //! Archives in the ZIP format: written, and compared with what they should contain.
 //!
 //! Files are stored without compression: the bytes of compressed ones depend on the version of the compressor.
+//!
+//! # Example
+//! ```
+//! use planar_capture::fmu::{Entry, Fmu, archive};
+//! use std::io::Cursor;
+//!
+//! let entry = |path: &str, text: &str| Entry { path: path.to_owned(), content: text.into() };
+//! let mut fmu = Fmu { name: "arm".to_owned(), entries: vec![entry("sources/arm.c", "double mass = 10.0;")] };
+//! let bytes = archive::bytes(&fmu)?;
+//! assert!(bytes.starts_with(b"PK\x03\x04"));
+//! // binaries depend on the compiler, and are not compared
+//! fmu.entries.push(entry("binaries/x86_64-linux/arm.so", ""));
+//! assert!(archive::is_same(Cursor::new(&bytes), &fmu));
+//! fmu.entries[0] = entry("sources/arm.c", "double mass = 11.0;");
+//! assert!(!archive::is_same(Cursor::new(&bytes), &fmu));
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use super::{Entry, Fmu};
 use std::collections::BTreeMap;

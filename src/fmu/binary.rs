@@ -1,4 +1,27 @@
 //! The binary of an FMU for this machine, by the C compiler that is found.
+//!
+//! # Example
+//! ```
+//! use planar_capture::build::graph;
+//! use planar_capture::fmu::binary::{BinaryError, compile};
+//! use planar_capture::fmu::{Fmu, Origin};
+//! use planar_capture::layout::Layout;
+//!
+//! let layout = Layout::read("codegen/layouts/single_arm_3r.toml".as_ref())?;
+//! let graph = graph::read(&std::fs::read_to_string("codegen/graphs/single_arm_3r.json")?, &layout)?;
+//! let sha256 = layout.sha256();
+//! let origin = Origin { name: "arm", layout_sha256: &sha256, source: "single_arm_3r.toml", command: "build" };
+//! match compile(&Fmu::new(&graph, &origin)?) {
+//!     Ok(binary) if cfg!(all(target_os = "linux", target_arch = "x86_64")) => {
+//!         assert_eq!(binary.path, "binaries/x86_64-linux/arm.so");
+//!         assert!(binary.content.starts_with(b"\x7fELF"));
+//!     }
+//!     // an FMU without a binary has its sources
+//!     Ok(_) | Err(BinaryError::Platform | BinaryError::NoCompiler(_)) => {}
+//!     Err(error) => return Err(error.into()),
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::sources::compiled;
 use super::{Entry, Fmu};

@@ -4,6 +4,26 @@
 //! and compares archives. The same graph gives the same bytes, but for the binary.
 //!
 //! It never contains: a formula; the module has them, and its Runge–Kutta step.
+//!
+//! # Example
+//! ```
+//! use planar_capture::build::graph;
+//! use planar_capture::fmu::{Fmu, Origin};
+//! use planar_capture::layout::Layout;
+//!
+//! let layout = Layout::read("codegen/layouts/single_arm_3r.toml".as_ref())?;
+//! let graph = graph::read(&std::fs::read_to_string("codegen/graphs/single_arm_3r.json")?, &layout)?;
+//! let sha256 = layout.sha256();
+//! let origin = Origin { name: "arm", layout_sha256: &sha256, source: "single_arm_3r.toml", command: "build" };
+//! let fmu = Fmu::new(&graph, &origin)?;
+//! assert_eq!(fmu.entries[0].path, "modelDescription.xml");
+//! // one input for the torque of each joint
+//! let description = String::from_utf8_lossy(&fmu.entries[0].content);
+//! for joint in 1..=3 {
+//!     assert!(description.contains(&format!("arm1_joint{joint}_torque")));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod archive;
 pub mod binary;

@@ -21,6 +21,28 @@ const MOST_REJECTED: u32 = 100;
 /// at a requested time where somewhat shorter ones do, and otherwise continue beyond it, where x comes from the
 /// interpolant. An accepted step takes 16 evaluations, a rejected one 15; the first time within a step for which x is
 /// asked takes 9 more. Steps take no memory.
+///
+/// # Example
+/// ```
+/// use planar_capture::error::Error;
+/// use planar_capture::integrate::Adaptive;
+/// use std::f64::consts::PI;
+///
+/// fn oscillator(_time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+///     rate.copy_from_slice(&[x[1], -x[0]]);
+///     Ok(())
+/// }
+///
+/// let (mut time, mut x) = (0.0, [1.0, 0.0]); // s; m and m/s
+/// let mut steps = Adaptive::new(1e-12);
+/// steps.start(time, PI, &x, &mut oscillator)?;
+/// while time < PI {
+///     time = steps.advance([time, PI], &mut x, &mut oscillator)?;
+/// }
+/// // half a period of 2π s
+/// assert!((x[0] + 1.0).abs() < 1e-10 && x[1].abs() < 1e-10);
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Debug)]
 pub struct Adaptive {
     tolerance: f64,

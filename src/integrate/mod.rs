@@ -1,5 +1,23 @@
 //! The integrators of the core ([`planar_dynamics::integrate`]), and with the feature `std` one with adaptive steps of
 //! order 9: 16 evaluations per step, and 9 where dense output is asked for; its error is the tolerance.
+//!
+//! # Example
+//! ```
+//! use planar_capture::integrate::GaussLegendre;
+//!
+//! let mut workspace = [0.0; 2 * GaussLegendre::<f64>::WORKSPACE];
+//! let mut integrator = GaussLegendre::new(&mut workspace)?;
+//! let mut x = [1.0, 0.0]; // m and m/s of an oscillator of 1 rad/s
+//! for i in 0..1000 {
+//!     integrator.step(0.1 * f64::from(i), 0.1, &mut x, |_, x, rate| {
+//!         rate.copy_from_slice(&[x[1], -x[0]]);
+//!         Ok(())
+//!     })?;
+//! }
+//! // it conserves quadratic invariants, of which the energy is one
+//! assert!((x[0] * x[0] + x[1] * x[1] - 1.0).abs() < 1e-12);
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 #[cfg(feature = "std")]
 mod adaptive;

@@ -1,4 +1,27 @@
 //! A crate of one's own: a robot, its graph, a first scenario, and the command line with the robot's compiled code.
+//!
+//! # Example
+//! ```
+//! use planar_capture::layout::Layout;
+//! use planar_capture::own_crate::{Dependency, OwnCrate, renamed};
+//!
+//! let text = std::fs::read_to_string("codegen/layouts/single_arm_3r.toml")?;
+//! let layout = Layout::parse(&text, "single_arm_3r.toml")?;
+//! let layout_text = renamed(&text, &layout, "servicer");
+//! let files = OwnCrate {
+//!     layout: &Layout { name: "servicer".to_owned(), ..layout },
+//!     layout_text: &layout_text,
+//!     graph: &std::fs::read_to_string("codegen/graphs/single_arm_3r.json")?,
+//!     dependency: &Dependency::Version("0.1.0".to_owned()),
+//! }
+//! .files();
+//! let text = |wanted: &str| files.iter().find(|(path, _)| path == wanted).map_or("", |(_, text)| text);
+//! let manifest: toml::Table = text("Cargo.toml").parse()?;
+//! assert_eq!(manifest["package"]["name"].as_str(), Some("servicer"));
+//! assert_eq!(manifest["dependencies"]["planar-capture"]["version"].as_str(), Some("0.1.0"));
+//! assert_eq!(Layout::parse(text("layouts/servicer.toml"), "servicer.toml")?.joints(), 3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod dependency;
 mod layout_text;

@@ -1,4 +1,17 @@
 //! The report on the paper's reproduction: the tables and figures of the paper and of this crate side by side.
+//!
+//! # Example
+//! ```no_run
+//! use planar_capture::capture::Silent;
+//! use planar_capture::reproduction::reproduce;
+//!
+//! let report = reproduce(&mut Silent)?;
+//! let (path, text) = &report.files[0];
+//! assert_eq!(path, "reproduction.md");
+//! // Table 5 of the paper, beside what is computed
+//! assert!(text.contains("0.0873"));
+//! # Ok::<(), planar_capture::reproduction::ReproductionError>(())
+//! ```
 
 mod impacts;
 mod markdown;

@@ -1,5 +1,21 @@
 //! The texts of scenario and layout with other values at some keys: written once with places for these, filled for every
 //! case, and read by the same readers as files.
+//!
+//! # Example
+//! ```
+//! use planar_capture::registry::SHIPPED;
+//! use planar_capture::scenario::Scenario;
+//! use planar_capture::scenario::variation::{KeyPath, Variation, VariedValue::Number};
+//!
+//! let file = "scenarios/redysim_single_arm_3r.toml";
+//! let (scenario, source) = Scenario::read_with_source(file.as_ref(), SHIPPED)?;
+//! let keys = [(KeyPath::parse("layout.base.mass")?, Number(500.0))];
+//! let variation = Variation::new(&scenario, &source, &scenario.name, &keys).map_err(|unusable| unusable.why)?;
+//! let heavier = variation.scenario(&[Number(620.0)])?;
+//! assert_eq!(heavier.layout.mass() - scenario.layout.mass(), 120.0); // kg
+//! assert_eq!(heavier.approach, scenario.approach);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod key_path;
 mod key_place;
