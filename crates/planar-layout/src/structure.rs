@@ -1,4 +1,23 @@
 //! The structure of a layout, its arms, links and exact zeros, compared with that of code or a graph.
+//!
+//! # Example
+//! ```
+//! use planar_layout::layout::Layout;
+//! use planar_layout::structure::{fingerprint, in_words};
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen/layouts");
+//! let layout = Layout::read(format!("{folder}/dual_arm_3r.toml").as_ref())?;
+//! assert_eq!(in_words(&layout), "2 arms of 3 + 3 links");
+//! // code for this layout is code for one of other masses …
+//! let mut other = layout.clone();
+//! other.base.mass = 50.0;
+//! assert_eq!(fingerprint(&other), fingerprint(&layout));
+//! // … but not for one with another number in place of a zero
+//! other.arms[0].mount = [0.5, 0.1];
+//! assert_ne!(fingerprint(&other), fingerprint(&layout));
+//! assert_eq!(in_words(&other), "2 arms of 3 + 3 links, a mount off the base x axis");
+//! # Ok::<(), planar_layout::diagnostic::Report>(())
+//! ```
 
 use crate::layout::{Arm, Layout, Link, parameter_key};
 use planar_dynamics::manifest::{Manifest, ParameterKind};

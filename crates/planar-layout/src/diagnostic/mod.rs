@@ -3,6 +3,26 @@
 //! [`read_text`] reads a file; [`read_document`] parses it and passes its root [`Table`] to a reader. Readers continue
 //! after a problem, so that one [`Report`] shows all. [`report_warnings`] shows warnings about the content at their places
 //! in the file, [`report_error`] an error that its use brings up.
+//!
+//! # Example
+//! ```
+//! use planar_layout::diagnostic::{NumberRule, read_document};
+//! use planar_layout::format::{Key, Shape, TableFormat};
+//!
+//! static BALL: TableFormat = TableFormat {
+//!     doc: "A ball.",
+//!     keys: &[Key::required("mass", Shape::Number(NumberRule::positive("a mass", "kg")), "of the ball")],
+//!     one_of: &[],
+//! };
+//! let read = |text| read_document(text, "ball.toml", &BALL, |ball| ball.number("mass"));
+//! assert_eq!(read("mass = 2.5")?, 2.5);
+//! let report = read("mas = 2.5").expect_err("a key that there is not").to_string();
+//! let lines: Vec<&str> = report.lines().collect();
+//! assert_eq!(lines[0], "error: unknown key `mas` (2.5)");
+//! assert_eq!(lines[1], " --> ball.toml:1:1");
+//! assert_eq!(lines[4], "  | ^^^ did you mean `mass`?");
+//! # Ok::<(), planar_layout::diagnostic::Report>(())
+//! ```
 
 mod document;
 mod file;

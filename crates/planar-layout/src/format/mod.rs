@@ -4,6 +4,18 @@
 //! and templates.
 //!
 //! It never contains: a key of a certain file. Those of layouts are [`layout::FORMAT`](crate::layout::FORMAT).
+//!
+//! # Example
+//! ```
+//! use planar_layout::format::find;
+//! use planar_layout::layout::FORMAT;
+//!
+//! let rule = find(&FORMAT, "arm.left.link[0].mass")?.number().expect("one number");
+//! assert_eq!((rule.to_string().as_str(), rule.unit()), ("a mass in kg greater than 0", "kg"));
+//! let wrong = find(&FORMAT, "arm.left.link[0].mas").expect_err("a key that there is not");
+//! assert_eq!(wrong.nearest.as_deref(), Some("arm.left.link[0].mass"));
+//! # Ok::<(), planar_layout::format::NoKey>(())
+//! ```
 
 mod attributes;
 mod choice;

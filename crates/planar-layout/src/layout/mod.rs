@@ -1,4 +1,24 @@
 //! Arm layouts: the bodies and joints of a robot, read from TOML.
+//!
+//! # Example
+//! ```
+//! use planar_layout::layout::Layout;
+//!
+//! let text = r#"
+//! name = "swing"
+//! base = { mass = 100.0, inertia = 20.0 }
+//! [[arm]]
+//! name = "left"
+//! mount = [0.5, 0.0]
+//! link = [{ length = 2.0, mass = 5.0, inertia = 1.7 }, { length = 1.0, mass = 3.0, inertia = 0.3 }]
+//! "#;
+//! let layout = Layout::parse(text, "swing.toml")?;
+//! assert_eq!((layout.joints(), layout.mass(), layout.arms[0].reach_from_base()), (2, 108.0, 3.5));
+//! // a uniform link without another `com`
+//! assert_eq!(layout.arms[0].links[0].com, [1.0, 0.0]);
+//! assert_eq!(Layout::parse(&layout.to_toml(), "copy.toml")?.sha256(), layout.sha256());
+//! # Ok::<(), planar_layout::diagnostic::Report>(())
+//! ```
 
 mod keys;
 

@@ -1,4 +1,18 @@
 //! Outlines of bodies: discs, capsules and polygons, and the signed distance of points from them.
+//!
+//! # Example
+//! ```
+//! use planar_layout::outline::{Outline, SignedDistance};
+//!
+//! let capsule = Outline::Capsule { ends: [[0.0, 0.0], [2.0, 0.0]], radius: 0.5 };
+//! assert_eq!(capsule.signed_distance([1.0, 3.0]), SignedDistance { distance: 2.5, normal: [0.0, 1.0] });
+//! assert_eq!(capsule.signed_distance([2.25, 0.0]).distance, -0.25);
+//! assert_eq!(capsule.reach(), 2.5);
+//! // clockwise corners are turned round
+//! let triangle = Outline::polygon(vec![[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]])?;
+//! assert_eq!(triangle.corners(), [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]);
+//! # Ok::<(), planar_layout::outline::OutlineError>(())
+//! ```
 
 mod keys;
 mod reader;
