@@ -1,4 +1,21 @@
 //! Graphs as files: read, and compared with the layout that they were derived from.
+//!
+//! # Example
+//! ```
+//! use planar_build::graph::{GraphError, read, structure};
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let text = std::fs::read_to_string(format!("{folder}/graphs/dual_arm_3r.json"))?;
+//! let graph = structure(&read(&text, &layout)?)?;
+//! assert_eq!((graph.links, graph.parameters.len()), (vec![3, 3], 30));
+//! // the graph is not that of a heavier base
+//! let mut heavier = layout;
+//! heavier.base.mass = 600.0;
+//! assert!(matches!(read(&text, &heavier), Err(GraphError::Stale { .. })));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub use crate::format::Graph;
 

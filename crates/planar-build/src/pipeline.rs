@@ -1,4 +1,16 @@
 //! The build's stage of the pipeline: committed graphs in, Rust files and their index out.
+//!
+//! # Example
+//! ```
+//! use planar_build::pipeline::{names, render_one};
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! assert_eq!(names(folder.as_ref(), "txt")?, ["requirements", "requirements-dev"]);
+//! let text = render_one(folder.as_ref(), "single_arm_2r", false)?;
+//! assert!(text.contains("\npub mod single_arm_2r {\n"));
+//! assert!(text.contains("\n    pub const JOINTS: usize = 2;\n"));
+//! # Ok::<(), String>(())
+//! ```
 
 use crate::graph::{self, Graph, GraphError};
 use crate::renderer::Module;

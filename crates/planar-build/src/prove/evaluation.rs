@@ -1,4 +1,30 @@
 //! Every quantity of the table at one instant, by any model of the robot.
+//!
+//! # Example
+//! ```
+//! use planar_build::prove::evaluation::{EvaluationInput, evaluate};
+//! use planar_build::prove::generic::Generic;
+//! use planar_build::prove::owned::RobotState;
+//! use planar_dynamics::quantity::Quantity;
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let (joint_angles, joint_rates, base_twist) = (vec![0.5; 6], vec![0.0; 6], [0.0, 0.1, 0.0]);
+//! let instant = EvaluationInput {
+//!     state: RobotState { base_pose: [0.0; 3], joint_angles, base_twist, joint_rates },
+//!     joint_torques: vec![0.0; 6],
+//!     base_wrench: None,
+//!     end_effector_wrenches: None,
+//!     targets: vec![None, None],
+//! };
+//! let values = evaluate(&Generic::new(&layout), &instant)?;
+//! // 560 kg at 0.1 m/s
+//! let energy = values.get(Quantity::KineticEnergy).expect("what every robot has");
+//! assert!((energy[0] - 2.8).abs() < 1e-12);
+//! assert_eq!(values.get(Quantity::CaptureImpulses), None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::prove::owned::{CloneModel, RobotState};
 use planar_dynamics::dynamics::Model;

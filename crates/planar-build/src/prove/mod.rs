@@ -1,4 +1,22 @@
 //! The proof of a graph: derived from a layout, interpreted, and compared with the generic implementation.
+//!
+//! # Example
+//! ```
+//! use planar_build::graph;
+//! use planar_build::prove::{GenerateError, prove};
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let text = std::fs::read_to_string(format!("{folder}/graphs/dual_arm_3r.json"))?;
+//! // 13 regimes of states, three states each
+//! assert_eq!(prove(&layout, &graph::read(&text, &layout)?)?.states, 39);
+//! // a graph in which the half of the kinetic energy, ½ v · p, is another number is refused
+//! let wrong = text.replace(r#""mul", 0.5,"#, r#""mul", 0.6,"#);
+//! let refused = prove(&layout, &graph::read(&wrong, &layout)?);
+//! assert!(matches!(refused, Err(GenerateError::Disagreement { output, .. }) if output == "kinetic_energy"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod derivation;
 mod derivatives;

@@ -2,6 +2,29 @@
 //!
 //! The sum of the inertias of robot and targets loses digits of the lighter, and `I_t (t_tf − t_ti)`, the impulse, is the
 //! small difference of large numbers where a target is heavy. The balance of momentum at the contacts loses neither.
+//!
+//! # Example
+//! ```
+//! use planar_build::prove::generic::Generic;
+//! use planar_build::prove::rigid_capture::rigid_capture;
+//! use planar_dynamics::dynamics::MomentumAndEnergy;
+//! use planar_dynamics::state::State;
+//! use planar_dynamics::target::Target;
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let robot = Generic::new(&layout);
+//! let at_rest = State { base_pose: [0.0; 3], joint_angles: &[0.5; 6], base_twist: [0.0; 3], joint_rates: &[0.0; 6] };
+//! let target = Target { mass: 1e6, inertia: 1e5, contact: [-0.3, 0.0], twist: [0.0, -0.1, 0.0] };
+//! let after = rigid_capture(&robot, &at_rest, &[Some(target), None])?;
+//! // the impulse on the robot, which was at rest, is its momentum
+//! let moving = State { base_twist: after.base_twist, joint_rates: &after.joint_rates, ..at_rest };
+//! let [_, fx, fy] = after.impulses[0];
+//! let [px, py] = robot.momentum(&moving)?.linear_momentum;
+//! assert!((fx - px).abs() < 1e-12 * px.abs() && (fy - py).abs() < 1e-12 * px.abs());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::prove::evaluation::{EvaluationInput, Values};
 use planar_dynamics::body::Body;

@@ -1,4 +1,21 @@
 //! Random states, regime by regime.
+//!
+//! # Example
+//! ```
+//! use planar_build::prove::sampling::Regime;
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let folded = Regime::Folded.sample(&layout, 1, 0);
+//! // all joints of an arm but its first one
+//! let angles = folded.instant.state.joint_angles.chunks(3).flat_map(|arm| &arm[1..]);
+//! assert!(angles.map(|angle| angle.abs()).eq([std::f64::consts::PI; 4]));
+//! // each sample is there without the others
+//! assert_eq!(Regime::Folded.sample(&layout, 1, 0), folded);
+//! assert_ne!(Regime::Folded.sample(&layout, 1, 1), folded);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::prove::evaluation::EvaluationInput;
 use crate::prove::owned::RobotState;

@@ -9,6 +9,21 @@
 //! and every system of equations is solved whole, by a dense Cholesky factorisation. Any number of arms and links,
 //! centres of mass off the link's axis, mount angles, links of length zero. It allocates, and is many
 //! times slower than generated code.
+//!
+//! # Example
+//! ```
+//! use planar_build::prove::generic::Generic;
+//! use planar_dynamics::dynamics::Kinematics;
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let (robot, mut poses) = (Generic::new(&layout), [[0.0; 3]; 2]);
+//! robot.end_effector_poses(&[0.0; 3], &[0.0; 6], &mut poses)?;
+//! // both arms stretched along x: three links of 1 m from mounts at 0.5 m and −0.5 m
+//! assert_eq!(poses, [[0.0, 3.5, 0.0], [0.0, 2.5, 0.0]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod configuration;
 mod equations;

@@ -1,4 +1,28 @@
 //! The differences of two models in each quantity of the table, in units of the quantity's natural size.
+//!
+//! # Example
+//! ```
+//! use planar_build::prove::generic::Generic;
+//! use planar_build::prove::quantities::differences;
+//! use planar_build::prove::sampling::Regime;
+//! use planar_dynamics::quantity::Quantity;
+//! use planar_layout::layout::Layout;
+//!
+//! let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen");
+//! let layout = Layout::read(format!("{folder}/layouts/dual_arm_3r.toml").as_ref())?;
+//! let sample = Regime::Moving.sample(&layout, 1, 0);
+//! let mut heavier = sample.layout.clone();
+//! heavier.base.mass *= 1.0 + 1e-6;
+//! let (robot, other) = (Generic::new(&sample.layout), Generic::new(&heavier));
+//! let own = differences(&robot, &robot, &sample).expect("a robot with masses");
+//! assert!(own.iter().all(|difference| difference.error == 0.0));
+//! // a millionth of a mass is more than rounding; poses do not depend on it
+//! let found = differences(&other, &robot, &sample).expect("a robot with masses");
+//! let ratio = |of| found.iter().find(|found| found.quantity == of).map(|found| found.ratio());
+//! assert_eq!(ratio(Quantity::BodyPoses), Some(0.0));
+//! assert!(ratio(Quantity::KineticEnergy).is_some_and(|ratio| ratio > 1e3));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod magnitudes;
 mod natural_sizes;
