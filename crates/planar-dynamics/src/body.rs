@@ -1,4 +1,16 @@
 //! A free rigid body: its momentum, energy and force-free motion.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::body::Body;
+//!
+//! let body = Body { mass: 2.0, inertia: 0.5, pose: [0.0, 0.0, 3.0], twist: [4.0, 1.0, 0.0] };
+//! // angular momentum: 0.5 · 4 of the rotation, −3 · 2 of the motion past the origin
+//! let (momentum, energy) = body.momentum();
+//! assert_eq!((momentum, energy), ([-4.0, 2.0, 0.0], 5.0));
+//! let later = body.after(10.0);
+//! assert_eq!((later.pose, later.momentum()), ([40.0, 10.0, 3.0], (momentum, energy)));
+//! ```
 
 use super::scalar::Scalar;
 

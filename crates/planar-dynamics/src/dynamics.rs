@@ -2,6 +2,28 @@
 //!
 //! Arguments are slices, whose lengths are checked once per call. Matrices are row-major. An input or result that is not
 //! finite and a singular system are an [`Error`]; no result is NaN.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::dynamics::AnyModel;
+//! use planar_dynamics::state::{Forces, State};
+//!
+//! let robot: &AnyModel<f64> = &Model::<f64>::default();
+//! let (joint_angles, joint_rates, torques) = (&[0.5; JOINTS], &[0.3; JOINTS], Forces::torques(&[2.0; JOINTS]));
+//! let state = State { base_pose: [0.0; 3], joint_angles, base_twist: [0.1, 0.0, 0.2], joint_rates };
+//! let (mut accelerations, mut mass_matrix, mut bias) = ([0.0; 9], [0.0; 81], [0.0; 9]);
+//! let base = robot.forward_dynamics(&state, &torques, &mut accelerations[3..])?;
+//! accelerations[..3].copy_from_slice(&base);
+//! robot.mass_matrix(&state.base_pose, joint_angles, &mut mass_matrix)?;
+//! robot.bias(&state, &mut bias)?;
+//! // eq. (1): no force on the base, 2 N m at every joint
+//! for (i, row) in mass_matrix.chunks_exact(9).enumerate() {
+//!     let inertial: f64 = row.iter().zip(&accelerations).map(|(m, a)| m * a).sum();
+//!     assert!((inertial + bias[i] - if i < 3 { 0.0 } else { 2.0 }).abs() < 1e-9);
+//! }
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 use crate::error::Error;
 use crate::scalar::Real;

@@ -1,4 +1,19 @@
 //! The errors of the core's computations; every variant carries the numbers that caused it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::Model;
+//! use planar_dynamics::dynamics::Kinematics;
+//! use planar_dynamics::error::Error;
+//!
+//! let (robot, mut poses) = (Model::<f64>::default(), [[0.0; 3]; 2]);
+//! let mut end_effectors = |angles: &[f64]| Kinematics::end_effector_poses(&robot, &[0.0; 3], angles, &mut poses);
+//! let error = end_effectors(&[0.5; 5]).expect_err("an angle is missing");
+//! assert_eq!(error, Error::Length { quantity: "joint_angles", expected: 6, found: 5 });
+//! assert_eq!(error.to_string(), "joint_angles has 5 values, the model has 6");
+//! let error = end_effectors(&[0.5, 0.5, f64::INFINITY, 0.5, 0.5, 0.5]).expect_err("an angle is infinite");
+//! assert_eq!(error.to_string(), "joint_angles[2] = inf is not a finite number");
+//! ```
 
 use crate::manifest::ParameterKind;
 use core::fmt::{self, Display, Formatter};

@@ -1,4 +1,27 @@
 //! Rigid capture of targets: the exact impact in full coordinates, and the paper's equations (14) to (17).
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::impact::{RigidImpactOutput, exact};
+//! use planar_dynamics::state::State;
+//! use planar_dynamics::target::Target;
+//!
+//! let (robot, pose, angles) = (Model::<f64>::default(), [0.0; 3], [0.5; JOINTS]);
+//! let at_rest = State { base_pose: pose, joint_angles: &angles, base_twist: [0.0; 3], joint_rates: &[0.0; JOINTS] };
+//! let target = Target { mass: 20.0, inertia: 3.0, contact: [-0.3, 0.0], twist: [0.5, -0.1, 0.0] };
+//! let (mut joint_rates, mut target_twists, mut impulses) = ([0.0; JOINTS], [[0.0; 3]; 2], [[0.0; 3]; 2]);
+//! let mut after = RigidImpactOutput {
+//!     joint_rates: &mut joint_rates,
+//!     target_twists: &mut target_twists,
+//!     impulses: &mut impulses,
+//! };
+//! let base_twist = exact(&robot, &at_rest, &[Some(target), None], &mut after)?;
+//! // robot and target together have the momentum that the target had
+//! let of_robot = robot.momentum(&pose, &angles, &base_twist, &joint_rates).linear_momentum[0];
+//! assert!((of_robot + 20.0 * target_twists[0][1] - 20.0 * -0.1).abs() < 1e-12);
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 use crate::dynamics::Model;
 use crate::error::Error;

@@ -1,6 +1,22 @@
 //! SIMD lanes as scalars: one robot per lane (feature `lanes`).
 //!
 //! `wide` selects the vector width at compile time: the cost of a lane depends on `-C target-cpu=…`.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::scalar::Scalar;
+//! use wide::f64x4;
+//!
+//! // four robots with stretched arms, each base at another angle
+//! let (yaw, zero) = (f64x4::new([0.0, 1.0, 2.0, 3.0]), f64x4::ZERO);
+//! let poses = Model::<f64x4>::default().end_effector_poses(&[yaw, zero, zero], &[zero; JOINTS]);
+//! // the end effector of the first arm is 0.5 m + 3 · 1 m from the base's COM, at the angle of the base
+//! let [_, x, y] = poses[0];
+//! let [distances, angles] = [Scalar::sqrt(x * x + y * y), Scalar::atan2(y, x)].map(|lanes| lanes.to_array());
+//! assert!(distances.iter().all(|distance| (distance - 3.5).abs() < 1e-12));
+//! assert!(angles.iter().zip([0.0, 1.0, 2.0, 3.0]).all(|(angle, yaw)| (angle - yaw).abs() < 1e-12));
+//! ```
 
 use crate::scalar::Scalar;
 use crate::scalar::sine_lanes::all;

@@ -1,4 +1,17 @@
 //! The description of a generated model: its layout, coordinates, parameters and operation counts.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::MANIFEST;
+//! use planar_dynamics::manifest::ParameterKind;
+//!
+//! assert_eq!((MANIFEST.links, MANIFEST.joints(), MANIFEST.coordinates.len()), (&[3, 3][..], 6, 9));
+//! let length = MANIFEST.position(ParameterKind::LinkLength, 1, 2).expect("the third link of the second arm");
+//! let length = &MANIFEST.parameters[length];
+//! assert_eq!((length.name, length.default, length.unit), ("arm2_link3_length", 1.0, "m"));
+//! // the mounts are on the base's x axis: an exact zero, which is no parameter
+//! assert_eq!(MANIFEST.position(ParameterKind::MountY, 0, 0), None);
+//! ```
 
 /// The number of a layout that a parameter of a generated model stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -4,6 +4,17 @@
 //! `eval`, in `compare` and in the reference vectors of generated modules, and the tests that every layout's graph has
 //! it. A row of [`with_quantities!`](crate::with_quantities) also needs a derivation (`codegen/`), and a formula and
 //! natural sizes in the generic implementation (`planar_build::prove`); the compiler reports those that are missing.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::quantity::Quantity;
+//!
+//! let jacobian = Quantity::EndEffectorJacobian.row();
+//! // two arms with six joints: ω, vx and vy of each arm, by the base's three coordinates and the joints
+//! let shape: Vec<usize> = jacobian.shape.iter().map(|extent| extent.count(2, 6)).collect();
+//! assert_eq!((jacobian.name, shape), ("end_effector_jacobian", vec![6, 9]));
+//! assert_eq!(Quantity::KineticEnergy.row().unit, "J");
+//! ```
 
 /// Number of entries along one axis of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

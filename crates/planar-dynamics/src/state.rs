@@ -1,4 +1,19 @@
 //! A robot's state as structures and as the vector that is integrated, and the forces on the robot.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::state::{State, split, vector_length};
+//!
+//! // a robot with one joint
+//! let (joint_angles, joint_rates) = (&[0.5], &[0.2]);
+//! let state = State { base_pose: [0.1, 1.0, 2.0], joint_angles, base_twist: [0.0, 0.3, 0.4], joint_rates };
+//! let mut vector = [0.0; vector_length(1)];
+//! state.write(&mut vector)?;
+//! assert_eq!(vector, [0.1, 1.0, 2.0, 0.5, 0.0, 0.3, 0.4, 0.2, 0.0, 0.0, 0.0]);
+//! assert_eq!(split(&vector)?.rates, [0.0, 0.3, 0.4, 0.2]);
+//! assert_eq!(State::from_vector(&vector, 1)?, state);
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 use crate::error::Error;
 use crate::linear::copy;

@@ -1,4 +1,18 @@
 //! Eqs. (3) to (5), (12) and (14) of a captured object, and the link that it forms with the last link of an arm.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::target::Target;
+//!
+//! // 3 kg that turn at 2 rad/s, held half a metre beside the COM
+//! let target = Target { mass: 3.0, inertia: 0.25, contact: [0.5, 0.0], twist: [2.0, 0.0, -0.5] };
+//! // the contact point moves by v + ω × r
+//! let contact_twist = target.contact_jacobian().map(|[a, b, c]| 2.0 * a + 0.0 * b - 0.5 * c);
+//! assert_eq!(contact_twist, [2.0, 0.0, 0.5]);
+//! assert_eq!(target.twist_from_contact(&contact_twist), target.twist);
+//! // a robot that stops it receives its momentum, here about the contact point: 0.25 · 2 + 0.5 · 1.5
+//! assert_eq!(target.impulse(&[0.0; 3]), [1.25, 0.0, -1.5]);
+//! ```
 
 use super::body::Body;
 use super::scalar::Scalar;

@@ -7,6 +7,32 @@
 //!
 //! Without the feature `fused` the results have the bits of the model's functions for one state. With it they differ by
 //! rounding where the processor fuses products with sums and the build does not.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::batch::{Batch, States, StatesAfter, Status};
+//!
+//! const N: usize = 3;
+//! let states = States {
+//!     base_poses: &[0.0; 3 * N],
+//!     joint_angles: &[0.5; JOINTS * N],
+//!     base_twists: &[0.0, 0.0, 0.0, 0.1, 0.2, 0.3, 0.0, 0.0, 0.0], // all ω, then all vx, then all vy
+//!     joint_rates: &[0.0; JOINTS * N],
+//! };
+//! let mut after = StatesAfter {
+//!     base_poses: &mut [0.0; 3 * N],
+//!     joint_angles: &mut [0.0; JOINTS * N],
+//!     base_twists: &mut [0.0; 3 * N],
+//!     joint_rates: &mut [0.0; JOINTS * N],
+//! };
+//! let (robot, mut statuses) = (Model::<f64>::default(), [Status::Done; N]);
+//! Batch::new(&robot).runge_kutta_step(&states, &[0.0; JOINTS * N], 0.5, &mut after, &mut statuses)?;
+//! // no torques act: in 0.5 s each robot drifts by half its velocity
+//! assert_eq!(statuses, [Status::Done; N]);
+//! assert!(after.base_poses[N..].iter().zip([0.05, 0.1, 0.15]).all(|(x, drift)| (x - drift).abs() < 1e-15));
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 #![allow(clippy::inline_always, reason = "what is not inlined has the instruction set of the build")]
 

@@ -13,6 +13,31 @@
 //! With the [`DelassusMatrix`] W, the change of the rows' velocities per row impulse, [`impact`] applies Poisson's law
 //! of restitution, and [`balance_momentum`] solves it again where inertias differ by many orders of magnitude; the
 //! [`ConstraintSolver`] computes the constraint forces of lasting contacts.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::body::Body;
+//! use planar_dynamics::contact::{Contact, ContactLaw, ContactPartner, DelassusMatrix};
+//! use planar_dynamics::contact::{ImpactOutput, impact, workspace_length};
+//! use planar_dynamics::state::State;
+//!
+//! let (robot, pose, angles) = (Model::<f64>::default(), [0.0; 3], [0.5; JOINTS]);
+//! let at_rest = State { base_pose: pose, joint_angles: &angles, base_twist: [0.0; 3], joint_rates: &[0.0; JOINTS] };
+//! let ball = [Body { mass: 2.0, inertia: 0.1, pose: [0.0; 3], twist: [0.0, -0.4, 0.0] }];
+//! let law = ContactLaw::Bounce { normal: [-1.0, 0.0], restitution: 0.5 };
+//! let contacts = [Contact { arm: 0, partner: ContactPartner::Body(0), offset: [-0.2, 0.0], law }];
+//! let mut numbers = [0.0; workspace_length(JOINTS, 2, 1, 1)];
+//! let delassus = DelassusMatrix::new(&robot, &pose, &angles, &ball, &contacts, &mut numbers)?;
+//! let (mut joint_rates, mut ball_twist, mut impulse) = ([0.0; JOINTS], [[0.0; 3]], [[0.0; 3]]);
+//! let mut after =
+//!     ImpactOutput { joint_rates: &mut joint_rates, body_twists: &mut ball_twist, impulses: &mut impulse };
+//! let base_twist = impact(&robot, &at_rest, &ball, delassus, &mut after)?;
+//! // Newton's law: they meet at 0.4 m/s and part at half of it
+//! let [end_effector, _] = robot.end_effector_twists(&pose, &angles, &base_twist, &joint_rates);
+//! assert!((ball_twist[0][1] - end_effector[1] - 0.2).abs() < 1e-12);
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 mod complementarity;
 mod constraint_row;

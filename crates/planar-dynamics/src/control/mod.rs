@@ -1,4 +1,25 @@
 //! Control laws: joint torques, and the torque of a base actuator, from the state.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::control::{Control, ProportionalDerivative};
+//! use planar_dynamics::state::State;
+//! use planar_dynamics::trajectory::ConstantSetpoint;
+//!
+//! let mut law = ProportionalDerivative {
+//!     trajectory: ConstantSetpoint { angles: &[1.0; JOINTS] },
+//!     proportional_gain: &[10.0; JOINTS],
+//!     derivative_gain: &[2.0; JOINTS],
+//! };
+//! let (joint_angles, joint_rates) = (&[0.5; JOINTS], &[0.25; JOINTS]);
+//! let state = State { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
+//! let mut torques = [0.0; JOINTS];
+//! law.joint_torques(0.0, &Model::<f64>::default(), &state, &mut torques)?;
+//! // 10 N m/rad · (1 − 0.5) rad − 2 N m s/rad · 0.25 rad/s
+//! assert_eq!(torques, [4.5; JOINTS]);
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 mod computed_torque;
 mod estimated_state;

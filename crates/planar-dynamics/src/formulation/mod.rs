@@ -1,5 +1,32 @@
 //! The differential equation of a controlled robot and its actuators' work: in full coordinates, in
 //! [`ReducedCoordinates`] and in [`CanonicalVariables`]; and that of a robot with [`PrescribedJoints`].
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::dual_arm_3r::{JOINTS, Model};
+//! use planar_dynamics::control::ZeroTorque;
+//! use planar_dynamics::dynamics::MomentumAndEnergy;
+//! use planar_dynamics::formulation::derivative;
+//! use planar_dynamics::integrate::RungeKutta4;
+//! use planar_dynamics::state::{State, vector_length};
+//!
+//! const LENGTH: usize = vector_length(JOINTS);
+//! let (robot, mut torques) = (Model::<f64>::default(), [0.0; JOINTS]);
+//! let (joint_angles, joint_rates) = (&[0.5; JOINTS], &[0.2; JOINTS]);
+//! let start = State { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
+//! let (mut x, mut workspace) = ([0.0; LENGTH], [0.0; 3 * LENGTH]);
+//! start.write(&mut x)?;
+//! let mut integrator = RungeKutta4::new(&mut workspace)?;
+//! for step in 0..100 {
+//!     integrator.step(0.01 * f64::from(step), 0.01, &mut x, |time, x, rate| {
+//!         derivative(&robot, &mut ZeroTorque, time, x, rate, &mut torques)
+//!     })?;
+//! }
+//! // without torques the kinetic energy stays as it was
+//! let energy = |state: &State<'_, f64>| MomentumAndEnergy::momentum(&robot, state).map(|all| all.kinetic_energy);
+//! assert!((energy(&State::from_vector(&x, JOINTS)?)? / energy(&start)? - 1.0).abs() < 1e-9);
+//! # Ok::<(), planar_dynamics::error::Error>(())
+//! ```
 
 mod canonical_variables;
 mod prescribed_joints;

@@ -1,4 +1,17 @@
 //! Scalars: the traits of the numbers that the core and generated code compute with, and their implementations.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::scalar::{Dual, Scalar};
+//!
+//! fn kinetic_energy<T: Scalar>(mass: T, speed: T) -> T {
+//!     T::constant(0.5) * mass * speed * speed
+//! }
+//!
+//! assert_eq!(kinetic_energy(2.0_f32, 3.0), 9.0);
+//! // 2 kg at 3 m/s; the derivative by the speed is the momentum
+//! assert_eq!(kinetic_energy(Dual(2.0, 0.0), Dual(3.0, 1.0)), Dual(9.0, 6.0));
+//! ```
 
 mod accelerated;
 mod dual;

@@ -1,6 +1,19 @@
 //! Joint trajectories of the approach, from the initial angles to the final ones, and paths of the end effectors.
 //!
 //! Before t = 0 and after the duration a trajectory has the values at its nearer end.
+//!
+//! # Example
+//! ```
+//! use planar_dynamics::trajectory::{PointToPoint, Quartic, Trajectory};
+//!
+//! let motion = PointToPoint { initial_angles: &[0.0], final_angles: &[1.0], duration: 2.0 };
+//! let trajectory = Quartic { motion, final_rates: &[0.0] };
+//! // from rest to rest: at half the time half the way, at 15/8 of the mean rate
+//! let middle = trajectory.joint(0, 1.0).expect("the only joint");
+//! assert_eq!((middle.angle, middle.rate, middle.acceleration), (0.5, 0.9375, 0.0));
+//! let after = trajectory.joint(0, 3.0).expect("the only joint");
+//! assert_eq!((after.angle, after.rate, after.acceleration), (1.0, 0.0, 0.0));
+//! ```
 
 #![allow(clippy::inline_always, reason = "in a loop over joints the powers of the time are then computed once")]
 
