@@ -14,7 +14,12 @@ const MAX_STEP: f64 = 0.5;
 const RECOMMENDED_STEP: f64 = 0.2;
 
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
-    closed_loops(scenario).iter().flat_map(|law| [law.long_step(), law.long_sample_time()]).flatten().collect()
+    let of_law = |law: &ClosedLoop| {
+        // adaptive steps are as short as the motion needs
+        let step = law.long_step().filter(|_| !law.is_adaptive);
+        step.into_iter().chain(law.long_sample_time())
+    };
+    closed_loops(scenario).iter().flat_map(of_law).collect()
 }
 
 /// What helps where a phase, `approach` or `post_impact`, breaks down: for gains that are too high for its step or its
@@ -41,11 +46,14 @@ fn closed_loops(scenario: &Scenario) -> Vec<ClosedLoop> {
         phase: "approach",
         step: approach.step,
         steps_per_sample: approach.actuation.steps_per_sample,
+        is_adaptive: approach.integration.integrator.properties().is_adaptive,
         rate,
     });
     let after = scenario.post_impact.as_ref().and_then(|after| {
         let (step, steps_per_sample) = (after.step, after.actuation.steps_per_sample);
-        Some(ClosedLoop { phase: "post_impact", step, steps_per_sample, rate: fastest_mode_afterwards(scenario)? })
+        let is_adaptive = after.integration.integrator.properties().is_adaptive;
+        let rate = fastest_mode_afterwards(scenario)?;
+        Some(ClosedLoop { phase: "post_impact", step, steps_per_sample, is_adaptive, rate })
     });
     before.into_iter().chain(after).collect()
 }
@@ -113,6 +121,8 @@ struct ClosedLoop {
     /// s.
     step: f64,
     steps_per_sample: Option<u32>,
+    /// Whether `step` is that of audits and rows alone.
+    is_adaptive: bool,
     /// Of the fastest mode, 1/s.
     rate: f64,
 }
@@ -121,6 +131,14 @@ impl ClosedLoop {
     fn long_step(&self) -> Option<Warning> {
         let Self { phase, step, rate, .. } = self;
         (step * rate > MAX_STEP).then(|| {
+            if self.is_adaptive {
+                let why = format!(
+                    "the fastest joint motion under these gains decays or swings within {} s, which adaptive steps cannot \
+                     follow to the end",
+                    short(1.0 / rate)
+                );
+                return warning(format!("{phase}.integrator"), why, "use smaller gains");
+            }
             let why = format!(
                 "a step of {} s, while the fastest joint motion under these gains decays or swings within {} s",
                 short(*step),

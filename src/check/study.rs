@@ -15,6 +15,7 @@ use crate::scenario::{
     contact_name,
 };
 use crate::simulate::Timing;
+use crate::simulate::stepper::Integration;
 
 pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     let (layout, approach) = (&scenario.layout, &scenario.approach);
@@ -24,7 +25,7 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     out += &entry("degrees of freedom", &freedom(layout));
     out += &entry("generated code", &code(layout, robots));
     out += &entry("start", &start(scenario));
-    out += &entry("approach", &steps(approach.duration, approach.step));
+    out += &entry("approach", &steps(approach.duration, approach.step, approach.integration));
     out += &entry("trajectory", &trajectory(scenario));
     out += &match &approach.final_end_effector_poses {
         Some(goals) if by_end_effectors(scenario) => entry("end effectors", &format!("to {}", goal_poses(goals))),
@@ -35,17 +36,22 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     if let Some(FinalPose { arms, margin }) = final_pose(scenario) {
         let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
         let (names, margin) = (names.join(", "), short(margin));
-        let what = format!("generalized Jacobian of {names}: smallest/largest singular value {margin}");
+        let what = format!(
+            "generalized Jacobian of all twists of {names}: smallest/largest singular value {margin}, lengths in units of the reach"
+        );
         out += &entry("final pose", &what);
     }
     if let Some(after) = &scenario.post_impact {
         let captured: f64 = scenario.targets.iter().map(|target| target.mass).sum();
         let mass = short(layout.mass() + captured);
-        out += &entry("afterwards", &format!("{}, of {mass} kg together", steps(after.duration, after.step)));
+        out += &entry(
+            "afterwards",
+            &format!("{}, of {mass} kg together", steps(after.duration, after.step, after.integration)),
+        );
         if after.control != PostCaptureControl::None {
             let (law, actuation) = (post_capture_law(&after.control), actuation(&after.actuation));
             let mode = fastest_mode_afterwards(scenario).map_or_else(String::new, |rate| {
-                format!("; fastest mode at most {} 1/s, {} in a step", short(rate), short(rate * after.step))
+                format!("; fastest mode at most {} 1/s{}", short(rate), in_a_step(rate, after.step, after.integration))
             });
             out += &entry("control afterwards", &format!("{law}{mode}{actuation}"));
         }
@@ -55,9 +61,17 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     out
 }
 
-fn steps(duration: f64, step: f64) -> String {
+fn steps(duration: f64, step: f64, by: Integration) -> String {
+    if by.integrator.properties().is_adaptive {
+        return format!("{} s in adaptive steps, audited every {} s", short(duration), short(step));
+    }
     let steps = Timing::of_steps(duration, step).steps();
     format!("{} s in {steps} steps of {} s", short(duration), short(step))
+}
+
+/// How far a mode comes in a step whose length is the scenario's.
+fn in_a_step(rate: f64, step: f64, by: Integration) -> String {
+    if by.integrator.properties().is_adaptive { String::new() } else { format!(", {} in a step", short(rate * step)) }
 }
 
 fn start(scenario: &Scenario) -> String {
@@ -114,7 +128,8 @@ fn turn(scenario: &Scenario) -> String {
 
 fn tracking(scenario: &Scenario) -> String {
     let mode = fastest_mode(scenario).map_or_else(String::new, |rate| {
-        format!("; fastest mode {} 1/s, {} in a step", short(rate), short(rate * scenario.approach.step))
+        let in_a_step = in_a_step(rate, scenario.approach.step, scenario.approach.integration);
+        format!("; fastest mode {} 1/s{in_a_step}", short(rate))
     });
     format!("{}{mode}{}", law(scenario), actuation(&scenario.approach.actuation))
 }

@@ -73,8 +73,8 @@ fn approach(scenario: &Scenario, study: &Study) -> String {
     }
     if let Some(found) = &study.terminal_rates {
         out += &line(&format!(
-            "final joint rates found in {} iterations [rad/s]: {} (generalized Jacobian at the final pose: \
-             smallest/largest singular value {:.3})",
+            "final joint rates found in {} iterations [rad/s]: {} (generalized Jacobian of the given \
+             twists at the final pose, SI units: smallest/largest singular value {:.3})",
             found.iterations,
             list(&found.joint_rates, 6),
             found.singularity_margin

@@ -206,3 +206,15 @@ fn an_impossible_case_is_shown_at_its_values() {
     }
     assert!(!Path::new(&out).join("summary.json").exists());
 }
+
+/// What is wrong with the scenario itself is said once, where it stands, and not again for a case with values of its own.
+#[test]
+fn what_is_wrong_without_them_is_said_once() {
+    let place = Place::new();
+    let scenario =
+        place.write("misspelt.toml", &with_set().replace("tracking = \"pd\"", "sampel_time = 0.1\ntracking = \"pd\""));
+    let (code, _, err) = said(&["check", &scenario]);
+    assert_eq!(code, 2, "{err}");
+    assert_eq!(err.matches("sampel_time").count(), 2, "the key and its line: {err}");
+    assert!(err.contains("unknown key") && !err.contains("set"), "{err}");
+}

@@ -123,13 +123,13 @@ const SCENARIO_EDITS: &[Edit] = &[
     ),
     (
         "duration = 20.0",
-        "duration = 20.0\nstep = 0.5",
+        "duration = 20.0\nstep = 0.5\nintegrator = \"rk4\"",
         7,
         &["`approach.step` is 0.5", "fastest joint motion", "or less"],
     ),
     (
         "duration = 20.0",
-        "duration = 20.0\nderivative_gain = 5e4",
+        "duration = 20.0\nderivative_gain = 5e4\nintegrator = \"rk4\"",
         5,
         &["`approach.step` is left at its default: a step of 0.005 s", "gains"],
     ),
@@ -142,13 +142,13 @@ const SCENARIO_EDITS: &[Edit] = &[
     // control afterwards
     (
         "duration = 50.0",
-        "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 1e6",
+        "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 1e6\nintegrator = \"rk4\"",
         24,
         &["`post_impact.step` is left at its default: a step of 0.005 s", "fastest joint motion", "or less"],
     ),
     (
         "duration = 50.0",
-        "duration = 50.0\nstep = 0.4\ncontrol = \"damping\"",
+        "duration = 50.0\nstep = 0.4\ncontrol = \"damping\"\nintegrator = \"rk4\"",
         26,
         &["`post_impact.step` is 0.4", "fastest joint motion"],
     ),
