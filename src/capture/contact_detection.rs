@@ -1,12 +1,10 @@
 //! Contact detection: events where the signed distance of an end effector from the outline of its target falls to zero.
 
 use crate::capture::assembly::rotated;
-use crate::capture::contact_pair::ContactPair;
 use crate::capture::proximity::convex::ConvexPart;
 use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
-use crate::capture::target_motion::TargetMotion;
 use crate::error::Error;
 use crate::frames::{Frame, FrameMotion};
 use crate::outline::SignedDistance;
@@ -14,6 +12,9 @@ use crate::scenario::Scenario;
 use crate::simulate::event::{EventState, Events};
 use crate::simulate::path::PathInterval;
 use crate::simulate::system::Body;
+
+pub use crate::capture::contact_pair::ContactPair;
+pub use crate::capture::target_motion::TargetMotion;
 
 /// Depth of an end effector inside a target at which bounds of the motion count it as a contact, m; the time of the
 /// contact is that of the depth 0.

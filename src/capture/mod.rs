@@ -6,7 +6,7 @@ pub mod assembly;
 pub mod clearance;
 pub mod contact_at_time;
 pub mod contact_detection;
-pub mod contact_pair;
+mod contact_pair;
 pub mod contact_response;
 pub mod heavy_target;
 pub mod impact;
@@ -18,7 +18,7 @@ pub(crate) mod reduced_matrices;
 pub mod residual_motion;
 pub mod scenario_key;
 mod sequence;
-pub mod target_motion;
+mod target_motion;
 pub mod terminal_error;
 
 use crate::capture::approach::ApproachTracking;

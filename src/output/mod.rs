@@ -18,7 +18,7 @@ mod replacement;
 pub mod result_folder;
 pub mod run_folder;
 pub mod run_manifest;
-pub mod scene;
+pub(crate) mod scene;
 pub mod study_part;
 pub mod summary;
 mod sweep;

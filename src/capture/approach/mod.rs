@@ -1,7 +1,7 @@
 //! The approach of a scenario: its trajectory, eqs. (6) and (7), followed by its tracking law, eq. (18).
 
 mod collocation;
-pub mod exact_end;
+mod exact_end;
 pub mod inverse_kinematics;
 pub mod terminal_rates;
 

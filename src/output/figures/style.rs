@@ -48,8 +48,8 @@ impl Colour {
     /// Of the background.
     pub const GREY: Self = Self([0x8c; 3]);
 
-    /// The colour of the member `index` of a family of curves: the [`PALETTE`], then black; from the eighth on they
-    /// repeat.
+    /// The colour of the member `index` of a family of curves: the palette of Okabe and Ito without its yellow, then
+    /// black; from the eighth on they repeat.
     #[must_use]
     pub fn of(index: usize) -> Self {
         PALETTE.get(index % (PALETTE.len() + 1)).map_or(Self::BLACK, |rgb| Self(*rgb))
