@@ -1,4 +1,25 @@
 //! Robot and targets between two impacts: merged with links, or beside the robot under constraints.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::assembly::{Assembly, Attachment};
+//! use planar_capture::contact::ContactKind;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::system::Body;
+//!
+//! let robot = Box::new(Model::<f64>::default());
+//! let (base_twist, joint_angles, joint_rates) = ([0.0, 1.0, 0.0], vec![0.0; 3], vec![0.0; 3]);
+//! let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist, joint_rates };
+//! let target = Body { mass: 10.0, inertia: 1.0, pose: [0.0, 4.0, 0.0], twist: base_twist };
+//! let grasp = Attachment { target: 0, arm: 0, kind: ContactKind::Rigid };
+//! let assembly = Assembly::new(robot, &state, &[target], &[grasp])?;
+//! assert!(assembly.bodies.is_empty()); // the target is a part of the last link
+//! // 530 kg of the robot and 10 kg at 1 m/s
+//! let [px, _] = assembly.model.momentum(&state.view())?.linear_momentum;
+//! assert!((px - 540.0).abs() < 1e-9);
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::contact::{Contact, ContactKind, ContactLaw, ContactPartner, LoopConstraint};
 use crate::error::Error;

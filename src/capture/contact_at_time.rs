@@ -1,4 +1,20 @@
 //! Positions of the targets and contacts of an impact at the end of the approach, from the poses of the end effectors.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::contact_at_time::contact_at_time;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/spinning_target.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! // the disc is held at its point [-0.6, 0], so that its centre is 0.6 m beyond the end effector
+//! let end_effectors = [[0.0, 1.9, -0.9]];
+//! let (targets, contacts) = contact_at_time(&scenario, &scenario.cases[0], &end_effectors);
+//! let [_, x, y] = targets[0].pose;
+//! assert!((x - 2.5).abs() < 1e-12 && (y + 0.9).abs() < 1e-12);
+//! assert!(contacts[0].miss < 1e-12); // one arm meets the point that was planned
+//! ```
 
 use crate::capture::assembly::rotated;
 use crate::contact::ContactLaw;

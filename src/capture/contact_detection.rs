@@ -1,4 +1,25 @@
 //! Contact detection: events where the signed distance of an end effector from the outline of its target falls to zero.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::contact_detection::{ContactDetection, ContactPair, TargetMotion};
+//! use planar_capture::simulate::system::{Body, System};
+//! use planar_capture::simulate::{Timing, simulate};
+//! use planar_capture::{control::ZeroTorque, generated::dual_arm_3r::Model, registry, scenario::Scenario};
+//!
+//! let path = "scenarios/elastic_rebound.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! scenario.initial.joint_angles = vec![0.0; 6]; // the first end effector is at x = 3.5 m
+//! scenario.targets.truncate(1); // a ball of 0.3 m
+//! let ball = [Body { mass: 20.0, inertia: 1.0, pose: [0.0, 4.8, 0.0], twist: [0.0, -0.1, 0.0] }];
+//! let pair = ContactPair { target: 0, contact: 0, arm: 0 };
+//! let mut contacts = ContactDetection::new(&scenario, TargetMotion::Free(&ball), vec![pair]);
+//! let (robot, timing) = (Model::default(), Timing { duration: 20.0, step: 0.5, sample: 5.0, ..Timing::default() });
+//! let system = System::alone(&robot);
+//! let phase = simulate(&system, &mut ZeroTorque, &scenario.initial, &timing, &mut contacts, &mut || ())?;
+//! assert!((phase.duration - 10.0).abs() < 1e-6); // 1 m at 0.1 m/s
+//! # Ok::<(), planar_capture::simulate::PhaseError>(())
+//! ```
 
 use crate::capture::assembly::rotated;
 use crate::capture::proximity::convex::ConvexPart;

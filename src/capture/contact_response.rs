@@ -1,5 +1,27 @@
 //! The response of robot and target to a contact: extended inverse inertia, effective masses, impulse index and
 //! ellipse.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{contact_at_time::ImpactContact, contact_response::response};
+//! use planar_capture::contact::ContactLaw;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::system::Body;
+//!
+//! // a stretched arm along x, at rest, and a target that comes along the same line
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
+//! let target = Body { mass: 10.0, inertia: 1.0, pose: [0.0, 4.0, 0.0], twist: [0.0, -0.2, 0.0] };
+//! let touch = ImpactContact { target: 0, arm: 0, law: ContactLaw::Pin, offset: [-0.5, 0.0], miss: 0.0 };
+//! let found = response(&Model::<f64>::default(), &state, &target, &touch)?;
+//! let masses = found.effective_masses.expect("a relative velocity");
+//! // along the arm the whole robot of 530 kg is pushed; of both together the reciprocals are added
+//! for (mass, expected) in masses.into_iter().zip([530.0, 10.0, 5300.0 / 540.0]) {
+//!     assert!((mass - expected).abs() < 1e-9);
+//! }
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::capture::contact_at_time::ImpactContact;
 use crate::contact::{ImpulseEllipse, InverseInertia};

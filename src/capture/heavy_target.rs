@@ -1,4 +1,15 @@
 //! A target that is merged with the robot and so heavy that the momentum is not conserved as usual, and what helps.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::heavy_target::HeavyTarget;
+//!
+//! let target = HeavyTarget { mass: 200.0, inertia: 50.0, is_reducible: true };
+//! assert!(target.remedy().contains("`post_impact.coordinates = \"reduced\"`"));
+//! // beyond 1e5 times the robot's mass reduced coordinates do not help either
+//! let asteroid = HeavyTarget { mass: 1e7, ..target };
+//! assert!(asteroid.remedy().contains("double precision does not resolve the momentum"));
+//! ```
 
 use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::scalar::Real;

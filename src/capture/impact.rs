@@ -1,4 +1,26 @@
 //! One impact by the exact and by the paper's equations, (10) to (17), with the balance of momentum and energy.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{assembly::Assembly, contact_at_time::ImpactContact, impact::solve_impact};
+//! use planar_capture::contact::ContactLaw;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::system::Body;
+//!
+//! // a stretched arm along x, at rest, takes hold of a target that comes along the same line
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
+//! let target = Body { mass: 10.0, inertia: 1.0, pose: [0.0, 4.0, 0.0], twist: [0.0, -0.2, 0.0] };
+//! let contact = ImpactContact { target: 0, arm: 0, law: ContactLaw::Rigid, offset: [-0.5, 0.0], miss: 0.0 };
+//! let assembly = Assembly::new(Box::new(Model::<f64>::default()), &state, &[target], &[])?;
+//! let found = solve_impact(&assembly, &state, &[target], &[contact])?;
+//! // 530 kg and 10 kg go on together
+//! let [_, velocity, _] = found.target_twists[0];
+//! assert!((velocity + 0.2 * 10.0 / 540.0).abs() < 1e-12);
+//! assert!((found.contacts[0].impulse[1] - 530.0 * velocity).abs() < 1e-9);
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::capture::assembly::{Assembly, TargetPlacement};
 use crate::capture::contact_at_time::ImpactContact;

@@ -1,5 +1,23 @@
 //! A study: simulates a scenario's approach, then for every case the impact, eqs. (10) to (17), and the motion after
 //! it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/spinning_target.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! assert!(study.audit_failures().is_empty());
+//! // the capture is inelastic: momentum stays, energy is lost
+//! let impact = &study.cases[0].capture.as_ref().expect("a capture").impact.exact;
+//! assert!(impact.relative_momentum_jump < 1e-12);
+//! assert!(impact.kinetic_energy_after < impact.kinetic_energy_before);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod approach;
 pub mod assembly;

@@ -1,4 +1,14 @@
 //! Reaction wheels after a capture.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::post_capture::wheels;
+//! use planar_capture::layout::Layout;
+//!
+//! // arms of three and two links, and a reaction wheel
+//! let layout = Layout::read("codegen/layouts/asymmetric_wheel.toml".as_ref()).expect("a layout");
+//! assert_eq!(wheels(&layout, &[]), [false, false, false, false, false, true]);
+//! ```
 
 use crate::capture::assembly::Attachment;
 use crate::layout::{Arm, Layout};

@@ -1,4 +1,19 @@
 //! The residual motion of robot and captured targets at the end of the post-impact phase.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::residual_motion::ResidualMotion;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//!
+//! // joints that do not move: the whole turns as one rigid body, at the rate of its base
+//! let (joint_angles, joint_rates) = (vec![0.4, -0.9, 0.3], vec![0.0; 3]);
+//! let state = RobotState { base_pose: [0.2, 3.0, -1.0], joint_angles, base_twist: [0.1, 0.0, 0.0], joint_rates };
+//! let found = ResidualMotion::of(&Model::<f64>::default(), &[], "none", &state, &[false; 3])?;
+//! assert!((found.rigid_rate - 0.1).abs() < 1e-12);
+//! assert!((found.momentum[0] - found.inertia * 0.1).abs() < 1e-9);
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::dynamics::AnyModel;
 use crate::error::Error;

@@ -1,4 +1,18 @@
 //! The key of the scenario that an error of its study is about, for a message at its place in the file.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::StudyError;
+//! use planar_capture::simulate::PhaseError;
+//! use planar_capture::{error::Error, registry, scenario::Scenario};
+//!
+//! let path = "scenarios/spinning_target.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let source = Error::Tolerance { tolerance: 1e-10, step: 1e-12 };
+//! let key = StudyError::Approach(PhaseError { time: 2.5, source }).key(&scenario);
+//! // the file leaves it at its default
+//! assert_eq!((key.path.as_str(), key.value.as_str()), ("approach.tolerance", "1e-10"));
+//! ```
 
 use crate::capture::StudyError;
 use crate::capture::approach::inverse_kinematics::InverseKinematicsError;

@@ -1,4 +1,25 @@
 //! Terminal errors: desired less reached end effector poses at the end of an approach.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{approach::ApproachTracking, terminal_error::TerminalError};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::{EndEffectorGoal, Scenario};
+//! use planar_capture::simulate::event::NoEvents;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let approach = ApproachTracking::new(&scenario, 1.0);
+//! let phase = approach.track(&*robot, &[0.0; 3], &mut NoEvents, &mut || ())?;
+//! // a goal 3 cm to the right and 4 cm below
+//! let [_, x, y] = phase.end().end_effector_poses[0];
+//! scenario.approach.final_end_effector_poses = Some(vec![EndEffectorGoal::Position([x + 0.03, y - 0.04])]);
+//! let errors = TerminalError::of(&scenario, &phase);
+//! let error = errors[0].as_ref().expect("a goal");
+//! assert!((error.distance - 0.05).abs() < 1e-12 && !error.reached);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::scenario::{EndEffectorGoal, Scenario};
 use crate::simulate::Phase;

@@ -1,4 +1,25 @@
 //! Inverse kinematics: final joint angles of the approach from the desired end effector poses at its end.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::approach::{ApproachTracking, inverse_kinematics::inverse_kinematics};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::{EndEffectorGoal, Scenario};
+//! use planar_capture::simulate::event::NoEvents;
+//!
+//! let path = "scenarios/spinning_target.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let goal = EndEffectorGoal::Position([1.9, -0.9]);
+//! let found = inverse_kinematics(&*robot, &scenario, &[goal], 1.0, &mut || ())?;
+//! assert_eq!(found.spare_joints, 1); // three joints, two coordinates
+//! scenario.approach.final_joint_angles = found.joint_angles;
+//! let approach = ApproachTracking::new(&scenario, 1.0);
+//! let phase = approach.track(&*robot, &found.rates.joint_rates, &mut NoEvents, &mut || ())?;
+//! let [_, x, y] = phase.end().end_effector_poses[0];
+//! assert!((x - 1.9).abs() < 1e-6 && (y + 0.9).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::exact_end::ApproachEnd;

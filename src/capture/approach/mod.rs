@@ -1,4 +1,23 @@
 //! The approach of a scenario: its trajectory, eqs. (6) and (7), followed by its tracking law, eq. (18).
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::approach::ApproachTracking;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::{Scenario, Tracking};
+//! use planar_capture::simulate::event::NoEvents;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! scenario.approach.tracking = Tracking::InverseDynamics;
+//! let approach = ApproachTracking::new(&scenario, 1.0);
+//! let phase = approach.track(&*robot, &[0.0; 3], &mut NoEvents, &mut || ())?;
+//! let end = &phase.end().state;
+//! assert!(end.joint_angles.iter().all(|angle| (angle + std::f64::consts::FRAC_PI_2).abs() < 1e-6));
+//! assert!(end.joint_rates.iter().all(|rate| rate.abs() < 1e-6));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod collocation;
 mod exact_end;

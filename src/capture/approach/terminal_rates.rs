@@ -1,4 +1,25 @@
 //! Terminal joint rates of the approach from the desired end effector twists at its end, by the generalized Jacobian.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::approach::{ApproachTracking, terminal_rates::terminal_rates};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::{Scenario, Tracking};
+//! use planar_capture::simulate::event::NoEvents;
+//!
+//! let path = "scenarios/raina_shah_2017.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! (scenario.approach.tracking, scenario.approach.step) = (Tracking::InverseDynamics, 0.05);
+//! let approach = ApproachTracking::new(&scenario, 1.0);
+//! // the first end effector arrives at 0.1 m/s against the x axis, the second one along it, at any yaw rate
+//! let wanted = [[None, Some(-0.1), Some(0.0)], [None, Some(0.1), Some(0.0)]];
+//! let rates = terminal_rates(&*robot, &approach, &wanted, &mut || ())?.joint_rates;
+//! let phase = approach.track(&*robot, &rates, &mut NoEvents, &mut || ())?;
+//! let twists = &phase.end().end_effector_twists;
+//! assert!((twists[0][1] + 0.1).abs() < 1e-6 && (twists[1][1] - 0.1).abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::approach::ApproachTracking;
 use crate::capture::approach::exact_end::ApproachEnd;

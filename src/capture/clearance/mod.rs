@@ -3,6 +3,27 @@
 //! Distances are those of the interpolated path (`simulate::path`), whatever the steps and the samples are. A pair is
 //! computed again when its last distance less the bound of its relative motion falls below what matters: the least
 //! distance so far, or an overlap.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::{Case, Scenario};
+//!
+//! let path = "scenarios/elastic_rebound.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! // stretched arms that stay where they are, the ball of 0.3 m in front of the end effector at x = 3.5 m
+//! scenario.initial.joint_angles = vec![0.0, 0.0, 0.0, std::f64::consts::PI, 0.0, 0.0];
+//! scenario.approach.final_joint_angles = scenario.initial.joint_angles.clone();
+//! scenario.targets.truncate(1);
+//! (scenario.targets[0].position, scenario.targets[0].twist) = (Some([4.3, 0.0]), [0.0; 3]);
+//! scenario.cases = vec![Case::of_targets("stretched", &scenario.targets)];
+//! let study = study(&scenario, &|| registry::generic(&scenario.layout), 1.0, &mut Silent)?;
+//! let least = study.cases[0].clearance.least.as_ref().expect("bodies that are not joined");
+//! assert_eq!(least.bodies, ["arms/arm1/link3", "targets/ball"]);
+//! assert!((least.distance - 0.5).abs() < 1e-9);
+//! # Ok::<(), planar_capture::capture::StudyError>(())
+//! ```
 
 mod bodies;
 mod search;
