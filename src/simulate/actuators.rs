@@ -1,4 +1,26 @@
 //! Simulation of a phase under a control law with limited and sampled actuators.
+//!
+//! # Example
+//! ```
+//! use planar_capture::control::ProportionalDerivative;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::actuators::{Actuation, drive};
+//! use planar_capture::simulate::{Timing, event::NoEvents, system::System};
+//! use planar_capture::trajectory::ConstantSetpoint;
+//!
+//! let (robot, trajectory) = (Model::<f64>::default(), ConstantSetpoint { angles: &[1.0, -1.0, 1.0] });
+//! let mut law = ProportionalDerivative { trajectory, proportional_gain: &[49.0; 3], derivative_gain: &[14.0; 3] };
+//! let actuation = Actuation { torque_limits: Some(vec![2.0; 3]), steps_per_sample: Some(5) };
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
+//! let timing = Timing { duration: 1.0, step: 0.02, sample: 0.1, ..Timing::default() };
+//! let system = System::alone(&robot);
+//! let phase = drive(&system, &mut law, &actuation, &start, &timing, &mut NoEvents, &mut || ())?;
+//! assert_eq!(phase.samples[0].joint_torques, [2.0, -2.0, 2.0]); // of the 49 N m that the law wants
+//! assert!(phase.saturation.joints[0] > 0.0);
+//! # Ok::<(), planar_capture::simulate::PhaseError>(())
+//! ```
 
 use crate::control::{Control, SampledControl, TorqueLimiter};
 use crate::error::Error;

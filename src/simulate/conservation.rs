@@ -1,4 +1,26 @@
 //! Errors of the conservation laws of momentum, energy and centre of mass, checked in every run.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::simulate::conservation::{AccumulatedInput, ConservationAudit};
+//! use planar_capture::state::State;
+//!
+//! let robot = Model::<f64>::default(); // 530 kg
+//! let at = |velocity: f64| {
+//!     let base_twist = [0.0, velocity, 0.0];
+//!     State { base_pose: [0.0; 3], joint_angles: &[0.0; 3], base_twist, joint_rates: &[0.0; 3] }
+//! };
+//! let mut audit = ConservationAudit::new(&robot, &at(1.0), &[])?;
+//! // the work and the impulse by which it is faster
+//! let input = AccumulatedInput { time: 0.0, work: 265.0 * (1.21 - 1.0), impulse: [0.0, 53.0, 0.0] };
+//! audit.record(&at(1.1), &[], &input)?;
+//! assert!(audit.drift().momentum_drift < 1e-12 && audit.drift().energy_error < 1e-12);
+//! // the same without them
+//! audit.record(&at(1.1), &[], &AccumulatedInput::default())?;
+//! assert!((audit.drift().momentum_drift - 0.1 / 1.1).abs() < 1e-12);
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::dynamics::{AnyModel, Momentum};
 use crate::error::Error;

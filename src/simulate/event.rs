@@ -1,4 +1,35 @@
 //! Events that end a phase before its time.
+//!
+//! # Example
+//! ```
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::simulate::event::{EventState, Events};
+//! use planar_capture::simulate::{Timing, simulate, system::System};
+//! use planar_capture::{control::ZeroTorque, error::Error, owned::RobotState};
+//!
+//! /// The base comes to x = 0.5 m.
+//! struct Line;
+//!
+//! impl Events for Line {
+//!     fn count(&self) -> usize {
+//!         1
+//!     }
+//!
+//!     fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
+//!         values[0] = 0.5 - now.state.base_pose[1];
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let robot = Model::<f64>::default();
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0, 0.1, 0.0], joint_rates };
+//! let timing = Timing { duration: 20.0, step: 0.3, sample: 1.0, ..Timing::default() };
+//! let phase = simulate(&System::alone(&robot), &mut ZeroTorque, &start, &timing, &mut Line, &mut || ())?;
+//! assert!((phase.duration - 5.0).abs() < 1e-9); // at 0.1 m/s
+//! assert_eq!(phase.event, Some((0, phase.duration)));
+//! # Ok::<(), planar_capture::simulate::PhaseError>(())
+//! ```
 
 use crate::error::Error;
 use crate::simulate::path::PathInterval;

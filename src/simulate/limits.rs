@@ -1,4 +1,20 @@
 //! Limits of joint angles and rates, and their violations: checked in every run, not enforced.
+//!
+//! # Example
+//! ```
+//! use planar_capture::simulate::limits::{JointLimits, LimitViolations};
+//! use planar_capture::state::State;
+//!
+//! let limits = [JointLimits { name: "joint 1 of arm1".to_owned(), angles: Some([-1.0, 2.0]), rate: None }];
+//! let mut found = LimitViolations::default();
+//! for (time, angle) in [(1.0, 1.5), (2.0, 2.25), (3.0, -1.125)] {
+//!     let (joint_angles, joint_rates) = (&[angle][..], &[0.5][..]);
+//!     found.record(&limits, time, &State { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates });
+//! }
+//! let largest = found.joint_angle.expect("an angle beyond its limits");
+//! assert_eq!((largest.time, largest.limit, largest.size()), (2.0, 2.0, 0.25));
+//! assert_eq!(found.joint_rate, None);
+//! ```
 
 use crate::state::State;
 

@@ -1,5 +1,24 @@
 //! Simulation of one phase of motion: integrates eq. (1), or (2) with (17), under a control law up to the phase's end
 //! or an event, and checks the conservation laws at every step.
+//!
+//! # Example
+//! ```
+//! use planar_capture::control::ZeroTorque;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::{Timing, event::NoEvents, simulate, system::System};
+//!
+//! let robot = Model::<f64>::default();
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0, 0.1, 0.0], joint_rates };
+//! let timing = Timing { duration: 10.0, step: 0.1, sample: 1.0, ..Timing::default() };
+//! let phase = simulate(&System::alone(&robot), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ())?;
+//! // 10 s at 0.1 m/s, with a sample at the start and after every second
+//! assert!((phase.end().state.base_pose[1] - 1.0).abs() < 1e-9);
+//! assert_eq!(phase.samples.len(), 11);
+//! assert!(phase.drift.momentum_drift < 1e-12);
+//! # Ok::<(), planar_capture::simulate::PhaseError>(())
+//! ```
 
 pub mod actuators;
 pub(crate) mod bodies;

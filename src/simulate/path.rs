@@ -3,6 +3,20 @@
 //! Knots are states of the simulation. A state is omitted where the interpolant through its neighbours reproduces it,
 //! so that their number depends on how much the motion bends and not on the number of steps. Those of a long path are in
 //! a file.
+//!
+//! # Example
+//! ```
+//! use planar_capture::simulate::path::{PathInterval, PathPart};
+//!
+//! // one position over one second, x = t³
+//! let interval = PathInterval { span: [0.0, 1.0], start: [&[0.0], &[0.0]], end: [&[1.0], &[3.0]] };
+//! let (mut position, mut rate, mut acceleration) = ([0.0], [0.0], [0.0]);
+//! interval.at(0.5, &mut position, &mut rate);
+//! assert_eq!((position, rate), ([0.125], [0.75]));
+//! // the bounds are those of 3 t² and 6 t
+//! interval.bounds(|_| 0.0, &mut rate, &mut acceleration);
+//! assert_eq!((rate, acceleration), ([3.0], [6.0]));
+//! ```
 
 use crate::error::Error;
 use crate::simulate::knots::Knots;

@@ -1,4 +1,23 @@
 //! The samples of a phase while it runs: all of them in memory, or of a long phase all in a file and a part in memory.
+//!
+//! # Example
+//! ```
+//! use planar_capture::control::ZeroTorque;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::sample_list::MOST_IN_MEMORY;
+//! use planar_capture::simulate::{Timing, event::NoEvents, simulate, system::System};
+//!
+//! let robot = Model::<f64>::default();
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0, 0.1, 0.0], joint_rates };
+//! let timing = Timing { duration: 12.0, step: 1e-3, sample: 1e-3, ..Timing::default() };
+//! let phase = simulate(&System::alone(&robot), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ())?;
+//! // every other sample is in memory, all are in the file
+//! assert_eq!((phase.sample_count(), phase.samples.len()), (12_001, 6_001));
+//! assert!(phase.samples.len() <= MOST_IN_MEMORY);
+//! # Ok::<(), planar_capture::simulate::PhaseError>(())
+//! ```
 
 use crate::simulate::Sample;
 use crate::simulate::sample_file::{SampleFile, SampleWriter};

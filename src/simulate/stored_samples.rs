@@ -1,4 +1,27 @@
 //! The samples of a phase that are in a file, and all samples of a phase in order.
+//!
+//! # Example
+//! ```
+//! use planar_capture::control::ZeroTorque;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::owned::RobotState;
+//! use planar_capture::simulate::stored_samples::PhaseSample;
+//! use planar_capture::simulate::{Timing, event::NoEvents, simulate, system::System};
+//!
+//! let robot = Model::<f64>::default();
+//! let (joint_angles, joint_rates) = (vec![0.0; 3], vec![0.0; 3]);
+//! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0, 0.1, 0.0], joint_rates };
+//! let timing = Timing { duration: 12.0, step: 1e-3, sample: 1e-3, ..Timing::default() };
+//! let phase = simulate(&System::alone(&robot), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ())?;
+//! let mut from_file = 0;
+//! for sample in phase.all_samples() {
+//!     let PhaseSample::Stored(sample, _) = sample? else { continue };
+//!     assert!((sample.state.base_pose[1] - 0.1 * sample.time).abs() < 1e-9);
+//!     from_file += 1;
+//! }
+//! assert_eq!(from_file, 12_001);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::simulate::sample_file::{SampleFile, SampleWriter};
 use crate::simulate::system::Body;

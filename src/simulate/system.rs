@@ -1,4 +1,24 @@
 //! The system of one phase: a robot, rigid bodies beside it, and the constraints between them.
+//!
+//! # Example
+//! ```
+//! use planar_capture::control::ZeroTorque;
+//! use planar_capture::generated::single_arm_3r::Model;
+//! use planar_capture::simulate::system::{Body, System};
+//! use planar_capture::state::State;
+//!
+//! let robot = Model::<f64>::default();
+//! let ball = [Body { mass: 2.0, inertia: 0.1, pose: [0.0, 5.0, 0.0], twist: [0.5, -0.1, 0.0] }];
+//! let system = System { bodies: &ball, ..System::alone(&robot) };
+//! let (joint_angles, joint_rates) = (&[0.0; 3][..], &[0.0; 3][..]);
+//! let x = system.vector(&State { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates })?;
+//! // positions of the base, three joints and the ball, as many rates, and three numbers of the actuators
+//! assert_eq!(x.len(), 2 * (3 + 3 + 3) + 3);
+//! let (mut rate, mut torques) = (vec![0.0; x.len()], [0.0; 3]);
+//! system.derivative(&mut ZeroTorque, 0.0, &x, &mut rate, &mut torques)?;
+//! assert_eq!(rate[6..9], [0.5, -0.1, 0.0]); // the ball moves with its twist
+//! # Ok::<(), planar_capture::error::Error>(())
+//! ```
 
 use crate::contact::{ConstraintSolver, ConstraintWorkspace, Contact, LoopConstraint};
 use crate::control::Control;
