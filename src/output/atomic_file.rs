@@ -1,4 +1,18 @@
 //! Result files that are complete or absent: written under a temporary name in the same folder, then renamed.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::atomic_file::StagedFile;
+//! use std::io::Write;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("results.csv");
+//! let staged = StagedFile::new(&path, |to| to.write_all(b"time [s]\n0.0\n"))?;
+//! assert!(!path.exists()); // nothing half-written has this name
+//! staged.commit()?;
+//! assert_eq!(std::fs::read(&path)?, b"time [s]\n0.0\n");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::output_error::OutputError;
 use super::sweep::sweep;

@@ -1,4 +1,21 @@
 //! The table that `run` prints: approach, impulses, balances and residual motion of every case.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::console::table;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let table = table(&scenario, &study);
+//! assert!(table.contains("After the approach of 20 s"));
+//! assert!(table.lines().all(|line| line.chars().count() <= 100));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::impacts::impacts;
 use super::printed_impulses::are_comparable;

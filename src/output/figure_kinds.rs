@@ -1,4 +1,14 @@
 //! The kinds of figures, by which some of them are asked for.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::figure_kinds::{FIGURE_KINDS, begins_with, is_kind};
+//!
+//! // angles, rates, base and end effectors
+//! assert_eq!(FIGURE_KINDS.iter().filter(|kind| begins_with(kind, "approach")).count(), 4);
+//! assert!(is_kind("momentum") && !is_kind("moment"));
+//! assert!(begins_with("momentum_case1", "momentum")); // that of a case
+//! ```
 
 /// The beginnings of the figures' names: what follows is a case's name.
 pub const FIGURE_KINDS: [&str; 15] = [

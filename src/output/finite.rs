@@ -1,5 +1,17 @@
 //! Numbers of a result that are not finite. JSON has none of them: serde writes `null`, which elsewhere says that there
 //! is no such thing.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::finite::finite;
+//! use serde_json::json;
+//!
+//! // no number is NaN in JSON
+//! let overflow = json!({"cases": [{"name": "case1", "kinetic_energy": f64::NAN}]});
+//! assert_eq!(finite(overflow).expect_err("not a number").path, "cases[0].kinetic_energy");
+//! // there is no solution by the paper's equations: that is no overflow
+//! assert!(finite(json!({"paper": null, "momentum": [0.0, 1.5, 0.0]})).is_ok());
+//! ```
 
 use serde_json::Value;
 

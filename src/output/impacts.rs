@@ -1,4 +1,25 @@
 //! The impacts of a case in order of time, each with the samples of the motion immediately before and after it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::impacts::impacts;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/spinning_target.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let impact = impacts(&study, &study.cases[0])[0];
+//! assert_eq!(impact.time, 20.0);
+//! // the target of 40 kg has lost the momentum that the robot has gained
+//! let (before, after) = (impact.targets[0].twist, impact.solution.target_twists[0]);
+//! let [_, fx, fy] = impact.solution.contacts[0].impulse;
+//! assert!((40.0 * (before[1] - after[1]) - fx).abs() < 1e-9);
+//! assert!((40.0 * (before[2] - after[2]) - fy).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::impact::ImpactSolution;
 use crate::capture::{CaseResult, Study};

@@ -1,4 +1,16 @@
 //! Why results could not be written.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::atomic_file::write_text;
+//! use std::io::ErrorKind;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let error = write_text(folder.path(), "time [s]").expect_err("a folder is not a file");
+//! assert_eq!(error.path, folder.path());
+//! assert_eq!(error.source.kind(), ErrorKind::IsADirectory);
+//! # Ok::<(), std::io::Error>(())
+//! ```
 
 use std::io;
 use std::path::{Path, PathBuf};

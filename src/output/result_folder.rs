@@ -1,4 +1,23 @@
 //! A folder of results, which holds those of one run: claimed before the run, and filled or replaced whole after it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::result_folder::{ClaimError, ResultFolder};
+//! use std::io::Write;
+//!
+//! let folder = tempfile::tempdir()?;
+//! let path = folder.path().join("run");
+//! let foreign = |_: &std::path::Path, names: &[String]| Some(format!("has `{}`", names[0]));
+//! let results = ResultFolder::claim(&path, false, &[], &foreign)?;
+//! let staged = results.stage()?;
+//! staged.write("summary.json", |to| to.write_all(b"{}"))?;
+//! assert!(!path.exists());
+//! results.commit(staged, "summary.json")?;
+//! assert_eq!(std::fs::read(path.join("summary.json"))?, b"{}");
+//! let again = ResultFolder::claim(&path, false, &[], &foreign);
+//! assert!(matches!(again, Err(ClaimError::Occupied { found, .. }) if found == "has `summary.json`"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::atomic_file::{create_folder, write_whole};
 use super::output_error::OutputError;

@@ -1,4 +1,23 @@
 //! What the folder of a run has in it, to tell the results of one scenario from anything else.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::run_folder::{SUMMARY, objection, remove, scenario_in};
+//! use std::fs;
+//!
+//! let temporary = tempfile::tempdir()?;
+//! let folder = temporary.path();
+//! fs::write(folder.join(SUMMARY), r#"{"scenario": "capture", "cases": [], "files": ["case1.csv"]}"#)?;
+//! fs::write(folder.join("case1.csv"), "")?;
+//! assert_eq!(scenario_in(folder).as_deref(), Some("capture"));
+//! let names = ["case1.csv", SUMMARY].map(str::to_owned);
+//! assert!(objection(folder, &names, "another").is_some_and(|what| what.contains("results of `capture`")));
+//! fs::write(folder.join("notes.txt"), "")?;
+//! remove(folder)?;
+//! // what no run has written is left
+//! assert!(folder.join("notes.txt").exists() && !folder.join("case1.csv").exists());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::output_error::OutputError;
 use serde_json::Value;

@@ -1,4 +1,19 @@
 //! The manifest of a run: what it was made of, by which program and command. All files of a run share it.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::run_manifest::RunManifest;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/raina_shah_2017.toml";
+//! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let manifest = RunManifest::new(&scenario, source, format!("planar-capture run {path}"));
+//! // 20 s, then 50 s, by steps of 5 ms
+//! let phases: Vec<_> = manifest.phases.iter().map(|phase| (phase.integrator, phase.steps)).collect();
+//! assert_eq!(phases, [("rk4", 4_000), ("rk4", 10_000)]);
+//! assert_eq!(manifest.to_json()["steps"]["post_impact"], 10_000);
+//! ```
 
 use crate::layout::sha256;
 use crate::scenario::{LawNumbers, Scenario, ScenarioSource, Tracking, Variant};

@@ -1,4 +1,24 @@
 //! Parts of a run: the cases of one approach.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::{run_manifest::RunManifest, study_part::StudyPart};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//! use std::borrow::Cow;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let mut study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let manifest = RunManifest::new(&scenario, source, "planar-capture run".to_owned());
+//! study.approach.drift.energy_error = 0.5; // as if torques had done work of which half is missing
+//! let (scenario, study) = (&scenario, Cow::Borrowed(&study));
+//! let part = StudyPart { scenario, variant: None, dynamics: "generated", study, manifest };
+//! assert_eq!(part.audit_failures(), ["approach: energy error 5.00e-1 is over its bound 1e-6"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::Study;
 use crate::output::run_manifest::RunManifest;

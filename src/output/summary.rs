@@ -1,4 +1,25 @@
 //! `summary.json`: the results of a study under the keys that the chapter on results in docs/book documents.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::{run_manifest::RunManifest, summary::summary};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let manifest = RunManifest::new(&scenario, source, "planar-capture run".to_owned());
+//! let summary = summary(&scenario, "generated", &study, &manifest)?;
+//! let approach = &summary["cases"][0]["approach"];
+//! assert_eq!(approach["duration"], 20.0);
+//! // numbers read back exactly
+//! let angles: Vec<f64> = serde_json::from_value(approach["joint_angles"].clone())?;
+//! assert_eq!(angles, study.approach.end().state.joint_angles);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::capture::clearance::{Clearance, LeastDistance, Overlap};
 use crate::capture::contact_at_time::ImpactContact;

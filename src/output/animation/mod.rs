@@ -1,5 +1,22 @@
 //! A moving picture of a case: an SVG file with animations of its own (SMIL), which browsers play in any page, without a
 //! program or a network.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::animation::{Excerpt, animation};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let svg = animation(&scenario, &study, &study.cases[0], Excerpt { seconds: 10.0, until: 20.0 });
+//! assert!(svg.starts_with("<svg"));
+//! assert!(svg.contains("2 × real time")); // 20 s of motion in 10 s
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bodies;
 mod clip;

@@ -1,4 +1,16 @@
 //! Figures as SVG and PNG by the library kuva, which only this module and `panel` use, and as PDF.
+//!
+//! # Example
+//! ```
+//! use planar_capture::output::figures::draw::svg;
+//! use planar_capture::output::figures::{Axis, Colour, Dash, Figure, Panel, Series, Width};
+//!
+//! let line = Series::line("base", Colour::BLACK, Dash::Solid, 1.0, vec![(0.0, 0.0), (10.0, 1.0)]);
+//! let panel = Panel::new(Axis::time("Time [s]", 10.0), Axis::new("x [m]", 0.1), vec![line]);
+//! let drawn = svg(&Figure::column("drift", vec![panel]), Width::Single);
+//! assert!(drawn.contains("width=\"252pt\"")); // a column of a journal, 89 mm
+//! assert!(drawn.contains("Time [s]"));
+//! ```
 
 use super::figure::Figure;
 use super::panel::{self, Backend, PADDING, SPACING, Size};

@@ -1,4 +1,23 @@
 //! The figures of a study: their content as [`Figure`]s, which [`draw`] converts to SVG, PDF and PNG.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::figures::figures;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let all = figures(&scenario, &study);
+//! let angles = all.iter().find(|figure| figure.name == "approach_joint_angles").expect("a figure of the approach");
+//! let joints = &angles.panels[0].series;
+//! assert_eq!(joints.len(), 3);
+//! assert_eq!(joints[1].points[0], (0.0, scenario.initial.joint_angles[1]));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod approach;
 mod clearance;

@@ -2,6 +2,27 @@
 //! network.
 //!
 //! uPlot (MIT) draws the plots; the file contains its text and licence.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::html_report::write_report;
+//! use planar_capture::output::run_manifest::RunManifest;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let manifest = RunManifest::new(&scenario, source, "planar-capture run".to_owned());
+//! let mut page = Vec::new();
+//! write_report(&scenario, &study, &manifest, &mut page)?;
+//! let page = String::from_utf8(page)?;
+//! assert!(page.contains("<title>redysim_single_arm_3r"));
+//! assert!(!page.contains("<script src") && !page.contains("stylesheet")); // all that it needs is in it
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod contacts;
 mod data;

@@ -13,6 +13,26 @@
 //! Messages are protobuf. The metadata of a channel of numbers has the unit of each field; a metadata record
 //! `planar_capture` has the origin of the file. `log_time` counts from 0 at the start of the approach, in nanoseconds;
 //! the rows before and after an impact have the same.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::mcap::write_mcap;
+//! use planar_capture::output::run_manifest::RunManifest;
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let (scenario, source) = Scenario::read_with_source(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let manifest = RunManifest::new(&scenario, source, "planar-capture run".to_owned());
+//! let mut recording = Vec::new();
+//! write_mcap(&scenario, &study, &study.cases[0], &manifest, &mut recording)?;
+//! // a file of this format begins and ends with the same bytes
+//! assert!(recording.starts_with(b"\x89MCAP0\r\n") && recording.ends_with(b"\x89MCAP0\r\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod impacts;
 mod point_cloud;

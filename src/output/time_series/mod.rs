@@ -1,4 +1,24 @@
 //! The time series of a case: rows, columns, and their files.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, study};
+//! use planar_capture::output::time_series::{columns, rows};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/redysim_single_arm_3r.toml";
+//! let scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let case = &study.cases[0];
+//! assert_eq!(columns(&scenario, case)[0].heading(), "base_yaw [rad]");
+//! // from rest, the kinetic energy is the work of the joint torques
+//! for row in rows(&study, case) {
+//!     assert!((row.total_momentum().kinetic_energy - row.sample.work.joint_work).abs() < 1e-6);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod columns;
 mod csv;
