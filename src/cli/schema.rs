@@ -11,7 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   planar-capture schema scenario --out scenario.json";
 
-/// Print the JSON Schema of layouts or scenarios for editors.
+/// Print the JSON Schema of layouts, scenarios or sweeps for editors.
 ///
 /// By it they complete keys and complain of wrong ones.
 ///

@@ -5,11 +5,13 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
+use crate::said;
 use planar_capture::diagnostic::{Report, nearest};
 use planar_capture::layout::Layout;
 use planar_capture::scenario::{FinalRates, Known, Scenario, Tracking};
 use planar_capture::simulate::stepper::Integrator;
 use planar_capture::trajectory::TrajectoryKind;
+use planar_proof::file;
 
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 
@@ -1061,4 +1063,16 @@ fn the_integrator_follows_from_the_torques() {
     assert_eq!(of("torque_limits = 3.0", "control = \"hold\"\nsample_time = 0.1"), [fixed, fixed]);
     assert_eq!(of("sample_time = 0.1", "control = \"stabilise\"\nbase_torque_limit = 1.0"), [fixed, fixed]);
     assert_eq!(of("sample_time = 0.1\nintegrator = \"adaptive\"", ""), [adaptive(1e-10), adaptive(1e-10)]);
+}
+
+/// A layout or a sweep in place of a scenario is named as such, in place of every key that a scenario lacks.
+#[test]
+fn another_file_in_place_of_a_scenario_is_named() {
+    let layout = file("codegen/layouts/dual_arm_3r.toml").display().to_string();
+    let sweep = file("scenarios/sweeps/uncertain_capture.toml").display().to_string();
+    for (path, expected) in [(layout, "this is a layout"), (sweep, "this is a sweep")] {
+        let (code, _, err) = said(&["run", &path, "--out", "never"]);
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(expected) && err.contains(&path) && !err.contains("missing key"), "{err}");
+    }
 }

@@ -114,7 +114,7 @@ fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
     assert!(out.contains("held_out, 9 degrees of freedom") && out.contains("agree"), "{out}");
     let robot = folder.path().join("robot.rs");
     let text = fs::read_to_string(&robot).expect("a module");
-    for forbidden in ["unsafe", "std::", "planar_capture", ".unwrap()", "panic!"] {
+    for forbidden in ["unsafe", "std::", "planar_capture", "planar_dynamics", "serde", ".unwrap()", "panic!"] {
         assert!(!text.contains(forbidden), "`{forbidden}` in a standalone module");
     }
 

@@ -62,13 +62,13 @@ fn the_page_says_what_was_computed_and_what_failed() {
     let found = page(folder.path(), &rest);
     for expected in [
         "scenario <b>capture</b>, case <b>case2</b>, robot <b>dual_arm_3r</b>, sampling <b>grid</b>, seed <b>1</b>",
-        "<td>target.target1.mass</td><td>one of 10, -1, -2, 11, -3, 12, 13, 14, 15, 16</td>",
+        "<td>target.target1.mass</td><td>one of 10.0, -1.0, -2.0, 11.0, -3.0, 12.0, 13.0, 14.0, 15.0, 16.0</td>",
         "<td>3</td><td>1</td><td>refused</td><td>",
         "<h2>The same in all cases</h2>",
     ] {
-        assert!(found.contains(expected), "no `{expected}` in {found}");
+        assert!(found.contains(expected), "no `{expected}`");
     }
-    assert_eq!(found.matches("<td>refused</td>").count(), 1, "{found}");
+    assert_eq!(found.matches("<td>refused</td>").count(), 1);
     let (_, same) = found.split_once("The same in all cases").expect("a section");
     for rounding in ["momentum_jump_l", "approach_momentum_drift", "post_impact_energy_error"] {
         assert!(same.contains(rounding), "{rounding}");

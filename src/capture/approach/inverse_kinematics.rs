@@ -80,8 +80,9 @@ pub enum InverseKinematicsError {
     #[error(
         "the wanted end effector poses were not reached: after {iterations} approaches the residual is {residual:.3e} (rad, or \
          m per m of reach; all residuals: {}), with smallest/largest singular value {singularity_margin:.1e} of the \
-         generalized Jacobian. They may be out of reach; or give final_joint_angles near the wanted pose to start from",
-        shortened(history)
+         generalized Jacobian. {}",
+        shortened(history),
+        hint(history)
     )]
     NotConverged {
         /// How many were tracked.
@@ -96,6 +97,16 @@ pub enum InverseKinematicsError {
     /// The approach, or the design of its end rates, has no answer.
     #[error(transparent)]
     Rates(#[from] TerminalRatesError),
+}
+
+/// What may help an iteration that did not converge.
+fn hint(history: &[f64]) -> &'static str {
+    if history.last().is_some_and(|last| last.is_finite()) {
+        "They may be out of reach; or give final_joint_angles near the wanted pose to start from"
+    } else {
+        "The iteration diverged: give final_joint_angles near the wanted pose to start from, or a shorter duration, in which the \
+         base moves less far"
+    }
 }
 
 /// The first three and the last three residuals.

@@ -10,6 +10,7 @@ mod integration;
 mod joints;
 mod limits;
 mod magnitude;
+mod other_file;
 mod own_law;
 mod post_impact;
 mod target;
@@ -21,6 +22,7 @@ use crate::owned::RobotState;
 use crate::scenario::{ClearanceRules, FORMAT, Known, Scenario, ScenarioSource, Source, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
+use other_file::other_file;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -91,7 +93,7 @@ impl Scenario {
         shipped: impl Into<Known<'k>>,
     ) -> Result<(Self, Source), Report> {
         let known = shipped.into();
-        read_document(text, file, &FORMAT, |root| {
+        let read = |root: &Table<'_>| {
             let name = root.file_name("name");
             let (layout, source) =
                 root.require("layout").and_then(|value| find_layout(&value, folder, &known.layouts)).unzip();
@@ -147,7 +149,8 @@ impl Scenario {
                 scenario.cases.retain(|case| !capture.sets.iter().any(|set| set.index == case.index));
             }
             Some((scenario, layout))
-        })
+        };
+        read_document(text, file, &FORMAT, read).map_err(|report| other_file(text, file).unwrap_or(report))
     }
 }
 

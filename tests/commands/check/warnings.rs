@@ -250,7 +250,9 @@ fn end_effector_poses_out_of_reach() {
     let refusal = refusal.expect("a refusal").to_string();
     assert!(refusal.contains("is out of reach: 4.8") && refusal.contains("it.toml:7:"), "{refusal}");
     assert_eq!(warnings.to_string(), "");
-    let fast = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
+    let adaptive = steer("1.8").replace("tracking", "rate_gain = 300\ntracking");
+    assert_eq!(inspect_text(&adaptive).warnings.to_string(), "", "its steps are as short as the motion needs");
+    let fast = adaptive.replace("tracking", "integrator = \"rk4\"\ntracking");
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
 }
 

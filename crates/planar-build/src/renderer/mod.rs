@@ -63,13 +63,25 @@ impl Module<'_> {
         let mut context = Context::from_serialize(&context(graph, self)).map_err(|e| e.to_string())?;
         let mut body = wrap::wrap(&tera.render("module.rs", &context).map_err(|e| format!("{e:?}"))?, Syntax::Rust);
         if self.standalone {
-            body.extend(PARTS.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(text, 4))));
+            body.extend(PARTS.map(|(name, text)| format!("\nmod {name} {{\n{}}}\n", indented(&alone(text), 4))));
         }
         if self.item {
             body = format!("pub mod {} {{\n{}}}\n", graph.layout.name, indented(&body, 4));
         }
         headed(&tera, &mut context, &body)
     }
+}
+
+/// A text of the core without what it has for users of the core alone: its example, and traits of other crates.
+fn alone(text: &str) -> String {
+    const FENCE: &str = "//! ```";
+    let (head, rest) = match text.split_once("//!\n//! # Example\n") {
+        Some((head, example)) => (head, example.splitn(3, FENCE).nth(2).unwrap_or_default().trim_start()),
+        None => (text, ""),
+    };
+    let lines = head.lines().chain(head.ends_with('\n').then_some("").filter(|_| !rest.is_empty())).chain(rest.lines());
+    let kept = lines.filter(|line| !line.trim_start().starts_with("#[cfg_attr(feature = \"serde\""));
+    kept.map(|line| format!("{line}\n")).collect()
 }
 
 fn templates() -> Result<Tera, String> {
