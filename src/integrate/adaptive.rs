@@ -184,7 +184,10 @@ impl Adaptive {
         let short = if of_rate <= 1e-10 || of_x <= 1e-10 { 1e-6 } else { 0.01 * (of_x / of_rate).sqrt() };
         probe.iter_mut().zip(x.iter().zip(rate)).for_each(|(probe, (x, rate))| *probe = x + short * rate);
         let changed = &mut self.stages.as_flattened_mut()[..size];
-        motion.derivative(time + short, probe, changed)?;
+        match motion.derivative(time + short, probe, changed) {
+            Err(Error::NotFinite { .. } | Error::Singular { .. }) => return Ok(short * 1e-3),
+            found => found?,
+        }
         changed.iter_mut().zip(rate).for_each(|(changed, rate)| *changed -= rate);
         let most = of_rate.sqrt().max(norm(changed).sqrt() / short);
         let by_change = if most <= 1e-15 { short * 1e-3 } else { libm::pow(0.01 / most, 1.0 / ORDER) };
@@ -195,7 +198,7 @@ impl Adaptive {
     fn take_step(&mut self, wanted: f64, motion: &mut dyn Motion) -> Result<(), Error> {
         let [_, start] = self.span;
         let blocks = self.rate.len();
-        let mut rejected = 0;
+        let (mut rejected, mut failure) = (0, None);
         loop {
             let left = self.end - start;
             let is_cut = self.step > left;
@@ -204,7 +207,8 @@ impl Adaptive {
                 self.step = left;
             }
             if start + self.step <= start || rejected >= MOST_REJECTED {
-                return Err(Error::Tolerance { tolerance: self.tolerance, step: self.step });
+                let tolerance = Error::Tolerance { tolerance: self.tolerance, step: self.step };
+                return Err(failure.unwrap_or(tolerance));
             }
             let steps = ((wanted - start) / self.step).ceil();
             let even = (wanted - start) / steps;
@@ -215,10 +219,16 @@ impl Adaptive {
             self.attempts += 1;
             self.stages[..blocks].copy_from_slice(&self.rate);
             self.is_dense = false;
-            for stage in 1..STAGES {
-                self.add_stage(start, self.step, 1, stage, motion)?;
-            }
-            let error = self.error_at_end();
+            let stages = (1..STAGES).try_for_each(|stage| self.add_stage(start, self.step, 1, stage, motion));
+            // a step that is too long can leave what the motion is defined for; whether a shorter one does is seen then
+            let error = match stages {
+                Ok(()) => self.error_at_end(),
+                Err(error @ (Error::NotFinite { .. } | Error::Singular { .. })) => {
+                    failure = Some(error);
+                    f64::INFINITY
+                }
+                Err(error) => return Err(error),
+            };
             let allowed = SAFETY * libm::pow(error, -1.0 / ORDER);
             let [least, most] = RATIOS;
             let ratio = if error.is_finite() { allowed.min(most).max(least) } else { least };

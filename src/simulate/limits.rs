@@ -16,7 +16,11 @@
 //! assert_eq!(found.joint_rate, None);
 //! ```
 
+use crate::simulate::path::PathInterval;
 use crate::state::State;
+
+/// Coordinates of the base, which stand before those of the joints.
+const BASE: usize = 3;
 
 /// The limits of one joint.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,16 +85,31 @@ impl LimitViolations {
     /// Checks one state.
     pub fn record(&mut self, limits: &[JointLimits], time: f64, state: &State<'_, f64>) {
         for (joint, (angle, rate)) in limits.iter().zip(state.joint_angles.iter().zip(state.joint_rates)) {
-            let found = [
-                (&mut self.joint_angle, *angle, joint.angle_beyond(*angle)),
-                (&mut self.joint_rate, *rate, joint.rate_beyond(*rate)),
-            ];
-            for (largest, value, limit) in found {
-                let Some(limit) = limit else { continue };
-                let violation = LimitViolation { joint: joint.name.clone(), time, value, limit };
-                if largest.as_ref().is_none_or(|largest| violation.size() > largest.size()) {
-                    *largest = Some(violation);
-                }
+            self.record_joint(joint, time, [*angle, *rate]);
+        }
+    }
+
+    /// Checks where an angle or a rate is at its largest or smallest within an interval of the path: whatever the steps are, no
+    /// violation lies between two of them.
+    pub(crate) fn record_between(&mut self, limits: &[JointLimits], interval: &PathInterval<'_>) {
+        for (joint, limits) in limits.iter().enumerate() {
+            for time in interval.extremes(BASE + joint).into_iter().flatten() {
+                let [angle, rate] = interval.coordinate_at(BASE + joint, time);
+                self.record_joint(limits, time, [angle, rate]);
+            }
+        }
+    }
+
+    fn record_joint(&mut self, joint: &JointLimits, time: f64, [angle, rate]: [f64; 2]) {
+        let found = [
+            (&mut self.joint_angle, angle, joint.angle_beyond(angle)),
+            (&mut self.joint_rate, rate, joint.rate_beyond(rate)),
+        ];
+        for (largest, value, limit) in found {
+            let Some(limit) = limit else { continue };
+            let violation = LimitViolation { joint: joint.name.clone(), time, value, limit };
+            if largest.as_ref().is_none_or(|largest| violation.size() > largest.size()) {
+                *largest = Some(violation);
             }
         }
     }

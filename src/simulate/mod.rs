@@ -51,8 +51,8 @@ use crate::simulate::event_location::EventLocator;
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::Path;
 use crate::simulate::recorder::Recorder;
-use crate::simulate::stepper::Integration;
 use crate::simulate::stepper::Stepper;
+use crate::simulate::stepper::{Integration, Properties};
 use crate::simulate::stored_samples::StoredSamples;
 use crate::simulate::subdivision::Subdivision;
 use crate::simulate::system::{Body, System};
@@ -260,7 +260,7 @@ pub fn simulate(
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
-    let divisions = timing.integration.integrator.properties().path_divisions;
+    let Properties { path_divisions: divisions, is_adaptive, .. } = timing.integration.integrator.properties();
     let mut subdivision = Subdivision::new(system, divisions);
     let mut before = x.clone();
     recorder.record_path(0.0, &x);
@@ -282,19 +282,24 @@ pub fn simulate(
             subdivision.divide(part, &before, &x, &mut within).map_err(at(from))?;
             let event = locator.find(part, [&before, &x], &subdivision, &mut stepper).map_err(at(from))?;
             let until = event.map_or(to, |(_, when)| when);
-            subdivision.ends().filter(|(knot, _)| *knot < until).for_each(|(knot, x)| recorder.record_path(knot, x));
+            for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {
+                recorder.record_path(knot, x);
+                if is_adaptive {
+                    recorder.follow_saturation(stepper.control(), knot, x).map_err(at(knot))?;
+                }
+            }
             if let Some((_, when)) = event {
                 stepper.within([from, when], &before, &mut x).map_err(at(when))?;
             }
             recorder.record_path(until, &x);
             if let Some((_, when)) = event {
-                recorder.add_saturation(when - time);
+                recorder.add_saturation(when);
                 recorder.record_event(stepper.control(), when, &x).map_err(at(when))?;
                 return Ok(recorder.end(when, event, stepper.path_errors()));
             }
             from = to;
         }
-        recorder.add_saturation(end - time);
+        recorder.add_saturation(end);
         tick();
     }
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;

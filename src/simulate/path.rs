@@ -176,6 +176,38 @@ impl<'a> PathInterval<'a> {
         Ok(Self { span, start: [start.positions, start.rates], end: [end.positions, end.rates] })
     }
 
+    /// A coordinate less that at the start: u (first + u (second + u third)), over the part u of the interval.
+    fn cubic(&self, i: usize) -> [f64; 3] {
+        let length = self.span[1] - self.span[0];
+        let change = self.end[0][i] - self.start[0][i];
+        let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
+        [first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change]
+    }
+
+    /// The times within it, s, at which a coordinate or its rate is largest or smallest.
+    pub(crate) fn extremes(&self, i: usize) -> [Option<f64>; 3] {
+        let [first, second, third] = self.cubic(i);
+        // of the rate 3 third u² + 2 second u + first, without a difference of near numbers
+        let root = (second * second - 3.0 * third * first).sqrt();
+        let sum = -(second + root.copysign(second));
+        let [start, end] = self.span;
+        [first / sum, sum / (3.0 * third), -second / (3.0 * third)]
+            .map(|u| (u > 0.0 && u < 1.0).then(|| start + u * (end - start)))
+    }
+
+    /// A coordinate and its rate at a time within it, s.
+    pub(crate) fn coordinate_at(&self, i: usize, time: f64) -> [f64; 2] {
+        let length = self.span[1] - self.span[0];
+        self.coordinate(i, (time - self.span[0]) / length, length)
+    }
+
+    /// A coordinate and its rate over the part u of the interval.
+    fn coordinate(&self, i: usize, u: f64, length: f64) -> [f64; 2] {
+        let [first, second, third] = self.cubic(i);
+        let position = self.start[0][i] + u * (first + u * (second + u * third));
+        [position, (first + u * (2.0 * second + u * 3.0 * third)) / length]
+    }
+
     /// Bounds of the magnitudes of a rate, less a reference, and of its derivative, by the control points of the
     /// interpolant's derivatives in Bernstein form.
     fn bounds_of(&self, i: usize, reference: f64) -> [f64; 2] {
@@ -200,13 +232,8 @@ impl PathPart for PathInterval<'_> {
     fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
         let length = self.span[1] - self.span[0];
         let u = (time - self.span[0]) / length;
-        let coordinates = positions.iter_mut().zip(rates).enumerate();
-        for (i, (position, rate)) in coordinates {
-            let change = self.end[0][i] - self.start[0][i];
-            let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
-            let [second, third] = [3.0 * change - 2.0 * first - last, first + last - 2.0 * change];
-            *position = self.start[0][i] + u * (first + u * (second + u * third));
-            *rate = (first + u * (2.0 * second + u * 3.0 * third)) / length;
+        for (i, (position, rate)) in positions.iter_mut().zip(rates).enumerate() {
+            [*position, *rate] = self.coordinate(i, u, length);
         }
     }
 

@@ -7,7 +7,7 @@ use crate::scalar::Real;
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::event_location::time_tolerance;
 use crate::simulate::limits::LimitViolations;
-use crate::simulate::path::{PathRecorder, path_state};
+use crate::simulate::path::{PathInterval, PathRecorder, path_state};
 use crate::simulate::sample_list::SampleList;
 use crate::simulate::stepper::PathErrors;
 use crate::simulate::stored_samples::StoredSamples;
@@ -22,11 +22,14 @@ pub(crate) struct Recorder<'a> {
     torques: Vec<f64>,
     samples: SampleList,
     saturation: Saturation,
-    /// Which joints are saturated at the start of the step.
+    /// Which joints are saturated, since when, s.
     saturated: Vec<bool>,
     base_saturated: bool,
+    since: f64,
     constraint_errors: [f64; 2],
     limit_violations: LimitViolations,
+    /// Time and integrated vector of the last state of the path; where there are no limits, it has none.
+    last: Option<(f64, Vec<f64>)>,
     path: PathRecorder,
 }
 
@@ -41,8 +44,10 @@ impl<'a> Recorder<'a> {
             saturation: Saturation::default(),
             saturated: Vec::new(),
             base_saturated: false,
+            since: 0.0,
             constraint_errors: [0.0; 2],
             limit_violations: LimitViolations::default(),
+            last: None,
             path: PathRecorder::new(3 + system.model.joints() + 3 * system.bodies.len()),
         })
     }
@@ -64,12 +69,8 @@ impl<'a> Recorder<'a> {
         self.limit_violations.record(self.system.joint_limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &input)?;
-        // the law determines saturation together with its torques
-        if sampled || !control.saturated().is_empty() || control.base_torque().is_some() {
-            control.joint_torques(time, model, &state, &mut self.torques)?;
-            self.saturated.clear();
-            self.saturated.extend_from_slice(control.saturated());
-            self.base_saturated = control.base_torque().is_some_and(|base| base.saturated);
+        if sampled || has_saturation(control) {
+            self.saturation_at(control, time, &state)?;
         }
         if !sampled {
             return Ok(());
@@ -98,13 +99,56 @@ impl<'a> Recorder<'a> {
         self.record(control, time, x, true)
     }
 
-    /// Adds a state to the path.
+    /// Adds a state to the path, and looks for joints beyond their limits since the one before it.
     pub(crate) fn record_path(&mut self, time: f64, x: &[f64]) {
         self.path.record(time, path_state(x));
+        let limits = self.system.joint_limits;
+        if limits.is_empty() {
+            return;
+        }
+        let Some((before, start)) = &mut self.last else {
+            self.last = Some((time, x.to_vec()));
+            return;
+        };
+        if let Ok(interval) = PathInterval::between([*before, time], start, x) {
+            self.limit_violations.record_between(limits, &interval);
+        }
+        *before = time;
+        start.copy_from_slice(x);
     }
 
-    /// Adds the length of a step, s, to the saturation of the actuators that were saturated at its start.
-    pub(crate) fn add_saturation(&mut self, step: f64) {
+    /// The law determines saturation together with its torques.
+    fn saturation_at(
+        &mut self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        state: &State<'_, f64>,
+    ) -> Result<(), Error> {
+        control.joint_torques(time, self.system.model, state, &mut self.torques)?;
+        self.saturated.clear();
+        self.saturated.extend_from_slice(control.saturated());
+        self.base_saturated = control.base_torque().is_some_and(|base| base.saturated);
+        self.since = time;
+        Ok(())
+    }
+
+    /// Looks within a step, whose length may be long beside the motion, which actuators are saturated.
+    pub(crate) fn follow_saturation(
+        &mut self,
+        control: &mut dyn Control<f64>,
+        time: f64,
+        x: &[f64],
+    ) -> Result<(), Error> {
+        if !has_saturation(control) {
+            return Ok(());
+        }
+        self.add_saturation(time);
+        self.saturation_at(control, time, &State::from_vector(x, self.system.model.joints())?)
+    }
+
+    /// Adds the time until then, s, to the saturation of the actuators that are saturated.
+    pub(crate) fn add_saturation(&mut self, until: f64) {
+        let step = until - self.since;
         self.saturation.joints.resize(self.saturated.len(), 0.0);
         for (time, saturated) in self.saturation.joints.iter_mut().zip(&self.saturated) {
             *time += if *saturated { step } else { 0.0 };
@@ -132,4 +176,9 @@ impl<'a> Recorder<'a> {
             path: path.end(),
         }
     }
+}
+
+/// Whether a law has limits of torques.
+fn has_saturation(control: &dyn Control<f64>) -> bool {
+    !control.saturated().is_empty() || control.base_torque().is_some()
 }

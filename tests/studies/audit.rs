@@ -225,7 +225,7 @@ fn worst(phase: &Phase, values: impl Fn(usize) -> Vec<f64>, beyond: impl Fn(f64)
     worst
 }
 
-/// In every kind of phase the reported violation is the largest of the time series.
+/// In every kind of phase the reported violation is the largest of the time series, or one between two of its rows.
 #[test]
 fn the_largest_limit_violation_is_found() {
     let mut studies = Vec::new();
@@ -263,7 +263,11 @@ fn the_largest_limit_violation_is_found() {
                     continue;
                 };
                 seen += 1;
-                assert_eq!((name, *at, *found), (&scenario.layout.joint_name(joint), time, value), "{}", scenario.name);
+                assert_eq!(name, &scenario.layout.joint_name(joint), "{}", scenario.name);
+                // between two of the samples, which are a step apart, it can be larger
+                assert!((at - time).abs() <= 0.05, "{}: at {at} s, sampled at {time} s", scenario.name);
+                let larger = found.abs() - value.abs();
+                assert!((0.0..1e-3).contains(&larger), "{}: {found}, sampled {value}", scenario.name);
                 assert!([-1.45, 2.5, -0.12, 0.12].contains(limit) && limit.signum() == found.signum(), "{limit}");
             }
         }

@@ -76,3 +76,46 @@ fn distances_within_long_steps_are_those_of_short_ones() {
         assert!((distance - expected.0).abs() < tolerance::CLEARANCE && (time - expected.1).abs() < 1e-3, "{context}");
     }
 }
+
+/// A joint is beyond its limit between two steps: the violation is that of short steps, whatever the steps are.
+#[test]
+fn a_violation_between_steps_is_seen() {
+    let found = |step: f64| {
+        let result = run(&parse(&format!(
+            "name = \"limits\"\nlayout = \"single_arm_3r\"\n[initial]\njoint_angles = [0.0, 0.5, 0.0]\n\
+             joint_rates = [0.8, 0.0, 0.0]\n[limits]\njoint_angles = [-1.0, 1.0]\n[approach]\n\
+             duration = 10.0\nstep = {step}\ntrajectory = \"quintic\"\nfinal_joint_angles = [0.0, 0.5, 0.0]\n\
+             final_joint_rates = [0.0, 0.0, 0.0]\ntracking = \"exact\"\n"
+        )));
+        let violations = result.approach.limit_violations.expect("there are limits");
+        let angle = violations.joint_angle.expect("an angle beyond its limit");
+        [angle.time, angle.value]
+    };
+    // the quintic's angle is largest at a third of the time: 8 (1/3)(1 − 1/3)³(1 + 3/3)
+    let largest = 8.0 / 3.0 * (2.0_f64 / 3.0).powi(3) * 2.0;
+    for step in [0.005, 0.5, 5.0, 10.0] {
+        let [time, angle] = found(step);
+        assert!((time - 10.0 / 3.0).abs() < 1e-4, "{step}: {time}");
+        assert!((angle - largest).abs() < 1e-9, "{step}: {angle}");
+    }
+}
+
+/// Actuators at their limits are seen within a step of adaptive integration, whose length says nothing of the motion.
+#[test]
+fn saturation_within_a_step_is_seen() {
+    let found = |step: f64| {
+        let text = format!(
+            "name = \"saturated\"\nlayout = \"single_arm_3r\"\n[initial]\njoint_angles = [0.0, 0.5, 0.0]\n[approach]\n\
+             duration = 10.0\nstep = {step}\ntrajectory = \"cycloidal\"\nfinal_joint_angles = [2.0, 0.5, 0.0]\n\
+             tracking = \"computed_torque\"\ntorque_limits = 1.0\nintegrator = \"adaptive\"\n"
+        );
+        run(&parse(&text)).approach.saturation.joints
+    };
+    let wanted = found(0.005);
+    assert!(wanted[0] > 1.0, "{wanted:?}");
+    for step in [0.5, 10.0] {
+        let joints = found(step);
+        let close = joints.iter().zip(&wanted).all(|(found, wanted)| (found - wanted).abs() < 0.03 * wanted + 0.05);
+        assert!(close, "{step}: {joints:?}, and {wanted:?} with short steps");
+    }
+}

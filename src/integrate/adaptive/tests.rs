@@ -198,3 +198,31 @@ fn a_new_start_remembers_the_length_of_steps() {
     let reached = solver.advance([0.0, 10.0], &mut x, &mut motion).expect("a step");
     assert!(solver.attempts() - before <= 3 && reached > 0.05, "{reached}");
 }
+
+/// Rest until 0.1 s, then a fast decay, which is defined for |x| ≤ 1.5 only: the long steps of the rest leave that, and are rejected
+/// like others that are too long. Where no step is short enough, the reason is that of the motion.
+#[test]
+fn a_step_that_leaves_what_the_motion_is_defined_for_is_rejected() {
+    const GAIN: f64 = 1e3;
+    let undefined = || Error::NotFinite { quantity: "rate", index: 0, value: f64::NAN };
+    let mut solver = Adaptive::new(1e-10);
+    let mut left = 0;
+    let decay = |time: f64, x: &[f64], rate: &mut [f64]| {
+        if x[0].abs() > 1.5 {
+            left += 1;
+            return Err(undefined());
+        }
+        rate[0] = if time < 0.1 { 0.0 } else { -GAIN * x[0] };
+        Ok(())
+    };
+    let end = solve(&mut solver, &[1.0], 0.11, decay).expect("a solution");
+    assert!(left > 0, "no stage left it: nothing is tested");
+    assert!((end[0] - libm::exp(-10.0)).abs() < 1e-8, "{end:?}");
+
+    let broken = |time: f64, _: &[f64], rate: &mut [f64]| {
+        rate[0] = 1.0;
+        if time > 0.05 { Err(undefined()) } else { Ok(()) }
+    };
+    let found = solve(&mut solver, &[1.0], 0.11, broken);
+    assert!(matches!(found, Err(Error::NotFinite { quantity: "rate", .. })), "{found:?}");
+}
