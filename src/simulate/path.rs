@@ -192,7 +192,7 @@ impl<'a> PathInterval<'a> {
         let sum = -(second + root.copysign(second));
         let [start, end] = self.span;
         [first / sum, sum / (3.0 * third), -second / (3.0 * third)]
-            .map(|u| (u > 0.0 && u < 1.0).then(|| start + u * (end - start)))
+            .map(|u| (u > 0.0 && u < 1.0).then_some(start + u * (end - start)))
     }
 
     /// A coordinate and its rate at a time within it, s.

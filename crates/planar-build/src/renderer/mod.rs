@@ -74,14 +74,14 @@ impl Module<'_> {
 
 /// A text of the core without what it has for users of the core alone: its example, and traits of other crates.
 fn alone(text: &str) -> String {
-    const FENCE: &str = "//! ```";
-    let (head, rest) = match text.split_once("//!\n//! # Example\n") {
-        Some((head, example)) => (head, example.splitn(3, FENCE).nth(2).unwrap_or_default().trim_start()),
-        None => (text, ""),
-    };
-    let lines = head.lines().chain(head.ends_with('\n').then_some("").filter(|_| !rest.is_empty())).chain(rest.lines());
-    let kept = lines.filter(|line| !line.trim_start().starts_with("#[cfg_attr(feature = \"serde\""));
-    kept.map(|line| format!("{line}\n")).collect()
+    let without_example = text.split_once("//!\n//! # Example\n").map(|(before, example)| {
+        let after = example.splitn(3, "//! ```").nth(2).unwrap_or_default();
+        format!("{before}{}", after.strip_prefix('\n').unwrap_or(after))
+    });
+    let text = without_example.as_deref().unwrap_or(text);
+    let is_foreign = |line: &&str| line.trim_start().starts_with("#[cfg_attr(feature = \"serde\"");
+    let kept: Vec<&str> = text.lines().filter(|line| !is_foreign(line)).collect();
+    kept.join("\n") + "\n"
 }
 
 fn templates() -> Result<Tera, String> {
