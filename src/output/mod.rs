@@ -35,6 +35,7 @@ pub(crate) mod markup;
 pub mod mcap;
 pub mod output_error;
 mod printed_impulses;
+pub(crate) mod regular_file;
 mod replacement;
 pub mod result_folder;
 pub mod run_folder;

@@ -20,6 +20,7 @@
 //! ```
 
 use super::output_error::OutputError;
+use super::regular_file;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
@@ -76,7 +77,7 @@ pub fn remove(folder: &Path) -> Result<(), OutputError> {
 
 /// A summary: a JSON object with scenario and cases.
 fn read(path: &Path) -> Option<Value> {
-    let summary: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    let summary: Value = serde_json::from_slice(&regular_file::read(path).ok()?).ok()?;
     (summary["scenario"].is_string() && summary["cases"].is_array()).then_some(summary)
 }
 

@@ -38,6 +38,8 @@ mod urdf_parts;
 mod urdf_xml;
 
 use std::process::Command;
+#[cfg(unix)]
+use std::{path::Path, process::Output, process::Stdio, thread, time::Duration, time::Instant};
 
 /// The installed command.
 fn command() -> Command {
@@ -47,4 +49,22 @@ fn command() -> Command {
 /// Exit code, standard output and standard error of the product with these arguments.
 fn said(arguments: &[&str]) -> (i32, String, String) {
     planar_proof::said(command().args(arguments).output().expect("it runs"))
+}
+
+/// A pipe that nobody writes into.
+#[cfg(unix)]
+fn make_pipe(path: &Path) {
+    assert!(Command::new("mkfifo").arg(path).status().expect("it runs").success());
+}
+
+/// What a command with few words said; one that waits for good is ended.
+#[cfg(unix)]
+fn within_a_minute(mut command: Command) -> Output {
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs");
+    let begin = Instant::now();
+    while child.try_wait().expect("a child").is_none() && begin.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(10));
+    }
+    let _ = child.kill();
+    child.wait_with_output().expect("it ends")
 }

@@ -160,6 +160,23 @@ fn what_is_no_folder_is_refused_before_anything_is_computed() {
     assert_eq!(fs::read_to_string(occupied).expect("a file"), "a file");
 }
 
+/// Nobody writes into this pipe: whoever opens it waits for good.
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_the_summary_is_refused_as_foreign() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a"], folder.path());
+    let results = folder.path().join("results");
+    fs::create_dir(&results).expect("a folder");
+    crate::make_pipe(&results.join("summary.json"));
+    let mut command = command();
+    command.args(["run", &one, "--out"]).arg(&results);
+    let (code, _, err) = planar_proof::said(crate::within_a_minute(command));
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("has `summary.json`, which is not from a run"), "{err}");
+    assert_eq!(names(&results), ["summary.json"]);
+}
+
 /// A name that temporary files have.
 fn temporary(letter: char) -> String {
     format!(".planar-capture-{}", letter.to_string().repeat(24))
