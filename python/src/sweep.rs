@@ -8,6 +8,7 @@ use planar_capture::campaign::report::{ReportError, statuses_of_block, write_rep
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
 use planar_capture::output::atomic_file::create_folder;
+use planar_capture::output::result_folder::existing_folder;
 use planar_capture::registry::SHIPPED;
 use pyo3::prelude::{Py, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
 use std::num::NonZero;
@@ -34,6 +35,7 @@ impl Claimed {
         let (choice, _) = choose(dynamics, &campaign.general_layout())?;
         create_folder(&folder).map_err(of_output)?;
         claim(&folder, &campaign, choice.engine).map_err(|error| match error {
+        existing_folder(&folder).map_err(|error| Failure::Output.with(error))?;
             ManifestError::Output(error) => of_output(error),
             other => Failure::Input.with(other),
         })?;

@@ -102,10 +102,7 @@ impl<'a> ResultFolder<'a> {
     pub fn claim(path: &Path, force: bool, keep: &[&Path], objection: Objection<'a>) -> Result<Self, ClaimError> {
         let keep = keep.iter().copied().map(Path::to_owned).collect();
         let claimed = Self { path: path.to_owned(), force, keep, objection };
-        let existing = existing(path);
-        if !existing.is_dir() {
-            return Err(ClaimError::NotAFolder(existing.to_owned()));
-        }
+        let existing = existing_folder(path)?;
         if existing == path {
             // not in the moment in which another run puts its files in their place
             let _lock = temporary::lock(path);
@@ -238,6 +235,15 @@ impl StagedFolder {
         }
         Ok(files)
     }
+/// The path, or its nearest ancestor that exists, where results can be: it is a folder.
+///
+/// # Errors
+/// [`ClaimError::NotAFolder`].
+pub fn existing_folder(path: &Path) -> Result<&Path, ClaimError> {
+    let existing = existing(path);
+    if existing.is_dir() { Ok(existing) } else { Err(ClaimError::NotAFolder(existing.to_owned())) }
+}
+
 }
 
 /// The path, or its nearest ancestor that exists.

@@ -154,6 +154,23 @@ fn a_killed_sweep_goes_on_with_whole_files() {
     assert_eq!(fs::read_dir(place.path("killed").join("cases")).expect("a folder").count(), 3, "nothing temporary");
 }
 
+/// The sweep of this folder is refused before anything is said about what computes it.
+#[test]
+fn what_is_no_folder_is_refused_first() {
+    let place = Workplace::sampled("random");
+    fs::write(place.path("file"), "mine").expect("written");
+    let mut paths = vec![place.path("file"), place.path("file").join("below")];
+    paths.extend(cfg!(unix).then(|| "/dev/null".into()));
+    for path in paths {
+        for more in [&[][..], &["--replay", "1"]] {
+            let (code, out, err) = place.sweep(&path.display().to_string(), more);
+            assert_eq!((code, &*out), (2, ""), "{err}");
+            assert!(err.starts_with("error: ") && err.contains("is not a folder"), "{err}");
+        }
+    }
+    assert_eq!(fs::read_to_string(place.path("file")).expect("a file"), "mine");
+}
+
 #[test]
 fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
     for (sampling, can_grow) in [("random", true), ("sobol", true), ("latin_hypercube", false)] {

@@ -13,6 +13,7 @@ use crate::campaign::report::write_report;
 use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
 use crate::engine::Choice;
 use crate::output::atomic_file::create_folder;
+use crate::output::result_folder::existing_folder;
 use crate::program::Program;
 use crate::registry::Robots;
 use progress::Progress;
@@ -77,6 +78,7 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     let mut campaign = Campaign::read(&arguments.sweep, program.known())?;
     campaign.laws = program.laws.to_vec();
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
+    existing_folder(&folder)?;
     if let Some(case) = arguments.replay {
         return replay::replay(&campaign, case, &folder, arguments, program);
     }
