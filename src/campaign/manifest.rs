@@ -21,10 +21,12 @@
 use super::reader::Campaign;
 use crate::engine::Engine;
 use crate::layout::sha256;
-use crate::output::atomic_file::write_text;
+use crate::output::atomic_file::{StagedFile, lock_folder};
 use crate::output::output_error::OutputError;
+use crate::output::regular_file;
 use serde_json::{Value, json};
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// The file's name.
@@ -66,12 +68,11 @@ pub enum ManifestError {
     Output(#[from] OutputError),
 }
 
-/// The manifest of a campaign that an engine computes.
+/// What a sweep computes: sweep, but for the number of cases, scenario and layout.
 ///
 /// # Panics
 /// Never: the texts were read before.
-#[must_use]
-pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
+fn trees(campaign: &Campaign) -> [Value; 3] {
     let tree = |text: &str| -> Value {
         let table: toml::Table = text.strip_prefix('\u{feff}').unwrap_or(text).parse().expect("a text that was read");
         serde_json::to_value(table).expect("TOML has the values of JSON")
@@ -82,13 +83,33 @@ pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
     if let Some(table) = sweep.as_object_mut() {
         table.remove(CASES);
     }
+    [sweep, scenario, layout]
+}
+
+/// The names of the hashes of [`trees`], in the manifest and in every file of cases.
+const HASHES: [&str; 3] = ["sweep_sha256", "scenario_sha256", "layout_sha256"];
+
+/// The hashes by which a file of cases belongs to a sweep, with their names: those of the manifest.
+pub(super) type Origin = [(&'static str, String); 3];
+
+/// The origin of the files of a campaign.
+pub(super) fn origin(campaign: &Campaign) -> Origin {
+    let mut hashes = trees(campaign).map(|tree| sha256(&tree.to_string())).into_iter();
+    HASHES.map(|name| (name, hashes.next().unwrap_or_default()))
+}
+
+/// The manifest of a campaign that an engine computes.
+#[must_use]
+pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
+    let [sweep, scenario, layout] = trees(campaign);
+    let [sweep_sha256, scenario_sha256, layout_sha256] = origin(campaign).map(|(_, hash)| hash);
     json!({
         "sweep_name": campaign.sweep.name,
         "version": env!("CARGO_PKG_VERSION"),
         "engine": engine.name(),
-        "sweep_sha256": sha256(&sweep.to_string()),
-        "scenario_sha256": sha256(&scenario.to_string()),
-        "layout_sha256": sha256(&layout.to_string()),
+        HASHES[0]: sweep_sha256,
+        HASHES[1]: scenario_sha256,
+        HASHES[2]: layout_sha256,
         CASES: campaign.sweep.cases,
         "sweep": sweep,
         "scenario": scenario,
@@ -97,7 +118,7 @@ pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
 }
 
 /// Writes the manifest to a folder that is empty or has the same; with more cases in place of one with fewer, where
-/// the sampling can grow.
+/// the sampling can grow. Of several processes at once the first has the folder, and the others see its manifest.
 ///
 /// # Errors
 /// [`ManifestError`].
@@ -106,38 +127,60 @@ pub fn manifest(campaign: &Campaign, engine: Engine) -> Value {
 /// Never: a manifest has a text.
 pub fn claim(folder: &Path, campaign: &Campaign, engine: Engine) -> Result<(), ManifestError> {
     let wanted = manifest(campaign, engine);
-    let shown = || folder.display().to_string();
+    let text = serde_json::to_string_pretty(&wanted).expect("a tree has a text") + "\n";
     let path = folder.join(MANIFEST);
-    match fs::read(&path) {
-        Ok(bytes) => {
-            let found: Value = serde_json::from_slice(&bytes).unwrap_or_default();
-            if !found["sweep_sha256"].is_string() {
-                return Err(ManifestError::Unreadable { folder: shown() });
+    let staged = || StagedFile::new(&path, |to| to.write_all(text.as_bytes()));
+    // between reading and writing
+    let _lock = lock_folder(folder);
+    loop {
+        match regular_file::read(&path) {
+            Ok(bytes) if bytes == text.as_bytes() => return Ok(()),
+            Ok(bytes) => {
+                check(&bytes, &wanted, folder, campaign)?;
+                return Ok(staged()?.commit()?);
             }
-            let mut changes = Vec::new();
-            differences("", &found, &wanted, &mut changes);
-            let cases = found[CASES].as_u64().unwrap_or_default();
-            let grown = campaign.sweep.sampling.can_grow() && cases <= campaign.sweep.cases;
-            changes.retain(|(path, _)| !(path.ends_with("_sha256") || path == CASES && grown));
-            if !changes.is_empty() {
-                let mut changes: Vec<String> =
-                    changes.into_iter().map(|(path, change)| format!("{path}: {change}")).collect();
-                if changes.iter().any(|change| change.starts_with("cases: ")) {
-                    let why = if campaign.sweep.sampling.can_grow() { "there are files of more" } else { CANNOT_GROW };
-                    changes.push(format!("({why})"));
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let found = first_name(folder);
+                // where there are no locks, as on some shared disks, another process may have been here meanwhile
+                if path.exists() {
+                    continue;
                 }
-                return Err(ManifestError::Changed { folder: shown(), changes });
+                if let Some(found) = found {
+                    return Err(ManifestError::Foreign { folder: folder.display().to_string(), found });
+                }
+                if staged()?.commit_new()? {
+                    return Ok(());
+                }
             }
-        }
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            if let Some(found) = first_name(folder) {
-                return Err(ManifestError::Foreign { folder: shown(), found });
+            Err(error) if error.kind() == io::ErrorKind::InvalidInput => {
+                return Err(ManifestError::Unreadable { folder: folder.display().to_string() });
             }
+            Err(error) => return Err(OutputError::at(&path)(error).into()),
         }
-        Err(error) => return Err(OutputError::at(&path)(error).into()),
     }
-    let text = serde_json::to_string_pretty(&wanted).expect("a tree has a text");
-    Ok(write_text(&path, &format!("{text}\n"))?)
+}
+
+/// That a manifest is the wanted one, or that of fewer cases where these can grow.
+fn check(bytes: &[u8], wanted: &Value, folder: &Path, campaign: &Campaign) -> Result<(), ManifestError> {
+    let shown = || folder.display().to_string();
+    let found: Value = serde_json::from_slice(bytes).unwrap_or_default();
+    if !found[HASHES[0]].is_string() {
+        return Err(ManifestError::Unreadable { folder: shown() });
+    }
+    let mut changes = Vec::new();
+    differences("", &found, wanted, &mut changes);
+    let cases = found[CASES].as_u64().unwrap_or_default();
+    let grown = campaign.sweep.sampling.can_grow() && cases <= campaign.sweep.cases;
+    changes.retain(|(path, _)| !(path.ends_with("_sha256") || path == CASES && grown));
+    if changes.is_empty() {
+        return Ok(());
+    }
+    let mut changes: Vec<String> = changes.into_iter().map(|(path, change)| format!("{path}: {change}")).collect();
+    if changes.iter().any(|change| change.starts_with("cases: ")) {
+        let why = if campaign.sweep.sampling.can_grow() { "there are files of more" } else { CANNOT_GROW };
+        changes.push(format!("({why})"));
+    }
+    Err(ManifestError::Changed { folder: shown(), changes })
 }
 
 const CANNOT_GROW: &str = "only the samplings `random` and `sobol` can have more cases later";
@@ -145,7 +188,7 @@ const CANNOT_GROW: &str = "only the samplings `random` and `sobol` can have more
 /// The engine that the files of a folder were computed with, by its name.
 #[must_use]
 pub fn engine_of(folder: &Path) -> Option<String> {
-    let found: Value = serde_json::from_slice(&fs::read(folder.join(MANIFEST)).ok()?).ok()?;
+    let found: Value = serde_json::from_slice(&regular_file::read(&folder.join(MANIFEST)).ok()?).ok()?;
     found["engine"].as_str().map(str::to_owned)
 }
 

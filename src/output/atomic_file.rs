@@ -15,7 +15,7 @@
 //! ```
 
 use super::output_error::OutputError;
-use super::sweep::sweep;
+use super::sweep::{sweep, sweep_locked};
 use super::temporary;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -29,6 +29,14 @@ pub fn create_folder(path: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(path).map_err(OutputError::at(path))?;
     sweep(path);
     Ok(())
+}
+
+/// Waits until no other process changes a folder, then removes what killed ones left in it; others wait while this lives.
+/// Where there are no locks nobody waits.
+pub(crate) fn lock_folder(path: &Path) -> Option<File> {
+    let lock = temporary::lock(path);
+    sweep_locked(path);
+    lock
 }
 
 /// A complete file under a temporary name. [`commit`](Self::commit) gives it its own; dropping deletes it.
@@ -63,6 +71,20 @@ impl StagedFile {
     pub fn commit(self) -> Result<(), OutputError> {
         let Self { path, file } = self;
         file.persist(&path).map(drop).map_err(|e| OutputError { path, source: e.error })
+    }
+
+    /// Renames the temporary file to `path` unless there is one; whether there was none. On a file system that cannot do both
+    /// at once it looks first.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the reason.
+    pub(crate) fn commit_new(self) -> Result<bool, OutputError> {
+        let Self { path, file } = self;
+        match file.persist_noclobber(&path) {
+            Ok(_) => Ok(true),
+            Err(_) if path.symlink_metadata().is_ok() => Ok(false),
+            Err(failed) => Self { path, file: failed.file }.commit().map(|()| true),
+        }
     }
 }
 

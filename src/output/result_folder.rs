@@ -19,11 +19,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::atomic_file::{create_folder, write_whole};
+use super::atomic_file::{create_folder, lock_folder, write_whole};
 use super::output_error::OutputError;
 use super::replacement::{NEW, is_settled, replace};
 use super::run_folder::FIGURES;
-use super::sweep::{sweep, sweep_locked};
+use super::sweep::sweep;
 use super::temporary::{self, TemporaryFolder, names};
 use std::ffi::OsString;
 use std::fmt;
@@ -105,8 +105,7 @@ impl<'a> ResultFolder<'a> {
         let existing = existing_folder(path)?;
         if existing == path {
             // not in the moment in which another run puts its files in their place
-            let _lock = temporary::lock(path);
-            sweep_locked(path);
+            let _lock = lock_folder(path);
             claimed.permit()?;
         } else {
             // a folder above it, in which results are staged until it is made
@@ -168,8 +167,7 @@ impl<'a> ResultFolder<'a> {
             }
         }
         // held until the end: two runs do not mix
-        let _lock = temporary::lock(&path);
-        sweep_locked(&path);
+        let _lock = lock_folder(&path);
         self.permit().map_err(|error| match error {
             ClaimError::Occupied { path, found } => ClaimError::Lost { path, found },
             other => other,
@@ -235,6 +233,8 @@ impl StagedFolder {
         }
         Ok(files)
     }
+}
+
 /// The path, or its nearest ancestor that exists, where results can be: it is a folder.
 ///
 /// # Errors
@@ -242,8 +242,6 @@ impl StagedFolder {
 pub fn existing_folder(path: &Path) -> Result<&Path, ClaimError> {
     let existing = existing(path);
     if existing.is_dir() { Ok(existing) } else { Err(ClaimError::NotAFolder(existing.to_owned())) }
-}
-
 }
 
 /// The path, or its nearest ancestor that exists.

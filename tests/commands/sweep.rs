@@ -154,6 +154,54 @@ fn a_killed_sweep_goes_on_with_whole_files() {
     assert_eq!(fs::read_dir(place.path("killed").join("cases")).expect("a folder").count(), 3, "nothing temporary");
 }
 
+/// Everything in a folder of results but times, by its path.
+fn all_but_times(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let (mut files, mut folders) = (BTreeMap::new(), vec![folder.to_owned()]);
+    while let Some(inner) = folders.pop() {
+        for entry in fs::read_dir(inner).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let name = path.strip_prefix(folder).expect("inside").to_owned();
+            if path.is_dir() {
+                folders.extend((name != Path::new("timing")).then_some(path));
+            } else {
+                files.insert(name, fs::read(&path).expect("a file"));
+            }
+        }
+    }
+    files
+}
+
+/// Where one sweep is refused, what differs from the other is said; shards of one sweep go on together.
+#[test]
+fn of_two_sweeps_at_once_one_has_the_folder() {
+    let place = Workplace::sampled("random");
+    let text = fs::read_to_string(place.path("sweep.toml")).expect("a sweep");
+    fs::write(place.path("other.toml"), text.replace("seed = 1", "seed = 2")).expect("written");
+    let start = |sweep: &str, out: &str, more: &[&str]| {
+        let mut command = command();
+        command.arg("sweep").arg(place.path(sweep)).arg("--out").arg(place.path(out)).args(["-q", "--threads", "1"]);
+        command.args(more).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs")
+    };
+    let ended = |child: std::process::Child| said(child.wait_with_output().expect("it ends"));
+    let whole = ["sweep.toml", "other.toml"].map(|sweep| {
+        let out = sweep.replace(".toml", "");
+        assert_eq!(ended(start(sweep, &out, &[])).0, 0);
+        all_but_times(&place.path(&out))
+    });
+    for attempt in 0..12 {
+        let out = format!("both{attempt}");
+        let ends = ["sweep.toml", "other.toml"].map(|sweep| start(sweep, &out, &[])).map(ended);
+        let first = ends.iter().position(|(code, ..)| *code == 0).expect("one has it");
+        let (code, _, err) = &ends[1 - first];
+        assert!(*code == 2 && err.contains("sweep.seed: was "), "attempt {attempt}: {code} {err}");
+        assert_eq!(all_but_times(&place.path(&out)), whole[first], "attempt {attempt}");
+        let out = format!("shards{attempt}");
+        let shards = ["1/3", "2/3", "3/3"].map(|shard| start("sweep.toml", &out, &["--shard", shard])).map(ended);
+        assert_eq!(shards.each_ref().map(|(code, ..)| *code), [0; 3], "{shards:?}");
+        assert_eq!(all_but_times(&place.path(&out)), whole[0], "attempt {attempt}");
+    }
+}
+
 /// The sweep of this folder is refused before anything is said about what computes it.
 #[test]
 fn what_is_no_folder_is_refused_first() {
