@@ -28,7 +28,7 @@ class SweepResult:
     ) -> None:
         self._path = path
         self.name = name
-        #: With ``manifest.json``, ``cases/`` and ``timing/``.
+        #: With ``manifest.json``, ``cases/``, ``digests/`` and ``timing/``.
         self.folder = Path(folder)
         #: Of the whole sweep.
         self.cases = cases
@@ -73,7 +73,7 @@ def sweep(
     """Computes a sweep, as ``planar-capture sweep`` does: the same files with the same bytes.
 
     ``out`` is the folder, ``results/NAME`` by default: files of cases that are there already are not computed again,
-    and those of another sweep are refused. ``shard=(I, N)`` computes every Nth file from the Ith on. ``progress`` is
+    those of another sweep are refused, and a damaged one is computed again, with a warning. ``shard=(I, N)`` computes every Nth file from the Ith on. ``progress`` is
     called now and then with the numbers of computed cases and of those to compute. Ctrl-C ends it within a case of each
     thread; the same call goes on from there. A case without a result is a row with its message.
     """

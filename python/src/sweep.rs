@@ -10,7 +10,9 @@ use planar_capture::engine::Choice;
 use planar_capture::output::atomic_file::create_folder;
 use planar_capture::output::result_folder::existing_folder;
 use planar_capture::registry::SHIPPED;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::{Py, PyAny, PyAnyMethods, PyErr, PyResult, Python, pyfunction};
+use std::ffi::CString;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -33,9 +35,9 @@ impl Claimed {
         let campaign = Campaign::read(path, SHIPPED).map_err(of_report)?;
         let folder = out.unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
         let (choice, _) = choose(dynamics, &campaign.general_layout())?;
+        existing_folder(&folder).map_err(|error| Failure::Output.with(error))?;
         create_folder(&folder).map_err(of_output)?;
         claim(&folder, &campaign, choice.engine).map_err(|error| match error {
-        existing_folder(&folder).map_err(|error| Failure::Output.with(error))?;
             ManifestError::Output(error) => of_output(error),
             other => Failure::Input.with(other),
         })?;
@@ -71,6 +73,7 @@ pub fn sweep(
         })?,
     };
     let plan = Plan::new(&campaign, &folder, shard).map_err(of_output)?;
+    warn(py, &plan)?;
     let tally = Tally::default();
     let threads = threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, NonZero::get));
     let (written, shown) = py.detach(|| {
@@ -103,15 +106,24 @@ pub fn sweep(
     Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, tally.counts().collect(), plan.present))
 }
 
+/// A warning for each file that is damaged.
+fn warn(py: Python<'_>, plan: &Plan) -> PyResult<()> {
+    plan.damaged.iter().try_for_each(|damage| {
+        let message = CString::new(format!("{damage}: its cases are computed again"))?;
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 2)
+    })
+}
+
 /// What is to be done of a sweep: its name, folder and numbers of cases and of files, the numbers of files that are
 /// missing, from 0, and that of their cases.
 type ToDo = (String, PathBuf, u64, u64, Vec<u64>, u64);
 
 /// What is to be done of a sweep, whose folder it is then.
 #[pyfunction]
-pub fn sweep_plan(path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResult<ToDo> {
+pub fn sweep_plan(py: Python<'_>, path: PathBuf, out: Option<PathBuf>, dynamics: &str) -> PyResult<ToDo> {
     let Claimed { campaign, folder, .. } = Claimed::new(&path, out, dynamics)?;
     let plan = Plan::new(&campaign, &folder, Shard::WHOLE).map_err(of_output)?;
+    warn(py, &plan)?;
     let sweep = campaign.sweep;
     Ok((sweep.name.clone(), folder, sweep.cases, sweep.blocks(), plan.blocks, plan.cases))
 }

@@ -76,6 +76,18 @@ def test_shards_and_an_interruption(file, tmp_path):
     assert blocks(resumed.folder) == blocks(whole.folder)
 
 
+def test_a_damaged_file_is_computed_again(file, tmp_path):
+    result = pc.sweep(file, tmp_path / "out")
+    whole = blocks(result.folder)
+    damaged = result.folder / "cases" / "000002.parquet"
+    damaged.write_bytes(whole["000003.parquet"])
+    with pytest.raises(pc.InputError, match=r"000002.parquet is damaged"):
+        result.report()
+    with pytest.warns(UserWarning, match=r"000002.parquet is damaged.*computed again"):
+        again = pc.sweep(file, tmp_path / "out")
+    assert sum(again.computed.values()) == 10 and blocks(again.folder) == whole
+
+
 def test_refusals(file, tmp_path):
     with pytest.raises(pc.InputError, match="shard is"):
         pc.sweep(file, tmp_path / "out", shard=(4, 3))

@@ -1,10 +1,13 @@
-//! A file of cases: `cases/NNNNNN.parquet`, the same bytes whoever computes it, and how long they took beside it.
+//! A file of cases: `cases/NNNNNN.parquet`, the same bytes whoever computes it; its SHA-256 beside it, by which a damaged one is
+//! found, and how long the cases took.
 
+use super::manifest::Origin;
 use super::outputs::Output;
 use super::row::Row;
 use super::sweep::Sweep;
 use crate::output::atomic_file::StagedFile;
 use crate::output::output_error::OutputError;
+use crate::output::regular_file;
 use crate::scenario::variation::VariedValue;
 use arrow_array::types::Int8Type;
 use arrow_array::{Array, ArrayRef, BooleanArray, DictionaryArray, Float64Array, Int64Array, RecordBatch, StringArray};
@@ -12,16 +15,19 @@ use arrow_schema::{DataType, Field, Schema};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::ParquetMetaDataReader;
+use parquet::file::metadata::{KeyValue, ParquetMetaDataReader};
 use parquet::file::properties::WriterProperties;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The folder of files of cases.
 pub const CASES: &str = "cases";
+/// The folder of the digests of these.
+pub const DIGESTS: &str = "digests";
 /// The folder of times.
 pub const TIMING: &str = "timing";
 /// The folder of time series.
@@ -33,33 +39,148 @@ pub fn path(folder: &Path, block: u64) -> PathBuf {
     folder.join(CASES).join(format!("{block:06}.parquet"))
 }
 
-/// Whether a file has these many rows, and can be read so far.
-#[must_use]
-pub fn is_complete(path: &Path, rows: u64) -> bool {
-    let read = || {
-        let file = File::open(path).ok()?;
-        let metadata = ParquetMetaDataReader::new().parse_and_finish(&file).ok()?;
-        u64::try_from(metadata.file_metadata().num_rows()).ok()
-    };
-    read() == Some(rows)
+/// The path of its digest.
+fn digest_path(folder: &Path, block: u64) -> PathBuf {
+    folder.join(DIGESTS).join(format!("{block:06}.sha256"))
 }
 
-/// Writes a file of cases, and one of their times before it.
+/// The content of that, as `sha256sum` writes it in the folder of results.
+fn digest_line(digest: [u8; 32], block: u64) -> String {
+    let digest = digest.map(|byte| format!("{byte:02x}")).concat();
+    format!("{digest}  {CASES}/{block:06}.parquet\n")
+}
+
+/// A file of cases that is not what a sweep has written there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{path} is damaged, {why}", path = path.display())]
+pub struct Damage {
+    /// The file.
+    pub path: PathBuf,
+    /// By what that is known.
+    pub why: String,
+}
+
+/// What there is of a file of cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// No file.
+    Nothing,
+    /// The first ones of its cases: those of a sweep that had fewer.
+    Fewer,
+    /// All of them.
+    Whole,
+}
+
+/// What a folder has of a file of these cases: all of its bytes are read.
+///
+/// # Errors
+/// [`Damage`] where they are not those that were written, or those of other cases or of another sweep.
+pub fn find(folder: &Path, block: u64, origin: &Origin, cases: Range<u64>) -> Result<Found, Damage> {
+    let path = path(folder, block);
+    if path.metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
+        return Ok(Found::Nothing);
+    }
+    let found = digest_of(&path).map_err(|error| error.to_string()).and_then(|digest| {
+        let beside = digest_path(folder, block);
+        let line = regular_file::read(&beside).map_err(|error| format!("{}: {error}", beside.display()))?;
+        if line != digest_line(digest, block).as_bytes() {
+            return Err(format!("{} has another SHA-256", beside.display()));
+        }
+        cases_in(&path, origin)
+    });
+    match found {
+        Ok([first, last]) if first == cases.start && last + 1 == cases.end => Ok(Found::Whole),
+        Ok([first, last]) if first == cases.start && last + 1 < cases.end => Ok(Found::Fewer),
+        Ok([first, last]) => {
+            let why = format!("it has the cases {first} to {last}, expected {} to {}", cases.start, cases.end - 1);
+            Err(Damage { path, why })
+        }
+        Err(why) => Err(Damage { path, why }),
+    }
+}
+
+/// The SHA-256 of a file.
+fn digest_of(path: &Path) -> io::Result<[u8; 32]> {
+    regular_file::check(path)?;
+    let (mut file, mut hash, mut bytes) = (File::open(path)?, hmac_sha256::Hash::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut bytes) {
+            Ok(0) => return Ok(hash.finalize()),
+            Ok(count) => hash.update(&bytes[..count]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// The first and the last case of a file, which has as many rows, of a sweep; what is wrong with it otherwise.
+fn cases_in(path: &Path, origin: &Origin) -> Result<[u64; 2], String> {
+    let file = File::open(path).map_err(|error| error.to_string())?;
+    let metadata = ParquetMetaDataReader::new().parse_and_finish(&file).map_err(|error| error.to_string())?;
+    let metadata = metadata.file_metadata();
+    let entry = |name: &str| {
+        let entry = metadata.key_value_metadata().into_iter().flatten().find(|entry| entry.key == name);
+        entry.and_then(|entry| entry.value.as_deref())
+    };
+    if let Some((name, _)) = origin.iter().find(|(name, hash)| entry(name) != Some(hash)) {
+        return Err(format!("it is of another sweep, by `{name}`"));
+    }
+    let [first, last] = [FIRST_CASE, LAST_CASE].map(|name| entry(name).and_then(|case| case.parse::<u64>().ok()));
+    match (first, last, u64::try_from(metadata.num_rows())) {
+        (Some(first), Some(last), Ok(rows)) if last.checked_sub(first).map(|more| more + 1) == Some(rows) => {
+            Ok([first, last])
+        }
+        _ => Err(format!("it has {} rows, other than by `{FIRST_CASE}` and `{LAST_CASE}`", metadata.num_rows())),
+    }
+}
+
+/// The entries of the metadata with the range of cases.
+const FIRST_CASE: &str = "first_case";
+const LAST_CASE: &str = "last_case";
+
+/// Writes a file of cases, and before it its digest and one of their times: a file without its digest is not there even for a
+/// moment.
 ///
 /// # Errors
 /// [`OutputError`].
-pub fn write(folder: &Path, block: u64, sweep: &Sweep, outputs: &[Output], rows: &[Row]) -> Result<(), OutputError> {
+pub fn write(
+    (folder, block): (&Path, u64),
+    sweep: &Sweep,
+    origin: &Origin,
+    outputs: &[Output],
+    rows: &[Row],
+) -> Result<(), OutputError> {
     let timing = folder.join(TIMING).join(format!("{block:06}.csv"));
     let times = StagedFile::new(&timing, |to| {
         writeln!(to, "case,time [s]")?;
         rows.iter().try_for_each(|row| writeln!(to, "{},{:.6}", row.case, row.seconds))
     })?;
-    let cases = StagedFile::new(&path(folder, block), |to| write_rows(sweep, outputs, rows, to))?;
+    let path = path(folder, block);
+    let mut bytes = Vec::new();
+    write_rows(sweep, origin, outputs, rows, &mut bytes).map_err(OutputError::at(&path))?;
+    let cases = StagedFile::new(&path, |to| to.write_all(&bytes))?;
+    let line = digest_line(hmac_sha256::Hash::hash(&bytes), block);
+    let digest = StagedFile::new(&digest_path(folder, block), |to| to.write_all(line.as_bytes()))?;
     times.commit()?;
+    digest.commit()?;
     cases.commit()
 }
 
-fn write_rows(sweep: &Sweep, outputs: &[Output], rows: &[Row], to: impl Write + Send) -> io::Result<()> {
+/// What a file says of itself: of which sweep it is, and which cases it has.
+fn metadata(origin: &Origin, rows: &[Row]) -> Vec<KeyValue> {
+    let of_sweep = origin.iter().map(|(name, hash)| KeyValue::new((*name).to_owned(), hash.clone()));
+    let ends = [(FIRST_CASE, rows.first()), (LAST_CASE, rows.last())];
+    let ends = ends.map(|(name, row)| KeyValue::new(name.to_owned(), row.map(|row| row.case.to_string())));
+    of_sweep.chain(ends).collect()
+}
+
+fn write_rows(
+    sweep: &Sweep,
+    origin: &Origin,
+    outputs: &[Output],
+    rows: &[Row],
+    to: impl Write + Send,
+) -> io::Result<()> {
     let (fields, arrays): (Vec<Field>, Vec<ArrayRef>) = columns(sweep, outputs, rows).into_iter().unzip();
     let schema = Arc::new(Schema::new(fields));
     let properties = WriterProperties::builder()
@@ -69,6 +190,7 @@ fn write_rows(sweep: &Sweep, outputs: &[Output], rows: &[Row], to: impl Write + 
         .set_column_dictionary_enabled("status".into(), true)
         .set_column_dictionary_enabled("message".into(), true)
         .set_max_row_group_row_count(None)
+        .set_key_value_metadata(Some(metadata(origin, rows)))
         .build();
     let mut writer = ArrowWriter::try_new(to, Arc::clone(&schema), Some(properties)).map_err(failed)?;
     let batch = RecordBatch::try_new(schema, arrays).map_err(io::Error::other)?;

@@ -33,7 +33,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::block_file::{self, CASES, SERIES, TIMING};
+pub use super::block_file::Damage;
+use super::block_file::{self, CASES, DIGESTS, Found, SERIES, TIMING};
+use super::manifest::{Origin, origin};
 use super::outputs::{Output, outputs};
 use super::reader::Campaign;
 use super::row::{CaseRunner, Row, Status};
@@ -96,15 +98,17 @@ pub struct Plan {
     pub cases: u64,
     /// Cases in files that are there.
     pub present: u64,
+    /// Files that are missing because what is there is not what was written.
+    pub damaged: Vec<Damage>,
 }
 
 impl Plan {
-    /// The files of a shard that are missing in a folder, or have not all of their cases.
+    /// The files of a shard that are missing in a folder, have not all of their cases, or are damaged.
     ///
     /// # Errors
     /// [`OutputError`].
     pub fn new(campaign: &Campaign, folder: &Path, shard: Shard) -> Result<Self, OutputError> {
-        for inner in [CASES, TIMING, SERIES] {
+        for inner in [CASES, DIGESTS, TIMING, SERIES] {
             if inner != SERIES || !campaign.sweep.collect.series.is_empty() {
                 create_folder(&folder.join(inner))?;
             }
@@ -114,16 +118,21 @@ impl Plan {
             let cases = sweep.cases_of(block);
             cases.end - cases.start
         };
-        let (mut blocks, mut present) = (Vec::new(), 0);
+        let origin = origin(campaign);
+        let (mut blocks, mut present, mut damaged) = (Vec::new(), 0, Vec::new());
         for block in (0..sweep.blocks()).filter(|block| block % shard.of == shard.number - 1) {
-            if block_file::is_complete(&block_file::path(folder, block), count(block)) {
-                present += count(block);
-            } else {
-                blocks.push(block);
+            match block_file::find(folder, block, &origin, sweep.cases_of(block)) {
+                Ok(Found::Whole) => {
+                    present += count(block);
+                    continue;
+                }
+                Ok(Found::Fewer | Found::Nothing) => {}
+                Err(damage) => damaged.push(damage),
             }
+            blocks.push(block);
         }
         let cases = blocks.iter().map(|block| count(*block)).sum();
-        Ok(Self { blocks, cases, present })
+        Ok(Self { blocks, cases, present, damaged })
     }
 }
 
@@ -149,11 +158,13 @@ pub fn run(
     tally: &Tally,
 ) -> Result<(), OutputError> {
     let outputs = outputs(&campaign.scenario, &campaign.sweep.collect.outputs);
+    let origin = origin(campaign);
     let queue = Mutex::new(Queue::default());
     thread::scope(|scope| {
         for _ in 0..threads.max(1) {
             scope.spawn(|| {
-                let worker = Worker { campaign, choice, folder, plan, tally, outputs: &outputs, queue: &queue };
+                let (outputs, origin, queue) = (&outputs[..], &origin, &queue);
+                let worker = Worker { campaign, choice, folder, plan, tally, outputs, origin, queue };
                 worker.work();
             });
         }
@@ -168,6 +179,7 @@ struct Worker<'a> {
     plan: &'a Plan,
     tally: &'a Tally,
     outputs: &'a [Output],
+    origin: &'a Origin,
     queue: &'a Mutex<Queue>,
 }
 
@@ -240,6 +252,6 @@ impl Worker<'_> {
         };
         let Some(mut rows) = complete else { return Ok(()) };
         rows.sort_by_key(|row| row.case);
-        block_file::write(self.folder, block, sweep, self.outputs, &rows)
+        block_file::write((self.folder, block), sweep, self.origin, self.outputs, &rows)
     }
 }

@@ -1,6 +1,8 @@
 //! `planar-capture sweep`: the same bytes however a sweep was computed, resumption, failed cases, refusals.
 
 use crate::command;
+#[cfg(unix)]
+use crate::{make_pipe, within_a_minute};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use planar_proof::{file, said};
@@ -149,8 +151,7 @@ fn a_killed_sweep_goes_on_with_whole_files() {
     fs::copy(place.path("whole").join("cases").join(FILES[1]), first).expect("copied");
     let half = place.path("killed").join("cases").join(FILES[2]);
     fs::write(half, &whole[Path::new(FILES[2])][..100]).expect("written");
-    let resumed = place.computed("killed", &[]);
-    assert_eq!(resumed[Path::new(FILES[2])], whole[Path::new(FILES[2])]);
+    assert_eq!(place.computed("killed", &[]), whole);
     assert_eq!(fs::read_dir(place.path("killed").join("cases")).expect("a folder").count(), 3, "nothing temporary");
 }
 
@@ -202,6 +203,57 @@ fn of_two_sweeps_at_once_one_has_the_folder() {
     }
 }
 
+/// A file with one bit other, of other cases, of another sweep, or without its digest is not taken for what was written.
+#[test]
+fn damaged_and_exchanged_files_are_computed_again() {
+    let place = Workplace::sampled("random");
+    place.computed("out", &[]);
+    let whole = all_but_times(&place.path("out"));
+    place.write(&SWEEP.replace("SAMPLING", "random").replace("seed = 1", "seed = 2"));
+    place.computed("other", &[]);
+    place.write(&SWEEP.replace("SAMPLING", "random"));
+    let in_out = |name: &str| place.path("out").join(name);
+    let flip = |at: fn(usize) -> usize| {
+        let mut bytes = fs::read(in_out("cases/000001.parquet")).expect("a file");
+        let at = at(bytes.len());
+        bytes[at] ^= 1;
+        fs::write(in_out("cases/000001.parquet"), bytes).expect("written");
+    };
+    let copy = |from: PathBuf, to: &str| {
+        fs::copy(from, in_out(to)).expect("copied");
+    };
+    let damages: [(&str, &dyn Fn()); 7] = [
+        ("has another SHA-256", &|| flip(|_| 8)),
+        ("has another SHA-256", &|| flip(|length| length / 2)),
+        ("has another SHA-256", &|| flip(|length| length - 1)),
+        ("has another SHA-256", &|| copy(in_out("cases/000000.parquet"), "cases/000001.parquet")),
+        ("000001.sha256: ", &|| fs::remove_file(in_out("digests/000001.sha256")).expect("removed")),
+        ("it has the cases 0 to 3, expected 4 to 7", &|| {
+            copy(in_out("cases/000000.parquet"), "cases/000001.parquet");
+            let digest = fs::read_to_string(in_out("digests/000000.sha256")).expect("a digest");
+            fs::write(in_out("digests/000001.sha256"), digest.replace("000000", "000001")).expect("written");
+        }),
+        ("it is of another sweep, by `sweep_sha256`", &|| {
+            for name in ["cases/000001.parquet", "digests/000001.sha256"] {
+                copy(place.path("other").join(name), name);
+            }
+        }),
+    ];
+    for (expected, damage) in damages {
+        damage();
+        // a report on what there is, for a shard that the file is not of
+        let (code, _, err) = place.sweep("out", &["--shard", "1/3", "--report", "-q"]);
+        let is_named = err.contains("000001.parquet is damaged, ") && err.contains(expected);
+        assert!(code == 2 && is_named && !in_out("report.html").exists(), "{expected}: {err}");
+        let (code, out, err) = place.sweep("out", &["-q"]);
+        assert!(code == 0 && out.contains("4 of 12 cases computed"), "{expected}: {out}{err}");
+        assert!(err.starts_with("warning: ") && err.contains(expected) && err.lines().count() == 1, "{err}");
+        assert_eq!(all_but_times(&place.path("out")), whole, "{expected}");
+        let (code, out, err) = place.sweep("out", &["-q"]);
+        assert!(code == 0 && out.contains("0 of 12 cases computed") && err.is_empty(), "{out}{err}");
+    }
+}
+
 /// The sweep of this folder is refused before anything is said about what computes it.
 #[test]
 fn what_is_no_folder_is_refused_first() {
@@ -217,6 +269,32 @@ fn what_is_no_folder_is_refused_first() {
         }
     }
     assert_eq!(fs::read_to_string(place.path("file")).expect("a file"), "mine");
+}
+
+/// Nobody writes into these pipes: whoever opens one waits for good.
+#[cfg(unix)]
+#[test]
+fn pipes_in_place_of_files_are_not_opened() {
+    let place = Workplace::sampled("random");
+    place.computed("out", &[]);
+    let whole = all_but_times(&place.path("out"));
+    let sweep = |out: &str| {
+        let mut command = command();
+        command.arg("sweep").arg(place.path("sweep.toml")).arg("--out").arg(place.path(out));
+        said(within_a_minute(command))
+    };
+    for name in ["cases/000001.parquet", "digests/000002.sha256"] {
+        let path = place.path("out").join(name);
+        fs::remove_file(&path).expect("removed");
+        make_pipe(&path);
+        let (code, _, err) = sweep("out");
+        assert!(code == 0 && err.contains("it is not a regular file"), "{err}");
+        assert_eq!(all_but_times(&place.path("out")), whole, "{name}");
+    }
+    fs::create_dir(place.path("taken")).expect("a folder");
+    make_pipe(&place.path("taken/manifest.json"));
+    let (code, _, err) = sweep("taken");
+    assert!(code == 2 && err.contains("manifest.json is not the manifest of a sweep"), "{err}");
 }
 
 #[test]

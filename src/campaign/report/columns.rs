@@ -1,6 +1,6 @@
 //! Single columns of the files of a sweep: memory for one of them at a time.
 
-use crate::campaign::block_file::CASES;
+use crate::campaign::block_file::{CASES, Damage};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int8Type, Int64Type};
 use arrow_array::{Array, RecordBatch};
@@ -22,6 +22,9 @@ pub enum UnreadableError {
         /// The reason.
         source: io::Error,
     },
+    /// A file of cases that is not what was written.
+    #[error("{0}: remove this file, and the command that computes it does so again")]
+    Damaged(#[from] Damage),
     /// A file of cases.
     #[error(
         "cannot read {path}: {source}; remove this file, and the same command computes its cases again",
@@ -74,6 +77,11 @@ impl Columns {
     /// Of one file.
     pub fn of_file(file: PathBuf) -> Self {
         Self { files: vec![file] }
+    }
+
+    /// Their paths.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// Name and unit of every column.

@@ -23,7 +23,8 @@ mod pictures;
 mod scatter;
 mod statistics;
 
-use crate::campaign::block_file;
+use crate::campaign::block_file::{self, Damage};
+use crate::campaign::manifest::origin;
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
@@ -159,12 +160,29 @@ pub fn statuses_of_block(folder: &Path, block: u64) -> Result<Vec<(&'static str,
     })
 }
 
+/// That files are those that a sweep has written, each of its own cases: not damaged, not another's.
+fn check(campaign: &Campaign, folder: &Path, files: &[PathBuf]) -> Result<(), UnreadableError> {
+    let origin = origin(campaign);
+    let sweep = &campaign.sweep;
+    for path in files {
+        let number: Option<u64> = path.file_stem().and_then(|name| name.to_str()?.parse().ok());
+        let is_own = |block: &u64| *block < sweep.blocks() && block_file::path(folder, *block) == *path;
+        let Some(block) = number.filter(is_own) else {
+            let why = "the sweep has no file of this name".to_owned();
+            return Err(Damage { path: path.clone(), why }.into());
+        };
+        block_file::find(folder, block, &origin, sweep.cases_of(block))?;
+    }
+    Ok(())
+}
+
 /// Reads the files of a sweep that are there.
 ///
 /// # Errors
 /// [`UnreadableError`].
 pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, UnreadableError> {
     let columns = Columns::of(folder)?;
+    check(campaign, folder, columns.files())?;
     let names = columns.names()?;
     let place = |name: &str| names.iter().position(|(known, _)| known == name);
     let numbers = |name: &str| -> Result<Vec<Option<f64>>, UnreadableError> {

@@ -44,7 +44,7 @@ written; 130 interrupted, to go on when it is started again.";
 pub struct Arguments {
     /// The sweep file.
     sweep: PathBuf,
-    /// Folder for manifest.json, cases/, timing/ and series/ [default: results/NAME, NAME the sweep's].
+    /// Folder for manifest.json, cases/, digests/, timing/ and series/ [default: results/NAME, NAME the sweep's].
     #[arg(long, value_name = "DIR", help_heading = "Results")]
     out: Option<PathBuf>,
     /// Compute every Nth file of cases only, from the Ith on: for several machines and one folder.
@@ -87,6 +87,9 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     create_folder(&folder)?;
     claim(&folder, &campaign, choice.engine).map_err(at_folder)?;
     let plan = Plan::new(&campaign, &folder, arguments.shard.unwrap_or(Shard::WHOLE))?;
+    for damage in &plan.damaged {
+        note(format_args!("warning: {damage}: its cases are computed again"));
+    }
     let tally = Arc::<Tally>::default();
     let interrupted = Arc::clone(&tally);
     // where there is no handler, the signal ends the process at once: files are whole all the same
