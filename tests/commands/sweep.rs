@@ -456,6 +456,8 @@ fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
         ("{ uniform = { min = 1.0, max = 2.0 }, min = 3.0 }", "its bounds leave nothing of it"),
         ("{ triangular = { min = 1.0, mode = 3.0, max = 2.0 } }", "`min` ≤ `mode` ≤ `max`"),
         ("{ lognormal = { mean = -1.0, std = 1.0 } }", "greater than 0"),
+        ("{ lognormal = { mean = 1e-100, std = 1e100 } }", "a `std` of 1e100 with a `mean` of 1e-100 is beyond"),
+        ("{ lognormal = { mean = 1e100, std = 1e-100 }, min = 1e100 }", "a `std` of 1e-100 with a `mean` of 1e100 is"),
         ("{ choice = [] }", "at least one"),
         ("{ choice = [1.0, 'a'] }", "at least one number, or text"),
         ("{ choice = [1.0], max = 2.0 }", "a choice has no bounds"),

@@ -4,9 +4,13 @@ use super::super::distribution::{Distribution, Kind};
 use super::super::keys::DISTRIBUTION;
 use crate::diagnostic::{Table, Value, every, listing};
 use crate::scenario::variation::VariedValue;
+use std::ops::RangeInclusive;
 
 /// The least probability that bounds may leave.
 const LEAST_MASS: f64 = 1e-250;
+
+/// Standard deviations of a lognormal variable, relative to its mean, whose squares are numbers other than 0.
+const RATIOS: RangeInclusive<f64> = 1e-150..=1e150;
 
 /// Reads a distribution.
 pub(super) fn distribution(value: &Value<'_>) -> Option<Distribution> {
@@ -22,7 +26,7 @@ pub(super) fn distribution(value: &Value<'_>) -> Option<Distribution> {
     let of_kind = table.get(kind)?;
     let kind = match kind {
         "normal" => normal(&of_kind.table()?),
-        "lognormal" => lognormal(&of_kind.table()?),
+        "lognormal" => lognormal(&of_kind, &of_kind.table()?),
         "uniform" => uniform(&of_kind, &of_kind.table()?),
         "triangular" => triangular(&of_kind, &of_kind.table()?),
         _ => choice(&of_kind),
@@ -46,9 +50,18 @@ fn normal(table: &Table<'_>) -> Option<Kind> {
     Some(Kind::Normal { mean: mean?, std: std? })
 }
 
-fn lognormal(table: &Table<'_>) -> Option<Kind> {
+fn lognormal(value: &Value<'_>, table: &Table<'_>) -> Option<Kind> {
     let (mean, std) = (table.number("mean"), table.number("std"));
-    Some(Kind::LogNormal { mean: mean?, std: std? })
+    let (mean, std) = (mean?, std?);
+    if !RATIOS.contains(&(std / mean)) {
+        let [least, most] = [RATIOS.start(), RATIOS.end()];
+        value.reject(&format!(
+            "a `std` of {std:e} with a `mean` of {mean:e} is beyond double precision, expected a `std` of {least:e} to \
+             {most:e} times the `mean`"
+        ));
+        return None;
+    }
+    Some(Kind::LogNormal { mean, std })
 }
 
 fn uniform(value: &Value<'_>, table: &Table<'_>) -> Option<Kind> {

@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Compute every Nth file of cases only, from the Ith on: for several machines and one folder.
     #[arg(long, value_name = "I/N", value_parser = shard, help_heading = "Computation")]
     shard: Option<Shard>,
-    /// Run the case of this index alone, as `run` does, into DIR/replay/INDEX.
+    /// Run the case of this index alone, as `run` does, into DIR/replay/INDEX/results.
     #[arg(long, value_name = "INDEX", conflicts_with = "shard", help_heading = "Computation")]
     replay: Option<u64>,
     /// Write DIR/report.html too: percentiles, failures, sensitivities, extremes. With --replay: that of the run.
