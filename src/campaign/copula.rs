@@ -78,7 +78,7 @@ impl Copula {
 
 #[cfg(test)]
 mod tests {
-    use super::Copula;
+    use super::{Copula, normal};
     use crate::campaign::uniform::UniformStream;
 
     fn ranks(numbers: &[f64]) -> Vec<f64> {
@@ -109,6 +109,17 @@ mod tests {
             let found = product(a, b) / product(a, a);
             assert!((found - wanted).abs() < 4.0 / f64::from(COUNT).sqrt(), "{a}, {b}: {found}");
         }
+    }
+
+    /// Scores of the correlation 2 sin(π ρ / 6): at 0.6 that is the golden ratio less one.
+    #[test]
+    fn scores_have_the_correlation_of_these_ranks() {
+        let copula = Copula::new(&[([0, 1], 0.6)]).expect("possible");
+        let mut numbers = [0.9, 0.5];
+        copula.mix(&mut numbers);
+        let [first, second] = numbers.map(normal::quantile);
+        let expected = 0.5 * (5.0_f64.sqrt() - 1.0);
+        assert!((second / first - expected).abs() < 1e-9, "{}", second / first);
     }
 
     #[test]

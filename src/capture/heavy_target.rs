@@ -76,3 +76,40 @@ impl HeavyTarget {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::HeavyTarget;
+    use crate::capture::assembly::{Assembly, Attachment};
+    use crate::contact::ContactKind;
+    use crate::owned::RobotState;
+    use crate::registry;
+    use crate::scenario::Scenario;
+    use crate::simulate::stepper::Integration;
+    use crate::simulate::system::Body;
+    use planar_proof::{file, layout};
+
+    /// m · reach² of the robot with a disc: 210 kg, and the stretched arm with its longest link once more and two radii, m.
+    const UNIT: f64 = 210.0 * (1.9 + 0.8 + 2.0 * 0.5) * (1.9 + 0.8 + 2.0 * 0.5);
+
+    #[test]
+    fn inertias_are_compared_with_mass_and_reach_squared() {
+        let text = "name = \"it\"\nlayout = \"single_arm_2r\"\n[initial]\njoint_angles = [0.4, -0.9]\n[approach]\n\
+                    duration = 1.0\ntrajectory = \"cycloidal\"\nfinal_joint_angles = [0.4, -0.9]\n\
+                    [[target]]\nname = \"disc\"\narm = \"arm1\"\nmass = 1.0\ninertia = 1.0\ncontact = [0.0, 0.5]\n\
+                    radius = 0.5\n[post_impact]\nduration = 1.0\n";
+        let scenario = Scenario::parse(text, "it.toml", &file("scenarios"), registry::SHIPPED).expect("a scenario");
+        let (base_pose, base_twist) = ([0.0; 3], [0.0; 3]);
+        let state = RobotState { base_pose, joint_angles: vec![0.4, -0.9], base_twist, joint_rates: vec![0.0; 2] };
+        let of = |ratio: f64| {
+            let target = Body { mass: 1.0, inertia: ratio * UNIT, pose: [0.0, 1.5, 0.5], twist: [0.0; 3] };
+            let grasp = Attachment { target: 0, arm: 0, kind: ContactKind::Rigid };
+            let model = registry::generic(&layout("single_arm_2r"));
+            let assembly = Assembly::new(model, &state, &[target], &[grasp]).expect("an assembly");
+            HeavyTarget::of(&scenario, &assembly, &[target], Integration::default())
+        };
+        assert_eq!(of(0.9e5), None);
+        let found = of(1.5e5).expect("a heavy target");
+        assert!((found.inertia / 1.5e5 - 1.0).abs() < 1e-9 && found.mass < 0.01, "{found:?}");
+    }
+}

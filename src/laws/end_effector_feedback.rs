@@ -119,3 +119,32 @@ impl EndEffectorFeedback {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::EndEffectorFeedback;
+    use crate::control::Control;
+    use crate::registry::{self, SHIPPED};
+    use crate::scenario::Scenario;
+    use crate::state::State;
+    use planar_proof::{file, layout};
+
+    #[test]
+    fn the_singularity_margin_is_that_of_the_last_state() {
+        let scenario = Scenario::read(&file("scenarios/resolved_motion_rate.toml"), SHIPPED).expect("a scenario");
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let mut feedback = EndEffectorFeedback::new(&*model, &scenario).expect("paths");
+        let mut law = feedback.law([2.0, 10.0], 0.04);
+        let mut margin = |joint_angles: &[f64]| {
+            let (base_pose, base_twist, joint_rates) = ([0.0; 3], [0.0; 3], &[0.0; 6]);
+            let state = State { base_pose, joint_angles, base_twist, joint_rates };
+            law.joint_torques(0.0, &*model, &state, &mut [0.0; 6]).expect("torques");
+            Control::<f64>::singularity_margin(&law).expect("rows")
+        };
+        let bent = &scenario.initial.joint_angles;
+        let [first, stretched, last] =
+            [bent, &vec![0.0, 1e-3, 0.0, 3.0, 0.0, -1e-3], bent].map(|angles| margin(angles));
+        assert!(stretched < 0.1 * first, "{stretched} {first}");
+        assert_eq!(first.to_bits(), last.to_bits());
+    }
+}

@@ -65,6 +65,5 @@ pub fn drive(
     if law.has_memory() && law.held_steps().is_none() {
         return Err(PhaseError { time: 0.0, source: Error::ContinuousMemory });
     }
-    let phase = simulate(system, law, initial, timing, events, tick)?;
-    Ok(Phase { singularity_margin: law.singularity_margin(), ..phase })
+    simulate(system, law, initial, timing, events, tick)
 }

@@ -142,8 +142,8 @@ pub struct Phase {
     pub saturation: Saturation,
     /// Largest error of a constraint, of a yaw (rad) or a coordinate (m), and of its rate.
     pub constraint_errors: [f64; 2],
-    /// Smallest ratio of the smallest to the largest singular value of the generalized Jacobian, for a law that inverts
-    /// it.
+    /// Smallest ratio of the smallest to the largest singular value of the generalized Jacobian at the ends of steps, for a
+    /// law that inverts it.
     pub singularity_margin: Option<f64>,
     /// Joints beyond their limits; `None` where there are no limits.
     pub limit_violations: Option<LimitViolations>,
@@ -285,7 +285,7 @@ pub fn simulate(
             for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {
                 recorder.record_path(knot, x);
                 if is_adaptive {
-                    recorder.follow_saturation(stepper.control(), knot, x).map_err(at(knot))?;
+                    recorder.follow(stepper.control(), knot, x).map_err(at(knot))?;
                 }
             }
             if let Some((_, when)) = event {
@@ -298,6 +298,9 @@ pub fn simulate(
                 return Ok(recorder.end(when, event, stepper.path_errors()));
             }
             from = to;
+            if from < end {
+                recorder.follow(stepper.control(), from, &x).map_err(at(from))?;
+            }
         }
         recorder.add_saturation(end);
         tick();

@@ -3,7 +3,7 @@
 use crate::control::Control;
 use crate::error::Error;
 use crate::owned::RobotState;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::simulate::conservation::{AccumulatedInput, ConservationAudit};
 use crate::simulate::event_location::time_tolerance;
 use crate::simulate::limits::LimitViolations;
@@ -27,6 +27,8 @@ pub(crate) struct Recorder<'a> {
     base_saturated: bool,
     since: f64,
     constraint_errors: [f64; 2],
+    /// The smallest of the states that were accepted.
+    singularity_margin: Option<f64>,
     limit_violations: LimitViolations,
     /// Time and integrated vector of the last state of the path; where there are no limits, it has none.
     last: Option<(f64, Vec<f64>)>,
@@ -46,6 +48,7 @@ impl<'a> Recorder<'a> {
             base_saturated: false,
             since: 0.0,
             constraint_errors: [0.0; 2],
+            singularity_margin: None,
             limit_violations: LimitViolations::default(),
             last: None,
             path: PathRecorder::new(3 + system.model.joints() + 3 * system.bodies.len()),
@@ -69,8 +72,8 @@ impl<'a> Recorder<'a> {
         self.limit_violations.record(self.system.joint_limits, time, &state);
         let bodies = self.system.bodies_at(x)?;
         let momentum = self.audit.record(&state, &bodies, &input)?;
-        if sampled || has_saturation(control) {
-            self.saturation_at(control, time, &state)?;
+        if sampled || is_followed(control) {
+            self.law_at(control, time, &state)?;
         }
         if !sampled {
             return Ok(());
@@ -117,33 +120,28 @@ impl<'a> Recorder<'a> {
         start.copy_from_slice(x);
     }
 
-    /// The law determines saturation together with its torques.
-    fn saturation_at(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        time: f64,
-        state: &State<'_, f64>,
-    ) -> Result<(), Error> {
+    /// The law determines saturation and the singularity margin together with its torques.
+    fn law_at(&mut self, control: &mut dyn Control<f64>, time: f64, state: &State<'_, f64>) -> Result<(), Error> {
         control.joint_torques(time, self.system.model, state, &mut self.torques)?;
         self.saturated.clear();
         self.saturated.extend_from_slice(control.saturated());
         self.base_saturated = control.base_torque().is_some_and(|base| base.saturated);
         self.since = time;
+        if let Some(margin) = control.singularity_margin() {
+            let least = self.singularity_margin.map_or(margin, |least| Scalar::minimum(least, margin));
+            self.singularity_margin = Some(least);
+        }
         Ok(())
     }
 
-    /// Looks within a step, whose length may be long beside the motion, which actuators are saturated.
-    pub(crate) fn follow_saturation(
-        &mut self,
-        control: &mut dyn Control<f64>,
-        time: f64,
-        x: &[f64],
-    ) -> Result<(), Error> {
-        if !has_saturation(control) {
+    /// Looks within a step, whose length may be long beside the motion, which actuators are saturated, and how near the pose
+    /// is to a singular one.
+    pub(crate) fn follow(&mut self, control: &mut dyn Control<f64>, time: f64, x: &[f64]) -> Result<(), Error> {
+        if !is_followed(control) {
             return Ok(());
         }
         self.add_saturation(time);
-        self.saturation_at(control, time, &State::from_vector(x, self.system.model.joints())?)
+        self.law_at(control, time, &State::from_vector(x, self.system.model.joints())?)
     }
 
     /// Adds the time until then, s, to the saturation of the actuators that are saturated.
@@ -158,7 +156,17 @@ impl<'a> Recorder<'a> {
 
     /// The phase.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>, (path_error, end_error): PathErrors) -> Phase {
-        let Self { system, samples, audit, saturation, constraint_errors, limit_violations, path, .. } = self;
+        let Self {
+            system,
+            samples,
+            audit,
+            saturation,
+            constraint_errors,
+            singularity_margin,
+            limit_violations,
+            path,
+            ..
+        } = self;
         let (samples, file) = samples.end();
         let stored = file.map(|file| StoredSamples::new(file, samples.len()));
         Phase {
@@ -171,14 +179,14 @@ impl<'a> Recorder<'a> {
             end_error,
             saturation,
             constraint_errors,
-            singularity_margin: None,
+            singularity_margin,
             limit_violations: (!system.joint_limits.is_empty()).then_some(limit_violations),
             path: path.end(),
         }
     }
 }
 
-/// Whether a law has limits of torques.
-fn has_saturation(control: &dyn Control<f64>) -> bool {
-    !control.saturated().is_empty() || control.base_torque().is_some()
+/// Whether a law has limits of torques, or inverts a matrix.
+fn is_followed(control: &dyn Control<f64>) -> bool {
+    !control.saturated().is_empty() || control.base_torque().is_some() || control.singularity_margin().is_some()
 }

@@ -342,3 +342,48 @@ fn the_path_within_long_steps_is_the_motion() {
         assert!((last - until.min(8.0)).abs() < 1e-12, "{last}");
     }
 }
+
+/// Pushes the joint for 0.3 s, and then brakes it; its margin is the smaller the faster that turns.
+struct Pushed {
+    margin: Option<f64>,
+    least: f64,
+}
+
+impl crate::control::Control<f64> for Pushed {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        _: &crate::dynamics::AnyModel<f64>,
+        state: &crate::state::State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        torques.fill(0.0);
+        torques[1] = if time < 0.3 { 2.0 } else { -2.0 };
+        let margin = 1.0 / (1.0 + state.joint_rates[1].abs());
+        (self.margin, self.least) = (Some(margin), self.least.min(margin));
+        Ok(())
+    }
+
+    fn singularity_margin(&self) -> Option<f64> {
+        self.margin
+    }
+}
+
+/// Adaptive steps across the jump of the torque are tried, with rates that the motion never has.
+#[test]
+fn margins_are_of_the_motion_alone() {
+    let (model, mut state) = robot();
+    state.joint_rates = vec![0.0; 2];
+    let integration = Integration { integrator: Integrator::Adaptive { tolerance: 1e-9 }, ..Integration::default() };
+    let timing = Timing { duration: 0.5, step: 0.5, sample: 0.5, integration };
+    let system = System::alone(&*model);
+    let mut law = Pushed { margin: None, least: 1.0 };
+    let found = simulate(&system, &mut law, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+    let fine = Timing { duration: 0.5, step: 1e-3, sample: 1e-3, integration };
+    let fine = simulate(&system, &mut Pushed { margin: None, least: 1.0 }, &state, &fine, &mut NoEvents, &mut || ());
+    let fine = fine.expect("a phase");
+    let largest = fine.samples.iter().map(|sample| sample.state.joint_rates[1].abs()).fold(0.0, f64::max);
+    let (margin, expected) = (found.singularity_margin.expect("a margin"), 1.0 / (1.0 + largest));
+    assert!((margin - expected).abs() < 1e-3 * expected, "{margin} {expected}");
+    assert!(law.least < 0.9 * margin, "{} {margin}: not tried", law.least);
+}

@@ -7,6 +7,7 @@ mod keys;
 use super::copula::Copula;
 use super::distribution::Distribution;
 use super::keys::{FORMAT, MOST_CASES};
+use super::outputs::{OutputGroup, outputs};
 use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
 use crate::diagnostic::{Report, Table, Value, every, listing, read_document, read_text};
@@ -14,6 +15,7 @@ use crate::laws::RegisteredLaw;
 use crate::layout::Layout;
 use crate::scenario::variation::Variation;
 use crate::scenario::{Known, Scenario, ScenarioSource, Source, Variant};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// A sweep with what it varies.
@@ -110,6 +112,9 @@ fn read_root(root: &Table<'_>, folder: &Path, known: &Known<'_>) -> Option<Read>
     let keys: Vec<String> = paths.iter().map(ToString::to_string).collect();
     let copula = root.read_or("correlation", None, |value| correlations(value, &keys, sampling?).map(Some));
     let collect = collect::collect(root, cases, scenario);
+    if let (Some(collect), Some(value)) = (&collect, root.get("scenario")) {
+        distinct_columns(&value, scenario, &collect.outputs)?;
+    }
     let distributions: Vec<Distribution> = distributions.into_iter().collect::<Option<_>>()?;
     let sweep = Sweep {
         name: name?.to_owned(),
@@ -123,6 +128,18 @@ fn read_root(root: &Table<'_>, folder: &Path, known: &Known<'_>) -> Option<Read>
         collect: collect?,
     };
     Some((sweep, read, variation))
+}
+
+/// Refuses a scenario whose names give two outputs one name, as a target called `base` does.
+fn distinct_columns(value: &Value<'_>, scenario: &Scenario, groups: &[OutputGroup]) -> Option<()> {
+    let mut names = HashSet::new();
+    let outputs = outputs(scenario, groups);
+    let Some(twice) = outputs.iter().find(|output| !names.insert(output.name.as_str())) else { return Some(()) };
+    value.reject(&format!(
+        "two outputs of this scenario would be columns of one name, `{}`, expected another name of a target or an arm",
+        twice.name
+    ));
+    None
 }
 
 /// The case that is computed.
@@ -222,4 +239,33 @@ fn correlations(value: &Value<'_>, keys: &[String], sampling: Sampling) -> Optio
     }
     let why = "no variables have all of these rank correlations together, expected smaller ones";
     Copula::new(&pairs).map_err(|_| value.reject(why)).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Campaign;
+    use crate::registry::SHIPPED;
+
+    fn sweep_of(target: &str, position: &str) -> Result<Campaign, String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scenario = format!(
+            "name = \"it\"\nlayout = \"single_arm_2r\"\n[initial]\njoint_angles = [0.4, -0.9]\n[approach]\nduration = 1.0\n\
+             trajectory = \"cycloidal\"\nfinal_joint_angles = [0.4, -0.9]\n[[target]]\nname = \"{target}\"\narm = \"arm1\"\n\
+             mass = 1.0\ninertia = 1.0\ncontact = [0.0, 0.5]\nradius = 0.5\n{position}[post_impact]\nduration = 1.0\n"
+        );
+        std::fs::write(folder.path().join("it.toml"), scenario).expect("written");
+        let text = "name = \"sweep\"\nscenario = \"it.toml\"\ncases = 2\nseed = 1\n\
+                    vary = [{ key = \"layout.base.mass\", distribution = { choice = [400.0, 500.0] } }]\n";
+        Campaign::parse(text, "sweep.toml", folder.path(), SHIPPED).map_err(|report| report.to_string())
+    }
+
+    #[test]
+    fn names_that_give_two_columns_one_name_are_refused() {
+        let place = "position = [1.9, 0.0]\n";
+        assert!(sweep_of("debris", place).is_ok() && sweep_of("arm1", "").is_ok());
+        for (target, position, column) in [("base", "", "base_after_omega"), ("arm1", place, "arm1_miss")] {
+            let said = sweep_of(target, position).expect_err("refused");
+            assert!(said.contains("sweep.toml:2:12") && said.contains(&format!("`{column}`")), "{target}: {said}");
+        }
+    }
 }

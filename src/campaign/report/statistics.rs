@@ -176,4 +176,16 @@ mod tests {
             assert!((found - expected).abs() < 0.03, "{found}, {expected}");
         }
     }
+
+    /// Four classes of 25 with the means 0, 1, 2, 3, and ±1 twelve times each beside them: 125 between classes and 96 within,
+    /// 1 for each of 96 degrees of freedom. ω² is (125 − 3 · 1) / (221 + 1).
+    #[test]
+    fn a_hundred_values_have_the_index_of_the_formula() {
+        let order: Vec<f64> = (0..100_u32).map(f64::from).collect();
+        let beside = |i: u32| [1.0, -1.0][(i % 2) as usize];
+        let value = |i: u32| f64::from(i / 25) + if i % 25 == 24 { 0.0 } else { beside(i % 25) };
+        let y: Vec<f64> = (0..100).map(value).collect();
+        let found = first_order(&ranks(&order), &y).expect("varies");
+        assert!((found - 122.0 / 222.0).abs() < 1e-12, "{found}");
+    }
 }

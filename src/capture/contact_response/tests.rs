@@ -6,11 +6,16 @@ use crate::registry;
 use planar_proof::{assert_close, layout, tolerance};
 
 fn of(twist: [f64; 3], law: ContactLaw<f64>) -> (ContactResponse, [f64; 3]) {
+    moving([0.0; 2], twist, law)
+}
+
+/// Of a robot that has a velocity beside its own.
+fn moving([vx, vy]: [f64; 2], twist: [f64; 3], law: ContactLaw<f64>) -> (ContactResponse, [f64; 3]) {
     let model = registry::generic(&layout("single_arm_2r"));
     let state = RobotState {
         base_pose: [0.2, -0.4, 0.7],
         joint_angles: vec![0.4, -0.9],
-        base_twist: [0.3, 0.2, -0.1],
+        base_twist: [0.3, 0.2 + vx, -0.1 + vy],
         joint_rates: vec![-1.2, 2.5],
     };
     let mut end_effectors = [[0.0; 3]];
@@ -45,4 +50,15 @@ fn a_contact_at_rest_has_no_direction() {
     let (found, _) = of([0.0, x + 3e-5, y - 4e-5], ContactLaw::Rigid);
     let direction = found.direction.expect("a direction");
     assert!((direction[0] + 0.6).abs() < 1e-9 && (direction[1] - 0.8).abs() < 1e-9, "{direction:?}");
+}
+
+/// The speed of an orbit, which robot and target have together, does not hide a millimetre per second between them.
+#[test]
+fn a_common_velocity_hides_no_direction() {
+    let orbit = [4500.0, 6000.0];
+    let (_, [_, x, y]) = moving(orbit, [0.0; 3], ContactLaw::Rigid);
+    let (found, _) = moving(orbit, [0.0, x + 6e-4, y - 8e-4], ContactLaw::Rigid);
+    let direction = found.direction.expect("a direction");
+    // 7.5 km/s are rounded to 1e-12 m/s
+    assert!((direction[0] + 0.6).abs() < 1e-8 && (direction[1] - 0.8).abs() < 1e-8, "{direction:?}");
 }

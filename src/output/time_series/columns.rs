@@ -125,3 +125,59 @@ impl ColumnList {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::columns;
+    use crate::capture::{Silent, study};
+    use crate::output::time_series::rows;
+    use crate::registry;
+    use crate::scenario::Scenario;
+    use planar_proof::{file, layout};
+
+    /// At rest, with a disc that turns at each end effector after a second.
+    fn scenario() -> Scenario {
+        let angles = "[0.698, -1.571, 1.047, 2.444, 1.571, -1.047]";
+        let target = |i: u32, y: f64| {
+            format!(
+                "[[target]]\nname = \"t{i}\"\narm = \"arm{i}\"\nmass = 10.0\ninertia = 1.0\ncontact = [0.0, {y}]\n\
+                 radius = 0.5\ntwist = [0.2, 0.0, 0.0]\n"
+            )
+        };
+        let text = format!(
+            "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {angles}\n[approach]\nduration = 1.0\n\
+             trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {angles}\n{}{}[post_impact]\n\
+             duration = 4.0\ncontrol = \"stabilise\"\nderivative_gain = 0.5\nbase_gain = 0.2\nbase_torque_limit = 20.0\n",
+            target(1, 0.5),
+            target(2, -0.5)
+        );
+        Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    #[test]
+    fn impulse_and_work_of_the_base_torque_are_its_integrals() {
+        let scenario = scenario();
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let study = study(&scenario, &|| model.clone_box(), 0.01, &mut Silent).expect("a study");
+        let columns = columns(&scenario, &study.cases[0]);
+        let column = |name: &str| columns.iter().find(|column| column.name == name).expect("a column");
+        let [torque, omega, impulse, work] = ["base_torque", "base_omega", "base_impulse", "base_work"].map(column);
+        assert_eq!((impulse.unit, work.unit), ("N m s", "J"));
+        let after: Vec<_> = rows(&study, &study.cases[0]).filter(|row| row.phase == "post_impact").collect();
+        let [mut impulses, mut works, mut most] = [0.0_f64; 3];
+        for pair in after.windows(2) {
+            let half = 0.5 * (pair[1].time - pair[0].time);
+            impulses += half * pair.iter().map(|row| torque.value(row)).sum::<f64>();
+            works += half * pair.iter().map(|row| torque.value(row) * omega.value(row)).sum::<f64>();
+            most = most.max(impulses.abs());
+            assert!(
+                (impulse.value(&pair[1]) - impulses).abs() < 1e-4 * most,
+                "{}: {impulses}",
+                impulse.value(&pair[1])
+            );
+        }
+        let end = after.last().expect("rows");
+        assert!((work.value(end) / works - 1.0).abs() < 1e-3, "{}: {works}", work.value(end));
+        assert!(most > 1e-2 && (works - impulses).abs() > 0.1 * most, "{impulses} {works}");
+    }
+}

@@ -71,3 +71,40 @@ pub(super) fn check_mass(table: &Table<'_>, key: &str, found: f64, layout: Optio
 fn reach(layout: Option<&Layout>) -> f64 {
     layout.map_or(0.0, Layout::reach_from_base)
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::registry;
+    use crate::scenario::Scenario;
+
+    /// Of `single_arm_2r`: kg, and m from its base's COM.
+    const ROBOT: [f64; 2] = [210.0, 1.9];
+
+    fn is_fine(mass: f64, inertia: f64) -> bool {
+        let text = format!(
+            "name = \"it\"\nlayout = \"single_arm_2r\"\n[initial]\njoint_angles = [0.4, -0.9]\n[approach]\nduration = 1.0\n\
+             trajectory = \"cycloidal\"\nfinal_joint_angles = [0.4, -0.9]\n[[target]]\nname = \"disc\"\narm = \"arm1\"\n\
+             mass = {mass:e}\ninertia = {inertia:e}\ncontact = [0.0, 0.5]\nradius = 0.5\n[post_impact]\nduration = 1.0\n"
+        );
+        match Scenario::parse(&text, "it.toml", "".as_ref(), registry::SHIPPED) {
+            Ok(_) => true,
+            Err(report) => {
+                let said = report.to_string();
+                assert!(said.contains("1e-15 to 1e12 times that of the robot"), "{said}");
+                false
+            }
+        }
+    }
+
+    #[test]
+    fn masses_and_inertias_are_accepted_up_to_their_bounds() {
+        let [mass, reach] = ROBOT;
+        let inertia = mass * reach * reach;
+        for (bound, inside, beyond) in [(1e12, 0.999, 1.001), (1e-15, 1.001, 0.999)] {
+            let found = [inside, beyond].map(|part| is_fine(part * bound * mass, 0.5 * inertia));
+            assert_eq!(found, [true, false], "mass, {bound}");
+            let found = [inside, beyond].map(|part| is_fine(0.5 * mass, part * bound * inertia));
+            assert_eq!(found, [true, false], "inertia, {bound}");
+        }
+    }
+}

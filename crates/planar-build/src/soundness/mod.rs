@@ -198,3 +198,35 @@ fn counts(operations: &Operations) -> Result<(), String> {
     let too_many = operations.values().find(|count| **count > MOST_OPERATIONS);
     too_many.map_or(Ok(()), |count| Err(format!("it counts {count} operations")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+    use crate::format::{FunctionResult, Given, Graph, ReferenceState};
+
+    #[test]
+    fn a_test_that_expects_a_result_twice_is_refused() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../codegen/graphs/single_arm_2r.json");
+        let text = std::fs::read_to_string(path).expect("a graph");
+        let mut graph: Graph = serde_json::from_str(&text).expect("of its form");
+        let inputs = graph.inputs.iter();
+        let inputs: Vec<_> = inputs
+            .map(|input| Given { name: input.name.clone(), values: vec![0.0; input.shape.iter().product()] })
+            .collect();
+        let mut results = Vec::new();
+        for function in graph.functions() {
+            results.extend(function.outputs.iter().map(|output| FunctionResult {
+                function: function.name.clone(),
+                output: output.name.clone(),
+                values: vec![0.0; output.elements.len()],
+                sizes: Vec::new(),
+            }));
+        }
+        graph.self_test = Some(vec![ReferenceState { inputs: inputs.clone(), expected: results.clone() }]);
+        assert_eq!(check(&graph), Ok(()));
+        // in the place of another, so that their number is right
+        *results.last_mut().expect("results") = results[0].clone();
+        graph.self_test = Some(vec![ReferenceState { inputs, expected: results }]);
+        assert_eq!(check(&graph), Err("its test expects a result twice".to_owned()));
+    }
+}

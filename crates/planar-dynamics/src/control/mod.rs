@@ -86,8 +86,8 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         false
     }
 
-    /// The smallest ratio so far of the smallest to the largest singular value of a matrix that the law inverts; `None`
-    /// for one that inverts none.
+    /// The ratio of the smallest to the largest singular value of a matrix that the law inverted for its last torques;
+    /// `None` before these, and for a law that inverts none.
     fn singularity_margin(&self) -> Option<T> {
         None
     }

@@ -52,7 +52,7 @@ pub struct ResolvedMotionRate<'a, T> {
     /// The fraction of the largest singular value below which others are damped, 0 to 1; see the source of
     /// `least_squares`.
     pub singularity_threshold: T,
-    /// The smallest ratio so far of the smallest to the largest singular value of the controlled rows of J; `None`
+    /// The ratio of the smallest to the largest singular value of the controlled rows of J at the last state; `None`
     /// initially.
     pub singularity_margin: Option<T>,
     /// Working space.
@@ -161,9 +161,7 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> 
         let rows = w.rows.get_mut(..count * joints).ok_or(missing)?;
         let right = w.right_hand_side.get_mut(..count).ok_or(missing)?;
         let margin = least_squares(rows, right, joints, self.singularity_threshold, w.joint_accelerations);
-        if count > 0 && !self.singularity_margin.is_some_and(|smallest| smallest <= margin) {
-            self.singularity_margin = Some(margin);
-        }
+        self.singularity_margin = (count > 0).then_some(margin);
         let desired = w.joint_accelerations.iter().zip(state.joint_rates);
         let accelerations = desired.map(|(desired, rate)| Ok(*desired - self.rate_gain * *rate));
         inverse_dynamics(w.generalized_inertia, w.generalized_bias, accelerations, torques)

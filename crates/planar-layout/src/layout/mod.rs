@@ -373,3 +373,28 @@ fn has_module_letters(name: &str) -> bool {
 fn is_keyword(name: &str) -> bool {
     KEYWORDS.split_whitespace().any(|keyword| keyword == name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Layout;
+
+    /// A uniform square of 6 kg and 4 kg m² has sides of 2 m: m a² / 6.
+    #[test]
+    fn the_default_base_contains_its_mounts() {
+        let size = |mounts: [[f64; 2]; 2]| {
+            let arms = [0, 1].map(|i| {
+                format!(
+                    "[[arm]]\nname = \"arm{i}\"\nmount = {:?}\nlink = [{{ length = 1.0, mass = 1.0, inertia = 0.1 }}]\n",
+                    mounts[i]
+                )
+            });
+            let text = format!("name = \"it\"\nbase = {{ mass = 6.0, inertia = 4.0 }}\n{}", arms.concat());
+            Layout::parse(&text, "it.toml").expect("a layout").default_base_size()
+        };
+        let close = |found: [f64; 2], wanted: [f64; 2]| found.iter().zip(wanted).all(|(f, w)| (f - w).abs() < 1e-12);
+        let inside = size([[0.5, 0.25], [-0.5, 0.0]]);
+        assert!(close(inside, [2.0, 2.0]), "{inside:?}");
+        let outside = size([[0.5, 1.75], [-1.5, 0.0]]);
+        assert!(close(outside, [3.0, 3.5]), "{outside:?}");
+    }
+}

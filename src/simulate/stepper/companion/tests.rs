@@ -180,3 +180,29 @@ fn an_error_at_the_start_is_followed() {
     let [end, other_end] = [&alone, &other].map(|phase| phase.end().state.joint_angles[1]);
     assert!((given.end_error[0][4].abs() / (end - other_end).abs() - 1.0).abs() < 0.05, "{:?}", given.end_error);
 }
+
+/// A second phase that starts with a large error ends with what the motion makes of it, with its sign.
+#[test]
+fn errors_of_two_phases_have_their_signs() {
+    let (model, start) = (model(), initial());
+    let timing = Timing { duration: 2.0, step: STEP / 64.0, sample: 2.0, integration: Integration::default() };
+    let from = |state: &RobotState, start_error: [&[f64]; 2]| {
+        let system = System { start_error, ..System::alone(&*model) };
+        simulate(&system, &mut ZeroTorque, state, &timing, &mut NoEvents, &mut || ()).expect("a phase")
+    };
+    let error = [1e-6, 0.0, 0.0, 3e-7, -1e-6];
+    let mut exact = start.clone();
+    exact.base_pose[0] -= error[0];
+    exact.joint_rates[0] -= error[3];
+    exact.joint_rates[1] -= error[4];
+    let found = from(&start, [&error[..1], &[0.0, 0.0, 0.0, error[3], error[4]]]);
+    let exact = from(&exact, [&[]; 2]);
+    let positions = |phase: &Phase| [&phase.end().state.base_pose[..], &phase.end().state.joint_angles].concat();
+    let errors: Vec<f64> =
+        positions(&found).iter().zip(positions(&exact)).map(|(found, exact)| found - exact).collect();
+    let most = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+    assert!(most > 1e-6, "{errors:?}");
+    for (estimated, error) in found.end_error[0].iter().zip(&errors) {
+        assert!((estimated - error).abs() < 0.05 * most, "{:?} {errors:?}", found.end_error[0]);
+    }
+}
