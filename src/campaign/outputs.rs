@@ -297,31 +297,12 @@ mod tests {
     use super::is_captured;
     use crate::capture::{Silent, study};
     use crate::registry;
-    use crate::scenario::Scenario;
-    use planar_proof::{file, layout};
-
-    /// At rest, with a disc that turns at each end effector after a second.
-    fn scenario() -> Scenario {
-        let angles = "[0.698, -1.571, 1.047, 2.444, 1.571, -1.047]";
-        let target = |i: u32, y: f64| {
-            format!(
-                "[[target]]\nname = \"t{i}\"\narm = \"arm{i}\"\nmass = 10.0\ninertia = 1.0\ncontact = [0.0, {y}]\n\
-                 radius = 0.5\ntwist = [0.2, 0.0, 0.0]\n"
-            )
-        };
-        let text = format!(
-            "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {angles}\n[approach]\nduration = 1.0\n\
-             trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {angles}\n{}{}[post_impact]\n\
-             duration = 0.5\n",
-            target(1, 0.5),
-            target(2, -0.5)
-        );
-        Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
-    }
+    use crate::scenario::fixture::two_discs;
+    use planar_proof::layout;
 
     #[test]
     fn one_of_two_targets_is_no_capture() {
-        let scenario = scenario();
+        let scenario = two_discs("duration = 0.5\n");
         let model = registry::generic(&layout("dual_arm_3r"));
         let mut study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
         let case = &mut study.cases[0];

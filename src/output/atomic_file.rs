@@ -78,6 +78,7 @@ impl StagedFile {
     ///
     /// # Errors
     /// [`OutputError`] with the reason.
+    #[cfg(feature = "sweep")]
     pub(crate) fn commit_new(self) -> Result<bool, OutputError> {
         let Self { path, file } = self;
         match file.persist_noclobber(&path) {

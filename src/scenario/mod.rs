@@ -4,6 +4,8 @@ mod approach;
 mod case;
 mod clearance;
 mod contact;
+#[cfg(test)]
+pub(crate) mod fixture;
 mod key_path;
 mod keys;
 mod known;

@@ -38,7 +38,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     add(&format!(" {}</p>\n", about.join(", ")));
     if !report.varied.is_empty() {
         let rows = report.varied.iter().map(|(key, values)| [key, values].map(|text| markup::attribute(text)).to_vec());
-        add(&table(&["varies", "distribution"].map(str::to_owned), rows));
+        add(&in_words(&table(&["varies", "distribution"].map(str::to_owned), rows)));
     }
     add(&failures(report));
     add(
@@ -113,6 +113,11 @@ fn failures(report: &SweepReport) -> String {
     if report.failures.len() > LISTED {
         let _ = writeln!(html, "<p>{LISTED} of {} kinds, those with the most cases.</p>", report.failures.len());
     }
+    in_words(&html)
+}
+
+/// A table whose cells are texts, from the left and over several lines.
+fn in_words(html: &str) -> String {
     html.replace("<table>", "<table class=\"words\">")
 }
 

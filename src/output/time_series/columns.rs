@@ -132,31 +132,14 @@ mod tests {
     use crate::capture::{Silent, study};
     use crate::output::time_series::rows;
     use crate::registry;
-    use crate::scenario::Scenario;
-    use planar_proof::{file, layout};
-
-    /// At rest, with a disc that turns at each end effector after a second.
-    fn scenario() -> Scenario {
-        let angles = "[0.698, -1.571, 1.047, 2.444, 1.571, -1.047]";
-        let target = |i: u32, y: f64| {
-            format!(
-                "[[target]]\nname = \"t{i}\"\narm = \"arm{i}\"\nmass = 10.0\ninertia = 1.0\ncontact = [0.0, {y}]\n\
-                 radius = 0.5\ntwist = [0.2, 0.0, 0.0]\n"
-            )
-        };
-        let text = format!(
-            "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {angles}\n[approach]\nduration = 1.0\n\
-             trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {angles}\n{}{}[post_impact]\n\
-             duration = 4.0\ncontrol = \"stabilise\"\nderivative_gain = 0.5\nbase_gain = 0.2\nbase_torque_limit = 20.0\n",
-            target(1, 0.5),
-            target(2, -0.5)
-        );
-        Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
-    }
+    use crate::scenario::fixture::two_discs;
+    use planar_proof::layout;
 
     #[test]
     fn impulse_and_work_of_the_base_torque_are_its_integrals() {
-        let scenario = scenario();
+        let scenario = two_discs(
+            "duration = 4.0\ncontrol = \"stabilise\"\nderivative_gain = 0.5\nbase_gain = 0.2\nbase_torque_limit = 20.0\n",
+        );
         let model = registry::generic(&layout("dual_arm_3r"));
         let study = study(&scenario, &|| model.clone_box(), 0.01, &mut Silent).expect("a study");
         let columns = columns(&scenario, &study.cases[0]);
