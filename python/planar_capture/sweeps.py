@@ -73,8 +73,9 @@ def sweep(
     """Computes a sweep, as ``planar-capture sweep`` does: the same files with the same bytes.
 
     ``out`` is the folder, ``results/NAME`` by default: files of cases that are there already are not computed again,
-    those of another sweep are refused, and a damaged one is computed again, with a warning. ``shard=(I, N)`` computes every Nth file from the Ith on. ``progress`` is
-    called now and then with the numbers of computed cases and of those to compute. Ctrl-C ends it within a case of each
-    thread; the same call goes on from there. A case without a result is a row with its message.
+    those of another sweep are refused, and a damaged one is computed again, with a warning. ``shard=(I, N)`` computes
+    every Nth file from the Ith on. ``progress`` is called now and then with the numbers of computed cases and of those
+    to compute. Ctrl-C ends it within a case of each thread; the same call goes on from there. A case without a result
+    is a row with its message.
     """
     return SweepResult(path, *_native.sweep(path, out, threads, shard, dynamics, report, progress))
