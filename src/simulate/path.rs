@@ -176,9 +176,9 @@ impl<'a> PathInterval<'a> {
         Ok(Self { span, start: [start.positions, start.rates], end: [end.positions, end.rates] })
     }
 
-    /// A coordinate less that at the start: u (first + u (second + u third)), over the part u of the interval.
-    fn cubic(&self, i: usize) -> [f64; 3] {
-        let length = self.span[1] - self.span[0];
+    /// A coordinate less that at the start: u (first + u (second + u third)), over the part u of the interval of this length.
+    #[inline]
+    fn cubic(&self, i: usize, length: f64) -> [f64; 3] {
         let change = self.end[0][i] - self.start[0][i];
         let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
         [first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change]
@@ -186,7 +186,7 @@ impl<'a> PathInterval<'a> {
 
     /// The times within it, s, at which a coordinate or its rate is largest or smallest.
     pub(crate) fn extremes(&self, i: usize) -> [Option<f64>; 3] {
-        let [first, second, third] = self.cubic(i);
+        let [first, second, third] = self.cubic(i, self.span[1] - self.span[0]);
         // of the rate 3 third u² + 2 second u + first, without a difference of near numbers
         let root = (second * second - 3.0 * third * first).sqrt();
         let sum = -(second + root.copysign(second));
@@ -202,8 +202,9 @@ impl<'a> PathInterval<'a> {
     }
 
     /// A coordinate and its rate over the part u of the interval.
+    #[inline]
     fn coordinate(&self, i: usize, u: f64, length: f64) -> [f64; 2] {
-        let [first, second, third] = self.cubic(i);
+        let [first, second, third] = self.cubic(i, length);
         let position = self.start[0][i] + u * (first + u * (second + u * third));
         [position, (first + u * (2.0 * second + u * 3.0 * third)) / length]
     }
