@@ -263,7 +263,7 @@ pub fn simulate(
     let Properties { path_divisions: divisions, is_adaptive, .. } = timing.integration.integrator.properties();
     let mut subdivision = Subdivision::new(system, divisions);
     let mut before = x.clone();
-    recorder.record_path(0.0, &x);
+    recorder.record_path(0.0, &x).map_err(at(0.0))?;
     if ends_at_start {
         stepper.begin_step(0.0, &x).map_err(at(0.0))?;
         recorder.record(stepper.control(), 0.0, &x, true).map_err(at(0.0))?;
@@ -283,7 +283,7 @@ pub fn simulate(
             let event = locator.find(part, [&before, &x], &subdivision, &mut stepper).map_err(at(from))?;
             let until = event.map_or(to, |(_, when)| when);
             for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {
-                recorder.record_path(knot, x);
+                recorder.record_path(knot, x).map_err(at(knot))?;
                 if is_adaptive {
                     recorder.follow(stepper.control(), knot, x).map_err(at(knot))?;
                 }
@@ -291,7 +291,7 @@ pub fn simulate(
             if let Some((_, when)) = event {
                 stepper.within([from, when], &before, &mut x).map_err(at(when))?;
             }
-            recorder.record_path(until, &x);
+            recorder.record_path(until, &x).map_err(at(until))?;
             if let Some((_, when)) = event {
                 recorder.add_saturation(when);
                 recorder.record_event(stepper.control(), when, &x).map_err(at(when))?;

@@ -103,21 +103,21 @@ impl<'a> Recorder<'a> {
     }
 
     /// Adds a state to the path, and looks for joints beyond their limits since the one before it.
-    pub(crate) fn record_path(&mut self, time: f64, x: &[f64]) {
+    pub(crate) fn record_path(&mut self, time: f64, x: &[f64]) -> Result<(), Error> {
         self.path.record(time, path_state(x));
         let limits = self.system.joint_limits;
         if limits.is_empty() {
-            return;
+            return Ok(());
         }
         let Some((before, start)) = &mut self.last else {
             self.last = Some((time, x.to_vec()));
-            return;
+            return Ok(());
         };
-        if let Ok(interval) = PathInterval::between([*before, time], start, x) {
-            self.limit_violations.record_between(limits, &interval);
-        }
+        let interval = PathInterval::between([*before, time], start, x)?;
+        self.limit_violations.record_between(limits, &interval);
         *before = time;
         start.copy_from_slice(x);
+        Ok(())
     }
 
     /// The law determines saturation and the singularity margin together with its torques.

@@ -297,7 +297,7 @@ pub fn write_report(campaign: &Campaign, sweep: &Path, folder: &Path) -> Result<
 }
 
 impl OutputReport {
-    /// Of values of some rows; `None` where they do not vary.
+    /// Of values of some rows; `None` of none.
     fn of(
         self,
         cases: &[u64],
@@ -308,9 +308,6 @@ impl OutputReport {
     ) -> Option<Self> {
         let smallest = (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b]))?;
         let largest = (0..values.len()).max_by(|a, b| values[*a].total_cmp(&values[*b]))?;
-        if values[smallest].total_cmp(&values[largest]).is_eq() {
-            return None;
-        }
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let at = of_count.entry(values.len()).or_insert_with(|| {
