@@ -55,6 +55,7 @@ use crate::laws::{Laws, OwnLaws, RegisteredLaw};
 use crate::owned::CloneModel;
 use crate::scalar::Real;
 use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
+pub use crate::simulate::conservation::CENTER_OF_MASS_BOUND;
 use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::path::Path;
@@ -64,8 +65,6 @@ use std::cmp::Ordering;
 
 /// Largest momentum drift of a phase that passes the audit.
 pub const MOMENTUM_BOUND: f64 = 1e-9;
-/// Largest drift of the centre of mass, the integral of the momentum drift, in a phase that passes the audit.
-pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
 /// Largest energy error of a phase that passes the audit.
 pub const ENERGY_BOUND: f64 = 1e-6;
 

@@ -29,6 +29,9 @@ use crate::simulate::bodies::{BodyList, BodySums};
 use crate::simulate::system::Body;
 use crate::state::State;
 
+/// Largest drift of the centre of mass, the integral of the momentum drift, in a phase that passes the audit.
+pub const CENTER_OF_MASS_BOUND: f64 = 1e-9;
+
 /// Violations of the conservation laws in a phase, relative to the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -41,7 +44,8 @@ pub struct ConservationErrors {
     /// moves.
     pub energy_error: f64,
     /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over
-    /// the largest distance of a body's COM from it.
+    /// the largest distance of a body's COM from it. Far along a fast motion positions are rounded by more than the bound
+    /// of this distance: there it is relative to what that rounding is the bound of, as is the angular momentum.
     pub center_of_mass_drift: f64,
 }
 
@@ -78,7 +82,13 @@ pub struct ConservationAudit<'a> {
     angular: Ratio,
     energy: Ratio,
     motion: Ratio,
+    instants: f64,
+    rounding: f64,
 }
+
+/// Rounding errors of a position, in units of its last digit and of the square root of the number of steps, whose errors
+/// are independent: four standard deviations.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The largest deviation over the largest scale.
 #[derive(Clone, Copy, Debug, Default)]
@@ -108,7 +118,9 @@ impl<'a> ConservationAudit<'a> {
         let sums = BodySums::new(bodies.at(model, state, beside)?);
         let (start, center) = (sums.momentum(), sums.center_of_mass());
         let none = Ratio::default();
-        let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
+        let (linear, angular, energy, motion) = (none, none, none, none);
+        let (instants, rounding) = (0.0, 0.0);
+        let mut audit = Self { model, bodies, start, center, linear, angular, energy, motion, instants, rounding };
         audit.record(state, beside, &AccumulatedInput::default())?;
         Ok(audit)
     }
@@ -131,15 +143,40 @@ impl<'a> ConservationAudit<'a> {
         let [x0, y0] = self.start.linear_momentum;
         let [x1, y1] = now.linear_momentum;
         self.linear.record(length([x1 - x0 - px, y1 - y0 - py]), linear);
-        self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         self.energy.record(now.kinetic_energy - self.start.kinetic_energy - input.work, now.kinetic_energy);
         let [x, y] = sums.center_of_mass();
         let squares = bodies.map(|body| (body.pose[1] - x).powi(2) + (body.pose[2] - y).powi(2));
         let extent = squares.fold(0.0, |most, square| if square > most { square } else { most }).sqrt();
         let [from_x, from_y] = self.center;
         let [along_x, along_y] = [x0, y0].map(|momentum| momentum / sums.mass * input.time);
-        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), extent);
+        self.instants += 1.0;
+        self.rounding = Real::maximum(self.rounding, ROUNDING * self.instants.sqrt() * length([along_x, along_y]));
+        // the distance of which the rounding of positions is the bound; in a motion that is not fast, less than the extent
+        let resolved = self.rounding / CENTER_OF_MASS_BOUND;
+        let [distance, angular] = if resolved > extent { [resolved, resolved * linear] } else { [extent, angular] };
+        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), distance);
+        self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
         Ok(now)
+    }
+
+    /// Adds the momentum and the energy of a state between those that are checked to the scales of the errors: in a long
+    /// step from rest to rest there is no other that moves.
+    ///
+    /// # Errors
+    /// Those of the model.
+    pub fn scale(&mut self, state: &State<'_, f64>, beside: &[Body]) -> Result<(), Error> {
+        let sums = BodySums::new(self.bodies.at(self.model, state, beside)?);
+        let [angular, linear] = sums.momentum_sizes;
+        self.linear.record(0.0, linear);
+        self.angular.record(0.0, angular);
+        self.energy.record(0.0, sums.momentum().kinetic_energy);
+        Ok(())
+    }
+
+    /// By how much the positions so far may be rounded, m.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// The errors so far.

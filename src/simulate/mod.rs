@@ -58,6 +58,9 @@ use crate::simulate::subdivision::Subdivision;
 use crate::simulate::system::{Body, System};
 use crate::state::ActuatorWork;
 
+/// A phase of fewer steps has its fastest motion between them: the audit looks there for its scales.
+const FEW_STEPS: u64 = 64;
+
 /// State, torques, end effectors, momentum and bodies at one instant.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -286,6 +289,9 @@ pub fn simulate(
                 recorder.record_path(knot, x).map_err(at(knot))?;
                 if is_adaptive {
                     recorder.follow(stepper.control(), knot, x).map_err(at(knot))?;
+                    if steps < FEW_STEPS {
+                        recorder.scale(x).map_err(at(knot))?;
+                    }
                 }
             }
             if let Some((_, when)) = event {

@@ -154,6 +154,12 @@ impl<'a> Recorder<'a> {
         self.saturation.base += if self.base_saturated { step } else { 0.0 };
     }
 
+    /// Takes a state within a step into account in the scales of the audit.
+    pub(crate) fn scale(&mut self, x: &[f64]) -> Result<(), Error> {
+        let state = State::from_vector(x, self.system.model.joints())?;
+        self.audit.scale(&state, &self.system.bodies_at(x)?)
+    }
+
     /// The phase.
     pub(crate) fn end(self, duration: f64, event: Option<(usize, f64)>, (path_error, end_error): PathErrors) -> Phase {
         let Self {
@@ -175,7 +181,7 @@ impl<'a> Recorder<'a> {
             samples,
             stored: stored.into_iter().collect(),
             drift: audit.drift(),
-            path_error,
+            path_error: Real::maximum(path_error, audit.rounding()),
             end_error,
             saturation,
             constraint_errors,

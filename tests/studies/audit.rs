@@ -4,7 +4,7 @@ use crate::command;
 use crate::{run, scenario, summary};
 use planar_capture::capture::clearance::ClosestApproach;
 use planar_capture::capture::impact::ImpactResult;
-use planar_capture::capture::{CaptureResult, LaterImpact, Study};
+use planar_capture::capture::{CENTER_OF_MASS_BOUND, CaptureResult, LaterImpact, Study};
 use planar_capture::layout::Layout;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario, Tracking};
@@ -41,6 +41,40 @@ fn the_drift_of_the_centre_of_mass_is_measured() {
     assert_close("on its way", &[audit.drift().center_of_mass_drift], &[0.0], tolerance::IDENTITY);
     audit.record(&state(6.003, -0.004), &[], &later).expect("a state");
     assert_close("beside it", &[audit.drift().center_of_mass_drift], &[0.005 / extent], tolerance::IDENTITY);
+}
+
+/// Far along a fast motion the positions have fewer digits than the bound asks for: an error of their rounding passes, and
+/// a larger one does not.
+#[test]
+fn the_rounding_of_positions_is_no_drift() {
+    let layout = scenario("redysim_single_arm_3r").layout;
+    let model = registry::generated(&layout).expect("generated code");
+    let drift = |off: f64| {
+        let state = |time: f64, off: f64| State {
+            base_pose: [0.4, 7500.0 * time, off - 300.0 * time],
+            joint_angles: &[0.3, -1.2, 0.7],
+            base_twist: [0.0, 7500.0, -300.0],
+            joint_rates: &[0.0; 3],
+        };
+        let mut audit = ConservationAudit::new(&*model, &state(0.0, 0.0), &[]).expect("a state");
+        for time in 1..=1000 {
+            let input = AccumulatedInput { time: f64::from(time), ..AccumulatedInput::default() };
+            audit.record(&state(input.time, off), &[], &input).expect("a state");
+        }
+        // four standard deviations of a thousand steps, at 7,506 km
+        let rounding = 4.0 * f64::EPSILON * 1001_f64.sqrt() * 1000.0 * 7500_f64.hypot(300.0);
+        assert_close("rounding", &[audit.rounding() / rounding], &[1.0], tolerance::IDENTITY);
+        let ConservationErrors { momentum_drift, center_of_mass_drift, .. } = audit.drift();
+        [momentum_drift, center_of_mass_drift].map(|error| error / CENTER_OF_MASS_BOUND)
+    };
+    let rounding = 2e-7;
+    assert!(drift(0.5 * rounding).iter().all(|error| *error < 0.9), "{:?}", drift(0.5 * rounding));
+    assert!(drift(2.0 * rounding).iter().all(|error| *error > 1.1), "{:?}", drift(2.0 * rounding));
+    // where even the path has fewer digits than its bound, the run does not pass
+    let mut fast = scenario("redysim_single_arm_3r");
+    fast.initial.base_twist[1] = 1e12;
+    let failures = run(&fast).audit_failures();
+    assert!(failures.iter().any(|failure| failure.contains("path error")), "{failures:?}");
 }
 
 /// A free body counts with its mass, and is part of the extent.

@@ -119,3 +119,22 @@ fn saturation_within_a_step_is_seen() {
         assert!(close, "{step}: {joints:?}, and {wanted:?} with short steps");
     }
 }
+
+/// From rest to rest in one step: the errors are relative to the motion within it.
+#[test]
+fn one_step_from_rest_to_rest_passes_the_audit() {
+    let moved = |step: f64| {
+        run(&parse(&format!(
+            "name = \"rest\"\nlayout = \"single_arm_3r\"\n[initial]\njoint_angles = [0.0, 1.0, 0.5]\n[approach]\n\
+             duration = 20.0\nstep = {step}\ntrajectory = \"cycloidal\"\nfinal_joint_angles = [0.6, -0.4, 0.9]\n\
+             tracking = \"exact\"\nintegrator = \"adaptive\"\n"
+        )))
+    };
+    for step in [20.0, 10.0, 4.0] {
+        let study = moved(step);
+        assert_eq!(study.audit_failures(), Vec::<String>::new(), "{step} s");
+        let drift = study.approach.drift;
+        let errors = [drift.momentum_drift, drift.energy_error];
+        assert!(errors.iter().all(|error| *error < tolerance::LONG_STEPS), "{step} s: {errors:?}");
+    }
+}
