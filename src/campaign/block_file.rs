@@ -5,7 +5,7 @@ use super::manifest::Origin;
 use super::outputs::Output;
 use super::row::Row;
 use super::sweep::Sweep;
-use crate::output::atomic_file::StagedFile;
+use crate::output::atomic_file::{StagedFile, lock_folder};
 use crate::output::output_error::OutputError;
 use crate::output::regular_file;
 use crate::scenario::variation::VariedValue;
@@ -80,15 +80,7 @@ pub fn find(folder: &Path, block: u64, origin: &Origin, cases: Range<u64>) -> Re
     if path.metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound) {
         return Ok(Found::Nothing);
     }
-    let found = digest_of(&path).map_err(|error| error.to_string()).and_then(|digest| {
-        let beside = digest_path(folder, block);
-        let line = regular_file::read(&beside).map_err(|error| format!("{}: {error}", beside.display()))?;
-        if line != digest_line(digest, block).as_bytes() {
-            return Err(format!("{} has another SHA-256", beside.display()));
-        }
-        cases_in(&path, origin)
-    });
-    match found {
+    match written_cases(folder, block, origin) {
         Ok([first, last]) if first == cases.start && last + 1 == cases.end => Ok(Found::Whole),
         Ok([first, last]) if first == cases.start && last + 1 < cases.end => Ok(Found::Fewer),
         Ok([first, last]) => {
@@ -97,6 +89,17 @@ pub fn find(folder: &Path, block: u64, origin: &Origin, cases: Range<u64>) -> Re
         }
         Err(why) => Err(Damage { path, why }),
     }
+}
+
+/// The first and the last case of a file that is as it was written by this sweep; what is wrong with it otherwise.
+fn written_cases(folder: &Path, block: u64, origin: &Origin) -> Result<[u64; 2], String> {
+    let (path, beside) = (path(folder, block), digest_path(folder, block));
+    let digest = digest_of(&path).map_err(|error| error.to_string())?;
+    let line = regular_file::read(&beside).map_err(|error| format!("{}: {error}", beside.display()))?;
+    if line != digest_line(digest, block).as_bytes() {
+        return Err(format!("{} has another SHA-256", beside.display()));
+    }
+    cases_in(&path, origin)
 }
 
 /// The SHA-256 of a file.
@@ -139,7 +142,7 @@ const FIRST_CASE: &str = "first_case";
 const LAST_CASE: &str = "last_case";
 
 /// Writes a file of cases, and before it its digest and one of their times: a file without its digest is not there even for a
-/// moment.
+/// moment. One with more cases stays: that of another process, which began later, of the same sweep with more of them.
 ///
 /// # Errors
 /// [`OutputError`].
@@ -161,6 +164,12 @@ pub fn write(
     let cases = StagedFile::new(&path, |to| to.write_all(&bytes))?;
     let line = digest_line(hmac_sha256::Hash::hash(&bytes), block);
     let digest = StagedFile::new(&digest_path(folder, block), |to| to.write_all(line.as_bytes()))?;
+    // between looking and writing
+    let _lock = lock_folder(folder);
+    let last = rows.last().map(|row| row.case);
+    if written_cases(folder, block, origin).is_ok_and(|[_, written]| Some(written) > last) {
+        return Ok(());
+    }
     times.commit()?;
     digest.commit()?;
     cases.commit()

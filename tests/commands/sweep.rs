@@ -5,6 +5,10 @@ use crate::command;
 use crate::{make_pipe, within_a_minute};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
+use planar_capture::campaign::Campaign;
+use planar_capture::campaign::run::{Plan, Shard, Tally, run};
+use planar_capture::engine::Choice;
+use planar_capture::registry::{Robots, SHIPPED};
 use planar_proof::{file, said};
 use std::collections::BTreeMap;
 use std::fs;
@@ -470,4 +474,33 @@ fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
         assert!(code == 2 && err.contains("sweep.toml:") && err.contains(expected), "{distribution}: {err}");
     }
     assert!(!place.path("out").exists(), "nothing was written");
+}
+
+/// A process that began with fewer cases ends after one with more: the last file keeps all of its cases.
+#[test]
+fn a_sweep_of_fewer_cases_that_ends_later_takes_none_away() {
+    let place = Workplace::sampled("random");
+    let of_cases = |cases: usize| {
+        let text = SWEEP.replace("SAMPLING", "random").replace("cases = 12", &format!("cases = {cases}"));
+        Campaign::parse(&text, "sweep.toml", place.0.path(), SHIPPED).expect("a sweep")
+    };
+    let (folder, fewer, more) = (place.path("out"), of_cases(10), of_cases(12));
+    let plan = |campaign| Plan::new(campaign, &folder, Shard::WHOLE).expect("a plan");
+    let compute = |campaign: &Campaign, plan: &Plan| {
+        let (choice, _) = Choice::fastest(&campaign.general_layout(), Robots::SHIPPED);
+        run(campaign, &choice, &folder, plan, 1, &Tally::default()).expect("files");
+    };
+    let slow = plan(&fewer);
+    assert_eq!((slow.blocks.as_slice(), slow.cases), (&[0, 1, 2][..], 10));
+    compute(&more, &plan(&more));
+    let whole = place.cases("out");
+    compute(&fewer, &slow);
+    assert_eq!(place.cases("out"), whole);
+    assert_eq!(plan(&more).present, 12);
+    // and in the usual order the later one has more
+    fs::remove_dir_all(&folder).expect("removed");
+    compute(&fewer, &plan(&fewer));
+    assert_ne!(place.cases("out"), whole);
+    compute(&more, &plan(&more));
+    assert_eq!(place.cases("out"), whole);
 }
