@@ -72,6 +72,20 @@ fn a_phase_and_the_next() {
     assert_eq!(next.then(first).event, None);
 }
 
+/// What the positions of a fast motion are rounded by counts as an error of its path.
+#[test]
+fn rounding_is_a_path_error() {
+    let (model, mut state) = robot();
+    (state.base_twist, state.joint_rates) = ([0.0, 3e6, -4e6], vec![0.0; 2]);
+    let timing = Timing { duration: 2.0, step: 0.02, sample: 1.0, ..Timing::default() };
+    let found = simulate(&System::alone(&*model), &mut ZeroTorque, &state, &timing, &mut NoEvents, &mut || ());
+    // four standard deviations of a hundred steps, 1e7 m away
+    let rounding = 4.0 * f64::EPSILON * 10.0 * 1e7;
+    let error = found.expect("a phase").path_error;
+    assert!((0.9 * rounding..1.5 * rounding).contains(&error), "{error} {rounding}");
+    assert!(phase(2.0).path_error < 1e-3 * rounding);
+}
+
 /// At a limit is within it; of two equal violations the earlier is kept.
 #[test]
 fn at_a_limit() {

@@ -1,9 +1,23 @@
 // The table of the contacts of a case, and the audit.
 
+/** Roles are said: on a phone the table of the contacts is laid out as a grid. */
+const CELL_ROLES = { td: "cell", th: "columnheader" };
+
 function cell(kind, text, span = 1) {
   const made = document.createElement(kind);
   made.textContent = text;
-  if (span > 1) made.colSpan = span;
+  if (CELL_ROLES[kind]) made.setAttribute("role", CELL_ROLES[kind]);
+  if (span > 1) {
+    made.colSpan = span;
+    made.style.setProperty("--span", span);
+  }
+  return made;
+}
+
+function rowOf(cells) {
+  const made = document.createElement("tr");
+  made.setAttribute("role", "row");
+  made.append(...cells);
   return made;
 }
 
@@ -11,6 +25,7 @@ function cell(kind, text, span = 1) {
 function heading(text) {
   const made = cell("th", text);
   made.scope = "row";
+  made.setAttribute("role", "rowheader");
   return made;
 }
 
@@ -49,11 +64,8 @@ function contactsTable(place, chosen) {
   place.querySelector(".missed").replaceChildren(...missed(one).map((text) => cell("p", text)));
   place.querySelector(".contacts").hidden = !one.targets.length;
   if (!contacts.length) return;
-  const row = (cells) => {
-    const made = document.createElement("tr");
-    made.append(...cells);
-    table.append(made);
-  };
+  table.style.setProperty("--contacts", contacts.length);
+  const row = (cells) => table.append(rowOf(cells));
   const perImpact = (name, text) =>
     row([heading(name), ...line.impacts.map((impact, i) => cell("td", text(impact, i), impact.contacts.length))]);
   row([cell("th", "impact at"), ...line.impacts.map((impact) => {
@@ -86,24 +98,21 @@ function missed(one) {
   return [...open, ...away, ...(one.targets.length && !one.impacts.length ? ["There is no impact."] : [])];
 }
 
-/** The least distance of bodies that are not joined, and their overlaps. */
+/** The least distance of bodies that are not joined, where it is no overlap's, and their overlaps. */
 function clearanceTable(place, chosen) {
   const one = study.cases[chosen], table = place.querySelector(".clearance"), least = one.least;
-  const row = (...texts) => {
-    const made = document.createElement("tr");
-    made.append(...texts.map((text, i) => cell(i ? "td" : "th", text)));
-    return made;
-  };
+  const row = (bodies, ...texts) => rowOf([heading(bodies), ...texts.map((text) => cell("td", text))]);
   table.closest("section").hidden = !least;
   if (!least) return;
-  table.replaceChildren(
-    row("bodies", "distance [m]", "time [s]"),
-    row(least.bodies.join(" – "), `${digits(least.least_distance)} (least)`, least.time.toFixed(2)),
-    ...one.overlaps.map(({ bodies, from, to, depth, default_outline }) => {
-      const made = row(bodies.join(" – ") + (default_outline ? " *" : ""), digits(-depth), `${from.toFixed(2)} to ${to.toFixed(2)}`);
-      made.className = "bad";
-      return made;
-    }));
+  const isLeast = ({ bodies, from, to }) => `${bodies}` === `${least.bodies}` && from <= least.time && least.time <= to;
+  const overlaps = one.overlaps.map((overlap) => {
+    const { bodies, from, to, depth, default_outline } = overlap, mark = isLeast(overlap) ? " (least)" : "";
+    const made = row(bodies.join(" – ") + (default_outline ? " *" : ""), digits(-depth) + mark, `${from.toFixed(2)} to ${to.toFixed(2)}`);
+    made.className = "bad";
+    return made;
+  });
+  const apart = one.overlaps.some(isLeast) ? [] : [row(least.bodies.join(" – "), `${digits(least.least_distance)} (least)`, least.time.toFixed(2))];
+  table.replaceChildren(rowOf(["bodies", "distance [m]", "time [s]"].map((text) => cell("th", text))), ...apart, ...overlaps);
   place.querySelector(".defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
 }
 
@@ -123,6 +132,7 @@ function audit() {
   const phases = [one.approach || study.approach, one.post_impact].filter(Boolean);
   const [shownSamples, samples] = phases.reduce(([part, all], phase) => [part + phase.time.length, all + phase.samples], [0, 0]);
   const thinned = shownSamples < samples ? [`animation and plots show ${shownSamples} of ${samples} samples`] : [];
-  shown.textContent = [...of("approach", phases[0]), ...of(after, one.post_impact), ...thinned, ...objections].join(" · ");
-  shown.className = objections.length ? "bad" : "";
+  shown.replaceChildren(
+    cell("p", [...of("approach", phases[0]), ...of(after, one.post_impact), ...thinned].join(" · ")),
+    ...objections.map((text) => Object.assign(cell("p", text), { className: "bad" })));
 }

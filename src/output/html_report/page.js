@@ -54,12 +54,16 @@ function marksOfImpacts() {
   }));
 }
 
-/** A red bar in the time bar while bodies overlap. */
+/** Depths, m, that cannot be seen in the scene. */
+const SHALLOW = 1e-3;
+
+/** A red bar in the time bar while bodies overlap, a thin one where they hardly do. */
 function marksOfOverlaps() {
   const [one] = current();
-  element("overlaps").replaceChildren(...one.overlaps.map(({ bodies, from, to }) => {
+  element("overlaps").replaceChildren(...one.overlaps.map(({ bodies, from, to, depth }) => {
     const bar = document.createElement("span");
     bar.title = `${bodies.join(" and ")} overlap from ${from.toFixed(2)} s to ${to.toFixed(2)} s`;
+    if (depth < SHALLOW) bar.className = "shallow";
     bar.style.left = onRail(from);
     bar.style.width = `calc(${(to - from) / endOfAll()} * (100% - 16px))`;
     return bar;

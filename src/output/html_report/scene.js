@@ -45,7 +45,7 @@ function drawScene(chosen, width, height) {
   drawBase(now, screen, overlapping);
   now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
-  line.impacts.forEach((impact) => drawImpact(impact, line, screen));
+  line.impacts.forEach((impact) => drawImpact(impact, line, screen, width));
   const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i)));
@@ -138,14 +138,15 @@ function drawTarget(target, pose, screen, scale, overlapping, paint) {
 function nameTarget(target, pose, now, screen, scale, width, height, paint) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
-    label(target.name, [x + 6, y - 6], theme.ink);
+    pen.font = TEXT;
+    label(target.name, [Math.min(x + 6, width - 4 - pen.measureText(target.name).width), y - 6], theme.ink);
     return;
   }
   const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
   arrowHead(at, Math.atan2(y - at[1], x - at[0]), paint);
   const away = Math.hypot(pose.point[0] - now.base[0], pose.point[1] - now.base[1]);
-  const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
   pen.font = TEXT;
+  const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
   const left = at[0] > width / 2 ? at[0] - 12 - long : at[0] + 12;
   label(text, [Math.min(Math.max(left, edge), width - edge - long), at[1] + (at[1] < height / 2 ? 14 : -6)], theme.ink);
 }
@@ -163,7 +164,7 @@ function impulseScale(line) {
 const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
 
 /** For four seconds after an impact: the impulse on the robot at each contact, and the impulse ellipse. */
-function drawImpact(impact, line, screen) {
+function drawImpact(impact, line, screen, width) {
   if (!isFresh(impact)) return;
   const scale = impulseScale(line);
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
@@ -192,7 +193,10 @@ function drawImpact(impact, line, screen) {
     const mean = element("forces").checked && contact.mean_force ? `, ${force(contact.mean_force).toPrecision(3)} N` : "";
     const text = `${f.toPrecision(3)} N s${mean}`;
     pen.font = TEXT;
-    label(text, way[0] < 0 ? [to[0] - 10 - pen.measureText(text).width, to[1] + 4] : [to[0] + 10, to[1] + 4], theme.impulse);
+    const long = pen.measureText(text).width, left = way[0] < 0 ? to[0] - 10 - long : to[0] + 10;
+    const inside = Math.max(4, Math.min(left, width - 4 - long));
+    // above or below the tip, where there is no room beside it
+    label(text, [inside, to[1] + (inside === left ? 4 : way[1] < 0 ? -8 : 18)], theme.impulse);
   }
   pen.globalAlpha = 1;
 }
