@@ -56,10 +56,21 @@ pub fn manual(arguments: &Manual) -> Result<ExitCode, CommandError> {
         })?,
     };
     let name = page.get_display_name().unwrap_or(page.get_name()).to_owned();
+    let page = page.name(name);
     let mut text = Vec::new();
-    Man::new(page.name(name)).render(&mut text)?;
-    write_new(None, &String::from_utf8_lossy(&text))?;
+    Man::new(page.clone()).render(&mut text)?;
+    write_new(None, &with_repetitions(&String::from_utf8_lossy(&text), &page))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// A page whose synopsis says which of the arguments may be repeated, as that of [`Man`] does not.
+fn with_repetitions(page: &str, command: &Command) -> String {
+    let many = command.get_positionals().filter(|one| one.get_num_args().is_some_and(|count| count.max_values() > 1));
+    let names = many.flat_map(|one| one.get_value_names().unwrap_or_default());
+    names.fold(page.to_owned(), |page, name| {
+        let once = format!("<\\fI{name}\\fR>");
+        page.replacen(&once, &format!("{once}..."), 1)
+    })
 }
 
 /// The name that this program is called by, which need not be that of the command line: it may be one with robots of its

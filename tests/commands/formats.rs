@@ -484,6 +484,12 @@ fn completions_and_manual_name_every_command() {
     );
     let (code, out, _) = said(&["man", "run"]);
     assert!(code == 0 && out.contains("planar\\-capture\\-run \\-"), "{out}");
+    let synopsis =
+        |out: &str| out.lines().find(|line| line.ends_with("> ") || line.contains(">...")).map(str::to_owned);
+    let run = synopsis(&out).expect("a synopsis");
+    assert!(run.contains("<\\fISCENARIO\\fR>..."), "several: {run}");
+    let check = synopsis(&said(&["man", "check"]).1).expect("a synopsis");
+    assert!(check.contains("<\\fIFILE\\fR>") && !check.contains("..."), "one: {check}");
     let (code, _, err) = said(&["man", "rum"]);
     assert!(code == 2 && err.contains("no command `rum`") && err.contains("run"), "{err}");
 }

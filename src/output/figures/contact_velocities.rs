@@ -9,6 +9,9 @@ use crate::contact::ContactKind;
 use crate::output::impacts::{ImpactEvent, impacts};
 use crate::scenario::Scenario;
 
+/// Of a symbol from the line of its contact, in parts of the distance of these lines.
+const ASIDE: f64 = 0.12;
+
 /// The twists of one contact, at the contact point.
 struct ContactTwists {
     name: String,
@@ -29,20 +32,24 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
         return None;
     }
     contacts.reverse(); // the first at the top
-    let mut kinds =
-        vec![("end effector, before", Colour::BLACK, Symbol::Circle), ("target, before", Colour::GREY, Symbol::Square)];
+    // the end effector above the line of its contact, the target below, and each after the impact beyond: equal velocities do
+    // not hide each other
+    let mut kinds = vec![
+        ("end effector, before", Colour::BLACK, Symbol::Circle, ASIDE),
+        ("target, before", Colour::GREY, Symbol::Square, -ASIDE),
+    ];
     if contacts.iter().all(|contact| contact.rigid) {
         // both twists are the same
-        kinds.push(("both, after", Colour::BLACK, Symbol::Cross));
+        kinds.push(("both, after", Colour::BLACK, Symbol::Cross, 0.0));
     } else {
         kinds.extend([
-            ("target, after", Colour::GREY, Symbol::Plus),
-            ("end effector, after", Colour::BLACK, Symbol::Cross),
+            ("target, after", Colour::GREY, Symbol::Plus, -3.0 * ASIDE),
+            ("end effector, after", Colour::BLACK, Symbol::Cross, 3.0 * ASIDE),
         ]);
     }
     let panel = |(label, component): (&str, usize)| {
-        let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol))| {
-            let points = (1_u32..).zip(&contacts).map(|(i, c)| (c.twists[kind][component], f64::from(i)));
+        let series = kinds.iter().enumerate().map(|(kind, (label, colour, symbol, aside))| {
+            let points = (1_u32..).zip(&contacts).map(|(i, c)| (c.twists[kind][component], f64::from(i) + aside));
             Series::symbols(label, *colour, *symbol, points.collect())
         });
         let names = contacts.iter().map(|contact| contact.name.clone()).collect();
