@@ -159,3 +159,25 @@ fn end_rates_of_a_robot_with_momentum() {
         assert_close("twist", twist, &[0.0, expected, 0.0], tolerance::REACHED);
     }
 }
+
+/// Poses in reach are found with terminal twists as without: terminal rates that change between the iterations do not end
+/// them.
+#[test]
+fn poses_are_found_with_terminal_twists() {
+    for i in 0..4 {
+        for j in 0..4 {
+            let pose = [-1.0, 1.5 + 0.1 * f64::from(i), -1.25 + 0.15 * f64::from(j)];
+            let text = format!(
+                "name = \"twist\"\nlayout = \"single_arm_3r\"\n[initial]\njoint_angles = [0.9, -1.8, 0.9]\n[approach]\n\
+                 duration = 15.0\ntrajectory = \"quintic\"\nfinal_end_effector_poses = [{pose:?}]\n\
+                 final_end_effector_twists = [[0.1, 0.05, -0.05]]\ntracking = \"exact\"\n"
+            );
+            let scenario = Scenario::parse(&text, "twist.toml", "".as_ref(), registry::SHIPPED).expect("a scenario");
+            let end = run(&scenario).approach.end().clone();
+            let turns = (end.end_effector_poses[0][0] - pose[0]) / std::f64::consts::TAU;
+            assert!((turns - turns.round()).abs() < tolerance::REACHED, "{pose:?}: {turns}");
+            assert_close("position", &end.end_effector_poses[0][1..], &pose[1..], tolerance::REACHED);
+            assert_close("twist", &end.end_effector_twists[0], &[0.1, 0.05, -0.05], tolerance::REACHED);
+        }
+    }
+}

@@ -126,7 +126,8 @@ fn shortened(residuals: &[f64]) -> String {
 /// The base turns along the path (the robot is non-holonomic), so the Jacobian of the final pose with respect to the
 /// final joint angles is only approximately the generalized one, and the method converges linearly. Steps are damped
 /// least squares, at most 0.5 rad, and halved where they do not reduce the residual. Every iteration takes the terminal
-/// rates from the one before; both converge together. Yaws are reached up to whole turns.
+/// rates from the one before; both converge together, and after a step that is rejected the best pose is tracked again with
+/// the rates of then. Yaws are reached up to whole turns.
 ///
 /// # Errors
 /// [`InverseKinematicsError`].
@@ -145,6 +146,8 @@ pub fn inverse_kinematics(
     let mut trial = Trial { scenario: scenario.clone(), rates };
     let mut best: Option<Step> = None;
     let (mut history, mut part, mut halvings) = (Vec::new(), 1.0, 0);
+    // whether the best pose is tracked again, with the terminal rates of now
+    let mut again = false;
     for iteration in 1..=MAX_ITERATIONS {
         let step = match trial.track(model, goals, sample, tick) {
             Ok(step) => Some(step),
@@ -154,9 +157,14 @@ pub fn inverse_kinematics(
         };
         let residual = step.as_ref().map_or(f64::INFINITY, |step| step.residual);
         history.push(residual);
-        if let Some(step) = step.filter(|step| best.as_ref().is_none_or(|best| step.residual < best.residual)) {
-            (part, halvings) = (1.0, 0);
-            if step.residual <= TOLERANCE && step.rate_change <= TOLERANCE {
+        let is_accepted = |step: &Step| {
+            again || step.is_converged() || best.as_ref().is_none_or(|best| step.residual < best.residual)
+        };
+        if let Some(step) = step.filter(is_accepted) {
+            if !std::mem::take(&mut again) {
+                (part, halvings) = (1.0, 0);
+            }
+            if step.is_converged() {
                 let singularity_margin = step.rates_margin;
                 let equations: usize = goals.iter().map(EndEffectorGoal::len).sum();
                 return Ok(InverseKinematics {
@@ -169,9 +177,11 @@ pub fn inverse_kinematics(
             }
             best = Some(step);
         } else if residual > TOLERANCE {
-            (part, halvings) = (part * 0.5, halvings + 1);
+            // the residual of the best pose is that with earlier terminal rates, which no pose may reach with those of now
+            (part, halvings, again) = (part * 0.5, halvings + 1, true);
         }
         let Some(step) = best.as_ref().filter(|_| halvings <= MAX_HALVINGS) else { break };
+        let part = if again { 0.0 } else { part };
         let moved = step.angles.iter().zip(step.change.iter()).map(|(angle, change)| angle + part * change);
         trial.scenario.approach.final_joint_angles = moved.collect();
     }
@@ -196,6 +206,12 @@ struct Step {
     rates_margin: f64,
     /// Largest change of a terminal rate, rad/s.
     rate_change: f64,
+}
+
+impl Step {
+    fn is_converged(&self) -> bool {
+        self.residual <= TOLERANCE && self.rate_change <= TOLERANCE
+    }
 }
 
 impl Trial {
