@@ -156,6 +156,7 @@ pub fn inverse_kinematics(
             Err(error) => return Err(error.into()),
         };
         let residual = step.as_ref().map_or(f64::INFINITY, |step| step.residual);
+        let has_new_rates = step.is_some();
         history.push(residual);
         let is_accepted = |step: &Step| {
             again || step.is_converged() || best.as_ref().is_none_or(|best| step.residual < best.residual)
@@ -178,7 +179,7 @@ pub fn inverse_kinematics(
             best = Some(step);
         } else if residual > TOLERANCE {
             // the residual of the best pose is that with earlier terminal rates, which no pose may reach with those of now
-            (part, halvings, again) = (part * 0.5, halvings + 1, true);
+            (part, halvings, again) = (part * 0.5, halvings + 1, has_new_rates);
         }
         let Some(step) = best.as_ref().filter(|_| halvings <= MAX_HALVINGS) else { break };
         let part = if again { 0.0 } else { part };
