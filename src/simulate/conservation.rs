@@ -82,7 +82,9 @@ pub struct ConservationAudit<'a> {
     angular: Ratio,
     energy: Ratio,
     motion: Ratio,
+    /// How many were checked.
     instants: f64,
+    /// By how much the positions so far may be rounded, m.
     rounding: f64,
 }
 
@@ -118,9 +120,18 @@ impl<'a> ConservationAudit<'a> {
         let sums = BodySums::new(bodies.at(model, state, beside)?);
         let (start, center) = (sums.momentum(), sums.center_of_mass());
         let none = Ratio::default();
-        let (linear, angular, energy, motion) = (none, none, none, none);
-        let (instants, rounding) = (0.0, 0.0);
-        let mut audit = Self { model, bodies, start, center, linear, angular, energy, motion, instants, rounding };
+        let mut audit = Self {
+            model,
+            bodies,
+            start,
+            center,
+            linear: none,
+            angular: none,
+            energy: none,
+            motion: none,
+            instants: 0.0,
+            rounding: 0.0,
+        };
         audit.record(state, beside, &AccumulatedInput::default())?;
         Ok(audit)
     }

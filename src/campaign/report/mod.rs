@@ -249,11 +249,9 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
 
 /// The largest magnitude of values that are the same to [`SAME`]; `None` of others, and of none.
 fn same_in_all(values: &[f64]) -> Option<f64> {
-    if values.is_empty() {
-        return None;
-    }
+    let first = *values.first()?;
     let bounds = |(least, most): (f64, f64), value: &f64| (least.min(*value), most.max(*value));
-    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), bounds);
+    let (least, most) = values.iter().fold((first, first), bounds);
     let size = least.abs().max(most.abs());
     (most - least <= SAME * size.max(1.0)).then_some(size)
 }

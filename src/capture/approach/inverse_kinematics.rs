@@ -127,7 +127,7 @@ fn shortened(residuals: &[f64]) -> String {
 /// final joint angles is only approximately the generalized one, and the method converges linearly. Steps are damped
 /// least squares, at most 0.5 rad, and halved where they do not reduce the residual. Every iteration takes the terminal
 /// rates from the one before; both converge together, and after a step that is rejected the best pose is tracked again with
-/// the rates of then. Yaws are reached up to whole turns.
+/// the rates that it gave. Yaws are reached up to whole turns.
 ///
 /// # Errors
 /// [`InverseKinematicsError`].

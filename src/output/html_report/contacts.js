@@ -104,14 +104,14 @@ function clearanceTable(place, chosen) {
   const row = (bodies, ...texts) => rowOf([heading(bodies), ...texts.map((text) => cell("td", text))]);
   table.closest("section").hidden = !least;
   if (!least) return;
-  const isLeast = ({ bodies, from, to }) => `${bodies}` === `${least.bodies}` && from <= least.time && least.time <= to;
+  const deepest = one.overlaps.find(({ bodies, from, to }) => `${bodies}` === `${least.bodies}` && from <= least.time && least.time <= to);
   const overlaps = one.overlaps.map((overlap) => {
-    const { bodies, from, to, depth, default_outline } = overlap, mark = isLeast(overlap) ? " (least)" : "";
+    const { bodies, from, to, depth, default_outline } = overlap, mark = overlap === deepest ? " (least)" : "";
     const made = row(bodies.join(" – ") + (default_outline ? " *" : ""), digits(-depth) + mark, `${from.toFixed(2)} to ${to.toFixed(2)}`);
     made.className = "bad";
     return made;
   });
-  const apart = one.overlaps.some(isLeast) ? [] : [row(least.bodies.join(" – "), `${digits(least.least_distance)} (least)`, least.time.toFixed(2))];
+  const apart = deepest ? [] : [row(least.bodies.join(" – "), `${digits(least.least_distance)} (least)`, least.time.toFixed(2))];
   table.replaceChildren(rowOf(["bodies", "distance [m]", "time [s]"].map((text) => cell("th", text))), ...apart, ...overlaps);
   place.querySelector(".defaults").hidden = !one.overlaps.some(({ default_outline }) => default_outline);
 }

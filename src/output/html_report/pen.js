@@ -38,6 +38,12 @@ function label(text, [x, y], colour) {
   pen.fillText(text, x, y);
 }
 
+/** Where text begins that is to begin at `left`, and to be inside a picture of this width. */
+function textStart(text, left, width, edge = 4) {
+  pen.font = TEXT;
+  return Math.max(edge, Math.min(left, width - edge - pen.measureText(text).width));
+}
+
 function arrowHead([x, y], angle, colour, size = 9) {
   area([0, 2.6, -2.6].map((turn) => [x + size * Math.cos(angle + turn), y + size * Math.sin(angle + turn)]), colour, null);
 }

@@ -138,8 +138,7 @@ function drawTarget(target, pose, screen, scale, overlapping, paint) {
 function nameTarget(target, pose, now, screen, scale, width, height, paint) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
-    pen.font = TEXT;
-    label(target.name, [Math.min(x + 6, width - 4 - pen.measureText(target.name).width), y - 6], theme.ink);
+    label(target.name, [textStart(target.name, x + 6, width), y - 6], theme.ink);
     return;
   }
   const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
@@ -148,7 +147,7 @@ function nameTarget(target, pose, now, screen, scale, width, height, paint) {
   pen.font = TEXT;
   const text = `${target.name}, ${away.toFixed(1)} m away`, long = pen.measureText(text).width;
   const left = at[0] > width / 2 ? at[0] - 12 - long : at[0] + 12;
-  label(text, [Math.min(Math.max(left, edge), width - edge - long), at[1] + (at[1] < height / 2 ? 14 : -6)], theme.ink);
+  label(text, [textStart(text, left, width, edge), at[1] + (at[1] < height / 2 ? 14 : -6)], theme.ink);
 }
 
 const SHOWN_FOR = 4;
@@ -193,10 +192,9 @@ function drawImpact(impact, line, screen, width) {
     const mean = element("forces").checked && contact.mean_force ? `, ${force(contact.mean_force).toPrecision(3)} N` : "";
     const text = `${f.toPrecision(3)} N s${mean}`;
     pen.font = TEXT;
-    const long = pen.measureText(text).width, left = way[0] < 0 ? to[0] - 10 - long : to[0] + 10;
-    const inside = Math.max(4, Math.min(left, width - 4 - long));
+    const left = way[0] < 0 ? to[0] - 10 - pen.measureText(text).width : to[0] + 10, x = textStart(text, left, width);
     // above or below the tip, where there is no room beside it
-    label(text, [inside, to[1] + (inside === left ? 4 : way[1] < 0 ? -8 : 18)], theme.impulse);
+    label(text, [x, to[1] + (x === left ? 4 : way[1] < 0 ? -8 : 18)], theme.impulse);
   }
   pen.globalAlpha = 1;
 }
