@@ -74,6 +74,9 @@ fn the_page_says_what_was_computed_and_what_failed() {
         assert!(same.contains(rounding), "{rounding}");
         assert!(!found.contains(&format!("<td>{rounding}")), "{rounding} is rounding");
     }
+    for without_numbers in ["status (", "message ("] {
+        assert!(!same.contains(without_numbers), "{without_numbers}: the same in no case");
+    }
 }
 
 /// A file of cases that is damaged is computed again, and the page is that of the whole ones.
