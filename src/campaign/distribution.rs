@@ -104,11 +104,7 @@ impl Distribution {
                 let (from, to) = (min.max(low), max.min(high));
                 from + u * (to - from)
             }
-            Kind::Triangular { min, mode, max } => {
-                let at = |x| triangular([*min, *mode, *max], x);
-                let (from, to) = (at(low), at(high));
-                triangular_quantile([*min, *mode, *max], from + u * (to - from))
-            }
+            Kind::Triangular { min, mode, max } => truncated_triangular(u, [*min, *mode, *max], self.bounds),
         };
         VariedValue::Number(value.clamp(low, high))
     }
@@ -126,7 +122,7 @@ impl Distribution {
                 normal_mass([low, high].map(|bound| (libm::log(bound.max(0.0)) - location) / scale))
             }
             Kind::Uniform { min, max } => between(&|x| ((x - min) / (max - min)).clamp(0.0, 1.0)),
-            Kind::Triangular { min, mode, max } => between(&|x| triangular([*min, *mode, *max], x)),
+            Kind::Triangular { min, mode, max } => triangular_mass([*min, *mode, *max], self.bounds),
         }
     }
 
@@ -169,6 +165,30 @@ fn truncated_normal(u: f64, [a, b]: [f64; 2]) -> f64 {
     }
     let (from, to) = (normal::cumulative(a), normal::cumulative(b));
     normal::quantile(from + u * (to - from))
+}
+
+/// Triangular between two bounds; where both are above the mode by the mirrored distribution, as for the normal one.
+fn truncated_triangular(u: f64, corners: [f64; 3], bounds: [f64; 2]) -> f64 {
+    if bounds[0] > corners[1] {
+        return -truncated_triangular(1.0 - u, mirrored(corners), mirrored(bounds));
+    }
+    let [from, to] = bounds.map(|bound| triangular(corners, bound));
+    triangular_quantile(corners, from + u * (to - from))
+}
+
+/// The probability between two bounds, by the tail on their side of the mode.
+fn triangular_mass(corners: [f64; 3], bounds: [f64; 2]) -> f64 {
+    if bounds[0] > corners[1] {
+        return triangular_mass(mirrored(corners), mirrored(bounds));
+    }
+    let [from, to] = bounds.map(|bound| triangular(corners, bound));
+    to - from
+}
+
+/// Of the negative variable, in ascending order.
+fn mirrored<const N: usize>(mut values: [f64; N]) -> [f64; N] {
+    values.reverse();
+    values.map(|value| -value)
 }
 
 /// Mean and standard deviation of the logarithm.

@@ -89,3 +89,17 @@ fn choices_are_equally_likely() {
     let found = [0.1, 0.34, 0.99, 1.0 - f64::EPSILON / 2.0].map(|u| choice.quantile(u));
     assert_eq!(found, [0, 1, 2, 2].map(|i: usize| values[i].clone()));
 }
+
+/// Of a triangular distribution the upper end alone: `12 - x` is the root of a probability that has all its digits.
+#[test]
+fn the_upper_end_of_a_triangular_distribution_has_its_digits() {
+    let width = 1e-6;
+    let kind = Kind::Triangular { min: 0.0, mode: 1.0, max: 12.0 };
+    let end = Distribution { kind, bounds: [12.0 - width, f64::INFINITY] };
+    for u in [0.001, 0.25, 0.5, 0.9] {
+        let below = 12.0 - end.quantile(u).number().expect("a number");
+        assert!((below / (width * f64::sqrt(1.0 - u)) - 1.0).abs() < 1e-8, "{u}: {below:e}");
+    }
+    let mass = width * width / (12.0 * 11.0);
+    assert!((end.mass_within_bounds() / mass - 1.0).abs() < 1e-8, "{:e}", end.mass_within_bounds());
+}
