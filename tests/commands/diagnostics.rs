@@ -81,6 +81,30 @@ fn light_bodies_are_accepted() {
     }
 }
 
+/// Two light links between heavy bodies fold at next to no inertia beside that which they carry; one link does not, nor
+/// do such links at the end of an arm, and a pose near a stretched one says nothing.
+#[test]
+fn light_links_between_heavy_bodies_are_refused() {
+    let links = |masses: [f64; 4]| {
+        let link = |mass: f64| format!("[[arm.link]]\nlength = 1.0\nmass = {mass:?}\ninertia = {:?}\n", 0.1 * mass);
+        let (base, _) = LAYOUT.split_once("[[arm.link]]").expect("links");
+        Layout::parse(&(base.to_owned() + &masses.map(link).concat()), "one.toml")
+    };
+    for masses in [[1e-4, 10.0, 10.0, 10.0], [10.0, 10.0, 1e-4, 1e-4], [10.0, 1e-1, 1e-1, 10.0], [10.0; 4]] {
+        let found = links(masses);
+        assert!(found.is_ok(), "{masses:?}: {}", found.expect_err("refused"));
+    }
+    let refused = links([10.0, 1e-4, 1e-4, 10.0]).expect_err("accepted").to_string();
+    for wanted in [
+        "one.toml:14:",
+        "`arm[0].link[1].mass` is 1e-4",
+        "do not resolve how joint 2 of left moves with the joints beyond it free",
+        "expected at least 1e-5",
+    ] {
+        assert!(refused.contains(wanted), "{refused}");
+    }
+}
+
 fn scenario(text: &str) -> Result<Scenario, Report> {
     Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
 }

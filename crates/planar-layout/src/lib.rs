@@ -11,4 +11,5 @@ pub mod layout;
 mod names;
 pub mod outline;
 mod proportion;
+mod resolution;
 pub mod structure;

@@ -29,6 +29,7 @@ use planar_dynamics::manifest::ParameterKind;
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion};
+use crate::resolution::{LEAST_SHARE, Weakest};
 
 pub use keys::FORMAT;
 
@@ -254,7 +255,29 @@ impl Layout {
             body: Inertia { mass: link.mass, inertia: link.inertia },
         };
         let arms: Vec<Vec<_>> = self.arms.iter().map(|arm| arm.links.iter().map(size).collect()).collect();
-        disproportion(base, &arms, self.reach_from_base())
+        disproportion(base, &arms, self.reach_from_base()).or_else(|| self.unresolved_motion())
+    }
+
+    /// A joint, or the base, whose motion with the joints beyond it free is lost beside that with them locked.
+    fn unresolved_motion(&self) -> Option<Disproportion> {
+        let Weakest { link, share } = Weakest::of(self);
+        (share < LEAST_SHARE).then(|| {
+            let ((kind, value), what, beyond) = match link {
+                Some((i, k)) => {
+                    let arm = &self.arms[i];
+                    let what = format!("joint {} of {}", k + 1, arm.name);
+                    ((ParameterKind::LinkMass, arm.links[k].mass), what, "the joints beyond it")
+                }
+                None => ((ParameterKind::BaseMass, self.base.mass), "the base".to_owned(), "all joints"),
+            };
+            let why = format!(
+                "16 digits do not resolve how {what} moves with {beyond} free: its inertia is then {share:.1e} of that with \
+                 them locked, expected at least {LEAST_SHARE:e}; light bodies between heavy ones fold like this, and those \
+                 of less different masses and inertias do not"
+            );
+            let (arm, link) = link.unwrap_or_default();
+            Disproportion { kind, arm, link, value, why }
+        })
     }
 
     fn canonical_text(&self) -> String {
