@@ -10,6 +10,10 @@ const STAGES: usize = 3;
 /// A step that is short enough takes ten.
 const MAXIMUM_ITERATIONS: u32 = 60;
 
+/// So many iterations without a smaller change have come to rounding, where the change is small at all: that of light
+/// bodies, whose rates are momenta over small masses, is far from the last digit of the vector.
+const WITHOUT_GAIN: u32 = 8;
+
 /// ẋ = f(t, x) by Gauss–Legendre steps with three stages (Kuntzmann, Butcher 1964); the global error is O(step⁶).
 ///
 /// The steps preserve every invariant of f that is linear or quadratic in x. Where x are canonical variables they are
@@ -91,12 +95,16 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
             largest_magnitude(x.iter().copied()) + largest_magnitude(self.next.iter().map(|slope| step * *slope));
         let limit = T::constant(1e3) * T::EPSILON * scale;
         let (mut previous, mut iterations) = (None, 0);
+        let (mut least, mut without_gain) = (scale, 0);
         loop {
             let change = self.iterate(&tableau, time, step, x, &mut derivative)?;
             iterations += 1;
+            without_gain = if change < least { 0 } else { without_gain + 1 };
+            least = least.minimum(change);
             let last = iterations == MAXIMUM_ITERATIONS;
             let stalled = previous.is_some_and(|previous| change >= previous);
-            if change == T::ZERO || (change <= limit && (stalled || last)) {
+            let is_rounding = without_gain >= WITHOUT_GAIN && change <= T::constant(1e3) * limit;
+            if change == T::ZERO || (change <= limit && (stalled || last)) || is_rounding {
                 break;
             }
             if last {
