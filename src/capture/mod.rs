@@ -176,8 +176,9 @@ pub enum StudyError {
     Approach(PhaseError),
     /// An end effector is inside its target when the approach begins.
     #[error(
-        "case `{case}`: the end effector of arm `{arm}` starts {depth:.4} m inside target `{target}`; contacts that are found by \
-         detection begin apart"
+        "case `{case}`: the end effector of arm `{arm}` starts {} m inside target `{target}`; contacts that are found by \
+         detection begin apart",
+        metres(*depth)
     )]
     Inside {
         /// The case's name.
@@ -254,6 +255,11 @@ pub enum StudyError {
         /// When and why.
         source: PhaseError,
     },
+}
+
+/// A depth in full down to a tenth of a millimetre.
+fn metres(depth: f64) -> String {
+    if depth < 1e-4 { format!("{depth:.1e}") } else { format!("{depth:.4}") }
 }
 
 /// The progress display of a study.

@@ -60,7 +60,8 @@ impl StudyError {
     /// Whether a valid simulation broke down; else the scenario has no result.
     #[must_use]
     pub fn is_breakdown(&self) -> bool {
-        self.stopped().is_some_and(|(_, stopped)| !stopped.is_misuse())
+        matches!(self, Self::RoughPath { .. } | Self::ClearanceExhausted { .. })
+            || self.stopped().is_some_and(|(_, stopped)| !stopped.is_misuse())
     }
 
     /// The key to change, or the first of several.

@@ -15,11 +15,12 @@ use crate::capture::{CaptureResult, CaseResult, LaterImpact, ModelFactory, Obser
 use crate::contact::ContactLaw;
 use crate::control::Control;
 use crate::error::Error;
-use crate::laws::{InertialFrame, OwnLaws, PostCaptureLaw, PostCaptureTask};
+use crate::laws::{OwnLaws, PostCaptureLaw, PostCaptureTask};
 use crate::owned::RobotState;
 use crate::scenario::{Case, Detection, OnOverlap, PostImpact, Scenario, Target};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::{EndTime, Events};
+use crate::simulate::inertial_frame::InertialFrame;
 use crate::simulate::system::{Body, System};
 use crate::simulate::{Phase, PhaseError, Sample, Timing};
 
@@ -385,7 +386,7 @@ impl SequenceState<'_> {
                 drive(&system, law, &after.actuation, state, &timing, events, &mut || observer.step())
             };
             let phase = law.control(&task, &mut |law| match own {
-                Some(OwnLaws { origin, .. }) => drive(&mut InertialFrame { law, origin }),
+                Some(OwnLaws { origin, .. }) => drive(&mut InertialFrame { law, origin, velocity: [0.0; 2] }),
                 None => drive(law),
             });
             phase.map_err(|stopped| sequence.post_impact_error(time + stopped.time, stopped.source))

@@ -6,13 +6,11 @@
 //! take the place of the scenario's, and an [`Estimator`](crate::control::Estimator) that of the state.
 
 mod end_effector_feedback;
-mod inertial_frame;
 mod post_capture;
 mod registered;
 mod tracking;
 
 pub use end_effector_feedback::EndEffectorFeedback;
-pub(crate) use inertial_frame::InertialFrame;
 pub use post_capture::{PostCaptureLaw, PostCaptureTask};
 pub use registered::RegisteredLaw;
 pub use tracking::{TrackingLaw, TrackingTask};

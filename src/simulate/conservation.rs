@@ -44,8 +44,7 @@ pub struct ConservationErrors {
     /// moves.
     pub energy_error: f64,
     /// Largest |c(t) − c(0) − p t/m| of the centre of mass c of all bodies, p/m being its velocity at the start, over
-    /// the largest distance of a body's COM from it. Far along a fast motion positions are rounded by more than the bound
-    /// of this distance: there it is relative to what that rounding is the bound of, as is the angular momentum.
+    /// the largest distance of a body's COM from it.
     pub center_of_mass_drift: f64,
 }
 
@@ -82,15 +81,7 @@ pub struct ConservationAudit<'a> {
     angular: Ratio,
     energy: Ratio,
     motion: Ratio,
-    /// How many were checked.
-    instants: f64,
-    /// By how much the positions so far may be rounded, m.
-    rounding: f64,
 }
-
-/// Rounding errors of a position, in units of its last digit and of the square root of the number of steps, whose errors
-/// are independent: four standard deviations.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The largest deviation over the largest scale.
 #[derive(Clone, Copy, Debug, Default)]
@@ -120,32 +111,16 @@ impl<'a> ConservationAudit<'a> {
         let sums = BodySums::new(bodies.at(model, state, beside)?);
         let (start, center) = (sums.momentum(), sums.center_of_mass());
         let none = Ratio::default();
-        let mut audit = Self {
-            model,
-            bodies,
-            start,
-            center,
-            linear: none,
-            angular: none,
-            energy: none,
-            motion: none,
-            instants: 0.0,
-            rounding: 0.0,
-        };
+        let mut audit = Self { model, bodies, start, center, linear: none, angular: none, energy: none, motion: none };
         audit.record(state, beside, &AccumulatedInput::default())?;
         Ok(audit)
     }
 
-    /// Checks one state after the input since the start; returns momentum and energy of robot and bodies together.
+    /// Checks one state after the input since the start.
     ///
     /// # Errors
     /// Those of the model.
-    pub fn record(
-        &mut self,
-        state: &State<'_, f64>,
-        beside: &[Body],
-        input: &AccumulatedInput,
-    ) -> Result<Momentum<f64>, Error> {
+    pub fn record(&mut self, state: &State<'_, f64>, beside: &[Body], input: &AccumulatedInput) -> Result<(), Error> {
         let bodies = self.bodies.at(self.model, state, beside)?;
         let sums = BodySums::new(bodies.clone());
         let now = sums.momentum();
@@ -160,14 +135,17 @@ impl<'a> ConservationAudit<'a> {
         let extent = squares.fold(0.0, |most, square| if square > most { square } else { most }).sqrt();
         let [from_x, from_y] = self.center;
         let [along_x, along_y] = [x0, y0].map(|momentum| momentum / sums.mass * input.time);
-        self.instants += 1.0;
-        self.rounding = Real::maximum(self.rounding, ROUNDING * self.instants.sqrt() * length([along_x, along_y]));
-        // the distance of which the rounding of positions is the bound; in a motion that is not fast, less than the extent
-        let resolved = self.rounding / CENTER_OF_MASS_BOUND;
-        let [distance, angular] = if resolved > extent { [resolved, resolved * linear] } else { [extent, angular] };
-        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), distance);
+        self.motion.record(length([x - from_x - along_x, y - from_y - along_y]), extent);
         self.angular.record(now.angular_momentum - self.start.angular_momentum - l, angular);
-        Ok(now)
+        Ok(())
+    }
+
+    /// Momentum and energy of robot and bodies together.
+    ///
+    /// # Errors
+    /// Those of the model.
+    pub fn momentum(&mut self, state: &State<'_, f64>, beside: &[Body]) -> Result<Momentum<f64>, Error> {
+        Ok(BodySums::new(self.bodies.at(self.model, state, beside)?).momentum())
     }
 
     /// Adds the momentum and the energy of a state between those that are checked to the scales of the errors: in a long
@@ -182,12 +160,6 @@ impl<'a> ConservationAudit<'a> {
         self.angular.record(0.0, angular);
         self.energy.record(0.0, sums.momentum().kinetic_energy);
         Ok(())
-    }
-
-    /// By how much the positions so far may be rounded, m.
-    #[must_use]
-    pub fn rounding(&self) -> f64 {
-        self.rounding
     }
 
     /// The errors so far.

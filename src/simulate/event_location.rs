@@ -64,11 +64,11 @@ impl<'a> EventLocator<'a> {
         Ok(())
     }
 
-    /// After a part of a step, between `before` and `x`: the first event within it and its time.
+    /// After a part of a step, which ends at `x`: the first event within it and its time.
     pub(crate) fn find(
         &mut self,
         part @ [start, end]: [f64; 2],
-        [before, x]: [&[f64]; 2],
+        x: &[f64],
         subdivision: &Subdivision,
         stepper: &mut Stepper<'_>,
     ) -> Result<Option<(usize, f64)>, Error> {
@@ -78,10 +78,10 @@ impl<'a> EventLocator<'a> {
         if !self.events.are_bounded() {
             let mut rate = vec![0.0; x.len()];
             stepper.rate(end, x, &mut rate)?;
-            return self.end_step(part, x, &rate, &mut |t, into| stepper.within([start, t], before, into));
+            return self.end_step(part, x, &rate, &mut |t, into| stepper.within([start, t], into));
         }
         for interval in subdivision.intervals() {
-            let mut state_at = |t: f64, into: &mut Vec<f64>| stepper.within([start, t], before, into);
+            let mut state_at = |t: f64, into: &mut Vec<f64>| stepper.within([start, t], into);
             let event = self.end_bounded_step(&interval?, &mut state_at)?;
             if event.is_some() {
                 return Ok(event);

@@ -27,8 +27,10 @@ mod continued_motion;
 mod equation;
 pub mod event;
 mod event_location;
+pub(crate) mod inertial_frame;
 mod knots;
 pub mod limits;
+mod moving_frame;
 pub mod path;
 mod recorder;
 pub(crate) mod root;
@@ -259,7 +261,7 @@ pub fn simulate(
     let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
     let ends_at_start = events.end_at_start();
     let mut locator = EventLocator::new(system, events);
-    let mut recorder = Recorder::new(system, &initial.view()).map_err(at(0.0))?;
+    let mut recorder = Recorder::new(system, stepper.moving()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
     #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
     let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
@@ -269,39 +271,42 @@ pub fn simulate(
     recorder.record_path(0.0, &x).map_err(at(0.0))?;
     if ends_at_start {
         stepper.begin_step(0.0, &x).map_err(at(0.0))?;
+        recorder.audit(0.0, stepper.moving()).map_err(at(0.0))?;
         recorder.record(stepper.control(), 0.0, &x, true).map_err(at(0.0))?;
-        return Ok(recorder.end(0.0, Some((0, 0.0)), stepper.path_errors()));
+        return Ok(recorder.end(0.0, Some((0, 0.0)), stepper.path_errors(0.0)));
     }
     for i in 0..steps {
         let span @ [time, end] = [time_of(i), time_of(i + 1)];
         stepper.begin_step(time, &x).map_err(at(time))?;
+        recorder.audit(time, stepper.moving()).map_err(at(time))?;
         recorder.record(stepper.control(), time, &x, i % stride == 0).map_err(at(time))?;
         let mut from = time;
         while from < end {
             locator.begin([from, end], &x, &mut stepper).map_err(at(from))?;
             before.copy_from_slice(&x);
             let part @ [_, to] = [from, stepper.advance(span, from, &mut x).map_err(at(from))?];
-            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([from, t], &before, into);
+            let mut within = |t: f64, into: &mut Vec<f64>| stepper.within([from, t], into);
             subdivision.divide(part, &before, &x, &mut within).map_err(at(from))?;
-            let event = locator.find(part, [&before, &x], &subdivision, &mut stepper).map_err(at(from))?;
+            let event = locator.find(part, &x, &subdivision, &mut stepper).map_err(at(from))?;
             let until = event.map_or(to, |(_, when)| when);
             for (knot, x) in subdivision.ends().filter(|(knot, _)| *knot < until) {
                 recorder.record_path(knot, x).map_err(at(knot))?;
                 if is_adaptive {
                     recorder.follow(stepper.control(), knot, x).map_err(at(knot))?;
                     if steps < FEW_STEPS {
-                        recorder.scale(x).map_err(at(knot))?;
+                        recorder.scale(&stepper.moved(knot, x).map_err(at(knot))?).map_err(at(knot))?;
                     }
                 }
             }
             if let Some((_, when)) = event {
-                stepper.within([from, when], &before, &mut x).map_err(at(when))?;
+                stepper.end_at([from, when], &mut x).map_err(at(when))?;
             }
             recorder.record_path(until, &x).map_err(at(until))?;
             if let Some((_, when)) = event {
                 recorder.add_saturation(when);
+                recorder.audit(when, stepper.moving()).map_err(at(when))?;
                 recorder.record_event(stepper.control(), when, &x).map_err(at(when))?;
-                return Ok(recorder.end(when, event, stepper.path_errors()));
+                return Ok(recorder.end(when, event, stepper.path_errors(when)));
             }
             from = to;
             if from < end {
@@ -311,8 +316,9 @@ pub fn simulate(
         recorder.add_saturation(end);
         tick();
     }
+    recorder.audit(timing.duration, stepper.moving()).map_err(at(timing.duration))?;
     recorder.record(stepper.control(), timing.duration, &x, true).map_err(at(timing.duration))?;
-    Ok(recorder.end(timing.duration, None, stepper.path_errors()))
+    Ok(recorder.end(timing.duration, None, stepper.path_errors(timing.duration)))
 }
 
 #[cfg(test)]

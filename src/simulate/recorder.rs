@@ -36,11 +36,12 @@ pub(crate) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// For a phase that starts in this state.
-    pub(crate) fn new(system: &'a System<'a>, start: &State<'_, f64>) -> Result<Self, Error> {
+    /// For a phase that starts at `x`, in the frame that is integrated in.
+    pub(crate) fn new(system: &'a System<'a>, x: &[f64]) -> Result<Self, Error> {
+        let start = State::from_vector(x, system.model.joints())?;
         Ok(Self {
             system,
-            audit: ConservationAudit::new(system.model, start, system.bodies)?,
+            audit: ConservationAudit::new(system.model, &start, &system.bodies_at(x)?)?,
             torques: vec![0.0; system.model.joints()],
             samples: SampleList::default(),
             saturation: Saturation::default(),
@@ -55,7 +56,17 @@ impl<'a> Recorder<'a> {
         })
     }
 
-    /// Audits an instant, notes which actuators the law's torques saturate, and keeps a sample if `sampled`.
+    /// Audits an instant, in the frame that is integrated in.
+    pub(crate) fn audit(&mut self, time: f64, x: &[f64]) -> Result<(), Error> {
+        let work = ActuatorWork::from_vector(x)?;
+        let input = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
+        let errors = self.system.constraint_errors(x)?;
+        self.constraint_errors = std::array::from_fn(|i| Real::maximum(errors[i], self.constraint_errors[i]));
+        let state = State::from_vector(x, self.system.model.joints())?;
+        self.audit.record(&state, &self.system.bodies_at(x)?, &input)
+    }
+
+    /// Notes which actuators the law's torques saturate at an instant, and keeps a sample if `sampled`.
     pub(crate) fn record(
         &mut self,
         control: &mut dyn Control<f64>,
@@ -65,19 +76,15 @@ impl<'a> Recorder<'a> {
     ) -> Result<(), Error> {
         let model = self.system.model;
         let state = State::from_vector(x, model.joints())?;
-        let work = ActuatorWork::from_vector(x)?;
-        let input = AccumulatedInput { time, work: work.total(), impulse: [work.base_impulse, 0.0, 0.0] };
-        let errors = self.system.constraint_errors(x)?;
-        self.constraint_errors = std::array::from_fn(|i| Real::maximum(errors[i], self.constraint_errors[i]));
         self.limit_violations.record(self.system.joint_limits, time, &state);
-        let bodies = self.system.bodies_at(x)?;
-        let momentum = self.audit.record(&state, &bodies, &input)?;
         if sampled || is_followed(control) {
             self.law_at(control, time, &state)?;
         }
         if !sampled {
             return Ok(());
         }
+        let bodies = self.system.bodies_at(x)?;
+        let momentum = self.audit.momentum(&state, &bodies)?;
         let mut sample = Sample {
             time,
             state: RobotState::from_view(&state),
@@ -85,7 +92,7 @@ impl<'a> Recorder<'a> {
             end_effector_poses: vec![[0.0; 3]; model.arms()],
             end_effector_twists: vec![[0.0; 3]; model.arms()],
             momentum,
-            work,
+            work: ActuatorWork::from_vector(x)?,
             base_torque: control.base_torque().map(|base| base.torque),
             bodies,
         };
@@ -95,7 +102,7 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// Audits and samples the instant of an event. A sample that is earlier than this by less than twice the accuracy of event
+    /// Samples the instant of an event. A sample that is earlier than this by less than twice the accuracy of event
     /// times is the same instant, and is not kept beside it, but for the first of the phase, which may be after an impact.
     pub(crate) fn record_event(&mut self, control: &mut dyn Control<f64>, time: f64, x: &[f64]) -> Result<(), Error> {
         self.samples.discard_from(time - 2.0 * time_tolerance(time));
@@ -154,7 +161,7 @@ impl<'a> Recorder<'a> {
         self.saturation.base += if self.base_saturated { step } else { 0.0 };
     }
 
-    /// Takes a state within a step into account in the scales of the audit.
+    /// Takes a state within a step into account in the scales of the audit, in the frame that is integrated in.
     pub(crate) fn scale(&mut self, x: &[f64]) -> Result<(), Error> {
         let state = State::from_vector(x, self.system.model.joints())?;
         self.audit.scale(&state, &self.system.bodies_at(x)?)
@@ -181,7 +188,7 @@ impl<'a> Recorder<'a> {
             samples,
             stored: stored.into_iter().collect(),
             drift: audit.drift(),
-            path_error: Real::maximum(path_error, audit.rounding()),
+            path_error,
             end_error,
             saturation,
             constraint_errors,

@@ -278,6 +278,8 @@ fn a_rough_path_is_shown_at_its_step() {
         scenario.approach.step = step;
         let model = registry::generated(&scenario.layout).expect("generated code");
         let error = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect_err("ten distances");
+        // a valid simulation, which is not shown to pass
+        assert!(error.is_breakdown(), "{error}");
         (error.key(&scenario).path, error.to_string())
     };
     let (path, text) = key(0.14);

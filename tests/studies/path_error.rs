@@ -86,6 +86,38 @@ fn feedback_keeps_the_estimate_small() {
     }
 }
 
+/// Torques at their limits have kinks in time, by which steps of any order lose theirs.
+#[test]
+fn saturated_torques_have_an_error_of_lower_order() {
+    let mut seen = 0;
+    for limit in [0.1, 0.3, 1.0] {
+        let limited = |integrator: Integrator, step: f64| {
+            let mut scenario = scenario("redysim_dual_arm_3r");
+            scenario.approach.actuation.torque_limits = Some(vec![limit; 6]);
+            scenario.approach.tracking =
+                Tracking::ComputedTorque { proportional_gain: vec![4.0; 6], derivative_gain: vec![4.0; 6] };
+            (scenario.approach.duration, scenario.approach.step) = (10.0, step);
+            scenario.approach.integration = Integration { integrator, coordinates: FULL };
+            run(&scenario)
+        };
+        let exact = limited(Integrator::Adaptive { tolerance: 1e-12 }, 0.01);
+        assert!(exact.approach.saturation.joints.iter().any(|time| *time > 0.1), "{:?}", exact.approach.saturation);
+        for (integrator, step) in [
+            (Integrator::RungeKutta4, 0.005),
+            (Integrator::RungeKutta4, 0.02),
+            (Integrator::GaussLegendre, 0.02),
+            (Integrator::SemiImplicitEuler, 0.002),
+        ] {
+            let study = limited(integrator, step);
+            let (error, estimate) = (true_error(&study, &exact), study.approach.path_error);
+            let name = format!("{limit} N m, {integrator:?}, {step} s: error {error:e}, estimate {estimate:e}");
+            assert!(error > 1e-8 && estimate >= 0.3 * error && estimate <= 100.0 * error, "{name}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 12);
+}
+
 /// Torques that are held are those of the path itself; the estimate is there too.
 #[test]
 fn sampled_torques_have_an_estimate() {

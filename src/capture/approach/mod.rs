@@ -27,11 +27,12 @@ pub mod terminal_rates;
 use crate::capture::approach::exact_end::{ApproachEnd, exact_end};
 use crate::control::Control;
 use crate::dynamics::AnyModel;
-use crate::laws::{InertialFrame, OwnLaws, TrackingLaw, TrackingTask};
+use crate::laws::{OwnLaws, TrackingLaw, TrackingTask};
 use crate::owned::RobotState;
 use crate::scenario::{self, Scenario};
 use crate::simulate::actuators::drive;
 use crate::simulate::event::Events;
+use crate::simulate::inertial_frame::InertialFrame;
 use crate::simulate::system::System;
 use crate::simulate::{Phase, PhaseError, Timing};
 use crate::trajectory::{AnyTrajectory, PointToPoint};
@@ -89,7 +90,7 @@ impl<'a> ApproachTracking<'a> {
         };
         let task = TrackingTask { scenario, model, trajectory: self.trajectory(rates), timing: self.timing };
         law.track(&task, &mut |law| match own {
-            Some((OwnLaws { origin, .. }, _)) => drive(&mut InertialFrame { law, origin }),
+            Some((OwnLaws { origin, .. }, _)) => drive(&mut InertialFrame { law, origin, velocity: [0.0; 2] }),
             None => drive(law),
         })
     }

@@ -70,7 +70,8 @@ impl Steps for AdaptiveSteps {
         // times are multiples of the step, rounded: half a step tells them apart
         let half = 0.5 * (end - time);
         if from <= time && until.is_none_or(|until| until < time + half) {
-            let held = equation.control.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
+            let held =
+                equation.control.law.held_steps().map_or(*duration, |steps| time + f64::from(steps) * (end - time));
             let next = if held > *duration - half { *duration } else { held.max(end) };
             *until = Some(next);
             solver.start(time, next, x, equation)?;

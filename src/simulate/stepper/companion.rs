@@ -10,6 +10,7 @@
 //! The second solution starts with the error that the motion before has left, and so has what this motion makes of it.
 
 use super::{Integrator, PathErrors, Steps};
+use crate::control::Control;
 use crate::error::Error;
 use crate::scalar::Real;
 use crate::simulate::equation::Equation;
@@ -83,6 +84,12 @@ impl Companion {
         if self.is_lost {
             return;
         }
+        if equation.has_saturated
+            && equation.control.held_steps().is_none()
+            && self.order.is_some_and(|order| order > 1)
+        {
+            self.lower_order();
+        }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
             Ok(false) => {}
             Ok(true) => {
@@ -91,6 +98,13 @@ impl Companion {
             }
             Err(_) => self.lose(),
         }
+    }
+
+    /// Takes the order as one from here on, with the same error so far.
+    fn lower_order(&mut self) {
+        let before = std::mem::replace(&mut self.share, -1.0);
+        self.order = Some(1);
+        self.x.iter_mut().zip(&self.first).for_each(|(x, first)| *x = first - (first - *x) * before / self.share);
     }
 
     /// The largest error of a position (rad, m), with that of a last step without a pair, and those of positions and rates

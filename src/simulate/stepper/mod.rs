@@ -31,7 +31,10 @@ mod semi_implicit_euler;
 
 use crate::control::Control;
 use crate::error::Error;
+use crate::scalar::Real;
 use crate::simulate::equation::{Equation, FormulationWorkspace};
+use crate::simulate::inertial_frame::InertialFrame;
+use crate::simulate::moving_frame::MovingFrame;
 use crate::simulate::system::System;
 use crate::state::State;
 use companion::Companion;
@@ -172,6 +175,10 @@ pub(crate) struct Stepper<'a> {
     companion: Companion,
     /// At the end of a part of a step, with rates and with momenta.
     last_part: [Vec<f64>; 2],
+    /// What is integrated in.
+    frame: MovingFrame,
+    /// The vectors in that frame at the start and at the end of the last part of a step.
+    part: [Vec<f64>; 2],
 }
 
 impl<'a> Stepper<'a> {
@@ -183,48 +190,85 @@ impl<'a> Stepper<'a> {
         duration: f64,
         x: &[f64],
     ) -> Result<Self, Error> {
+        let frame = MovingFrame::of(system, x, duration)?;
+        let mut moving = x.to_vec();
+        frame.enter(0.0, &mut moving)?;
+        if frame.velocity != [0.0; 2] {
+            // far away the poses that begin constraints are rounded
+            system.restore(&mut moving)?;
+        }
         let form = match (integration.coordinates, integration.integrator.properties().is_canonical) {
-            (Formulation::Reduced, _) => FormulationWorkspace::reduced(system, x)?,
-            (Formulation::Full, true) => FormulationWorkspace::canonical(system, x)?,
+            (Formulation::Reduced, _) => FormulationWorkspace::reduced(system, &moving)?,
+            (Formulation::Full, true) => FormulationWorkspace::canonical(system, &moving)?,
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
-        let equation = Equation::new(system, control, form);
+        let law = InertialFrame { law: control, origin: [0.0; 2], velocity: frame.velocity };
+        let equation = Equation::new(system, law, form);
         let steps = integration.integrator.steps(duration, x.len());
-        let companion = Companion::new(integration.integrator, duration, x, &equation);
-        Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()] })
+        let companion = Companion::new(integration.integrator, duration, &moving, &equation);
+        let part = [moving.clone(), moving];
+        Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()], frame, part })
     }
 
     /// Begins a step of the control law at `x`, before its torques are evaluated.
     pub(crate) fn begin_step(&mut self, time: f64, x: &[f64]) -> Result<(), Error> {
         self.companion.begin_step(&mut self.equation, time);
         let Equation { system, control, .. } = &mut self.equation;
-        control.begin_step(time, system.model, &State::from_vector(x, system.model.joints())?)
+        control.law.begin_step(time, system.model, &State::from_vector(x, system.model.joints())?)
     }
 
     /// The control law.
     pub(crate) fn control(&mut self) -> &mut dyn Control<f64> {
-        self.equation.control
+        self.equation.control.law
     }
 
     /// Advances `x` over a part of the next step, of which it has come to `from`; returns where the part ends: within it
     /// [`within`](Self::within) has the motion.
     pub(crate) fn advance(&mut self, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
-        let reached = self.steps.advance(&mut self.equation, span, from, x)?;
+        let [start, moving] = &mut self.part;
+        start.copy_from_slice(moving);
+        let reached = self.steps.advance(&mut self.equation, span, from, moving)?;
         if reached >= span[1] {
-            self.companion.follow(&mut self.equation, span, x);
+            self.companion.follow(&mut self.equation, span, moving);
         }
+        x.copy_from_slice(moving);
+        self.frame.leave(reached, x)?;
         Ok(reached)
     }
 
-    /// The estimated errors at the end of a phase.
-    pub(crate) fn path_errors(&mut self) -> PathErrors {
-        self.companion.errors(&mut self.equation)
+    /// The estimated errors of a phase that ends at `time`.
+    pub(crate) fn path_errors(&mut self, time: f64) -> PathErrors {
+        let (error, at_end) = self.companion.errors(&mut self.equation);
+        (Real::maximum(error, self.frame.rounding(time)), at_end)
     }
 
-    /// The vector at `time` within the last part of a step, which starts at `start` with `x`, into `into`.
-    pub(crate) fn within(&mut self, [start, time]: [f64; 2], x: &[f64], into: &mut Vec<f64>) -> Result<(), Error> {
-        into.clear();
-        into.extend_from_slice(x);
+    /// The vector where the last part of a step ends, in the frame that is integrated in.
+    pub(crate) fn moving(&self) -> &[f64] {
+        &self.part[1]
+    }
+
+    /// A vector in the frame that is integrated in.
+    pub(crate) fn moved(&self, time: f64, x: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut moving = x.to_vec();
+        self.frame.enter(time, &mut moving)?;
+        Ok(moving)
+    }
+
+    /// The vector at `time` within the last part of a step, which starts at `start`, into `into`.
+    pub(crate) fn within(&mut self, span @ [start, time]: [f64; 2], into: &mut Vec<f64>) -> Result<(), Error> {
+        self.moving_within(span, into)?;
+        self.frame.leave(time.max(start), into)
+    }
+
+    /// Ends the last part of a step within it, at `time`, with the vector there in `x`.
+    pub(crate) fn end_at(&mut self, span @ [_, time]: [f64; 2], x: &mut Vec<f64>) -> Result<(), Error> {
+        self.moving_within(span, x)?;
+        self.part[1].clone_from(x);
+        self.frame.leave(time, x)
+    }
+
+    fn moving_within(&mut self, [start, time]: [f64; 2], into: &mut Vec<f64>) -> Result<(), Error> {
+        into.clone_from(&self.part[0]);
         if time <= start {
             return Ok(());
         }
@@ -236,6 +280,8 @@ impl<'a> Stepper<'a> {
 
     /// d/dt of `x`.
     pub(crate) fn rate(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        self.equation.derivative(time, x, rate)
+        let moving = self.moved(time, x)?;
+        self.equation.derivative(time, &moving, rate)?;
+        self.frame.leave_rate(rate)
     }
 }

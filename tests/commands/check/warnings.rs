@@ -1,6 +1,7 @@
 //! `check`: every warning once, and none for valid files.
 
 use super::{LAYOUT, SCENARIO, inspect_text};
+use planar_capture::capture::StudyError;
 use planar_capture::check::{CheckReport, inspect};
 use planar_capture::registry::SHIPPED;
 use planar_proof::file;
@@ -398,4 +399,9 @@ fn targets_that_the_robot_starts_in_are_refused() {
     assert_eq!(refusal(&text).map(|refusal| refusal.to_string()), None);
     let shown = refusal(&text.replace("radius = 0.3", "radius = 30.0")).expect("a refusal").to_string();
     assert!(shown.contains("inside target `") && shown.contains("`target[0].position`"), "{shown}");
+    let depth = |depth: f64| {
+        let [case, arm, target] = ["it", "arm1", "disc"].map(str::to_owned);
+        StudyError::Inside { case, arm, target, depth }.to_string()
+    };
+    assert!(depth(0.25).contains(" starts 0.2500 m inside") && depth(2.2e-16).contains(" starts 2.2e-16 m inside"));
 }

@@ -1,4 +1,4 @@
-//! A law that is given positions in the inertial frame, whatever origin a study is computed about.
+//! A law that is given positions and velocities in the inertial frame, whatever origin and frame a study is computed in.
 
 use crate::control::{BaseTorque, Control};
 use crate::dynamics::AnyModel;
@@ -6,17 +6,21 @@ use crate::error::Error;
 use crate::simulate::translation::translate;
 use crate::state::State;
 
-/// Another law, and the position [x, y] of the study's origin in the inertial frame, m.
+/// Another law, and where the origin is in the inertial frame.
 pub(crate) struct InertialFrame<'l> {
     pub law: &'l mut dyn Control<f64>,
+    /// [x, y] at the start of a phase, m.
     pub origin: [f64; 2],
+    /// m/s.
+    pub velocity: [f64; 2],
 }
 
 impl InertialFrame<'_> {
-    fn state<'s>(&self, state: &State<'s, f64>) -> State<'s, f64> {
-        let mut base_pose = state.base_pose;
-        translate(&mut base_pose, self.origin);
-        State { base_pose, ..*state }
+    fn state<'s>(&self, time: f64, state: &State<'s, f64>) -> State<'s, f64> {
+        let mut moved = *state;
+        translate(&mut moved.base_pose, [0, 1].map(|i: usize| self.origin[i] + time * self.velocity[i]));
+        translate(&mut moved.base_twist, self.velocity);
+        moved
     }
 }
 
@@ -28,12 +32,12 @@ impl Control<f64> for InertialFrame<'_> {
         state: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {
-        let state = self.state(state);
+        let state = self.state(time, state);
         self.law.joint_torques(time, model, &state, torques)
     }
 
     fn begin_step(&mut self, time: f64, model: &AnyModel<f64>, state: &State<'_, f64>) -> Result<(), Error> {
-        let state = self.state(state);
+        let state = self.state(time, state);
         self.law.begin_step(time, model, &state)
     }
 
@@ -48,7 +52,7 @@ impl Control<f64> for InertialFrame<'_> {
         state: &State<'_, f64>,
         held: &mut [f64],
     ) -> Result<(), Error> {
-        let state = self.state(state);
+        let state = self.state(time, state);
         self.law.sample_beside(time, model, &state, held)
     }
 

@@ -1,0 +1,171 @@
+//! A phase in the moving frame against the same in the inertial frame.
+
+use super::MovingFrame;
+use crate::contact::{ContactPartner, LoopConstraint};
+use crate::control::Control;
+use crate::dynamics::AnyModel;
+use crate::error::Error;
+use crate::owned::{CloneModel, RobotState};
+use crate::registry;
+use crate::simulate::event::{EventState, Events};
+use crate::simulate::path::PathPart;
+use crate::simulate::stepper::{Formulation, Integration, Integrator};
+use crate::simulate::system::{Body, System};
+use crate::simulate::{Phase, Timing, simulate};
+use crate::state::State;
+use planar_proof::{assert_close, layout, tolerance};
+
+/// Torques that depend on where the base is, how fast it is, and on the time.
+struct ByPlace;
+
+impl Control<f64> for ByPlace {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        _: &AnyModel<f64>,
+        state: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        let ([_, x, y], [_, vx, _]) = (state.base_pose, state.base_twist);
+        torques.copy_from_slice(&[0.3 * libm::sin(0.5 * x), 0.1 * libm::cos(0.4 * y + time) * vx]);
+        Ok(())
+    }
+}
+
+/// The base passes this x, m.
+struct Passes(f64);
+
+impl Events for Passes {
+    fn count(&self) -> usize {
+        1
+    }
+
+    fn values(&mut self, now: &EventState<'_>, values: &mut [f64]) -> Result<(), Error> {
+        values.fill(self.0 - now.state.base_pose[1]);
+        Ok(())
+    }
+}
+
+/// The base turns by 0.1 rad/s, and goes by these velocities.
+fn robot(velocity: [f64; 2]) -> (Box<dyn CloneModel>, RobotState) {
+    let state = RobotState {
+        base_pose: [0.2, -0.4, 0.7],
+        joint_angles: vec![0.4, -0.9],
+        base_twist: [0.1, velocity[0], velocity[1]],
+        joint_rates: vec![-0.2, 0.5],
+    };
+    (registry::generic(&layout("single_arm_2r")), state)
+}
+
+/// From the body's COM to the end effector, 0.4 m away in −x, in the axes of the body, which are turned by −`angle`.
+fn at_contact(angle: f64) -> [f64; 2] {
+    [-0.4 * libm::cos(angle), -0.4 * libm::sin(angle)]
+}
+
+/// Up to x = 5 m; a reach that is farther than the phase goes has it in the inertial frame.
+fn phase(integration: Integration, is_pinned: bool, reach: f64) -> Phase {
+    let (model, state) = robot([1.2, -0.7]);
+    let (mut tip, mut twist) = ([[0.0; 3]], [[0.0; 3]]);
+    model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut tip).expect("a pose");
+    model.end_effector_twists(&state.view(), &mut twist).expect("a twist");
+    // turning about the end effector
+    let ([[_, x, y]], [[_, vx, vy]]) = (tip, twist);
+    let bodies = [Body { mass: 3.0, inertia: 0.5, pose: [0.3, x + 0.4, y], twist: [0.6, vx, vy + 0.6 * 0.4] }];
+    let pin = LoopConstraint { arm: 0, partner: ContactPartner::Body(0), offset: at_contact(-0.3), yaw: None };
+    let system = System { reach, ..System::alone(&*model) };
+    let system = if is_pinned { System { bodies: &bodies, constraints: &[pin], ..system } } else { system };
+    let timing = Timing { duration: 8.0, step: 0.01, sample: 0.5, integration };
+    simulate(&system, &mut ByPlace, &state, &timing, &mut Passes(5.0), &mut || ()).expect("a phase")
+}
+
+/// Positions, velocities, momentum and energy of all samples.
+fn numbers(phase: &Phase) -> Vec<f64> {
+    let each = phase.samples.iter().flat_map(|sample| {
+        let bodies = sample.bodies.iter().flat_map(|body| [body.pose, body.twist].concat());
+        let momentum = sample.momentum;
+        [
+            &sample.state.base_pose[..],
+            &sample.state.joint_angles,
+            &sample.state.base_twist,
+            &sample.state.joint_rates,
+            sample.end_effector_poses.as_flattened(),
+            sample.end_effector_twists.as_flattened(),
+            &momentum.linear_momentum,
+            &[momentum.angular_momentum, momentum.kinetic_energy, sample.time, sample.work.total()],
+        ]
+        .concat()
+        .into_iter()
+        .chain(bodies)
+        .collect::<Vec<_>>()
+    });
+    each.collect()
+}
+
+/// What the law is given, where an event is, and all that is reported.
+#[test]
+fn results_are_those_of_the_inertial_frame() {
+    let full = Formulation::Full;
+    for (integrator, coordinates) in [
+        (Integrator::RungeKutta4, full),
+        (Integrator::RungeKutta4, Formulation::Reduced),
+        (Integrator::SemiImplicitEuler, full),
+        (Integrator::GaussLegendre, full),
+        (Integrator::Adaptive { tolerance: 1e-13 }, full),
+    ] {
+        for is_pinned in [false, true] {
+            if is_pinned && coordinates == Formulation::Reduced {
+                continue;
+            }
+            let integration = Integration { integrator, coordinates };
+            let [moving, inertial] = [1.0, 1e3].map(|reach| phase(integration, is_pinned, reach));
+            let name = format!("{integration:?}, pinned: {is_pinned}");
+            assert!(inertial.event.is_some_and(|(_, time)| time > 3.0 && time < 7.0), "{name}: {:?}", inertial.event);
+            assert_close(&name, &numbers(&moving), &numbers(&inertial), tolerance::SAME_MOTION_COARSE);
+            assert!(moving.path_error < 1.5 * inertial.path_error + 1e-11, "{name}: {:e}", moving.path_error);
+            // the path within adaptive steps has cubics between knots
+            let of_path = if integrator.properties().is_adaptive { 4e-8 } else { tolerance::SAME_MOTION_COARSE };
+            for time in [0.0, 1.3, 2.6] {
+                let at = |phase: &Phase| path_at(phase, time);
+                assert_close(&name, &at(&moving), &at(&inertial), of_path);
+            }
+        }
+    }
+}
+
+/// Positions and rates of the path.
+fn path_at(phase: &Phase, time: f64) -> Vec<f64> {
+    let mut found = Vec::new();
+    let visited = phase.path.try_for_each(|interval| {
+        let [start, end] = interval.span;
+        if found.is_empty() && start <= time && time <= end {
+            let size = interval.start[0].len();
+            let (mut positions, mut rates) = (vec![0.0; size], vec![0.0; size]);
+            interval.at(time, &mut positions, &mut rates);
+            found = [positions, rates].concat();
+        }
+        Ok::<(), std::io::Error>(())
+    });
+    visited.expect("a path in memory");
+    assert!(!found.is_empty());
+    found
+}
+
+/// The velocity is that of the centre of mass of all; a robot that goes less far than it reaches stays in the inertial frame.
+#[test]
+fn the_frame_moves_with_the_centre_of_mass() {
+    let (model, state) = robot([1.2, -0.7]);
+    let body = Body { mass: 7.0, inertia: 1.0, pose: [0.0, 2.0, 1.0], twist: [0.0, -3.0, 0.5] };
+    let system = System { bodies: &[body], ..System::alone(&*model) };
+    let x = system.vector(&state.view()).expect("a vector");
+    let momentum = model.momentum(&state.view()).expect("a momentum").linear_momentum;
+    let mut inertias = [[0.0; 2]; 3];
+    model.body_inertias(&mut inertias).expect("inertias");
+    let mass: f64 = inertias.iter().map(|[mass, _]| mass).sum();
+    let expected = [0, 1].map(|i: usize| (momentum[i] + 7.0 * [-3.0, 0.5][i]) / (mass + 7.0));
+    let speed = libm::hypot(expected[0], expected[1]);
+    let frame = |duration| MovingFrame::of(&system, &x, duration).expect("a frame").velocity;
+    assert_close("velocity", &frame(1.01 / speed), &expected, tolerance::IDENTITY);
+    assert_close("near", &frame(0.99 / speed), &[0.0; 2], 0.0);
+    let found = MovingFrame::of(&system, &x, 2.0).expect("a frame").rounding(3.0);
+    assert_close("rounding", &[found / (3.0 * speed * f64::EPSILON)], &[1.0], tolerance::IDENTITY);
+}
