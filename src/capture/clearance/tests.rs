@@ -93,6 +93,27 @@ fn pairs_are_those_that_no_joint_joins() {
     assert_eq!(named_pairs(&wheel), expected_pairs(&names, &joined, &meet));
 }
 
+/// Arms of three, two and one links: last links are those of their own arm, and default outlines as long as their own link.
+#[test]
+fn arms_of_unequal_length() {
+    let it = scenario("asymmetric_wheel", ["long", "short"], 6);
+    let links = ["long/link1", "long/link2", "long/link3", "short/link1", "short/link2", "wheel/link1"];
+    let names = [&["base"], &links[..], &["t1", "t2"]].concat();
+    let joined = [
+        ("base", "long/link1"),
+        ("long/link1", "long/link2"),
+        ("long/link2", "long/link3"),
+        ("base", "short/link1"),
+        ("short/link1", "short/link2"),
+        ("base", "wheel/link1"),
+    ];
+    let meet = [("long/link3", "t1"), ("short/link2", "t2")];
+    assert_eq!(named_pairs(&it), expected_pairs(&names, &joined, &meet));
+    let all = bodies(&it, &it.frames());
+    let reach = |link: &str| all.iter().find(|body| body.name == format!("arms/{link}")).expect("a body").reach();
+    planar_proof::assert_close("lengths", &links.map(reach), &[1.2, 0.9, 0.35, 0.7, 0.6, 0.0], 0.0);
+}
+
 /// A robot that drifts, turns and moves its joints, and free targets, over two phases; in the second, arm 1 holds the
 /// first target.
 struct Motion {

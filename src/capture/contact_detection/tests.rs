@@ -1,8 +1,12 @@
-//! Contacts within a step that begins in contact, and how many distances they take.
+//! Contacts within a step that begins in contact, of outlines that are not convex, and how many distances they take.
 
 use super::*;
+use crate::control::ZeroTorque;
+use crate::outline::Outline;
 use crate::registry;
-use planar_proof::file;
+use crate::simulate::system::System;
+use crate::simulate::{Timing, simulate};
+use planar_proof::{file, tolerance};
 use std::f64::consts::FRAC_PI_4;
 
 /// A robot at rest whose first end effector is 1.2 m from the centre of a square of 2 m.
@@ -15,16 +19,20 @@ fn scenario() -> Scenario {
     Scenario::parse(text, "it.toml", &file("scenarios"), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"))
 }
 
+/// The pose of its end effector.
+fn tip(scenario: &Scenario) -> [f64; 3] {
+    let (initial, mut tip) = (&scenario.initial, [[0.0; 3]]);
+    let model = registry::generic(&scenario.layout);
+    model.end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut tip).expect("poses");
+    tip[0]
+}
+
 /// The crossings of steps one after the other, and how many distances each computed, for a square that turns at 1 rad/s
 /// from where its corner is `before` rad past the end effector, and comes from farther away at a speed.
 fn crossings(before: f64, [away, speed]: [f64; 2], spans: &[[f64; 2]]) -> Vec<(Option<[f64; 2]>, u64)> {
     let scenario = scenario();
-    let initial = &scenario.initial;
-    let mut tip = [[0.0; 3]];
-    registry::generic(&scenario.layout)
-        .end_effector_poses(&initial.base_pose, &initial.joint_angles, &mut tip)
-        .expect("poses");
-    let pose = [before + FRAC_PI_4 * 3.0, tip[0][1] + 1.2 + away, tip[0][2]];
+    let (initial, [_, x, y]) = (&scenario.initial, tip(&scenario));
+    let pose = [before + FRAC_PI_4 * 3.0, x + 1.2 + away, y];
     let targets = [Body { mass: 1.0, inertia: 1.0, pose, twist: [1.0, -speed, 0.0] }];
     let pair = ContactPair { target: 0, contact: 0, arm: 0 };
     let mut detection = ContactDetection::new(&scenario, TargetMotion::Free(&targets), vec![pair]);
@@ -77,4 +85,59 @@ fn long_steps_miss_no_contact() {
     let [(None, _), (Some([from, to]), _)] = found[..] else { panic!("{found:?}") };
     // where a side or a corner is between 1 m and 1.42 m from the centre
     assert!((20.0..40.0).contains(&from) && to > 30.0 - 0.3 && to <= 40.0, "{from} {to}");
+}
+
+/// When the end effector of a robot at rest meets a moving target, within one step, for an outline that is listed from each of its
+/// corners.
+fn contacts_of<const N: usize>(corners: [[f64; 2]; N], [yaw, x, y]: [f64; 3], twist: [f64; 3], end: f64) -> [f64; N] {
+    std::array::from_fn(|first| {
+        let (mut scenario, mut corners) = (scenario(), corners.to_vec());
+        corners.rotate_left(first);
+        scenario.targets[0].outline = Outline::polygon(corners).expect("a polygon");
+        let robot = registry::generic(&scenario.layout);
+        let [_, tip_x, tip_y] = tip(&scenario);
+        let targets = [Body { mass: 1.0, inertia: 1.0, pose: [yaw, tip_x + x, tip_y + y], twist }];
+        let pair = ContactPair { target: 0, contact: 0, arm: 0 };
+        let mut contacts = ContactDetection::new(&scenario, TargetMotion::Free(&targets), vec![pair]);
+        let timing = Timing { duration: end, step: end, sample: end, ..Timing::default() };
+        let (system, start) = (System::alone(&*robot), &scenario.initial);
+        let phase = simulate(&system, &mut ZeroTorque, start, &timing, &mut contacts, &mut || ()).expect("a phase");
+        phase.event.map_or(f64::NAN, |(_, time)| time)
+    })
+}
+
+/// A block at the centre with a bar of 2 m that sweeps over an end effector 1.5 m from the centre, and is past it at the end of
+/// the step: whichever convex part is the first, the bar's reach decides how fast points may be.
+#[test]
+fn the_farthest_part_of_an_outline_bounds_its_speed() {
+    let corners =
+        [[-0.5, -0.5], [0.0, -0.5], [0.0, -0.1], [2.0, -0.1], [2.0, 0.1], [0.0, 0.1], [0.0, 0.5], [-0.5, 0.5]];
+    let (distance, rate, before): (f64, f64, f64) = (1.5, 0.5, 2.0);
+    // the angle of the end effector in the target's axes falls to that of the leading edge there
+    let expected = (before - f64::asin(0.1 / distance)) / rate;
+    for time in contacts_of(corners, [-before, -distance, 0.0], [rate, 0.0, 0.0], (before + 1.0) / rate) {
+        assert!((time - expected).abs() < tolerance::EVENT_TIME, "{time}, not {expected}");
+    }
+}
+
+/// Both legs of a U pass the end effector in one step, from either side: the contact is that with the first of them.
+#[test]
+fn the_first_part_that_is_met_makes_the_contact() {
+    let [outer, inner] = [0.55, 0.45];
+    let corners = [
+        [-outer, -1.0],
+        [outer, -1.0],
+        [outer, 1.0],
+        [inner, 1.0],
+        [inner, -0.9],
+        [-inner, -0.9],
+        [-inner, 1.0],
+        [-outer, 1.0],
+    ];
+    for side in [-1.0, 1.0] {
+        let expected = (3.0 - outer) / 0.5;
+        for time in contacts_of(corners, [0.0, side * 3.0, 0.0], [0.0, -side * 0.5, 0.0], 12.0) {
+            assert!((time - expected).abs() < tolerance::EVENT_TIME, "from {side}: {time}, not {expected}");
+        }
+    }
 }

@@ -20,7 +20,7 @@ use planar_proof::sample::config;
 use proptest::array::uniform2;
 use proptest::collection::vec;
 use proptest::prelude::*;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Half the time of a central difference, s, and the error of such a difference per unit.
 const HALF: f64 = 1e-5;
@@ -227,6 +227,35 @@ fn bounds_are_attained_by_a_stretched_arm() {
                 assert!((bound - length(acceleration)).abs() < 1e-4, "{frame} {reach}: {bound} {acceleration:?}");
             }
         }
+    }
+}
+
+/// A target beyond the end of a stretched arm that holds it, where base and joints all turn one way, reaches the bound of its
+/// speed: it is carried as far as its COM is from the end effector.
+#[test]
+fn the_bound_of_a_held_target_is_attained() {
+    let layout = layout("dual_arm_2r");
+    let (model, angles) = (registry::generic(&layout), vec![0.0, 0.0, PI, 0.0]);
+    let mut tips = [[0.0; 3]; 2];
+    model.end_effector_poses(&[0.0; 3], &angles, &mut tips).expect("poses");
+    let state =
+        RobotState { base_pose: [0.0; 3], joint_angles: angles, base_twist: [0.0; 3], joint_rates: vec![0.0; 4] };
+    let held = Body { mass: 2.0, inertia: 0.3, pose: [PI, tips[1][1] - 0.4, tips[1][2]], twist: [0.0; 3] };
+    let grasp = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
+    let assembly = Assembly::new(model, &state, &[held], &grasp).expect("an assembly");
+    let (frames, targets) = (frames(&layout, ["held"]), [held]);
+    let kinematics =
+        FrameKinematics { frames: &frames, targets: TargetMotion::Assembled(&assembly, &targets), joints: 4 };
+    let rates = vec![0.6, 0.0, 0.0, 0.0, 0.0, 0.4, 0.9];
+    let middle = [0.0, 0.0, 0.0, 0.0, 0.0, PI, 0.0];
+    let moved = |time: f64| middle.iter().zip(&rates).map(|(angle, rate)| angle + time * rate).collect::<Vec<_>>();
+    let ends = [[moved(-0.5), rates.clone()], [moved(0.5), rates.clone()]];
+    let motion = Motion { kinematics, span: [-0.5, 0.5], ends };
+    let frame = frames.len() - 1;
+    for reach in [0.0, 0.3] {
+        let [velocity, _] = motion.point_motion(frame, [reach, 0.0], 0.0);
+        let bound = motion.bounds()[frame].speed_within(reach);
+        assert!((bound - length(velocity)).abs() < 1e-9, "{reach}: {bound} {velocity:?}");
     }
 }
 
