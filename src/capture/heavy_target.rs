@@ -112,4 +112,32 @@ mod tests {
         let found = of(1.5e5).expect("a heavy target");
         assert!((found.inertia / 1.5e5 - 1.0).abs() < 1e-9 && found.mass < 0.01, "{found:?}");
     }
+
+    /// The first of two targets is free, and the second one is held and heavy.
+    #[test]
+    fn every_held_target_counts() {
+        let disc = |name: &str, arm: &str| {
+            format!(
+                "[[target]]\nname = \"{name}\"\narm = \"{arm}\"\nmass = 1.0\ninertia = 1.0\ncontact = [0.0, 0.5]\n\
+                 radius = 0.5\n"
+            )
+        };
+        let angles = "[0.4, -0.9, 2.4, 0.9]";
+        let text = format!(
+            "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = {angles}\n[approach]\nduration = 1.0\n\
+             trajectory = \"cycloidal\"\nfinal_joint_angles = {angles}\n{}{}[post_impact]\nduration = 1.0\n",
+            disc("first", "arm1"),
+            disc("second", "arm2")
+        );
+        let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED).expect("a scenario");
+        let joint_angles = scenario.initial.joint_angles.clone();
+        let state = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates: vec![0.0; 4] };
+        let body = |mass: f64, x: f64| Body { mass, inertia: 1.0, pose: [0.0, x, 0.5], twist: [0.0; 3] };
+        let targets = [body(1.0, 9.0), body(1e3 * scenario.layout.mass(), -1.5)];
+        let grasp = Attachment { target: 1, arm: 1, kind: ContactKind::Rigid };
+        let model = registry::generic(&layout("dual_arm_2r"));
+        let assembly = Assembly::new(model, &state, &targets, &[grasp]).expect("an assembly");
+        let found = HeavyTarget::of(&scenario, &assembly, &targets, Integration::default()).expect("a heavy target");
+        assert!((found.mass / 1e3 - 1.0).abs() < 1e-12 && !found.is_reducible, "{found:?}");
+    }
 }

@@ -302,3 +302,28 @@ fn bounces_without_end() {
     // the box turns a little after all
     assert!((time - 1001.0 / 500.0).abs() < 1e-3, "{time}");
 }
+
+/// A second impact with a disc of a microgram changes nothing: the estimated error of the path is as if there were none, and not
+/// that of two motions which each begin without one.
+#[test]
+fn an_impact_hands_on_the_estimated_error() {
+    let scenario = |second: Option<[f64; 2]>| {
+        let far = Coming { arm: 1, speed: 4.0, time: 8.5, aside: 30.0 };
+        let mut scenario = meeting(&[Coming { arm: 0, speed: 1.0, time: 5.5, aside: 0.0 }, far], 0.1);
+        (scenario.targets[0].mass, scenario.targets[0].inertia) = (5.0, 0.5);
+        if let Some([x, y]) = second {
+            scenario.targets[1].position = Some([x, y - RADIUS - 4.0 * 8.5]);
+        }
+        scenario.post_impact.as_mut().expect("a phase").integration.integrator = Integrator::RungeKutta4;
+        run(&scenario).expect("a study")
+    };
+    let capture = |study: &Study| study.cases[0].capture.clone().expect("a capture");
+    let one = capture(&scenario(None));
+    let met = one.post_impact.samples.iter().find(|sample| (sample.time - 3.0).abs() < 1e-9).expect("a sample");
+    let [_, x, y] = met.end_effector_poses[1];
+    let two = capture(&scenario(Some([x, y])));
+    assert_eq!((one.later_impacts.len(), two.later_impacts.len()), (0, 1));
+    let [alone, both] = [one, two].map(|capture| capture.post_impact.path_error);
+    // the impact is at the end of a step, so that both have the same ones, but for rounding
+    assert!(alone > 1e-9 && (both / alone - 1.0).abs() < 1e-3, "{both:e}, not {alone:e}");
+}

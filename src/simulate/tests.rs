@@ -101,6 +101,25 @@ fn at_a_limit() {
     assert_eq!(at(0.25).then(at(0.5), 1.0), at(0.25));
 }
 
+/// Of a phase and the next the larger violation is kept, at its time since the start of the first.
+#[test]
+fn violations_of_a_phase_and_the_next() {
+    let beyond =
+        |time: f64, value: f64, limit: f64| Some(LimitViolation { joint: "it".to_owned(), time, value, limit });
+    let with = |duration: f64, joint_angle, joint_rate| Phase {
+        limit_violations: Some(LimitViolations { joint_angle, joint_rate }),
+        ..phase(duration)
+    };
+    let larger = || with(1.0, beyond(0.75, 2.5, 2.0), beyond(0.25, -0.75, -0.5));
+    for first in [with(2.0, beyond(0.5, 2.25, 2.0), None), with(2.0, None, beyond(0.5, 0.625, 0.5))] {
+        let both = first.then(larger()).limit_violations.expect("limits");
+        assert_eq!(both.joint_angle, beyond(2.75, 2.5, 2.0));
+        assert_eq!(both.joint_rate, beyond(2.25, -0.75, -0.5));
+    }
+    let both = larger().then(with(2.0, beyond(0.5, 2.25, 2.0), None)).limit_violations;
+    assert_eq!(both, larger().limit_violations);
+}
+
 /// What a phase that stopped says to do about it.
 #[test]
 fn hints_of_errors() {

@@ -3,6 +3,7 @@
 use super::*;
 use crate::owned::RobotState;
 use crate::registry;
+use crate::trajectory::TrajectoryKind;
 use planar_proof::{assert_close, file, sample::config, tolerance};
 use proptest::array::{uniform3, uniform6};
 use proptest::prelude::*;
@@ -101,6 +102,32 @@ fn trials_that_fail() {
     scenario.approach.final_joint_angles[0] += 0.5;
     let error = search(&scenario);
     assert!(matches!(error, InverseKinematicsError::Rates(TerminalRatesError::PhaseError(_))), "{error}");
+}
+
+/// Goals that the first approach reaches, which ends at rest: with the terminal rates of the wanted twists the base turns
+/// otherwise, and the same joint angles miss them.
+#[test]
+fn goals_are_reached_with_the_terminal_rates_that_are_returned() {
+    let mut scenario = scenario();
+    scenario.approach.trajectory = TrajectoryKind::Quintic;
+    scenario.approach.final_joint_angles = vec![0.9, -0.8, 2.2, 0.9];
+    let wanted = vec![[None, Some(-0.05), Some(0.1)], [None, Some(0.08), Some(0.04)]];
+    scenario.approach.end = FinalRates::EndEffectorTwists(wanted.clone());
+    let model = registry::generic(&scenario.layout);
+    let end = |scenario: &Scenario, rates: &[f64]| {
+        ApproachTracking::new(scenario, 1.0).exact_end(&*model, rates).expect("an end")
+    };
+    let positions = |end: &ApproachEnd| end.end_effector_poses.iter().flat_map(|pose| [pose[1], pose[2]]).collect();
+    let reached: Vec<f64> = positions(&end(&scenario, &[0.0; 4]));
+    let goals: Vec<_> = reached.chunks_exact(2).map(|at| EndEffectorGoal::Position([at[0], at[1]])).collect();
+    let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ()).expect("joint angles");
+    scenario.approach.final_joint_angles = found.joint_angles;
+    let found = end(&scenario, &found.rates.joint_rates);
+    let again: Vec<f64> = positions(&found);
+    assert_close("positions", &again, &reached, tolerance::REACHED);
+    let velocities: Vec<f64> = found.end_effector_twists.iter().flat_map(|twist| [twist[1], twist[2]]).collect();
+    let wanted: Vec<f64> = wanted.into_iter().flatten().flatten().collect();
+    assert_close("velocities", &velocities, &wanted, tolerance::REACHED);
 }
 
 #[test]
