@@ -355,6 +355,23 @@ fn the_audit_decides_the_exit_code() {
     assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");
 }
 
+/// A case with values of its own counts as the others do: one that alone is too fast for a joint decides, be it the first or the last.
+#[test]
+fn every_case_decides_the_exit_code() {
+    let limited = paper().replace("duration = 50.0", "duration = 1.0") + "\n[limits]\njoint_rates = 0.25\n";
+    let (code, out, err, _) = run_text(&limited);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    for name in ["case1", "case3"] {
+        let named = format!("name = \"{name}\"\n");
+        assert_eq!(limited.matches(&named).count(), 1);
+        let fast = format!("{named}set = {{ \"approach.duration\" = 8.0 }}\n");
+        let (code, out, err, _) = run_text(&limited.replace(&named, &fast));
+        assert_eq!(code, 1, "{out}{err}");
+        let objections: Vec<_> = err.lines().filter(|line| line.contains(" rad/s at ")).collect();
+        assert!(!objections.is_empty() && objections.iter().all(|line| line.contains(name)), "{err}");
+    }
+}
+
 #[test]
 fn usage_errors_are_exit_code_2() {
     for arguments in

@@ -258,6 +258,36 @@ fn damaged_and_exchanged_files_are_computed_again() {
     }
 }
 
+/// A file of the same sweep of another scenario, or of the same scenario with another robot, is not taken either.
+#[test]
+fn files_of_another_scenario_or_robot_are_computed_again() {
+    let place = Workplace::sampled("random");
+    let [scenario, robot] = ["scenario.toml", "robot.toml"].map(|name| place.path(name));
+    let layout = fs::read_to_string(file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let text = fs::read_to_string(&scenario).expect("a scenario").replace("\"dual_arm_3r\"", "\"./robot.toml\"");
+    let write = |scenario_text: &str, layout_text: &str| {
+        fs::write(&scenario, scenario_text).expect("written");
+        fs::write(&robot, layout_text).expect("written");
+    };
+    write(&text, &layout);
+    let whole = place.computed("out", &[]);
+    for (hash, other, heavier) in [
+        ("scenario_sha256", text.replace("duration = 2.0", "duration = 2.5"), layout.clone()),
+        ("layout_sha256", text.clone(), layout.replace("mass = 500.0", "mass = 480.0")),
+    ] {
+        write(&other, &heavier);
+        place.computed(hash, &[]);
+        write(&text, &layout);
+        for name in ["cases/000001.parquet", "digests/000001.sha256"] {
+            fs::copy(place.path(hash).join(name), place.path("out").join(name)).expect("copied");
+        }
+        assert_ne!(place.cases("out"), whole, "another {hash}, the same bytes");
+        let (code, _, err) = place.sweep("out", &["-q"]);
+        assert!(code == 0 && err.contains(&format!("it is of another sweep, by `{hash}`")), "{hash}: {code} {err}");
+        assert_eq!(place.cases("out"), whole, "{hash}");
+    }
+}
+
 /// The sweep of this folder is refused before anything is said about what computes it.
 #[test]
 fn what_is_no_folder_is_refused_first() {

@@ -99,3 +99,20 @@ fn a_damaged_file_of_cases_is_computed_again() {
     assert_eq!(found, whole);
     assert_eq!(page(folder.path(), &rest), whole);
 }
+
+/// Extremes are of cases by their own numbers, not by their places among those with a result.
+#[test]
+fn extremes_are_of_cases_with_results() {
+    let folder = TempDir::new().expect("a folder");
+    let rest = format!("sampling = \"grid\"\n{MASS}distribution = {{ choice = [-1.0, 10.0, 12.0, -2.0, 14.0] }}\n");
+    let found = page(folder.path(), &rest);
+    let (_, table) = found.split_once("<h2>Extremes</h2>").expect("a section");
+    let (table, _) = table.split_once("</table>").expect("an end");
+    let rows = table.lines().skip(2).map(|row| row.split("<td>").skip(1).map(|cell| cell.split('<').next()));
+    let cases: Vec<[&str; 2]> = rows.map(|row| row.flatten().collect::<Vec<_>>()).map(|row| [row[2], row[4]]).collect();
+    assert!(cases.len() > 5 && cases.iter().flatten().all(|case| ["1", "2", "4"].contains(case)), "{cases:?}");
+    // what rises or falls with the mass has its extremes at the ends of it
+    for ends in [["1", "4"], ["4", "1"]] {
+        assert!(cases.contains(&ends), "{cases:?}");
+    }
+}
