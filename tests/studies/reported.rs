@@ -3,6 +3,7 @@
 use crate::{Silent, command, manifest, run, scenario, summary};
 use planar_capture::capture::residual_motion::ResidualMotion;
 use planar_capture::capture::{CaseResult, Study, study};
+use planar_capture::output::console::table;
 use planar_capture::output::html_report::write_report;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
@@ -62,6 +63,105 @@ fn the_base_work_completes_the_energy_balance() {
         assert!(work.abs() > 1e-6, "{work} J");
         assert_close("ΔE", &[phase.end().work.joint_work + work], &[energy], tolerance::TIME_SERIES);
     }
+}
+
+/// A robot that is stabilised by joints and base.
+fn stabilised() -> (Scenario, Study) {
+    let mut scenario = scenario("stabilised_capture");
+    scenario.post_impact.as_mut().expect("a capture").duration = 10.0;
+    let study = run(&scenario);
+    (scenario, study)
+}
+
+/// Torques at the base alone change the angular momentum of all bodies: what they take is what it has lost.
+#[test]
+fn the_table_says_what_the_base_torque_takes() {
+    let (scenario, study) = stabilised();
+    let table = table(&scenario, &study);
+    let taken = table.split("base torque: ").skip(1).map(|rest| rest.split_whitespace().next().expect("a number"));
+    let taken: Vec<f64> = taken.map(|text| text.parse().expect("a number")).collect();
+    let lost = study.cases.iter().map(|case| {
+        let samples = &case.capture.as_ref().expect("a capture").post_impact.samples;
+        let [start, end] = [&samples[0], &samples[samples.len() - 1]].map(|sample| sample.momentum.angular_momentum);
+        start - end
+    });
+    let lost: Vec<f64> = lost.collect();
+    assert!(lost.iter().any(|lost| lost.abs() > 0.1), "{lost:?}");
+    // six decimals of it
+    assert_close("taken", &taken, &lost, 6e-7);
+}
+
+/// In the report the work of a phase is that of all actuators, which the energy of all bodies has gained.
+#[test]
+fn the_reports_work_is_that_of_joints_and_base() {
+    let (scenario, study) = stabilised();
+    let data = report_data(&scenario, &study);
+    for (case, data) in study.cases.iter().zip(data["cases"].as_array().expect("cases")) {
+        let phase = &case.capture.as_ref().expect("a capture").post_impact;
+        let gained = phase.end().momentum.kinetic_energy - phase.samples[0].momentum.kinetic_energy;
+        let of_base = phase.end().work.base_work;
+        let work = numbers(&data["post_impact"]["work"]);
+        assert!(of_base.abs() > 1e-3 * gained.abs(), "{of_base} J of {gained} J");
+        // six digits are written
+        assert_close("work", &work[work.len() - 1..], &[gained], 1e-5 * gained.abs());
+    }
+}
+
+/// An end effector and a target close at a positive speed, which the impulse of a bounce is the multiple of.
+#[test]
+fn the_reports_closing_speeds_give_the_impulses() {
+    let scenario = scenario("elastic_rebound");
+    let data = report_data(&scenario, &run(&scenario));
+    let mut seen = 0;
+    for case in data["cases"].as_array().expect("cases") {
+        for impact in case["impacts"].as_array().expect("impacts") {
+            let [contact] = &impact["contacts"].as_array().expect("contacts")[..] else { continue };
+            let [speed, index, restitution] =
+                ["closing_speed", "impulse_index", "restitution"].map(|key| number(&contact[key]));
+            let impulse = numbers(&contact["impulse"]);
+            let expected = impulse[1].hypot(impulse[2]);
+            let found = index * speed * (1.0 + restitution);
+            assert_close("impulse", &[found], &[expected], tolerance::SAME_IMPACT * expected);
+            seen += 1;
+        }
+    }
+    assert!(seen > 2, "{seen} single contacts");
+}
+
+/// The arm that is too late for the box is named with it, whichever target is the first in the file.
+#[test]
+fn what_is_not_met_has_its_name_whatever_the_order() {
+    let mut scenario = scenario("elastic_rebound");
+    scenario.cases.retain(|case| case.name == "too_late");
+    let closest = |scenario: &Scenario| summary(scenario, &run(scenario))["cases"][0]["closest"].clone();
+    let before = closest(&scenario);
+    scenario.targets.reverse();
+    let case = &mut scenario.cases[0];
+    case.target_twists.reverse();
+    case.kinds.reverse();
+    case.restitutions.reverse();
+    case.printed_impulses.reverse();
+    let after = closest(&scenario);
+    for found in [&before, &after] {
+        let [pair] = &found.as_array().expect("a list")[..] else { panic!("{found}") };
+        assert_eq!((&pair["target"], &pair["arm"]), (&"box".into(), &"arm2".into()));
+    }
+    let of = |found: &Value, key: &str| number(&found[0][key]);
+    assert_close("distance", &[of(&after, "distance")], &[of(&before, "distance")], tolerance::CLEARANCE);
+}
+
+/// The summary's first overlap is the earliest of those that it lists.
+#[test]
+fn the_first_overlap_is_the_earliest() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.cases.truncate(1);
+    let value = summary(&scenario, &run(&scenario));
+    let clearance = &value["cases"][0]["clearance"];
+    let begins: Vec<f64> =
+        clearance["overlaps"].as_array().expect("a list").iter().map(|overlap| number(&overlap["from"])).collect();
+    let [earliest, latest] = [begins.iter().copied().reduce(f64::min), begins.iter().copied().reduce(f64::max)];
+    assert!(earliest < latest, "{begins:?}");
+    assert_eq!(clearance["first_overlap"].as_f64(), earliest);
 }
 
 /// Actuators are watched at every step, whatever is sampled.
