@@ -1,8 +1,9 @@
 //! `planar-capture compare`: its table, and its states as input of `eval`.
 
 use crate::said;
-use planar_capture::compare::{Comparison, LargestError};
+use planar_capture::compare::{Comparison, LargestError, Refusal};
 use planar_capture::engine::Choice;
+use planar_capture::error::Error;
 use planar_capture::layout::Layout;
 use planar_capture::quantities::Difference;
 use planar_capture::quantity::Quantity;
@@ -58,11 +59,11 @@ fn a_layout_is_written_so_that_it_reads_back() {
     }
 }
 
-#[test]
-fn an_error_over_its_bound_is_no_agreement() {
+/// One state in which every quantity has this error.
+fn comparison(error: f64) -> Comparison {
     let (_, text) = SHIPPED.first().expect("there are some");
     let sample = REGIMES[0].sample(&Layout::parse(text, "shipped").expect("good"), 1, 0);
-    let comparison = |error: f64| Comparison {
+    Comparison {
         states: 1,
         largest_errors: Quantity::ALL
             .iter()
@@ -74,11 +75,27 @@ fn an_error_over_its_bound_is_no_agreement() {
             })
             .collect(),
         refusals: Vec::new(),
-    };
+    }
+}
+
+#[test]
+fn an_error_over_its_bound_is_no_agreement() {
     assert!(comparison(1e-14).agrees());
     assert!(!comparison(2e-12).agrees());
     assert!(!comparison(f64::NAN).agrees());
     assert!(!Comparison::default().agrees(), "what was not compared does not agree");
+}
+
+/// States that both implementations refuse are no difference, states that one of them refuses are.
+#[test]
+fn a_refusal_of_one_side_is_no_agreement() {
+    let singular = || Some(Error::Singular { what: "a matrix", pivot: 0.0, limit: 1e-15 });
+    let agrees = |generated: Option<Error>, generic: Option<Error>| {
+        let refusals = vec![Refusal { regime: REGIMES[0], index: 0, generated, generic }];
+        Comparison { refusals, ..comparison(1e-14) }.agrees()
+    };
+    assert!(agrees(singular(), singular()));
+    assert!(!agrees(singular(), None) && !agrees(None, singular()));
 }
 
 /// Links far shorter or longer than the rest: the reference, which once subtracted positions, has their digits too.

@@ -2,6 +2,14 @@
 //! `tests/fmu.py` with another importer.
 
 use crate::generate::{folder, generate, outcome, without_python};
+use planar_capture::build::graph;
+use planar_capture::capture::Silent;
+use planar_capture::fmu::{Fmu, Origin};
+use planar_capture::output::time_series::columns;
+use planar_capture::registry::{SHIPPED, generated};
+use planar_capture::scenario::Scenario;
+use planar_proof::file;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -66,6 +74,43 @@ fn an_fmu_without_a_compiler_has_sources_alone_and_always_the_same_bytes() {
         "robot.fmu is not what the layout gives; to mend: planar-capture generate small.toml --out robot.fmu --fmu";
     assert!(code == 1 && err.contains(mend), "{err}");
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "the layout and the FMU");
+}
+
+/// The units of the variables in a description, by their names.
+fn units(description: &str) -> BTreeMap<String, String> {
+    let attribute = |line: &str, name: &str| {
+        let (_, rest) = line.split_once(&format!(" {name}=\""))?;
+        rest.split_once('"').map(|(value, _)| value.to_owned())
+    };
+    let variables = description.split("<Float64").skip(1);
+    variables.filter_map(|text| Some((attribute(text, "name")?, attribute(text, "unit")?))).collect()
+}
+
+/// What an FMU and a time series both have is in the same unit; joules are newton metres, which have the same base units.
+#[test]
+fn units_are_those_of_the_time_series() {
+    let path = file("scenarios/redysim_single_arm_3r.toml");
+    let scenario = Scenario::read(&path, SHIPPED).unwrap_or_else(|report| panic!("{report}"));
+    let text = fs::read_to_string(file("codegen/graphs/single_arm_3r.json")).expect("a graph");
+    let graph = graph::read(&text, &scenario.layout).expect("its graph");
+    let sha256 = scenario.layout.sha256();
+    let origin = Origin { name: "robot", layout_sha256: &sha256, source: "robot.toml", command: "build" };
+    let fmu = Fmu::new(&graph, &origin).expect("an FMU");
+    let mut found = units(&String::from_utf8_lossy(&fmu.entries[0].content));
+    let model = generated(&scenario.layout).expect("generated code");
+    let study = planar_capture::capture::study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+    let mut both = 0;
+    for column in columns(&scenario, &study.cases[0]) {
+        let Some(unit) = found.remove(&column.name) else {
+            assert_eq!(column.name, "joint_work", "a column that an FMU has not");
+            continue;
+        };
+        assert_eq!(unit, if column.unit == "J" { "N m" } else { column.unit }, "{}", column.name);
+        both += 1;
+    }
+    // poses and twists of base and end effector, three numbers of three joints, and momentum and energy
+    assert_eq!(both, 12 + 9 + 4);
+    assert_eq!(found["time"], "s");
 }
 
 /// All are refused before anything is derived.

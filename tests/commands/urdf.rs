@@ -259,6 +259,25 @@ fn what_would_leave_the_plane_is_named_with_its_numbers() {
     assert!(remarks(&nearly).contains("`elbow` 3.0e-6 rad"), "{}", remarks(&nearly));
 }
 
+/// Principal moments whose axes are turned by all three angles: of R = Rz(yaw) Ry(pitch) Rx(roll) the last row squared weights
+/// them, 0.302339 kg m² by hand.
+#[test]
+fn inertias_are_turned_with_their_origin() {
+    let [roll, pitch, yaw] = [0.5_f64, 0.4, 0.3];
+    let moments = [0.1, 0.3, 0.35];
+    let text = changed(&link("upper", 10.0, "0.5 0 0", [1.0; 3]), &link("upper", 10.0, "0.5 0 0", moments));
+    let turned = text.replacen(
+        "xyz=\"0.5 0 0\"/><mass value=\"10\"/><inertia ixx=\"0.1\"",
+        &format!("xyz=\"0.5 0 0\" rpy=\"{roll} {pitch} {yaw}\"/><mass value=\"10\"/><inertia ixx=\"0.1\""),
+        1,
+    );
+    assert_ne!(text, turned);
+    let row = [-pitch.sin(), pitch.cos() * roll.sin(), pitch.cos() * roll.cos()];
+    let expected: f64 = row.iter().zip(moments).map(|(part, moment)| part * part * moment).sum();
+    assert!((expected - 0.302_339).abs() < 1e-6, "{expected}");
+    assert_links(&imported(&turned), 0, &[[1.0, 10.0, expected, 0.5, 0.0], [1.0, 10.0, 1.0, 0.5, 0.0]]);
+}
+
 #[test]
 fn end_effectors_are_found_named_or_estimated() {
     let second = joint("fixed", "end2", ["lower", "tip2"], "xyz=\"0 2 0\"", "") + "<link name=\"tip2\"/>";

@@ -189,16 +189,34 @@ where
     };
     compare("the exact impact", &[first, second], &statuses, &expected(&of_one));
 
-    let [mut poses, mut angles, mut twists, mut rates] = [results(3), results(joints), results(3), results(joints)];
-    let mut after = StatesAfter {
-        base_poses: &mut poses,
-        joint_angles: &mut angles,
-        base_twists: &mut twists,
-        joint_rates: &mut rates,
-    };
-    batch.runge_kutta_step(&states, &torques, 0.01, &mut after, &mut statuses).expect("lengths fit");
-    let of_one = |i: &Instance| step(model, joints, i, 0.01);
-    compare("Runge-Kutta step", &[poses, angles, twists, rates], &statuses, &expected(&of_one));
+    check_step::<I, M>(model, count, 0.01);
+}
+
+/// Runge–Kutta steps against those of the core's integrator; returns how many have which status.
+fn check_step<I: Instructions, M>(model: &M, count: usize, length: f64) -> [usize; 3]
+where
+    M: BatchModel + dynamics::Model<f64>,
+{
+    let joints = M::JOINTS;
+    let all = instances(count, M::ARMS, joints);
+    let given = [
+        matrix(&all, |i| i.base_pose.to_vec()),
+        matrix(&all, |i| i.joint_angles.clone()),
+        matrix(&all, |i| i.base_twist.to_vec()),
+        matrix(&all, |i| i.joint_rates.clone()),
+    ];
+    let [base_poses, joint_angles, base_twists, joint_rates] = given.each_ref().map(Vec::as_slice);
+    let states = States { base_poses, joint_angles, base_twists, joint_rates };
+    let mut statuses = vec![Status::NotFinite; count];
+    let mut found = [3, joints, 3, joints].map(|rows: usize| vec![UNTOUCHED; rows * count]);
+    let [base_poses, joint_angles, base_twists, joint_rates] = found.each_mut().map(Vec::as_mut_slice);
+    let mut after = StatesAfter { base_poses, joint_angles, base_twists, joint_rates };
+    let torques = matrix(&all, |i| i.joint_torques.clone());
+    let batch = Batch::<M, I>::with_instructions(model);
+    batch.runge_kutta_step(&states, &torques, length, &mut after, &mut statuses).expect("lengths fit");
+    let expected: Vec<Expected> = all.iter().map(|instance| step(model, joints, instance, length)).collect();
+    compare("Runge-Kutta step", &found, &statuses, &expected);
+    [Status::Done, Status::Singular, Status::NotFinite].map(|wanted| statuses.iter().filter(|s| **s == wanted).count())
 }
 
 /// A step of the core's integrator under constant torques.
@@ -243,6 +261,19 @@ fn batches_of_any_size_are_as_the_model_says() {
 fn every_instruction_set_gives_the_same() {
     check::<Avx2, _>(&dual_arm_3r::Model::<f64>::default(), 187);
     check::<AsBuilt, _>(&dual_arm_3r::Model::<f64>::default(), 187);
+}
+
+/// A base of negative inertia, which the arms make up for in some poses and not in others: a step through one where they do not
+/// has no result, wherever it ends.
+#[test]
+fn a_step_with_one_singular_stage_has_no_result() {
+    let steps = |base_inertia: f64| {
+        let parameters = dual_arm_3r::Parameters { base_inertia, ..dual_arm_3r::Parameters::default() };
+        check_step::<Detected, _>(&dual_arm_3r::Model::<f64>::new(parameters), 187, 0.5)
+    };
+    let of_all = [-4.0, -5.0, -6.0, -8.0].map(steps);
+    let [done, singular] = [0, 1].map(|status| of_all.iter().map(|counts| counts[status]).sum::<usize>());
+    assert!(done > 99 && singular > 9, "{of_all:?}");
 }
 
 /// The instances of the other tests have all statuses.

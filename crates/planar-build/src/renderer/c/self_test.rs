@@ -71,3 +71,65 @@ pub fn self_test(graph: &Graph, states: &[ReferenceState]) -> Value {
         "longest": longest,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::self_test;
+    use crate::format::{FunctionResult, Given, Graph, ReferenceState};
+    use serde_json::{Value, json};
+
+    /// A graph with one function of one input, which has two results and a pivot.
+    fn graph() -> Graph {
+        let variable = |name: &str, shape: &[usize], elements: &[&str]| json!({"name": name, "shape": shape, "unit": "", "description": "", "elements": elements});
+        let function = json!({
+            "name": "f", "description": "", "equation": "", "source": "", "inputs": ["q"], "sections": [], "statements": [],
+            "outputs": [variable("smallest_pivot", &[], &["p"]), variable("a", &[2], &["x", "y"]), variable("b", &[1], &["z"])],
+            "operations": {},
+        });
+        let value = json!({
+            "casadi": "", "inputs": [variable("q", &[2], &[])], "parameters": [], "self_test": null,
+            "layout": {"name": "it", "sha256": "", "needs_distinct_mounts": false, "arms": []},
+            "constants": {"statements": [], "values": [], "operations": {}},
+            "families": [{"name": "all", "description": "", "functions": [function],
+                          "configuration": {"sections": [], "statements": [], "values": [], "operations": {}}}],
+        });
+        serde_json::from_value(value).expect("a graph")
+    }
+
+    fn state(factor: f64) -> ReferenceState {
+        let result = |output: &str, values: &[f64], sizes: &[f64]| FunctionResult {
+            function: "f".to_owned(),
+            output: output.to_owned(),
+            values: values.iter().map(|value| factor * value).collect(),
+            sizes: sizes.iter().map(|size| factor * size).collect(),
+        };
+        let inputs = vec![Given { name: "q".to_owned(), values: vec![factor, -0.5] }];
+        // in another order than the graph has them
+        let expected = vec![result("b", &[7.5], &[40.0]), result("a", &[0.25, -3.0], &[2.0, 16.0])];
+        ReferenceState { inputs, expected }
+    }
+
+    /// What the module in C compares with: the values, and the errors that a proof allows, neither more nor less.
+    #[test]
+    fn tables_have_the_values_and_the_allowed_errors_of_the_proof() {
+        let factors = [1.0, 0.125];
+        let test = self_test(&graph(), &factors.map(state));
+        let numbers = |list: &Value| -> Vec<f64> {
+            let texts = list.as_array().expect("a list").iter().map(|text| text.as_str().expect("a text"));
+            texts.map(|text| text.strip_prefix("(real)").expect("a cast").parse().expect("a number")).collect()
+        };
+        let function = &test["functions"][0];
+        for (i, factor) in factors.into_iter().enumerate() {
+            let times = |list: &[f64]| list.iter().map(|number| factor * number).collect::<Vec<_>>();
+            let state = &function["states"][i];
+            assert_eq!(numbers(&test["inputs"][0]["values"][i]), [factor, -0.5]);
+            assert_eq!(numbers(&state["values"]), times(&[0.25, -3.0, 7.5]), "in the order of the graph");
+            assert_eq!(numbers(&state["sizes"]), times(&[2.0, 16.0, 40.0]));
+        }
+        assert_eq!(
+            (&function["places"], &function["length"], &test["longest"]),
+            (&json!([0, 2]), &json!(3), &json!(3))
+        );
+        assert_eq!((&test["states"], &test["impact"]), (&json!(2), &Value::Null));
+    }
+}
