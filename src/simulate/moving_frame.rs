@@ -9,9 +9,11 @@ use crate::simulate::bodies::{BodyList, BodySums};
 use crate::simulate::system::System;
 use crate::state::{Coordinates, State, StateVector, coordinates_mut, split_mut};
 
-/// A frame whose axes are the inertial ones, and whose origin is the inertial one at the start of a phase.
+/// A frame whose axes are the inertial ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MovingFrame {
+    /// Its origin at the start of a phase, m.
+    pub origin: [f64; 2],
     /// Of its origin, m/s.
     pub velocity: [f64; 2],
     joints: usize,
@@ -26,42 +28,50 @@ impl MovingFrame {
         let mut list = BodyList::new(system.model)?;
         let sums = BodySums::new(list.at(system.model, &State::from_vector(x, joints)?, &bodies)?);
         let velocity @ [vx, vy] = sums.momentum().linear_momentum.map(|momentum| momentum / sums.mass);
-        let is_far = libm::hypot(vx, vy) * duration > system.reach;
-        Ok(Self { velocity: if is_far { velocity } else { [0.0; 2] }, joints })
+        if libm::hypot(vx, vy) * duration <= system.reach {
+            return Ok(Self { joints, ..Self::default() });
+        }
+        Ok(Self { origin: sums.center_of_mass(), velocity, joints })
+    }
+
+    /// Whether it is another than the inertial frame.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.velocity != [0.0; 2]
     }
 
     /// Moves an integrated vector from the inertial frame to this one.
     pub(crate) fn enter(&self, time: f64, x: &mut [f64]) -> Result<(), Error> {
-        self.add(-time, -1.0, x)
+        self.add([-1.0, -time], -1.0, x)
     }
 
     /// Moves an integrated vector from this frame to the inertial one.
     pub(crate) fn leave(&self, time: f64, x: &mut [f64]) -> Result<(), Error> {
-        self.add(time, 1.0, x)
+        self.add([1.0, time], 1.0, x)
     }
 
     /// Moves d/dt of an integrated vector from this frame to the inertial one.
     pub(crate) fn leave_rate(&self, rate: &mut [f64]) -> Result<(), Error> {
-        self.add(1.0, 0.0, rate)
+        self.add([0.0, 1.0], 0.0, rate)
     }
 
     /// By how much positions in the inertial frame are rounded, m.
     pub(crate) fn rounding(&self, time: f64) -> f64 {
-        let [vx, vy] = self.velocity;
-        f64::EPSILON * libm::hypot(vx, vy) * time
+        let [x, y] = [0, 1].map(|i: usize| self.origin[i] + self.velocity[i] * time);
+        f64::EPSILON * libm::hypot(x, y)
     }
 
-    /// Adds so many velocities to each place and to each linear velocity.
-    fn add(&self, to_places: f64, to_velocities: f64, x: &mut [f64]) -> Result<(), Error> {
-        if self.velocity == [0.0; 2] {
+    /// Adds so many origins and velocities to each place, and so many velocities to each linear velocity.
+    fn add(&self, [origins, velocities]: [f64; 2], to_velocities: f64, x: &mut [f64]) -> Result<(), Error> {
+        if !self.is_moving() {
             return Ok(());
         }
+        let to_place = |i: usize| origins * self.origin[i] + velocities * self.velocity[i];
         let StateVector { positions, rates, .. } = split_mut(x)?;
-        for (half, factor) in [(positions, to_places), (rates, to_velocities)] {
+        for (half, by) in [(positions, [0, 1].map(to_place)), (rates, self.velocity.map(|v| to_velocities * v))] {
             let Coordinates { base, bodies, .. } = coordinates_mut(half, self.joints)?;
             for [_, x, y] in std::iter::once(base).chain(bodies) {
-                *x += factor * self.velocity[0];
-                *y += factor * self.velocity[1];
+                *x += by[0];
+                *y += by[1];
             }
         }
         Ok(())

@@ -65,8 +65,13 @@ fn a_drift_costs_no_digits() {
         for velocity in [10.0, 7500.0] {
             let found = study(integrator, velocity);
             assert_eq!(found.audit_failures(), Vec::<String>::new(), "{integrator}");
-            let drift = after(&found).drift.worse(&found.approach.drift);
-            assert!(drift.momentum_drift < 1e-10 && drift.center_of_mass_drift < 1e-9, "{integrator}: {drift:?}");
+            let drift = |study: &Study| after(study).drift.worse(&study.approach.drift);
+            let (moving, resting) = (drift(&found), drift(&still));
+            assert!(
+                moving.momentum_drift < 1.01 * resting.momentum_drift + 1e-10,
+                "{integrator}: {moving:?} {resting:?}"
+            );
+            assert!(moving.center_of_mass_drift < resting.center_of_mass_drift + 1e-10, "{integrator}: {moving:?}");
             assert_close(integrator, &joints(&found), &joints(&still), tolerance::REACHED);
         }
     }

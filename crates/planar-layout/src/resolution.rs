@@ -1,6 +1,6 @@
 //! What is left of a robot's inertias where its joints are free, by which 16 digits resolve its motion or do not.
 
-use crate::layout::Layout;
+use crate::layout::{Arm, Layout};
 
 /// Smallest ratio of the inertia that a joint or the base moves with the joints beyond it free (articulated) to that with
 /// them locked (composite). Mass matrices have the composite inertias, and factorisations leave the articulated ones as
@@ -21,11 +21,36 @@ pub(crate) struct Weakest {
     pub share: f64,
 }
 
-/// A body's inertia and the Jacobian of its twist [ω, vx, vy] by [base twist, joint rates].
-struct MovingBody {
-    mass: f64,
-    inertia: f64,
-    rows: [Vec<f64>; 3],
+/// An inertia that moves with a point: of its twist [ω, vx, vy] half the quadratic form is the kinetic energy. Symmetric.
+#[derive(Clone, Copy)]
+struct PointInertia([[f64; 3]; 3]);
+
+impl PointInertia {
+    /// Of a body whose centre of mass is at [x, y] from the point.
+    fn new(mass: f64, inertia: f64, [x, y]: [f64; 2]) -> Self {
+        Self([[inertia + mass * (x * x + y * y), -mass * y, mass * x], [-mass * y, mass, 0.0], [mass * x, 0.0, mass]])
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|i| std::array::from_fn(|k| self.0[i][k] + other.0[i][k])))
+    }
+
+    /// The same with another point of the same body, from which this one is at [x, y].
+    fn at(&self, [x, y]: [f64; 2]) -> Self {
+        // of the twist there: ω, vx − y ω, vy + x ω
+        let [[moment, mx, my], [_, xx, xy], [_, _, yy]] = self.0;
+        let [row_x, row_y] = [mx - y * xx + x * xy, my - y * xy + x * yy];
+        let turning = moment + (x * my - y * mx) + (x * row_y - y * row_x);
+        Self([[turning, row_x, row_y], [row_x, xx, xy], [row_y, xy, yy]])
+    }
+
+    /// What is left where one component of the twist is free.
+    fn free(&self, component: usize) -> Self {
+        let of_free = self.0[component];
+        let without = |i: usize, k: usize| self.0[i][k] - of_free[i] * (of_free[k] / of_free[component]);
+        let is_free = |i: usize, k: usize| i == component || k == component;
+        Self(std::array::from_fn(|i| std::array::from_fn(|k| if is_free(i, k) { 0.0 } else { without(i, k) })))
+    }
 }
 
 impl Weakest {
@@ -36,72 +61,45 @@ impl Weakest {
     }
 
     fn in_pose(layout: &Layout, angles: [f64; 2]) -> Self {
-        let mut matrix = mass_matrix(&bodies(layout, angles));
-        let composite: Vec<f64> = matrix.iter().enumerate().map(|(i, row)| row[i]).collect();
         let mut weakest = Self { link: None, share: 1.0 };
-        let mut take = |column: usize, link| {
-            let share = free(&mut matrix, column) / composite[column];
-            if share < weakest.share {
-                weakest = Self { link, share };
-            }
-        };
-        let mut first = 3;
+        let base = PointInertia::new(layout.base.mass, layout.base.inertia, [0.0; 2]);
+        let [mut locked, mut free] = [base; 2];
         for (i, arm) in layout.arms.iter().enumerate() {
-            for k in (0..arm.links.len()).rev() {
-                take(first + k, Some((i, k)));
-            }
-            first += arm.links.len();
+            let [of_locked, of_free] = weakest.take_arm(i, arm, angles);
+            (locked, free) = (locked.plus(&of_locked.at(arm.mount)), free.plus(&of_free.at(arm.mount)));
         }
-        (0..3).for_each(|column| take(column, None));
+        for component in 0..3 {
+            weakest.take(None, component, &locked, &free);
+            free = free.free(component);
+        }
         weakest
     }
-}
 
-fn bodies(layout: &Layout, angles: [f64; 2]) -> Vec<MovingBody> {
-    let size = 3 + layout.arms.iter().map(|arm| arm.links.len()).sum::<usize>();
-    let still: [Vec<f64>; 3] = std::array::from_fn(|row| (0..size).map(|i| f64::from(u8::from(i == row))).collect());
-    let mut all = vec![MovingBody { mass: layout.base.mass, inertia: layout.base.inertia, rows: still.clone() }];
-    let mut column = 3;
-    for arm in &layout.arms {
-        let (mut yaw, mut rows) = (arm.mount_angle, moved(&still, arm.mount));
-        for (link, angle) in arm.links.iter().zip(angles.iter().cycle()) {
+    /// Takes the joints of an arm, the last one first; returns the inertias that the base has at its mount.
+    fn take_arm(&mut self, arm: usize, of: &Arm, angles: [f64; 2]) -> [PointInertia; 2] {
+        let mut yaw = of.mount_angle;
+        let turned = of.links.iter().zip(angles.iter().cycle()).map(|(link, angle)| {
             yaw += angle;
-            rows[0][column] = 1.0;
-            column += 1;
-            let turned =
-                |[x, y]: [f64; 2]| [libm::cos(yaw) * x - libm::sin(yaw) * y, libm::sin(yaw) * x + libm::cos(yaw) * y];
-            all.push(MovingBody { mass: link.mass, inertia: link.inertia, rows: moved(&rows, turned(link.com)) });
-            rows = moved(&rows, turned([link.length, 0.0]));
+            (link, yaw)
+        });
+        let links: Vec<_> = turned.collect();
+        let [mut locked, mut free] = [PointInertia([[0.0; 3]; 3]); 2];
+        for (k, (link, yaw)) in links.into_iter().enumerate().rev() {
+            let (sin, cos) = (libm::sin(yaw), libm::cos(yaw));
+            let [x, y] = link.com;
+            let own = PointInertia::new(link.mass, link.inertia, [cos * x - sin * y, sin * x + cos * y]);
+            let end = [cos * link.length, sin * link.length];
+            (locked, free) = (own.plus(&locked.at(end)), own.plus(&free.at(end)));
+            self.take(Some((arm, k)), 0, &locked, &free);
+            free = free.free(0);
+        }
+        [locked, free]
+    }
+
+    fn take(&mut self, link: Option<(usize, usize)>, component: usize, locked: &PointInertia, free: &PointInertia) {
+        let share = free.0[component][component] / locked.0[component][component];
+        if share < self.share {
+            *self = Self { link, share };
         }
     }
-    all
-}
-
-/// The Jacobian of a point of the same body at `lever` from that of `rows`.
-fn moved([angular, x, y]: &[Vec<f64>; 3], lever: [f64; 2]) -> [Vec<f64>; 3] {
-    let along = |row: &[f64], factor: f64| row.iter().zip(angular).map(|(v, w)| v + factor * w).collect();
-    [angular.clone(), along(x, -lever[1]), along(y, lever[0])]
-}
-
-fn mass_matrix(bodies: &[MovingBody]) -> Vec<Vec<f64>> {
-    let size = bodies.first().map_or(0, |body| body.rows[0].len());
-    let mut matrix = vec![vec![0.0; size]; size];
-    for MovingBody { mass, inertia, rows } in bodies {
-        for (row, weight) in rows.iter().zip([inertia, mass, mass]) {
-            for (entries, left) in matrix.iter_mut().zip(row) {
-                entries.iter_mut().zip(row).for_each(|(entry, right)| *entry += weight * left * right);
-            }
-        }
-    }
-    matrix
-}
-
-/// The articulated inertia of a column, which is free for those that follow.
-fn free(matrix: &mut [Vec<f64>], column: usize) -> f64 {
-    let row = matrix[column].clone();
-    for entries in matrix.iter_mut() {
-        let factor = entries[column] / row[column];
-        entries.iter_mut().zip(&row).for_each(|(entry, other)| *entry -= factor * other);
-    }
-    row[column]
 }

@@ -166,6 +166,14 @@ fn the_frame_moves_with_the_centre_of_mass() {
     let frame = |duration| MovingFrame::of(&system, &x, duration).expect("a frame").velocity;
     assert_close("velocity", &frame(1.01 / speed), &expected, tolerance::IDENTITY);
     assert_close("near", &frame(0.99 / speed), &[0.0; 2], 0.0);
-    let found = MovingFrame::of(&system, &x, 2.0).expect("a frame").rounding(3.0);
-    assert_close("rounding", &[found / (3.0 * speed * f64::EPSILON)], &[1.0], tolerance::IDENTITY);
+    let far = MovingFrame::of(&system, &x, 2.0).expect("a frame");
+    assert_close("rounding", &[far.rounding(1e9) / (1e9 * speed * f64::EPSILON)], &[1.0], 1e-7);
+    let mut moved = x.clone();
+    far.enter(0.0, &mut moved).expect("a vector");
+    let at = |x: &[f64]| (State::from_vector(x, 2).expect("a state").base_pose, system.bodies_at(x).expect("bodies"));
+    let ((base, bodies), (from, before)) = (at(&moved), at(&x));
+    let came = |pose: [f64; 3], from: [f64; 3]| [pose[1] - from[1], pose[2] - from[2]];
+    let origin = far.origin.map(|place| -place);
+    assert_close("base", &came(base, from), &origin, tolerance::IDENTITY);
+    assert_close("body", &came(bodies[0].pose, before[0].pose), &origin, tolerance::IDENTITY);
 }

@@ -193,7 +193,7 @@ impl<'a> Stepper<'a> {
         let frame = MovingFrame::of(system, x, duration)?;
         let mut moving = x.to_vec();
         frame.enter(0.0, &mut moving)?;
-        if frame.velocity != [0.0; 2] {
+        if frame.is_moving() {
             // far away the poses that begin constraints are rounded
             system.restore(&mut moving)?;
         }
@@ -202,7 +202,7 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, true) => FormulationWorkspace::canonical(system, &moving)?,
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
-        let law = InertialFrame { law: control, origin: [0.0; 2], velocity: frame.velocity };
+        let law = InertialFrame { law: control, origin: frame.origin, velocity: frame.velocity };
         let equation = Equation::new(system, law, form);
         let steps = integration.integrator.steps(duration, x.len());
         let companion = Companion::new(integration.integrator, duration, &moving, &equation);

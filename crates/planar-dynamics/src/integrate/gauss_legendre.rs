@@ -95,12 +95,12 @@ impl<'a, T: Real> GaussLegendre<'a, T> {
             largest_magnitude(x.iter().copied()) + largest_magnitude(self.next.iter().map(|slope| step * *slope));
         let limit = T::constant(1e3) * T::EPSILON * scale;
         let (mut previous, mut iterations) = (None, 0);
-        let (mut least, mut without_gain) = (scale, 0);
+        let (mut smallest, mut without_gain) = (scale, 0);
         loop {
             let change = self.iterate(&tableau, time, step, x, &mut derivative)?;
             iterations += 1;
-            without_gain = if change < least { 0 } else { without_gain + 1 };
-            least = least.minimum(change);
+            without_gain = if change < smallest { 0 } else { without_gain + 1 };
+            smallest = smallest.minimum(change);
             let last = iterations == MAXIMUM_ITERATIONS;
             let stalled = previous.is_some_and(|previous| change >= previous);
             let is_rounding = without_gain >= WITHOUT_GAIN && change <= T::constant(1e3) * limit;
