@@ -77,6 +77,3 @@ impl MovingFrame {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests;

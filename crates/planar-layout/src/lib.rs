@@ -11,5 +11,4 @@ pub mod layout;
 mod names;
 pub mod outline;
 mod proportion;
-mod resolution;
 pub mod structure;

@@ -21,6 +21,7 @@
 //! ```
 
 mod keys;
+mod resolution;
 
 use std::path::Path;
 
@@ -29,7 +30,7 @@ use planar_dynamics::manifest::ParameterKind;
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion};
-use crate::resolution::{LEAST_SHARE, Weakest};
+use resolution::{LEAST_SHARE, Weakest};
 
 pub use keys::FORMAT;
 

@@ -1,12 +1,12 @@
 //! What is left of a robot's inertias where its joints are free, by which 16 digits resolve its motion or do not.
 
-use crate::layout::{Arm, Layout};
+use super::{Arm, Layout};
 
 /// Smallest ratio of the inertia that a joint or the base moves with the joints beyond it free (articulated) to that with
 /// them locked (composite). Mass matrices have the composite inertias, and factorisations leave the articulated ones as
 /// their differences: accelerations of the generic implementation and captures are wrong by less than 1e-6
 /// above this one (950 robots with masses from 1e-6 to 1e6 kg, against 60 digits), and soon by more below it.
-pub(crate) const LEAST_SHARE: f64 = 1e-5;
+pub(super) const LEAST_SHARE: f64 = 1e-5;
 
 /// Robots are looked at in two poses, neither of which is stretched: all joints at 1 rad, and at −1 and 1 rad in turn. The
 /// ratio of the better one counts, as a pose near a singular one says nothing of the robot.
@@ -14,7 +14,7 @@ const POSES: [[f64; 2]; 2] = [[1.0, 1.0], [-1.0, 1.0]];
 
 /// Where the least is left.
 #[derive(Clone, Copy)]
-pub(crate) struct Weakest {
+pub(super) struct Weakest {
     /// Arm and link; `None` for the base.
     pub link: Option<(usize, usize)>,
     /// The ratio of articulated to composite inertia.
@@ -55,7 +55,7 @@ impl PointInertia {
 
 impl Weakest {
     /// Of a robot.
-    pub(crate) fn of(layout: &Layout) -> Self {
+    pub(super) fn of(layout: &Layout) -> Self {
         let [one, other] = POSES.map(|angles| Self::in_pose(layout, angles));
         if other.share > one.share { other } else { one }
     }

@@ -1,6 +1,5 @@
 //! A phase in the moving frame against the same in the inertial frame.
 
-use super::MovingFrame;
 use crate::contact::{ContactPartner, LoopConstraint};
 use crate::control::Control;
 use crate::dynamics::AnyModel;
@@ -8,6 +7,7 @@ use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
 use crate::simulate::event::{EventState, Events};
+use crate::simulate::moving_frame::MovingFrame;
 use crate::simulate::path::PathPart;
 use crate::simulate::stepper::{Formulation, Integration, Integrator};
 use crate::simulate::system::{Body, System};
