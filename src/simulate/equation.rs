@@ -1,6 +1,5 @@
 //! The differential equation of a phase, in full or reduced coordinates or in canonical variables.
 
-use crate::control::Control;
 use crate::error::Error;
 use crate::formulation::{CanonicalVariables, ReducedCoordinates};
 use crate::simulate::inertial_frame::InertialFrame;
@@ -14,8 +13,6 @@ pub(crate) struct Equation<'a> {
     pub(crate) control: InertialFrame<'a>,
     torques: Vec<f64>,
     form: FormulationWorkspace,
-    /// Whether a torque was at its limit at any state so far: the right side may have kinks there.
-    pub(crate) has_saturated: bool,
 }
 
 /// The coordinates of an equation, with their working space.
@@ -132,34 +129,27 @@ impl FormulationWorkspace {
 
 impl<'a> Equation<'a> {
     pub(crate) fn new(system: &'a System<'a>, control: InertialFrame<'a>, form: FormulationWorkspace) -> Self {
-        Self { system, control, torques: vec![0.0; system.model.joints()], form, has_saturated: false }
+        Self { system, control, torques: vec![0.0; system.model.joints()], form }
     }
 
     /// d/dt of positions, rates and work.
     pub(crate) fn derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let Self { system, control, torques, form, .. } = self;
+        let Self { system, control, torques, form } = self;
         match form {
             FormulationWorkspace::Reduced(space) => {
-                space.borrow().derivative(system.model, control, time, x, rate, torques)?;
+                space.borrow().derivative(system.model, control.as_given(), time, x, rate, torques)
             }
             FormulationWorkspace::Full | FormulationWorkspace::Canonical(_) => {
-                system.derivative(control, time, x, rate, torques)?;
+                system.derivative(control.as_given(), time, x, rate, torques)
             }
         }
-        self.note_saturation();
-        Ok(())
-    }
-
-    fn note_saturation(&mut self) {
-        self.has_saturated |=
-            self.control.saturated().contains(&true) || self.control.base_torque().is_some_and(|base| base.saturated);
     }
 
     /// d/dt of positions, momenta and work: `ṗ = f + ∂T/∂q`. Without bodies beside the robot f are the torques, so that
     /// momenta without forces are constant to the last bit; with them `f = M v̇ + c` has the constraint forces too. The
     /// bodies keep twists in place of momenta, as their masses are constant.
     pub(crate) fn canonical_derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let Self { system, control, torques, form: FormulationWorkspace::Canonical(space), .. } = self else {
+        let Self { system, control, torques, form: FormulationWorkspace::Canonical(space) } = self else {
             return self.derivative(time, x, rate);
         };
         let (model, joints) = (system.model, system.model.joints());
@@ -167,7 +157,7 @@ impl<'a> Equation<'a> {
         let mut canonical = variables.borrow();
         with_rates.copy_from_slice(x);
         replace(&mut canonical, system, with_rates, results, Direction::ToRates)?;
-        system.derivative(control, time, with_rates, rate, torques)?;
+        system.derivative(control.as_given(), time, with_rates, rate, torques)?;
         let now = State::from_vector(with_rates, joints)?;
         let StateVector { rates, work: [.., base_torque], .. } = split_mut(rate)?;
         if system.beside() == 0 {
@@ -183,9 +173,7 @@ impl<'a> Equation<'a> {
             }
             rates[..3 + joints].copy_from_slice(results);
         }
-        canonical.add_energy_gradient(model, &now, &mut rates[..3 + joints])?;
-        self.note_saturation();
-        Ok(())
+        canonical.add_energy_gradient(model, &now, &mut rates[..3 + joints])
     }
 
     /// Replaces rates by canonical momenta: those at the end of the last step where `x` is unchanged since, as the

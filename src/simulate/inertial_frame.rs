@@ -16,6 +16,11 @@ pub(crate) struct InertialFrame<'l> {
 }
 
 impl InertialFrame<'_> {
+    /// The law for states about the origin: itself where that is the inertial one.
+    pub(crate) fn as_given(&mut self) -> &mut dyn Control<f64> {
+        if self.origin == [0.0; 2] && self.velocity == [0.0; 2] { &mut *self.law } else { self }
+    }
+
     fn state<'s>(&self, time: f64, state: &State<'s, f64>) -> State<'s, f64> {
         let mut moved = *state;
         translate(&mut moved.base_pose, [0, 1].map(|i: usize| self.origin[i] + time * self.velocity[i]));

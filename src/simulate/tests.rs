@@ -7,8 +7,6 @@
     reason = "small whole numbers, and numbers that are copied"
 )]
 
-mod drift;
-
 use super::bodies::{BodySums, bodies, inertia_about};
 use super::conservation::{AccumulatedInput, ConservationAudit};
 use super::event::{EndTime, EventState, Events, NoEvents};

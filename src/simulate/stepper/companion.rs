@@ -84,10 +84,7 @@ impl Companion {
         if self.is_lost {
             return;
         }
-        if equation.has_saturated
-            && equation.control.held_steps().is_none()
-            && self.order.is_some_and(|order| order > 1)
-        {
+        if is_saturated(&equation.control) && self.order.is_some_and(|order| order > 1) {
             self.lower_order();
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
@@ -175,6 +172,12 @@ impl Companion {
         self.halves(equation, span)?;
         Ok(growth / (growth - 1.0) * largest_difference(&whole, &self.x))
     }
+}
+
+/// Whether a torque is at its limit in the last state of a law that acts continuously: the right side has kinks in time.
+fn is_saturated(law: &dyn Control<f64>) -> bool {
+    let is_at_limit = law.saturated().contains(&true) || law.base_torque().is_some_and(|base| base.saturated);
+    is_at_limit && law.held_steps().is_none()
 }
 
 /// Of the positions of two integrated vectors.

@@ -285,3 +285,6 @@ impl<'a> Stepper<'a> {
         self.frame.leave_rate(rate)
     }
 }
+
+#[cfg(test)]
+mod tests;
