@@ -17,6 +17,7 @@ pub(crate) struct InertialFrame<'l> {
 
 impl InertialFrame<'_> {
     /// The law for states about the origin: itself where that is the inertial one.
+    #[allow(clippy::float_cmp, reason = "numbers that are copied")]
     pub(crate) fn as_given(&mut self) -> &mut dyn Control<f64> {
         if self.origin == [0.0; 2] && self.velocity == [0.0; 2] { &mut *self.law } else { self }
     }

@@ -35,6 +35,7 @@ impl MovingFrame {
     }
 
     /// Whether it is another than the inertial frame.
+    #[allow(clippy::float_cmp, reason = "numbers that are copied")]
     pub(crate) fn is_moving(&self) -> bool {
         self.velocity != [0.0; 2]
     }
