@@ -366,7 +366,7 @@ fn the_path_within_long_steps_is_the_motion() {
                 let (mut positions, mut rates) = ([0.0; 5], [0.0; 5]);
                 interval.at(sample.time, &mut positions, &mut rates);
                 let expected = [&sample.state.base_pose[..], &sample.state.joint_angles].concat();
-                assert_close("path", &positions, &expected, 4e-8);
+                assert_close("path", &positions, &expected, 3e-8);
             }
             std::io::Result::Ok(())
         });
