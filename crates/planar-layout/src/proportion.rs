@@ -9,11 +9,6 @@ const BASE_RATIO: f64 = 1e9;
 /// reach 1e-8 to 6e-8 here. A light body loses nothing, for it is the others' inertia that differences are taken of.
 const LINK_RATIO: f64 = 1e5;
 
-/// Smallest ratio of the moment of inertia by which a link resists to turn alone, the bodies beyond it moved but not
-/// turned, to that of those bodies about its end: factorisations of the whole robot lose what is less, as 16 digits of the
-/// one are left beside the other, and results of the generic implementation and of captures are then off by 1e-6.
-const JOINT_RATIO: f64 = 1e-9;
-
 /// Mass in kg and moment of inertia about the centre of mass in kg m².
 #[derive(Clone, Copy)]
 pub(crate) struct Inertia {
@@ -21,15 +16,7 @@ pub(crate) struct Inertia {
     pub inertia: f64,
 }
 
-/// A link, and how far its end and its centre of mass are from its joint, m.
-#[derive(Clone, Copy)]
-pub(crate) struct LinkSize {
-    pub length: f64,
-    pub com_distance: f64,
-    pub body: Inertia,
-}
-
-/// A body that is too heavy or too light for the others: what of it, of which arm and link, its value, and why.
+/// A body that is too heavy or moves too lightly for the others: what of it, of which arm and link, its value, and why.
 pub(crate) struct Disproportion {
     pub kind: ParameterKind,
     pub arm: usize,
@@ -38,17 +25,11 @@ pub(crate) struct Disproportion {
     pub why: String,
 }
 
-/// The first body beside which the others are lost, or else the first link that is lost beside them. `arms` has the
-/// links of each arm.
-pub(crate) fn disproportion(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
-    let of_arm = |(arm, links): (usize, &Vec<LinkSize>)| unresolved_link(arm, links);
-    too_heavy(base, arms, reach).or_else(|| arms.iter().enumerate().find_map(of_arm))
-}
-
-fn too_heavy(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Disproportion> {
+/// The first body beside which the others are lost. `arms` has the links of each arm.
+pub(crate) fn disproportion(base: Inertia, arms: &[Vec<Inertia>], reach: f64) -> Option<Disproportion> {
     let arms = arms.iter().enumerate();
     let links: Vec<_> =
-        arms.flat_map(|(i, links)| links.iter().enumerate().map(move |(k, link)| ((i, k), link.body))).collect();
+        arms.flat_map(|(i, links)| links.iter().enumerate().map(move |(k, link)| ((i, k), *link))).collect();
     let arms: f64 = links.iter().map(|(_, link)| link.mass).sum();
     if base.mass > BASE_RATIO * arms {
         let wanted = format!("{:.3e} kg, {BASE_RATIO:e} times the mass of all arms", BASE_RATIO * arms);
@@ -71,31 +52,6 @@ fn too_heavy(base: Inertia, arms: &[Vec<LinkSize>], reach: f64) -> Option<Dispro
                  of all other bodies together, {others:.3e} kg m²"
             );
             too_large(kind, *place, value, &wanted)
-        })
-    })
-}
-
-/// The first link between two joints that 16 digits do not tell apart: it is short, and has next to no inertia.
-fn unresolved_link(arm: usize, links: &[LinkSize]) -> Option<Disproportion> {
-    links.iter().enumerate().find_map(|(i, link)| {
-        let mut distance = 0.0;
-        let (mut mass, mut carried) = (0.0, 0.0);
-        for beyond in links.iter().skip(i + 1) {
-            let farthest = distance + beyond.com_distance;
-            mass += beyond.body.mass;
-            carried += beyond.body.inertia + beyond.body.mass * farthest * farthest;
-            distance += beyond.length;
-        }
-        let LinkSize { length, com_distance, body } = link;
-        let alone = body.inertia + body.mass * com_distance * com_distance + mass * length * length;
-        let least = JOINT_RATIO * carried;
-        (alone < least).then(|| {
-            let why = format!(
-                "16 digits do not tell the joints at its two ends apart, expected a longer link, or one whose inertia and \
-                 mass · distance² resist its turning by at least {least:.3e} kg m², {JOINT_RATIO:e} times what it carries \
-                 has: here it is {alone:.3e} kg m²"
-            );
-            Disproportion { kind: ParameterKind::LinkLength, arm, link: i, value: *length, why }
         })
     })
 }

@@ -29,7 +29,7 @@ use planar_dynamics::manifest::ParameterKind;
 
 use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
-use crate::proportion::{Disproportion, Inertia, LinkSize, disproportion};
+use crate::proportion::{Disproportion, Inertia, disproportion};
 use resolution::{LEAST_SHARE, Weakest};
 
 pub use keys::FORMAT;
@@ -250,12 +250,8 @@ impl Layout {
     /// A body beside which others are lost in rounding, or that is lost beside them.
     fn disproportion(&self) -> Option<Disproportion> {
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
-        let size = |link: &Link| LinkSize {
-            length: link.length,
-            com_distance: libm::hypot(link.com[0], link.com[1]),
-            body: Inertia { mass: link.mass, inertia: link.inertia },
-        };
-        let arms: Vec<Vec<_>> = self.arms.iter().map(|arm| arm.links.iter().map(size).collect()).collect();
+        let of_link = |link: &Link| Inertia { mass: link.mass, inertia: link.inertia };
+        let arms: Vec<Vec<_>> = self.arms.iter().map(|arm| arm.links.iter().map(of_link).collect()).collect();
         disproportion(base, &arms, self.reach_from_base()).or_else(|| self.unresolved_motion())
     }
 
@@ -273,8 +269,8 @@ impl Layout {
             };
             let why = format!(
                 "16 digits do not resolve how {what} moves with {beyond} free: its inertia is then {share:.1e} of that with \
-                 them locked, expected at least {LEAST_SHARE:e}; light bodies between heavy ones fold like this, and those \
-                 of less different masses and inertias do not"
+                 them locked, expected at least {LEAST_SHARE:e}; light bodies between heavy ones fold like this, and \
+                 short links without inertia, but not longer links and bodies whose masses and inertias differ less"
             );
             let (arm, link) = link.unwrap_or_default();
             Disproportion { kind, arm, link, value, why }
