@@ -294,8 +294,8 @@ impl List {
 
 #[cfg(test)]
 mod tests {
-    use super::is_captured;
-    use crate::capture::{Silent, study};
+    use super::{is_captured, outputs};
+    use crate::capture::{LaterImpact, Silent, study};
     use crate::registry;
     use crate::scenario::fixture::two_discs;
     use planar_proof::layout;
@@ -314,5 +314,27 @@ mod tests {
         let contacts = &mut case.capture.as_mut().expect("a capture").impact.contacts;
         *contacts = missed.into_iter().collect();
         assert_eq!(is_captured(&scenario, case), Some(false));
+    }
+    /// Two targets that are met one after the other are both captured, each with the miss of its own contact.
+    #[test]
+    fn contacts_of_later_impacts_count() {
+        let scenario = two_discs("duration = 0.5\n");
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let mut study = study(&scenario, &|| model.clone_box(), 1.0, &mut Silent).expect("a study");
+        let capture = study.cases[0].capture.as_mut().expect("a capture");
+        let mut impact = capture.impact.clone();
+        impact.contacts.remove(0);
+        impact.contacts[0].contact.miss = 0.25;
+        capture.impact.contacts.truncate(1);
+        capture.later_impacts.push(LaterImpact { time: 0.3, impact });
+        let case = &study.cases[0];
+        assert_eq!(is_captured(&scenario, case), Some(true));
+        let outputs = outputs(&scenario, &[]);
+        let miss = |name: &str| outputs.iter().find(|output| output.name == name).map(|it| it.value(&study, case));
+        assert_eq!(miss("arm2_miss"), Some(Some(0.25)));
+        assert_eq!(
+            miss("arm1_miss"),
+            Some(Some(study.cases[0].capture.as_ref().expect("a capture").impact.contacts[0].contact.miss))
+        );
     }
 }

@@ -40,6 +40,13 @@ fn the_picture_of_the_readme_is_what_is_computed() {
     assert!(code == 2 && message.contains("already exists"), "{message}");
 }
 
+/// The ends of a line `x yLx y"`; `None` of another path.
+fn line(path: &str) -> Option<Vec<f64>> {
+    let (path, _) = path.split_once('"')?;
+    let (from, to) = path.split_once('L')?;
+    Some([from, to].iter().flat_map(|end| end.split(' ')).map(|number| number.parse().expect("a number")).collect())
+}
+
 #[test]
 fn every_animation_has_a_value_per_instant() {
     for name in ["stabilised_capture", "spinning_target", "elastic_rebound", "redysim_single_arm_3r"] {
@@ -87,6 +94,18 @@ fn values_are_those_of_the_motion() {
     let impulses = at["impact"]["exact"]["impulse_magnitudes"].as_array().expect("a list");
     for impulse in impulses.iter().filter_map(Value::as_f64) {
         assert!(svg.contains(&format!(">{impulse:.3} N s<")), "{impulse}");
+    }
+    // arrows from the end effectors, along the impulses, upwards where y is
+    let arrows: Vec<Vec<f64>> = svg.split("class=\"impulse\" d=\"M").skip(1).filter_map(line).collect();
+    let vectors = at["impact"]["exact"]["impulses"].as_array().expect("a list");
+    assert!(arrows.len() == 2 && vectors.len() == 2, "{arrows:?}");
+    for (arrow, vector) in arrows.iter().zip(vectors) {
+        let [fx, fy] = [1, 2].map(|i: usize| vector[i].as_f64().expect("a number"));
+        let [x, y] = [arrow[2] - arrow[0], arrow[3] - arrow[1]];
+        let (cosine, size) = ((x * fx - y * fy) / (x.hypot(y) * fx.hypot(fy)), x.hypot(y));
+        // a tenth of a pixel is written
+        assert!(cosine > 0.999 && size > 8.0, "{arrow:?} for {vector}");
+        assert!(fy.abs() > 0.2 * fx.hypot(fy), "up or down shows: {vector}");
     }
     // the approach alone ends before the base is there
     let (_, until, _) = said(&["animate", scenario, "-q", "--case", "case3", "--until", "19.9"]);

@@ -5,6 +5,7 @@ use crate::generate::{folder, generate, outcome, without_python};
 use planar_capture::build::graph;
 use planar_capture::capture::Silent;
 use planar_capture::fmu::{Fmu, Origin};
+use planar_capture::layout::Layout;
 use planar_capture::output::time_series::columns;
 use planar_capture::registry::{SHIPPED, generated};
 use planar_capture::scenario::Scenario;
@@ -111,6 +112,27 @@ fn units_are_those_of_the_time_series() {
     // poses and twists of base and end effector, three numbers of three joints, and momentum and energy
     assert_eq!(both, 12 + 9 + 4);
     assert_eq!(found["time"], "s");
+}
+
+/// FMI 3 asks for a start value of every parameter, every input, and all else that is exact at the start, and of nothing
+/// that is calculated.
+#[test]
+fn what_is_exact_at_the_start_has_a_value() {
+    let layout = Layout::read(&file("codegen/layouts/single_arm_3r.toml")).expect("a layout");
+    let text = fs::read_to_string(file("codegen/graphs/single_arm_3r.json")).expect("a graph");
+    let graph = graph::read(&text, &layout).expect("its graph");
+    let sha256 = layout.sha256();
+    let origin = Origin { name: "robot", layout_sha256: &sha256, source: "robot.toml", command: "build" };
+    let fmu = Fmu::new(&graph, &origin).expect("an FMU");
+    let description = String::from_utf8_lossy(&fmu.entries[0].content);
+    let (mut with, mut without) = (0, 0);
+    for variable in description.split("<Float64").skip(1).filter_map(|text| text.split_once('>')) {
+        let has = |attribute: &str| variable.0.contains(&format!(" {attribute}"));
+        let is_exact = ["causality=\"parameter\"", "causality=\"input\"", "initial=\"exact\""].iter().any(|it| has(it));
+        assert_eq!(is_exact, has("start=\""), "{}", variable.0);
+        *(if is_exact { &mut with } else { &mut without }) += 1;
+    }
+    assert!(with > 20 && without > 5, "{with} and {without} variables");
 }
 
 /// All are refused before anything is derived.

@@ -367,6 +367,34 @@ fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
     assert!(code == 2 && err.contains("notes.txt"), "{err}");
 }
 
+/// A grid has all combinations, those of the last key fastest, and each key its own choices.
+#[test]
+fn a_grid_goes_through_the_last_key_fastest() {
+    let place = Workplace::new(
+        r#"
+        name = "grid"
+        scenario = "scenario.toml"
+        seed = 1
+        sampling = "grid"
+        [[vary]]
+        key = "target.target1.mass"
+        distribution = { choice = [10.0, 11.0] }
+        [[vary]]
+        key = "target.target2.mass"
+        distribution = { choice = [7.0, 8.0, 9.0] }
+        "#,
+    );
+    place.computed("out", &[]);
+    let number = |row: &BTreeMap<String, Field>, key: &str| match row[key] {
+        Field::Double(value) => value,
+        ref other => panic!("{key} is {other}"),
+    };
+    let rows = place.rows("out", 0);
+    let found: Vec<_> =
+        rows.iter().map(|row| ["target.target1.mass", "target.target2.mass"].map(|key| number(row, key))).collect();
+    assert_eq!(found, [[10.0, 7.0], [10.0, 8.0], [10.0, 9.0], [11.0, 7.0], [11.0, 8.0], [11.0, 9.0]]);
+}
+
 #[test]
 fn a_failed_case_is_a_row() {
     let place = Workplace::new(

@@ -79,6 +79,18 @@ fn the_page_says_what_was_computed_and_what_failed() {
     }
 }
 
+/// The most frequent kind of failure is the first one, whichever fails first.
+#[test]
+fn failures_are_in_the_order_of_their_frequency() {
+    let folder = TempDir::new().expect("a folder");
+    let rest =
+        format!("sampling = \"grid\"\n{MASS}distribution = {{ choice = [1e90, -1.0, 10.0, 11.0, -2.0, -3.0] }}\n");
+    let found = page(folder.path(), &rest);
+    let place = |row: &str| found.find(row).unwrap_or_else(|| panic!("no `{row}` in {found}"));
+    let (often, once) = ("<td>3</td><td>1</td><td>refused</td>", "<td>1</td><td>0</td><td>");
+    assert!(place(often) < place(once), "the one that failed first is above the one that failed most often");
+}
+
 /// A file of cases that is damaged is computed again, and the page is that of the whole ones.
 #[test]
 fn a_damaged_file_of_cases_is_computed_again() {

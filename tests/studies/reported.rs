@@ -8,6 +8,7 @@ use planar_capture::output::html_report::write_report;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario};
+use planar_capture::simulate::system::Body;
 use planar_proof::{assert_close, file, layout, said, tolerance};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -89,6 +90,53 @@ fn the_table_says_what_the_base_torque_takes() {
     assert!(lost.iter().any(|lost| lost.abs() > 0.1), "{lost:?}");
     // six decimals of it
     assert_close("taken", &taken, &lost, 6e-7);
+}
+
+/// The cells of the residual motion are under their own heads.
+#[test]
+fn the_table_says_the_residual_motion() {
+    let (scenario, study) = stabilised();
+    let table = table(&scenario, &study);
+    let (_, rows) = table.split_once("Residual motion").expect("a table");
+    let mut lines = rows.lines().skip(1);
+    let heads = lines.next().expect("heads");
+    let at = |head: &str| heads.find(head).unwrap_or_else(|| panic!("{head} in `{heads}`"));
+    assert!(at("base rate") < at("l/I") && at("l/I") < at("joint rates") && at("joint rates") < at("l [N m s]"));
+    let mut rows = lines.filter(|line| line.split_whitespace().count() == 7);
+    for case in &study.cases {
+        let residual = case.capture.as_ref().and_then(|it| it.residual_motion.as_ref()).expect("a motion");
+        let row = rows.next().expect("one per case");
+        let cells: Vec<f64> = row.split_whitespace().skip(1).map(|cell| cell.parse().expect("a number")).collect();
+        let rates = [residual.base_rate, residual.rigid_rate];
+        assert!((rates[0] - rates[1]).abs() > 1e-5, "{rates:?} differ in the table");
+        assert_close("rates", &cells[..2], &rates, 6e-7);
+        assert_close("joint rates", &cells[2..3], &[residual.largest_joint_rate], 0.06 * residual.largest_joint_rate);
+        assert_close("momentum", &cells[3..], &residual.momentum, 6e-7);
+    }
+}
+
+/// The report's poses and twists of targets are theirs, sample by sample.
+#[test]
+fn the_reports_targets_move_as_they_do() {
+    let (scenario, study) = stabilised();
+    let data = report_data(&scenario, &study);
+    for (case, data) in study.cases.iter().zip(data["cases"].as_array().expect("cases")) {
+        let capture = case.capture.as_ref().expect("a capture");
+        let columns = |key: &str, target: usize, part: usize| numbers(&data["post_impact"][key][target][part]);
+        for target in 0..scenario.targets.len() {
+            for part in 0..3 {
+                let of = |vector: fn(&Body) -> [f64; 3]| {
+                    capture.targets.iter().map(|bodies| vector(&bodies[target])[part]).collect::<Vec<_>>()
+                };
+                let (poses, twists) = (of(|body| body.pose), of(|body| body.twist));
+                let sizes = [&poses, &twists].map(|all| all.iter().fold(0.0_f64, |most, x| most.max(x.abs())));
+                assert!(twists.iter().any(|x| x.abs() > 1e-4), "{twists:?}");
+                // six digits are written
+                assert_close("poses", &columns("targets", target, part), &poses, 1e-5 * sizes[0]);
+                assert_close("twists", &columns("target_twists", target, part), &twists, 1e-5 * sizes[1]);
+            }
+        }
+    }
 }
 
 /// In the report the work of a phase is that of all actuators, which the energy of all bodies has gained.

@@ -3,6 +3,7 @@
 use super::*;
 use crate::contact::ContactKind;
 use crate::registry;
+use crate::scenario::fixture::two_discs;
 use planar_proof::{assert_close, file, tolerance};
 
 /// A box of 2 m by 1 m, turned by 0.3 rad, which both arms of a robot touch at the middles of two sides.
@@ -90,4 +91,16 @@ fn grasps_that_fail_do_not_place_the_target() {
         assert_eq!(contacts.len(), kinds.iter().flatten().count());
         assert!(contacts.iter().all(|contact| contact.miss < tolerance::POLYNOMIAL), "{contacts:?}");
     }
+}
+
+/// Each of two targets bounces with its own restitution.
+#[test]
+fn a_bounce_has_the_restitution_of_its_target() {
+    let mut scenario = two_discs("duration = 1.0\nstep = 0.1\n");
+    let case = &mut scenario.cases[0];
+    case.kinds = vec![vec![Some(ContactKind::Bounce)]; 2];
+    case.restitutions = vec![0.2, 0.9];
+    let (_, contacts) = contact_at_time(&scenario, &scenario.cases[0], &[[0.0; 3], [0.0, 3.0, 0.0]]);
+    let of = |contact: &ImpactContact| (contact.target, contact.law.bounce().expect("a bounce").1);
+    assert_eq!(contacts.iter().map(of).collect::<Vec<_>>(), [(0, 0.2), (1, 0.9)]);
 }

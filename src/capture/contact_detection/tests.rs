@@ -6,7 +6,7 @@ use crate::outline::Outline;
 use crate::registry;
 use crate::simulate::system::System;
 use crate::simulate::{Timing, simulate};
-use planar_proof::{file, tolerance};
+use planar_proof::{assert_close, file, tolerance};
 use std::f64::consts::FRAC_PI_4;
 
 /// A robot at rest whose first end effector is 1.2 m from the centre of a square of 2 m.
@@ -139,5 +139,20 @@ fn the_first_part_that_is_met_makes_the_contact() {
         for time in contacts_of(corners, [0.0, side * 3.0, 0.0], [0.0, -side * 0.5, 0.0], 12.0) {
             assert!((time - expected).abs() < tolerance::EVENT_TIME, "from {side}: {time}, not {expected}");
         }
+    }
+}
+
+/// The normal at an end effector is that of the side it is beside, in inertial axes, at every yaw of the target.
+#[test]
+fn normals_are_in_inertial_axes() {
+    let scenario = scenario();
+    for (yaw, [along, across]) in [(0.0_f64, [1.0, 0.0]), (0.5, [1.0, 0.0]), (-1.3, [0.0, -1.0]), (2.8, [-1.0, 0.0])] {
+        let (sin, cos) = yaw.sin_cos();
+        let outward = [cos * along - sin * across, sin * along + cos * across];
+        let body = Body { mass: 1.0, inertia: 1.0, pose: [yaw, 3.0, -2.0], twist: [0.0; 3] };
+        let tip = [0.7, 3.0 + 1.2 * outward[0], -2.0 + 1.2 * outward[1]];
+        let (distance, normal) = signed_distance(&scenario, 0, &body, &tip);
+        assert_close("distance", &[distance], &[0.2], tolerance::POLYNOMIAL);
+        assert_close("normal", &normal, &outward, tolerance::POLYNOMIAL);
     }
 }

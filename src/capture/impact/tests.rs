@@ -115,3 +115,36 @@ fn relative_jumps_of_momentum() {
     }
     assert!((jump(0.0, 0.0, 0.3) - 1.0).abs() < 1e-12);
 }
+
+/// An arm that touches what another one holds: the impact is that with a target of its own which both arms touch at once,
+/// as the contact that holds it already has nothing to do but to go on.
+#[test]
+fn a_held_target_is_touched_where_it_is() {
+    let (model, state) = (registry::generic(&layout("dual_arm_3r")), state());
+    let (mut poses, mut twists) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
+    model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut poses).expect("poses");
+    model.end_effector_twists(&state.view(), &mut twists).expect("twists");
+    let ([_, x, y], [omega, vx, vy]) = (poses[0], twists[0]);
+    let (rx, ry) = (0.8, -0.5);
+    let target =
+        Body { mass: 4.0, inertia: 0.5, pose: [0.2, x + rx, y + ry], twist: [omega, vx - omega * ry, vy + omega * rx] };
+    let contact = |arm: usize, law| {
+        let offset = [poses[arm][1] - target.pose[1], poses[arm][2] - target.pose[2]];
+        ImpactContact { target: 0, arm, law, offset, miss: 0.0 }
+    };
+    let solved = |held: &[Attachment], contacts: &[ImpactContact]| {
+        let assembly = Assembly::new(model.clone_box(), &state, &[target], held).expect("an assembly");
+        solve_impact(&assembly, &state, &[target], contacts).expect("an impact")
+    };
+    for law in [ContactLaw::Rigid, ContactLaw::Pin] {
+        let held = solved(&[Attachment { target: 0, arm: 0, kind: ContactKind::Rigid }], &[contact(1, law)]);
+        let separate = solved(&[], &[contact(0, ContactLaw::Rigid), contact(1, law)]);
+        let [held_twist, separate_twist] = [&held, &separate].map(|solution| solution.target_twists[0]);
+        assert_close("target", &held_twist, &separate_twist, tolerance::SAME_IMPACT);
+        let [held_impulse, separate_impulse] = [&held, &separate].map(|it| it.exact.impulses[1].expect("a contact"));
+        assert!(held_impulse[1].hypot(held_impulse[2]) > 0.1, "{held_impulse:?}");
+        assert_close("impulse", &held_impulse, &separate_impulse, tolerance::SAME_IMPACT);
+        let rates = [&held, &separate].map(|solution| &solution.exact.joint_rates_after);
+        assert_close("rates", rates[0], rates[1], tolerance::SAME_IMPACT);
+    }
+}

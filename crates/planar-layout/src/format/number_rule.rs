@@ -247,3 +247,6 @@ pub fn units(components: &[NumberRule]) -> String {
     }
     units.join(", ")
 }
+
+#[cfg(test)]
+mod tests;
