@@ -118,7 +118,7 @@ fn approach(scenario: &Scenario, study: &Study) -> String {
             ));
         }
     }
-    out.extend(limits(phase).iter().map(|text| line(text)));
+    out.extend(limits(scenario, phase).iter().map(|text| line(text)));
     let ConservationErrors { momentum_drift, energy_error, center_of_mass_drift } = phase.drift;
     out + &line(&format!(
         "momentum drift {momentum_drift:.1e}, energy error {energy_error:.1e}, \
@@ -163,12 +163,15 @@ fn wanted_contact(scenario: &Scenario, arm: usize) -> Option<(&str, [f64; 2])> {
 }
 
 /// Times at the torque limits, and violations of the joint limits, of a phase that has such limits.
-fn limits(phase: &Phase) -> Vec<String> {
+fn limits(scenario: &Scenario, phase: &Phase) -> Vec<String> {
     let mut sentences = Vec::new();
-    let at_limits = &phase.saturation.joints;
-    if at_limits.iter().any(|time| *time > 0.0) {
-        sentences.push(format!("joint torques at their limits for [s]: {}", list(at_limits, 3)));
-    } else if !at_limits.is_empty() {
+    let times = &phase.saturation.joints;
+    let at_limits = times.iter().enumerate().filter(|(_, time)| **time > 0.0);
+    let at_limits: Vec<String> =
+        at_limits.map(|(i, time)| format!("{} for {} s", scenario.layout.joint_name(i), fixed(*time, 3))).collect();
+    if !at_limits.is_empty() {
+        sentences.push(format!("joint torques at their limits: {}", at_limits.join(", ")));
+    } else if !times.is_empty() {
         sentences.push("joint torques never at their limits".to_owned());
     }
     if let Some(violations) = &phase.limit_violations {
@@ -342,7 +345,7 @@ fn post_impact(scenario: &Scenario, study: &Study) -> String {
         if open > 0.0 {
             table.note(format!("constraints open by {open:.1e} (rad, m) at most, at a rate of {opening:.1e} 1/s"));
         }
-        for sentence in limits(post_impact) {
+        for sentence in limits(scenario, post_impact) {
             table.note(sentence);
         }
     }

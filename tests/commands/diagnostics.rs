@@ -1090,14 +1090,26 @@ fn the_integrator_follows_from_the_torques() {
     assert_eq!(of("sample_time = 0.1\nintegrator = \"adaptive\"", ""), [adaptive(1e-10), adaptive(1e-10)]);
 }
 
-/// A layout or a sweep in place of a scenario is named as such, in place of every key that a scenario lacks.
+/// A document of another kind than a command reads is named as such, in place of every key that it lacks.
 #[test]
-fn another_file_in_place_of_a_scenario_is_named() {
-    let layout = file("codegen/layouts/dual_arm_3r.toml").display().to_string();
-    let sweep = file("scenarios/sweeps/uncertain_capture.toml").display().to_string();
-    for (path, expected) in [(layout, "this is a layout"), (sweep, "this is a sweep")] {
-        let (code, _, err) = said(&["run", &path, "--out", "never"]);
+fn a_document_of_another_kind_is_named() {
+    let [layout, scenario, sweep] = [
+        "codegen/layouts/dual_arm_3r.toml",
+        "scenarios/spinning_target.toml",
+        "scenarios/sweeps/uncertain_capture.toml",
+    ]
+    .map(|path| file(path).display().to_string());
+    for (command, path, out, expected) in [
+        ("run", &layout, "never", ["this is a layout", "a scenario that names it"]),
+        ("run", &sweep, "never", ["this is a sweep", "the scenario that it names"]),
+        ("sweep", &scenario, "never", ["this is a scenario", "a sweep that names it"]),
+        ("sweep", &layout, "never", ["this is a layout", "a sweep of a scenario that names it"]),
+        ("generate", &scenario, "never.rs", ["this is a scenario", "the layout that it names"]),
+        ("generate", &sweep, "never.rs", ["this is a sweep", "the layout that its scenario names"]),
+    ] {
+        let (code, _, err) = said(&[command, path, "--out", out]);
         assert_eq!(code, 2, "{err}");
-        assert!(err.contains(expected) && err.contains(&path) && !err.contains("missing key"), "{err}");
+        assert!(expected.iter().all(|part| err.contains(part)), "{command} {path}: {err}");
+        assert!(err.contains(path) && !err.contains("missing key"), "{err}");
     }
 }

@@ -10,19 +10,17 @@ mod integration;
 mod joints;
 mod limits;
 mod magnitude;
-mod other_file;
 mod own_law;
 mod post_impact;
 mod target;
 
-use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, read_text_from};
+use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_document, read_text, read_text_from};
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
 use crate::scenario::{ClearanceRules, FORMAT, Known, Scenario, ScenarioSource, Source, Tracking};
 use joints::Joints;
 use magnitude::check_distance;
-use other_file::other_file;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -150,7 +148,8 @@ impl Scenario {
             }
             Some((scenario, layout))
         };
-        read_document(text, file, &FORMAT, read).map_err(|report| other_file(text, file).unwrap_or(report))
+        read_document(text, file, &FORMAT, read)
+            .map_err(|report| DocumentKind::Scenario.reject_others(text, file).unwrap_or(report))
     }
 }
 

@@ -25,6 +25,7 @@
 //! ```
 
 mod document;
+mod document_kind;
 mod file;
 mod hidden_character;
 mod inline_table;
@@ -46,6 +47,7 @@ use toml::de::DeTable;
 
 pub use crate::format::NumberRule;
 pub use crate::names::{listing, nearest};
+pub use document_kind::DocumentKind;
 pub use file::{read_text, read_text_from};
 pub use hidden_character::{is_hidden, printable};
 pub use table::{Table, Value, every};

@@ -27,7 +27,7 @@ use std::path::Path;
 
 use planar_dynamics::manifest::ParameterKind;
 
-use crate::diagnostic::{Report, Table, Value, every, read_document, read_text, report_error};
+use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_document, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, disproportion};
 use resolution::{LEAST_SHARE, Weakest};
@@ -115,7 +115,8 @@ impl Layout {
                 every(arms.iter().map(Arm::from_table))
             });
             Some(Self { name: name?, base: base?, arms: arms? })
-        })?;
+        })
+        .map_err(|report| DocumentKind::Layout.reject_others(text, file).unwrap_or(report))?;
         match layout.disproportion() {
             None => Ok(layout),
             Some(Disproportion { kind, arm, link, value, why }) => {
