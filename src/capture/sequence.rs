@@ -237,7 +237,9 @@ impl<'a> CaptureSequence<'a> {
     }
 
     fn timing(self, after: &PostImpact, duration: f64) -> Timing {
-        Timing { duration, step: after.step, sample: self.sample, integration: after.integration }
+        let PostImpact { step, integration, ref actuation, .. } = *after;
+        let whole = Timing { duration: after.duration, step, sample: self.sample, integration, kink: None };
+        Timing { duration, ..whole.held(actuation.steps_per_sample) }
     }
 
     fn targets_at_start(self) -> Vec<Body> {

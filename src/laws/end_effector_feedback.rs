@@ -105,6 +105,7 @@ impl EndEffectorFeedback {
             error_limit: ERROR_LIMIT,
             singularity_threshold,
             singularity_margin: None,
+            is_limited: false,
             workspace: EndEffectorWorkspace {
                 generalized_inertia: &mut self.generalized_inertia,
                 generalized_bias: &mut self.generalized_bias,

@@ -19,6 +19,12 @@ impl Timing {
         self.duration / self.steps() as f64
     }
 
+    /// With steps of the length of its equal ones, as a law needs that holds its torques for so many of them.
+    #[must_use]
+    pub(crate) fn held(self, steps_per_sample: Option<u32>) -> Self {
+        Self { step: if steps_per_sample.is_some() { self.step_length() } else { self.step }, ..self }
+    }
+
     /// How many steps a time has, at least one; `None` for another number of them than a whole one.
     #[must_use]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number of that range")]

@@ -1,16 +1,22 @@
 //! The differential equation of a phase, in full or reduced coordinates or in canonical variables.
 
+use crate::control::Control;
 use crate::error::Error;
 use crate::formulation::{CanonicalVariables, ReducedCoordinates};
 use crate::simulate::inertial_frame::InertialFrame;
 use crate::simulate::system::System;
 use crate::state::{Coordinates, State, StateVector, coordinates_mut, split, split_mut};
 
+/// How near to an end of a step a kink is at it, in steps: what is left of the step across it is a millionth of the change.
+const KINK_MARGIN: f64 = 1e-6;
+
 /// ẋ = f(t, x) of a system under a control law.
 pub(crate) struct Equation<'a> {
     pub(crate) system: &'a System<'a>,
     /// The law, for states of the frame that is integrated in.
     pub(crate) control: InertialFrame<'a>,
+    /// Where derivatives of its torques jump, s.
+    kink: Option<f64>,
     torques: Vec<f64>,
     form: FormulationWorkspace,
 }
@@ -128,13 +134,26 @@ impl FormulationWorkspace {
 }
 
 impl<'a> Equation<'a> {
-    pub(crate) fn new(system: &'a System<'a>, control: InertialFrame<'a>, form: FormulationWorkspace) -> Self {
-        Self { system, control, torques: vec![0.0; system.model.joints()], form }
+    pub(crate) fn new(
+        system: &'a System<'a>,
+        control: InertialFrame<'a>,
+        kink: Option<f64>,
+        form: FormulationWorkspace,
+    ) -> Self {
+        Self { system, control, kink, torques: vec![0.0; system.model.joints()], form }
+    }
+
+    /// How far a step may go: to its end, or to a kink within it. What is a rounding error from an end is not within it, and
+    /// torques that are held have no kinks.
+    pub(crate) fn smooth_until(&self, [from, end]: [f64; 2]) -> f64 {
+        let margin = KINK_MARGIN * (end - from);
+        let within = self.kink.filter(|kink| (from + margin..end - margin).contains(kink));
+        within.filter(|_| self.control.held_steps().is_none()).unwrap_or(end)
     }
 
     /// d/dt of positions, rates and work.
     pub(crate) fn derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let Self { system, control, torques, form } = self;
+        let Self { system, control, torques, form, .. } = self;
         match form {
             FormulationWorkspace::Reduced(space) => {
                 space.borrow().derivative(system.model, control.as_given(), time, x, rate, torques)
@@ -149,7 +168,7 @@ impl<'a> Equation<'a> {
     /// momenta without forces are constant to the last bit; with them `f = M v̇ + c` has the constraint forces too. The
     /// bodies keep twists in place of momenta, as their masses are constant.
     pub(crate) fn canonical_derivative(&mut self, time: f64, x: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let Self { system, control, torques, form: FormulationWorkspace::Canonical(space) } = self else {
+        let Self { system, control, torques, form: FormulationWorkspace::Canonical(space), .. } = self else {
             return self.derivative(time, x, rate);
         };
         let (model, joints) = (system.model, system.model.joints());

@@ -70,6 +70,10 @@ impl Control<f64> for InertialFrame<'_> {
         self.law.singularity_margin()
     }
 
+    fn is_limited(&self) -> bool {
+        self.law.is_limited()
+    }
+
     fn exchange_held(&mut self, held: &mut [f64]) {
         self.law.exchange_held(held);
     }

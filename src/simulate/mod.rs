@@ -87,18 +87,25 @@ pub struct Sample {
     pub bodies: Vec<Body>,
 }
 
+/// What decimal fractions leave of a whole number of steps, in steps.
+const ROUNDING: f64 = 1e-6;
+
 /// Duration, steps and samples of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timing {
     /// s.
     pub duration: f64,
-    /// Longest step, s; the phase is divided into equal steps. An adaptive integrator has other steps: for it this is
+    /// Longest step, s; the phase is divided into equal steps, but where torques are held for steps: these are of this length,
+    /// and the last one of what is left. An adaptive integrator has other steps: for it this is
     /// the interval of audits, events and samples.
     pub step: f64,
     /// Time between samples, s, at least one step; the last instant is always sampled.
     pub sample: f64,
     /// By which integrator, in which coordinates.
     pub integration: Integration,
+    /// A time at which derivatives of the torques jump, s: the end of a trajectory that is held from then on. A step across it
+    /// would lose its order, and is divided there; adaptive steps need not be, nor those under torques that are held.
+    pub kink: Option<f64>,
 }
 
 impl Timing {
@@ -107,6 +114,18 @@ impl Timing {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 1e8 steps are read")]
     pub fn steps(&self) -> u64 {
         (self.duration / self.step - 1e-9).ceil().max(1.0) as u64
+    }
+
+    /// When a step begins, s. A law that holds its torques does so for the same time throughout: where its steps do not
+    /// fill the phase, the last one is shorter.
+    #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
+    fn time_of(&self, step: u64, is_held: bool) -> f64 {
+        let steps = self.steps() as f64;
+        let is_filled = (steps * self.step - self.duration).abs() <= ROUNDING * self.step;
+        match step as f64 {
+            step if is_filled || !is_held => self.duration * (step / steps),
+            step => Scalar::minimum(step * self.step, self.duration),
+        }
     }
 
     #[allow(
@@ -258,13 +277,13 @@ pub fn simulate(
 ) -> Result<Phase, PhaseError> {
     let at = |time| move |source| PhaseError { time, source };
     let mut x = system.vector(&initial.view()).map_err(at(0.0))?;
-    let mut stepper = Stepper::new(system, control, &timing.integration, timing.duration, &x).map_err(at(0.0))?;
+    let mut stepper = Stepper::new(system, control, timing, &x).map_err(at(0.0))?;
     let ends_at_start = events.end_at_start();
     let mut locator = EventLocator::new(system, events);
     let mut recorder = Recorder::new(system, stepper.moving()).map_err(at(0.0))?;
     let (steps, stride) = (timing.steps(), timing.stride());
-    #[allow(clippy::cast_precision_loss, reason = "at most 1e8 steps are read")]
-    let time_of = |step: u64| timing.duration * (step as f64 / steps as f64);
+    let is_held = stepper.control().held_steps().is_some();
+    let time_of = |step: u64| timing.time_of(step, is_held);
     let Properties { path_divisions: divisions, is_adaptive, .. } = timing.integration.integrator.properties();
     let mut subdivision = Subdivision::new(system, divisions);
     let mut before = x.clone();

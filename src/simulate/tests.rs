@@ -17,7 +17,7 @@ use super::stepper::{Formulation, Integration, Integrator};
 use super::system::{Body, System};
 use super::{Phase, PhaseError, Sample, Saturation, Timing, simulate};
 use crate::contact::{ContactPartner, LoopConstraint};
-use crate::control::{ProportionalDerivative, TorqueLimiter, ZeroTorque};
+use crate::control::{ProportionalDerivative, SampledControl, TorqueLimiter, ZeroTorque};
 use crate::error::Error;
 use crate::owned::{CloneModel, RobotState};
 use crate::registry;
@@ -149,7 +149,7 @@ fn reduced_coordinates_are_of_a_robot_alone() {
     let body = Body { mass: 1.0, inertia: 1.0, pose: [0.0; 3], twist: [0.0; 3] };
     let pin = LoopConstraint { arm: 0, partner: ContactPartner::Body(0), offset: [0.0; 2], yaw: None };
     let integration = Integration { integrator: Integrator::RungeKutta4, coordinates: Formulation::Reduced };
-    let timing = Timing { duration: 1.0, step: 0.5, sample: 0.5, integration };
+    let timing = Timing { duration: 1.0, step: 0.5, sample: 0.5, integration, kink: None };
     for (bodies, constraints) in [(&[body][..], &[][..]), (&[body], &[pin])] {
         let system = System { bodies, constraints, ..System::alone(&*model) };
         let found = simulate(&system, &mut ZeroTorque, &state, &timing, &mut NoEvents, &mut || ());
@@ -351,7 +351,7 @@ fn the_path_within_long_steps_is_the_motion() {
     let run = |step: f64, until: f64| {
         let integration =
             Integration { integrator: Integrator::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
-        let timing = Timing { duration: 8.0, step, sample: step, integration };
+        let timing = Timing { duration: 8.0, step, sample: step, integration, kink: None };
         simulate(&System::alone(&*model), &mut ZeroTorque, &state, &timing, &mut EndTime(until), &mut || ())
             .expect("a phase")
     };
@@ -407,15 +407,55 @@ fn margins_are_of_the_motion_alone() {
     let (model, mut state) = robot();
     state.joint_rates = vec![0.0; 2];
     let integration = Integration { integrator: Integrator::Adaptive { tolerance: 1e-9 }, ..Integration::default() };
-    let timing = Timing { duration: 0.5, step: 0.5, sample: 0.5, integration };
+    let timing = Timing { duration: 0.5, step: 0.5, sample: 0.5, integration, kink: None };
     let system = System::alone(&*model);
     let mut law = Pushed { margin: None, least: 1.0 };
     let found = simulate(&system, &mut law, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase");
-    let fine = Timing { duration: 0.5, step: 1e-3, sample: 1e-3, integration };
+    let fine = Timing { duration: 0.5, step: 1e-3, sample: 1e-3, integration, kink: None };
     let fine = simulate(&system, &mut Pushed { margin: None, least: 1.0 }, &state, &fine, &mut NoEvents, &mut || ());
     let fine = fine.expect("a phase");
     let largest = fine.samples.iter().map(|sample| sample.state.joint_rates[1].abs()).fold(0.0, f64::max);
     let (margin, expected) = (found.singularity_margin.expect("a margin"), 1.0 / (1.0 + largest));
     assert!((margin - expected).abs() < 1e-3 * expected, "{margin} {expected}");
     assert!(law.least < 0.9 * margin, "{} {margin}: not tried", law.least);
+}
+
+/// Torques of nothing, and when they were asked for.
+struct Asked(Vec<f64>);
+
+impl crate::control::Control<f64> for Asked {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        _: &crate::dynamics::AnyModel<f64>,
+        _: &crate::state::State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        torques.fill(0.0);
+        self.0.push(time);
+        Ok(())
+    }
+}
+
+/// A phase that is no whole number of steps ends with a shorter one: samples of a law keep their interval.
+#[test]
+fn a_law_is_sampled_at_one_interval() {
+    let (model, state) = robot();
+    let system = System::alone(&*model);
+    for (integrator, duration, expected) in [
+        (Integrator::RungeKutta4, 1.0, &[0.0, 0.3, 0.6, 0.9][..]),
+        (Integrator::Adaptive { tolerance: 1e-9 }, 1.0, &[0.0, 0.3, 0.6, 0.9]),
+        (Integrator::GaussLegendre, 0.6, &[0.0, 0.3]),
+        (Integrator::GaussLegendre, 0.1, &[0.0]),
+    ] {
+        let (mut law, mut held) = (Asked(Vec::new()), [0.0; 2]);
+        let integration = Integration { integrator, ..Integration::default() };
+        let timing = Timing { duration, step: 0.15, sample: 0.15, integration, kink: None };
+        let mut sampled = SampledControl::new(&mut law, 2, &mut held);
+        let phase = simulate(&system, &mut sampled, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+        assert_eq!(phase.samples.len(), timing.steps() as usize + 1);
+        law.0.sort_by(f64::total_cmp);
+        law.0.dedup();
+        assert_close("times", &law.0, expected, 1e-12);
+    }
 }

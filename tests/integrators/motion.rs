@@ -76,7 +76,7 @@ impl Problems {
         };
         let mut law = ProportionalDerivative { trajectory, proportional_gain, derivative_gain };
         let start = RobotState::from_view(&self.scenario.initial.view());
-        let timing = Timing { duration: approach.duration, step, sample: approach.duration, integration };
+        let timing = Timing { duration: approach.duration, step, sample: approach.duration, integration, kink: None };
         self.run(&mut law, &start, &timing)
     }
 
@@ -93,7 +93,7 @@ impl Problems {
         sample: f64,
         (integration, step): (Integration, f64),
     ) -> Result<(Phase, u64), PhaseError> {
-        let timing = Timing { duration, step, sample, integration };
+        let timing = Timing { duration, step, sample, integration, kink: None };
         self.run(&mut ZeroTorque, start, &timing)
     }
 

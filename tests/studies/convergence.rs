@@ -42,8 +42,13 @@ fn run(
     coordinates: Formulation,
 ) -> Phase {
     let model = model();
-    let timing =
-        Timing { duration, step, sample: duration / 8.0, integration: Integration { integrator, coordinates } };
+    let timing = Timing {
+        duration,
+        step,
+        sample: duration / 8.0,
+        integration: Integration { integrator, coordinates },
+        kink: None,
+    };
     simulate(&System::alone(&*model), law, &tumbling(), &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
@@ -175,7 +180,7 @@ fn free_bodies_are_integrated() {
     let system = System { bodies: &[body], ..System::alone(&*model) };
     let run = |integrator, coordinates| {
         let integration = Integration { integrator, coordinates };
-        let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration };
+        let timing = Timing { duration: 1.0, step: 0.02, sample: 1.0, integration, kink: None };
         simulate(&system, &mut ZeroTorque, &tumbling(), &timing, &mut NoEvents, &mut || ())
     };
     let refused = run(Integrator::RungeKutta4, REDUCED).expect_err("a body is beside the robot").to_string();
@@ -211,8 +216,13 @@ fn a_closed_loop_by_every_scheme() {
     let system = System { bodies: &[body], constraints: &constraints, ..System::alone(&*model) };
     let expected: Vec<f64> = start.joint_angles.iter().map(|angle| angle + 0.2).collect();
     let run = |integrator, step| {
-        let timing =
-            Timing { duration: 1.0, step, sample: 1.0, integration: Integration { integrator, coordinates: FULL } };
+        let timing = Timing {
+            duration: 1.0,
+            step,
+            sample: 1.0,
+            integration: Integration { integrator, coordinates: FULL },
+            kink: None,
+        };
         let mut law = ProportionalDerivative {
             trajectory: ConstantSetpoint { angles: &expected },
             proportional_gain: &[5.0; 6],
@@ -254,7 +264,7 @@ fn adaptive_steps_start_on_the_constraints() {
     let run = |system: &System<'_>, start: &RobotState| {
         // one step of the phase, many of the integrator
         let integration = Integration { integrator: ADAPTIVE, coordinates: FULL };
-        let timing = Timing { duration: 1.0, step: 1.0, sample: 1.0, integration };
+        let timing = Timing { duration: 1.0, step: 1.0, sample: 1.0, integration, kink: None };
         let phase = simulate(system, &mut ZeroTorque, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
         [&values(&phase.end().state)[..], &phase.end().bodies[0].pose].concat()
     };
@@ -362,7 +372,7 @@ fn a_thousand_seconds() {
     let model = model();
     let run = |integrator, step| {
         let integration = Integration { integrator, coordinates: FULL };
-        let timing = Timing { duration: 1000.0, step, sample: 1.0, integration };
+        let timing = Timing { duration: 1000.0, step, sample: 1.0, integration, kink: None };
         simulate(&System::alone(&*model), &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ()).expect("a phase")
     };
     // the largest energy error of each quarter

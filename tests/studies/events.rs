@@ -92,7 +92,7 @@ fn run(
     events: &mut dyn Events,
 ) -> Phase {
     let (model, integration) = (model(), Integration { integrator, coordinates });
-    let timing = Timing { duration, step, sample: 0.25, integration };
+    let timing = Timing { duration, step, sample: 0.25, integration, kink: None };
     simulate(&System::alone(&*model), law, start, &timing, events, &mut || ()).expect("a phase")
 }
 

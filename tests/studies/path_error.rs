@@ -4,6 +4,7 @@ use crate::{run, scenario, summary};
 use planar_capture::capture::Study;
 use planar_capture::scenario::{FinalRates, Scenario, Tracking};
 use planar_capture::simulate::stepper::{Formulation, Integration, Integrator};
+use planar_capture::trajectory::TrajectoryKind;
 
 const FULL: Formulation = Formulation::Full;
 
@@ -116,6 +117,68 @@ fn saturated_torques_have_an_error_of_lower_order() {
         }
     }
     assert_eq!(seen, 12);
+}
+
+/// A trajectory that ends within a step is followed to its end by steps that are divided there: a step across the jump of the
+/// jerk would lose its order, and the estimate would be too small with it.
+#[test]
+fn a_trajectory_that_ends_within_a_step_costs_no_order() {
+    let mut seen = 0;
+    for (kind, share) in [(TrajectoryKind::Quintic, 0.505), (TrajectoryKind::Cycloidal, 0.313)] {
+        let ending = |integrator: Integrator, step: f64| {
+            let mut scenario = scenario("redysim_single_arm_3r");
+            scenario.approach.trajectory = kind;
+            scenario.approach.end = FinalRates::JointRates(vec![0.0; 3]);
+            scenario.approach.tracking = Tracking::InverseDynamics;
+            (scenario.approach.duration, scenario.approach.step) = (10.0, step);
+            scenario.approach.trajectory_duration = Some(10.0 * share);
+            scenario.approach.integration = Integration { integrator, coordinates: FULL };
+            run(&scenario)
+        };
+        let exact = ending(Integrator::Adaptive { tolerance: 1e-13 }, 0.1);
+        for (integrator, step, most) in [
+            (Integrator::GaussLegendre, 0.1, 1e-6),
+            (Integrator::GaussLegendre, 0.2, 2e-5),
+            (Integrator::RungeKutta4, 0.025, 1e-6),
+            (Integrator::RungeKutta4, 0.05, 2e-5),
+        ] {
+            let study = ending(integrator, step);
+            let (error, estimate) = (true_error(&study, &exact), study.approach.path_error);
+            let name = format!("{kind:?}, {integrator:?}, {step} s: error {error:e}, estimate {estimate:e}");
+            assert!(error < most && estimate >= 0.3 * error - 1e-11 && estimate <= 100.0 * error.max(1e-11), "{name}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 8);
+}
+
+/// Errors that a law reduces have kinks in time, too.
+#[test]
+fn limits_within_a_law_have_an_error_of_lower_order() {
+    let mut seen = 0;
+    for away in [0.3, 0.5] {
+        let limited = |integrator: Integrator, step: f64| {
+            let mut scenario = scenario("resolved_motion_rate");
+            // the arms start with rates that take the end effectors off their paths by more than the limit of errors
+            scenario.initial.joint_rates = vec![away, -away, away, -away, away, away];
+            scenario.approach.actuation.torque_limits = None;
+            scenario.approach.actuation.steps_per_sample = None;
+            (scenario.approach.duration, scenario.approach.step) = (10.0, step);
+            scenario.approach.integration = Integration { integrator, coordinates: FULL };
+            run(&scenario)
+        };
+        let exact = limited(Integrator::Adaptive { tolerance: 1e-12 }, 0.02);
+        for (integrator, step) in
+            [(Integrator::RungeKutta4, 0.01), (Integrator::RungeKutta4, 0.02), (Integrator::GaussLegendre, 0.02)]
+        {
+            let study = limited(integrator, step);
+            let (error, estimate) = (true_error(&study, &exact), study.approach.path_error);
+            let name = format!("{away} rad/s, {integrator:?}, {step} s: error {error:e}, estimate {estimate:e}");
+            assert!(estimate >= 0.3 * error - 1e-11, "{name}");
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 6);
 }
 
 /// Torques that are held are those of the path itself; the estimate is there too.

@@ -178,7 +178,7 @@ fn stabilise_layout(name: &str, s: &RandomState, base_torque_limit: Option<f64>)
         base_gain: 0.7,
         base_torque_limit,
     };
-    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration: Integration::default() };
+    let timing = Timing { duration: 4.0, step: 0.01, sample: 1.0, integration: Integration::default(), kink: None };
     let start = RobotState::from_view(&s.state());
     let (system, scenario) = (System::alone(&*model), scenario("raina_shah_2017"));
     let (model, angles) = (&*model, &s.joint_angles[..]);

@@ -49,8 +49,9 @@ impl<'a> ApproachTracking<'a> {
     /// The approach that a scenario describes, sampled every `sample` seconds.
     #[must_use]
     pub fn new(scenario: &'a Scenario, sample: f64) -> Self {
-        let scenario::Approach { duration, step, integration, .. } = scenario.approach;
-        Self { scenario, timing: Timing { duration, step, sample, integration }, own: None }
+        let scenario::Approach { duration, step, integration, trajectory_duration: kink, .. } = scenario.approach;
+        let timing = Timing { duration, step, sample, integration, kink };
+        Self { scenario, timing: timing.held(scenario.approach.actuation.steps_per_sample), own: None }
     }
 
     /// Tracked by another law than the scenario's, where there is one.

@@ -84,7 +84,7 @@ impl Companion {
         if self.is_lost {
             return;
         }
-        if is_saturated(&equation.control) && self.order.is_some_and(|order| order > 1) {
+        if is_at_limit(&equation.control) && self.order.is_some_and(|order| order > 1) {
             self.lower_order();
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
@@ -174,10 +174,11 @@ impl Companion {
     }
 }
 
-/// Whether a torque is at its limit in the last state of a law that acts continuously: the right side has kinks in time.
-fn is_saturated(law: &dyn Control<f64>) -> bool {
-    let is_at_limit = law.saturated().contains(&true) || law.base_torque().is_some_and(|base| base.saturated);
-    is_at_limit && law.held_steps().is_none()
+/// Whether a torque is at its limit, or a limit within the law acts, in the last state of a law that acts continuously: the
+/// right side has kinks in time.
+fn is_at_limit(law: &dyn Control<f64>) -> bool {
+    let is_saturated = law.saturated().contains(&true) || law.base_torque().is_some_and(|base| base.saturated);
+    (is_saturated || law.is_limited()) && law.held_steps().is_none()
 }
 
 /// Of the positions of two integrated vectors.

@@ -13,7 +13,7 @@
 //! let start = RobotState { base_pose: [0.0; 3], joint_angles, base_twist: [0.0; 3], joint_rates };
 //! let drift = |integrator: Integrator| {
 //!     let integration = Integration { integrator, ..Integration::default() };
-//!     let timing = Timing { duration: 5.0, step: 0.1, sample: 1.0, integration };
+//!     let timing = Timing { duration: 5.0, step: 0.1, sample: 1.0, integration, kink: None };
 //!     let system = System::alone(&robot);
 //!     simulate(&system, &mut ZeroTorque, &start, &timing, &mut NoEvents, &mut || ()).map(|phase| phase.drift)
 //! };
@@ -32,6 +32,7 @@ mod semi_implicit_euler;
 use crate::control::Control;
 use crate::error::Error;
 use crate::scalar::Real;
+use crate::simulate::Timing;
 use crate::simulate::equation::{Equation, FormulationWorkspace};
 use crate::simulate::inertial_frame::InertialFrame;
 use crate::simulate::moving_frame::MovingFrame;
@@ -146,12 +147,13 @@ trait Steps {
     fn advance_to_end(
         &mut self,
         equation: &mut Equation<'_>,
-        span @ [start, end]: [f64; 2],
+        [start, end]: [f64; 2],
         x: &mut [f64],
     ) -> Result<(), Error> {
         let mut time = start;
         while time < end {
-            time = self.advance(equation, span, time, x)?;
+            let until = equation.smooth_until([time, end]);
+            time = self.advance(equation, [start, until], time, x)?;
         }
         Ok(())
     }
@@ -159,8 +161,8 @@ trait Steps {
 
 /// An integrator whose steps are independent is the function that advances `x`.
 impl<F: FnMut(&mut Equation<'_>, [f64; 2], &mut [f64]) -> Result<(), Error>> Steps for F {
-    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], _: f64, x: &mut [f64]) -> Result<f64, Error> {
-        self(equation, span, x).map(|()| span[1])
+    fn advance(&mut self, equation: &mut Equation<'_>, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
+        self(equation, [from, span[1]], x).map(|()| span[1])
     }
 
     fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
@@ -182,14 +184,14 @@ pub(crate) struct Stepper<'a> {
 }
 
 impl<'a> Stepper<'a> {
-    /// For a phase of `duration` (s) that starts at `x`.
+    /// For a phase that starts at `x`.
     pub(crate) fn new(
         system: &'a System<'a>,
         control: &'a mut dyn Control<f64>,
-        integration: &Integration,
-        duration: f64,
+        timing: &Timing,
         x: &[f64],
     ) -> Result<Self, Error> {
+        let Timing { duration, integration, .. } = *timing;
         let frame = MovingFrame::of(system, x, duration)?;
         let mut moving = x.to_vec();
         frame.enter(0.0, &mut moving)?;
@@ -203,7 +205,8 @@ impl<'a> Stepper<'a> {
             (Formulation::Full, false) => FormulationWorkspace::Full,
         };
         let law = InertialFrame { law: control, origin: frame.origin, velocity: frame.velocity };
-        let equation = Equation::new(system, law, form);
+        let kink = timing.kink.filter(|_| !integration.integrator.properties().is_adaptive);
+        let equation = Equation::new(system, law, kink, form);
         let steps = integration.integrator.steps(duration, x.len());
         let companion = Companion::new(integration.integrator, duration, &moving, &equation);
         let part = [moving.clone(), moving];
@@ -227,7 +230,8 @@ impl<'a> Stepper<'a> {
     pub(crate) fn advance(&mut self, span: [f64; 2], from: f64, x: &mut [f64]) -> Result<f64, Error> {
         let [start, moving] = &mut self.part;
         start.copy_from_slice(moving);
-        let reached = self.steps.advance(&mut self.equation, span, from, moving)?;
+        let end = self.equation.smooth_until([from, span[1]]);
+        let reached = self.steps.advance(&mut self.equation, [span[0], end], from, moving)?;
         if reached >= span[1] {
             self.companion.follow(&mut self.equation, span, moving);
         }

@@ -76,7 +76,7 @@ fn phase(integration: Integration, is_pinned: bool, reach: f64) -> Phase {
     let system = if is_pinned { System { bodies: &bodies, constraints: &[pin], ..system } } else { system };
     let start = system.vector(&state.view()).expect("a vector");
     assert_eq!(MovingFrame::of(&system, &start, 8.0).expect("a frame").is_moving(), reach < 8.0);
-    let timing = Timing { duration: 8.0, step: 0.01, sample: 0.5, integration };
+    let timing = Timing { duration: 8.0, step: 0.01, sample: 0.5, integration, kink: None };
     simulate(&system, &mut ByPlace, &state, &timing, &mut Passes(5.0), &mut || ()).expect("a phase")
 }
 

@@ -124,6 +124,7 @@ pub fn steered_step(
         error_limit: 0.05,
         singularity_threshold: 0.04,
         singularity_margin: None,
+        is_limited: false,
         workspace: EndEffectorWorkspace {
             generalized_inertia: &mut [0.0; JOINTS * JOINTS],
             generalized_bias: &mut [0.0; JOINTS],

@@ -44,6 +44,10 @@ impl<T: Real, M: Model<T> + ?Sized, E: Estimator<T, M>, C: Control<T, M>> Contro
         self.law.singularity_margin()
     }
 
+    fn is_limited(&self) -> bool {
+        self.law.is_limited()
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<T>> {
         self.law.base_torque()
     }

@@ -92,6 +92,12 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         None
     }
 
+    /// Whether a limit within the law acted on its last torques. Their derivatives jump in time where it begins or ceases to
+    /// act, and steps across lose their order.
+    fn is_limited(&self) -> bool {
+        false
+    }
+
     /// Exchanges the torques that are held with those of the other solution.
     fn exchange_held(&mut self, _held: &mut [T]) {}
 
@@ -139,6 +145,10 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for
 
     fn singularity_margin(&self) -> Option<T> {
         (**self).singularity_margin()
+    }
+
+    fn is_limited(&self) -> bool {
+        (**self).is_limited()
     }
 
     fn exchange_held(&mut self, held: &mut [T]) {

@@ -55,6 +55,8 @@ pub struct ResolvedMotionRate<'a, T> {
     /// The ratio of the smallest to the largest singular value of the controlled rows of J at the last state; `None`
     /// initially.
     pub singularity_margin: Option<T>,
+    /// Whether errors were reduced, or singular directions damped, at the last state; `false` initially.
+    pub is_limited: bool,
     /// Working space.
     pub workspace: EndEffectorWorkspace<'a, T>,
 }
@@ -110,7 +112,9 @@ impl<T: Real> ResolvedMotionRate<'_, T> {
             let controlled = components.filter(|(_, (on, _))| **on);
             for (((row, (((x_d, t_d), a_d), ((x, t), a))), (_, unit)), (place, right)) in controlled.zip(&mut equations)
             {
-                let error = (*x_d - *x).limit_magnitude(self.error_limit * *unit);
+                let (error, limit) = (*x_d - *x, self.error_limit * *unit);
+                self.is_limited |= error.abs() > limit;
+                let error = error.limit_magnitude(limit);
                 let rate = *t_d + self.pose_gain * error - (*t - dot(row, state.joint_rates));
                 *right = (*a_d + self.pose_gain * (*t_d - *t) - *a + self.rate_gain * rate) / *unit;
                 for (place, (entry, locked)) in place.iter_mut().zip(row.iter().zip(self.locked)) {
@@ -138,6 +142,10 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> 
         self.singularity_margin
     }
 
+    fn is_limited(&self) -> bool {
+        self.is_limited
+    }
+
     fn joint_torques(&mut self, time: T, model: &M, state: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         let (joints, arms) = (model.joints(), model.arms());
         length("joint_torques", joints, torques.len())?;
@@ -154,6 +162,7 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> 
         // these torques keep the joint rates constant
         let base_acceleration =
             model.forward_dynamics(state, &Forces::torques(w.generalized_bias), w.joint_accelerations)?;
+        self.is_limited = false;
         let count = self.fill_equations(time, state, &base_acceleration, joints)?;
 
         let w = &mut self.workspace;
@@ -162,6 +171,7 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ResolvedMotionRate<'_, T> 
         let right = w.right_hand_side.get_mut(..count).ok_or(missing)?;
         let margin = least_squares(rows, right, joints, self.singularity_threshold, w.joint_accelerations);
         self.singularity_margin = (count > 0).then_some(margin);
+        self.is_limited |= count > 0 && margin < self.singularity_threshold;
         let desired = w.joint_accelerations.iter().zip(state.joint_rates);
         let accelerations = desired.map(|(desired, rate)| Ok(*desired - self.rate_gain * *rate));
         inverse_dynamics(w.generalized_inertia, w.generalized_bias, accelerations, torques)

@@ -52,6 +52,10 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M>> Control<T, M> for TorqueLi
         self.law.singularity_margin()
     }
 
+    fn is_limited(&self) -> bool {
+        self.law.is_limited()
+    }
+
     fn exchange_held(&mut self, held: &mut [T]) {
         self.law.exchange_held(held);
     }

@@ -16,7 +16,12 @@ impl<T: Real> Trajectory<T> for Cycloidal<'_, T> {
         let ([from, to], duration) = (self.motion.angles(joint)?, self.motion.duration);
         let (change, tau) = (to - from, normalized_time(time, duration));
         let turn = T::constant(core::f64::consts::TAU);
-        let (sin, cos) = Scalar::sin_cos(turn * tau);
+        // the second half by the time that is left: at rest at its end, where the sine of 2π rounded is not zero
+        let left = T::ONE - tau;
+        let (sin, cos) = match Scalar::sin_cos(turn * tau.minimum(left)) {
+            (sin, cos) if tau > left => (-sin, cos),
+            first_half => first_half,
+        };
         let mean_rate = change / duration;
         Some(DesiredJoint {
             angle: from + change * (tau - sin / turn),

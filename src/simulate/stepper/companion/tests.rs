@@ -17,6 +17,7 @@ use planar_proof::{assert_close, layout, tolerance};
 struct Held {
     refuses: Option<f64>,
     is_held: bool,
+    is_limited: bool,
 }
 
 impl Control<f64> for Held {
@@ -36,6 +37,10 @@ impl Control<f64> for Held {
 
     fn held_steps(&self) -> Option<u32> {
         self.is_held.then_some(1)
+    }
+
+    fn is_limited(&self) -> bool {
+        self.is_limited
     }
 }
 
@@ -57,7 +62,7 @@ fn run(integrator: Integrator, law: &mut dyn Control<f64>, from: &RobotState, [d
     let bodies = [Body { mass: 1.0, inertia: 1.0, pose: [0.1, 3.0, 4.0], twist: [0.5, -0.3, 0.2] }];
     let system = System { bodies: &bodies, ..System::alone(&*model) };
     let integration = Integration { integrator, coordinates: Formulation::Full };
-    let timing = Timing { duration, step, sample: step, integration };
+    let timing = Timing { duration, step, sample: step, integration, kink: None };
     simulate(&system, law, from, &timing, &mut NoEvents, &mut || ()).expect("a phase")
 }
 
@@ -108,10 +113,26 @@ fn fixed_steps_are_compared_with_double_ones() {
 #[test]
 fn held_torques_are_compared_with_half_steps() {
     for (integrator, growth) in FIXED {
-        let mut law = Held { refuses: None, is_held: true };
+        let mut law = Held { refuses: None, is_held: true, is_limited: false };
         let [found, half] = [STEP, 0.5 * STEP].map(|step| run(integrator, &mut law, &initial(), [5.0 * STEP, step]));
         let expected = largest(found.samples.iter(), half.samples.iter().step_by(2)) * growth / (growth - 1.0);
         check(&format!("{integrator:?}"), found.path_error, expected);
+    }
+}
+
+/// A limit that acts within the law: the order is one, whatever the steps are of, but for torques that are held.
+#[test]
+fn steps_under_limits_have_the_order_one() {
+    for (integrator, growth) in FIXED {
+        let law = |is_held| Held { refuses: None, is_held, is_limited: true };
+        let [found, double] =
+            [STEP, 2.0 * STEP].map(|step| run(integrator, &mut law(false), &initial(), [4.0 * STEP, step]));
+        let expected = largest(found.samples.iter().step_by(2), double.samples.iter());
+        check(&format!("{integrator:?}"), found.path_error, expected);
+        let [found, half] =
+            [STEP, 0.5 * STEP].map(|step| run(integrator, &mut law(true), &initial(), [4.0 * STEP, step]));
+        let expected = largest(found.samples.iter(), half.samples.iter().step_by(2)) * growth / (growth - 1.0);
+        check(&format!("{integrator:?}, held"), found.path_error, expected);
     }
 }
 
@@ -129,7 +150,12 @@ fn a_lost_companion_is_an_objection() {
     for (is_held, steps) in [(true, 4.0), (true, 5.0), (false, 1.0), (false, 5.0)] {
         // its only stage is at the start of a step
         let run = |refuses| {
-            run(Integrator::SemiImplicitEuler, &mut Held { refuses, is_held }, &initial(), [steps * STEP, STEP])
+            run(
+                Integrator::SemiImplicitEuler,
+                &mut Held { refuses, is_held, is_limited: false },
+                &initial(),
+                [steps * STEP, STEP],
+            )
         };
         let (lost, kept) = (run(Some(STEP)), run(None));
         assert_eq!(lost.path_error.to_bits(), f64::to_bits(1.0), "{is_held} {steps}");
@@ -162,7 +188,8 @@ fn a_sampled_law_answers_to_the_errors_of_steps() {
 #[test]
 fn an_error_at_the_start_is_followed() {
     let (model, start) = (model(), initial());
-    let timing = Timing { duration: 10.0, step: STEP / 64.0, sample: STEP, integration: Integration::default() };
+    let timing =
+        Timing { duration: 10.0, step: STEP / 64.0, sample: STEP, integration: Integration::default(), kink: None };
     let small = [1e-7, 0.0, 0.0, 3e-8, -1e-7];
     let from = |state: &RobotState, start_error: [&[f64]; 2]| {
         let system = System { start_error, ..System::alone(&*model) };
@@ -185,7 +212,8 @@ fn an_error_at_the_start_is_followed() {
 #[test]
 fn errors_of_two_phases_have_their_signs() {
     let (model, start) = (model(), initial());
-    let timing = Timing { duration: 2.0, step: STEP / 64.0, sample: 2.0, integration: Integration::default() };
+    let timing =
+        Timing { duration: 2.0, step: STEP / 64.0, sample: 2.0, integration: Integration::default(), kink: None };
     let from = |state: &RobotState, start_error: [&[f64]; 2]| {
         let system = System { start_error, ..System::alone(&*model) };
         simulate(&system, &mut ZeroTorque, state, &timing, &mut NoEvents, &mut || ()).expect("a phase")

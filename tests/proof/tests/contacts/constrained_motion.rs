@@ -84,7 +84,8 @@ fn check(layout: &Layout, s: &RandomState, kinds: &[(usize, Kind)], controlled: 
         return false;
     }
     let integration = Integration { integrator: Integrator::Adaptive { tolerance: 1e-12 }, ..Integration::default() };
-    let phase = capture.simulated(controlled, &Timing { duration, step: 0.05, sample: duration, integration });
+    let phase =
+        capture.simulated(controlled, &Timing { duration, step: 0.05, sample: duration, integration, kink: None });
     let end = phase.end();
     let (all, bound) = (&capture.all, tolerance::CONSTRAINED_MOTION);
     close("angles", &end.state.joint_angles, &all.joint_angles(), bound);

@@ -74,7 +74,7 @@ fn targets(s: &RandomState) -> Vec<Option<Target<f64>>> {
 
 /// State of the product's robot after `duration`, by Runge–Kutta steps of 1 ms.
 fn simulated(model: &AnyModel<f64>, control: &mut dyn Control<f64>, start: &RobotState, duration: f64) -> RobotState {
-    let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default() };
+    let timing = Timing { duration, step: 0.001, sample: duration, integration: Integration::default(), kink: None };
     let robot = planar_capture::simulate::system::System::alone(model);
     let phase = simulate(&robot, control, start, &timing, &mut NoEvents, &mut || ()).expect("a phase");
     phase.end().state.clone()

@@ -137,6 +137,7 @@ fn nothing_controlled_has_no_singularity_margin() {
         error_limit: 0.05,
         singularity_threshold: 0.04,
         singularity_margin: None,
+        is_limited: false,
         workspace: EndEffectorWorkspace {
             generalized_inertia: &mut [f64::NAN; JOINTS * JOINTS],
             generalized_bias: &mut [f64::NAN; JOINTS],

@@ -63,6 +63,23 @@ fn cycloidal_ends_at_rest() {
     check(&Cycloidal { motion: motion() }, &[0.0; 3]);
 }
 
+/// After its end, at which 2π rounded has a sine, a motion is held without any acceleration, which a law that follows it exactly
+/// would integrate twice.
+#[test]
+fn held_ends_have_no_acceleration() {
+    let rest = [0.0; 3];
+    let (cycloidal, quintic) =
+        (Cycloidal { motion: motion() }, Quintic { motion: motion(), initial_rates: &rest, final_rates: &rest });
+    for joint in 0..3 {
+        for time in [DURATION, DURATION + 1e-9, 3.0 * DURATION] {
+            for held in [cycloidal.joint(joint, time), quintic.joint(joint, time)] {
+                let held = held.expect("a joint");
+                assert_eq!([held.rate, held.acceleration].map(f64::abs), [0.0; 2], "{joint} at {time}");
+            }
+        }
+    }
+}
+
 #[test]
 fn quintic_goes_from_its_first_rates_to_its_last() {
     let initial_rates = [0.1, 0.03, -0.2];
