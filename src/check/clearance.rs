@@ -1,5 +1,5 @@
 //! What the planned path shows, the approach without tracking errors, in few steps: overlaps, joints beyond their limits,
-//! and why there is none.
+//! torques that no joint has, and why there is none.
 
 use super::number::short;
 use super::warning;
@@ -14,6 +14,7 @@ use crate::registry::Robots;
 use crate::scenario::{Actuation, Detection, OnOverlap, Scenario, Tracking};
 use crate::simulate::limits::LimitViolations;
 use crate::simulate::stepper::Integration;
+use crate::simulate::{Phase, Sample};
 
 /// Number of steps of the planned path.
 const STEPS: f64 = 200.0;
@@ -86,7 +87,7 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     let layout = &scenario.layout;
     let (choice, _) = Choice::fastest(layout, robots);
     let make = || choice.model(layout);
-    let result = match study(&planned, &make, planned.approach.duration, &mut Silent) {
+    let result = match study(&planned, &make, planned.approach.step, &mut Silent) {
         Ok(result) => result,
         Err(StudyError::ClearanceExhausted { what, .. }) => return Ok(vec![unfinished(what.time, &what.to_string())]),
         Err(StudyError::RoughPath { time, path_error, .. }) => {
@@ -118,7 +119,29 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
         }
     }
     warnings.extend(beyond_limits(scenario, &result));
+    if !by_end_effectors {
+        warnings.extend(beyond_torques(scenario, &result.approach));
+    }
     Ok(warnings)
+}
+
+/// The joints whose planned motion takes larger torques than they have: the arms then lag behind it.
+fn beyond_torques(scenario: &Scenario, planned: &Phase) -> Vec<Warning> {
+    let limits = scenario.approach.actuation.torque_limits.iter().flatten().enumerate();
+    let found = limits.filter_map(|(joint, limit)| {
+        let torque = |sample: &Sample| sample.joint_torques[joint].abs();
+        let peak = planned.samples.iter().max_by(|a, b| torque(a).total_cmp(&torque(b)))?;
+        (torque(peak) > *limit).then(|| {
+            let (name, needed) = (scenario.layout.joint_name(joint), short(torque(peak)));
+            let why = format!("the planned motion takes up to {needed} N m of {name}, at {} s", short(peak.time));
+            let help = format!(
+                "more than {} N m, or more time: the arm cannot follow, and meets its target elsewhere",
+                needed
+            );
+            warning("approach.torque_limits", why, help)
+        })
+    });
+    found.collect()
 }
 
 /// The joints that go beyond their limits on the way or at the designed end; those of a given end have warnings at its

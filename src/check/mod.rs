@@ -98,12 +98,15 @@ pub fn inspect_with<'k>(
                 [] => (Vec::new(), None),
                 _ => scenario_findings(&scenario, robots),
             };
+            let in_words = |error: &StudyError, of: &Scenario| (error.key(of).path, error.to_string());
+            let common = error.as_ref().map(|error| in_words(error, &scenario));
             let mut refusal = error.map(|error| error.report(&scenario, text, file, None));
             for variant in &scenario.variants {
                 let (own, error) = variant_findings(variant, &scenario, robots);
                 let own: Vec<_> = own.into_iter().filter(|warning| !warnings.contains(warning)).collect();
                 warnings.extend(own.into_iter().map(|warning| variant.at_its_key(warning)));
-                if let Some(error) = error {
+                // what the values of the case have no part in is said once
+                if let Some(error) = error.filter(|own| common.as_ref() != Some(&in_words(own, &variant.scenario))) {
                     let why = format!("with these values, `{}`: {error}", error.key(&variant.scenario).path);
                     let report = report_error(text, file, (&variant.key(), "none"), &why, None);
                     refusal = Some(match refusal {

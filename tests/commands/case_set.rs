@@ -218,3 +218,16 @@ fn what_is_wrong_without_them_is_said_once() {
     assert_eq!(err.matches("sampel_time").count(), 2, "the key and its line: {err}");
     assert!(err.contains("unknown key") && !err.contains("set"), "{err}");
 }
+
+/// What the values of a case have no part in is said once.
+#[test]
+fn what_is_wrong_without_the_values_too_is_said_once() {
+    let place = Place::new();
+    let text = fs::read_to_string(file("scenarios/spinning_target.toml")).expect("a scenario");
+    for (set, times) in [("\"target.disc.mass\" = 20.0", 1), ("\"layout.arm.arm1.link[0].length\" = 0.9", 2)] {
+        let own = text.replace("name = \"rigid\"", &format!("name = \"rigid\"\nset = {{ {set} }}"));
+        let path = place.write("far.toml", &own.replace("[[1.9, -0.9]]", "[[9.9, -0.9]]"));
+        let (code, out, err) = said(&["check", &path]);
+        assert_eq!((code, err.matches("is out of reach").count()), (2, times), "{set}: {out}{err}");
+    }
+}

@@ -19,6 +19,9 @@ const GAP: f64 = 1e-2;
 /// Time for which the most distances are meant, s; longer cases may have more in proportion.
 const BUDGETED: f64 = 100.0;
 
+/// Instants of a window that are kept together, so that memory does not grow with their number; few where this is tested.
+const MOST_INSTANTS: usize = if cfg!(test) { 16 } else { 1 << 14 };
+
 /// Two convex parts, and what is known of them.
 #[derive(Clone)]
 pub(super) struct PartDistance {
@@ -130,11 +133,29 @@ impl WindowSearch<'_> {
                 left = *right;
                 instants.push(left);
                 rights.pop();
+                if instants.len() == MOST_INSTANTS {
+                    self.take(&instants, part, known, found)?;
+                    instants.drain(..MOST_INSTANTS - 1);
+                }
             } else {
                 rights.push(self.record_at(left.time + half, known, found)?);
             }
         }
         (part.lower, part.last) = (end.distance, Some(end));
+        self.take(&instants, part, known, found)?;
+        *self.instants = [instants, rights];
+        Ok(())
+    }
+
+    /// Begins and ends overlaps at instants in their order, of which the first is the last one before, and finds their depths
+    /// there.
+    fn take(
+        &mut self,
+        instants: &[Instant],
+        part: &mut PartDistance,
+        known: (usize, &BodyPair),
+        found: &mut Findings,
+    ) -> Result<(), f64> {
         let mut begins = 0;
         for (i, now) in instants.iter().enumerate() {
             let before = i.saturating_sub(1);
@@ -155,9 +176,8 @@ impl WindowSearch<'_> {
         }
         if let Some(open) = part.open {
             self.deepen(open, known, found, &instants[begins..])?;
-            found.overlaps[open].span[1] = self.start + last;
+            found.overlaps[open].span[1] = self.start + instants[instants.len() - 1].time;
         }
-        *self.instants = [instants, rights];
         Ok(())
     }
 

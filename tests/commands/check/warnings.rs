@@ -71,6 +71,13 @@ const WHEELS: &str = "name = \"wheels\"\n[base]\nmass = 50.0\ninertia = 8.0\n[[a
 
 /// As above.
 const SCENARIO_EDITS: &[Edit] = &[
+    // torques
+    (
+        "duration = 20.0\ntrajectory",
+        "duration = 20.0\ntracking = \"computed_torque\"\ntorque_limits = [0.01, 9, 9, 9, 9]\ntrajectory",
+        8,
+        &["`approach.torque_limits` is [0.01, 9, 9, 9, 9]", "N m of joint 1 of left", "the arm cannot follow"],
+    ),
     // angles
     (
         "joint_angles = [0.7",
