@@ -65,6 +65,21 @@ impl Copula {
         Ok(Self { keys, factor })
     }
 
+    /// The rank correlations of pairs of keys, those that are not zero, to ten digits.
+    #[must_use]
+    pub fn ranks(&self) -> Vec<([usize; 2], f64)> {
+        let mut found = Vec::new();
+        for (j, (second, row)) in self.keys.iter().zip(&self.factor).enumerate() {
+            for (first, other) in self.keys.iter().zip(&self.factor).take(j) {
+                let of_scores: f64 = row.iter().zip(other).map(|(x, y)| x * y).sum();
+                let rank = 6.0 / PI * libm::asin(0.5 * of_scores);
+                found.push(([*first, *second], (1e10 * rank).round() / 1e10));
+            }
+        }
+        found.retain(|(_, rank)| *rank != 0.0);
+        found
+    }
+
     /// Mixes the probabilities of all keys of a case. The first key of a group keeps its own.
     pub fn mix(&self, numbers: &mut [f64]) {
         let scores: Vec<f64> = self.keys.iter().map(|key| normal::quantile(numbers[*key])).collect();
@@ -87,6 +102,14 @@ mod tests {
         let mut ranks = vec![0.0; numbers.len()];
         (0..).zip(order).for_each(|(rank, i): (u32, usize)| ranks[i] = f64::from(rank));
         ranks
+    }
+
+    #[test]
+    fn ranks_are_those_given() {
+        let given = [([0, 2], 0.5), ([2, 3], -0.7), ([1, 4], 0.25)];
+        let mut found = Copula::new(&given).expect("possible").ranks();
+        found.sort_by_key(|(pair, _)| *pair);
+        assert_eq!(found, [([0, 2], 0.5), ([1, 4], 0.25), ([2, 3], -0.7)]);
     }
 
     #[test]

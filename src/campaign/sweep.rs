@@ -54,6 +54,15 @@ pub struct Sweep {
     pub collect: Collect,
 }
 
+impl Sweep {
+    /// The pairs of keys that are correlated, and their rank correlations.
+    #[must_use]
+    pub fn correlations(&self) -> Vec<([&str; 2], f64)> {
+        let ranks = self.copula.iter().flat_map(Copula::ranks);
+        ranks.map(|(pair, rank)| (pair.map(|key| &*self.varied[key].key), rank)).collect()
+    }
+}
+
 /// A key that varies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {

@@ -3,6 +3,8 @@
 use super::number::short;
 use crate::campaign::Campaign;
 use crate::campaign::distribution::{Distribution, Kind};
+use crate::campaign::outputs::OutputGroup;
+use crate::campaign::sweep::Collect;
 use crate::plain_text::count;
 use std::fmt::{self, Write};
 
@@ -21,6 +23,20 @@ fn write(out: &mut String, campaign: &Campaign) -> fmt::Result {
     writeln!(out, "  cases               {}, {}, in {}", sweep.cases, sweep.sampling.name(), count(blocks, "file"))?;
     for varied in &sweep.varied {
         writeln!(out, "  varies              {}: {}", varied.key, values(&varied.distribution))?;
+    }
+    for ([one, other], rank) in sweep.correlations() {
+        writeln!(out, "  correlated          {one} with {other}: rank correlation {}", short(rank))?;
+    }
+    let Collect { outputs, series, sample } = &sweep.collect;
+    let names = OutputGroup::ALL.iter().filter(|(_, group)| outputs.contains(group)).map(|(name, _)| *name);
+    let names = names.collect::<Vec<_>>().join(", ");
+    if !names.is_empty() {
+        writeln!(out, "  outputs             the default ones, {names}")?;
+    }
+    if !series.is_empty() {
+        let cases = series.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
+        let of = if series.len() == 1 { "case" } else { "cases" };
+        writeln!(out, "  time series         of {of} {cases}, every {} s", short(*sample))?;
     }
     Ok(())
 }

@@ -61,6 +61,10 @@ pub struct SweepReport {
     pub about: Vec<(&'static str, String)>,
     /// Every key that varies, with its distribution in words.
     pub varied: Vec<(String, String)>,
+    /// The pairs of keys that are correlated, and their rank correlations.
+    pub correlated: Vec<([String; 2], f64)>,
+    /// Cases in which all that is to be held was captured, and cases with a result.
+    pub captured: [usize; 2],
     /// Rows that were read.
     pub cases: usize,
     /// Rows by status, those that occur.
@@ -213,10 +217,14 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
     }
     let is_independent = campaign.sweep.copula.is_none();
     let mut of_count = HashMap::new();
-    let (mut outputs, mut same) = (Vec::new(), Vec::new());
+    let (mut outputs, mut same, mut captured) = (Vec::new(), Vec::new(), [0; 2]);
     let first = place("captured").unwrap_or_default();
     for (name, unit) in &names[first.min(names.len())..] {
         let values = numbers(name)?;
+        if name == "captured" {
+            let known = values.iter().flatten();
+            captured = [known.clone().filter(|value| **value > 0.5).count(), known.count()];
+        }
         let rows: Vec<usize> = (0..values.len()).filter(|row| values[*row].is_some()).collect();
         let values: Vec<f64> = values.into_iter().flatten().collect();
         if let Some(largest) = same_in_all(&values) {
@@ -237,6 +245,8 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
             ("seed", sweep.seed.to_string()),
         ],
         varied: sweep.varied.iter().map(|varied| (varied.key.clone(), varied.distribution.to_string())).collect(),
+        correlated: sweep.correlations().into_iter().map(|(keys, rank)| (keys.map(str::to_owned), rank)).collect(),
+        captured,
         cases: cases.len(),
         statuses: counts,
         failures: kinds_of(failures),

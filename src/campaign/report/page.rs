@@ -33,12 +33,25 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
     add(&format!("{}.", counts.join(", ")));
+    if let [captured, known] = report.captured
+        && known > 0
+    {
+        #[allow(clippy::cast_precision_loss, reason = "a share")]
+        let share = 100.0 * captured as f64 / known as f64;
+        add(&format!(
+            " All that is to be held was captured in <b>{captured}</b> of {known} cases with a result, {share:.1} %."
+        ));
+    }
     let about: Vec<_> =
         report.about.iter().map(|(what, value)| format!("{what} <b>{}</b>", markup::attribute(value))).collect();
     add(&format!(" {}</p>\n", about.join(", ")));
     if !report.varied.is_empty() {
         let rows = report.varied.iter().map(|(key, values)| [key, values].map(|text| markup::attribute(text)).to_vec());
         add(&in_words(&table(&["varies", "distribution"].map(str::to_owned), rows)));
+    }
+    for ([one, other], rank) in &report.correlated {
+        let [one, other] = [one, other].map(|key| markup::attribute(key));
+        add(&format!("<p>Correlated: <b>{one}</b> with <b>{other}</b>, rank correlation {rank}.</p>\n"));
     }
     add(&failures(report));
     add(
@@ -133,7 +146,7 @@ fn named(output: &OutputReport) -> String {
 fn percentiles(output: &OutputReport) -> Vec<String> {
     let shown = |Percentile { value, bounds }: &Percentile| {
         let [low, high] = bounds.map(|bound| bound.map_or("–".to_owned(), number));
-        format!("{} <small>[{low}, {high}]</small>", number(*value))
+        format!("{}<br><small>[{low}, {high}]</small>", number(*value))
     };
     let first = [named(output), output.count.to_string()];
     first.into_iter().chain(output.percentiles.iter().map(shown)).collect()
