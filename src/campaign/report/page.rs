@@ -14,7 +14,10 @@ const STYLE: &str = ":root{color-scheme:light dark;--text:#222;--page:#fff;--lin
     th:first-child,td:first-child,.words th,.words td{text-align:left}.words td{white-space:normal}\
     .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
     figure{margin:0;break-inside:avoid}figure img{width:100%;background:#fff}figcaption{color:var(--quiet);font-size:.85em}\
-    h3{margin:1.5em 0 .3em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}code{background:var(--code);padding:0 .3em}";
+    h3{margin:1.5em 0 .3em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
+    @media print{:root{--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}body{font-size:9pt;margin:0;max-width:none}\
+    table{font-size:7.5pt;display:table;overflow:visible}th,td{padding:.15em .4em;white-space:normal;overflow-wrap:anywhere}tr{break-inside:avoid}\
+    .pictures{grid-template-columns:repeat(3,1fr)}}code{background:var(--code);padding:0 .3em}";
 
 /// Below this a sensitivity is not shown: it is what chance leaves.
 const SHOWN: f64 = 0.005;

@@ -28,6 +28,15 @@ function twistsOfTargets(one, line, time) {
 
 const speed = ([x, y]) => Math.hypot(x, y);
 
+/** The cases that are shown: their arrows have one scale, so that they can be compared. */
+const shownCases = () => [state.chosen, state.beside].filter((index) => index !== null);
+
+/** The greatest speed and torque of the cases that are shown. */
+function greatestShown() {
+  const each = shownCases().map(greatestOf);
+  return { speed: Math.max(...each.map(({ speed }) => speed)), torque: Math.max(...each.map(({ torque }) => torque)) };
+}
+
 /** The greatest speed and torque in a case, once for each. */
 const greatest = new Map();
 function greatestOf(chosen) {
@@ -55,10 +64,10 @@ function arrow(from, [x, y], paint) {
 
 const LONGEST = 70;
 
-/** Velocities of end effectors, base and targets, the greatest of the case with 70 pixels; those now, in m/s. */
+/** Velocities of end effectors, base and targets, the greatest of all shown with 70 pixels; those now, in m/s. */
 function drawVelocities(chosen, now, poses, screen) {
   const [one, line] = [study.cases[chosen], state.lines[chosen]];
-  const scale = LONGEST / greatestOf(chosen).speed, { base: [, vx, vy], end_effectors } = velocities(line, now, state.time);
+  const scale = LONGEST / greatestShown().speed, { base: [, vx, vy], end_effectors } = velocities(line, now, state.time);
   const draw = (point, [x, y], paint) => {
     arrow(screen(point), [scale * x, -scale * y], paint);
     const size = speed([x, y]);
@@ -72,9 +81,9 @@ function drawVelocities(chosen, now, poses, screen) {
   return { base: [vx, vy], end_effectors, targets };
 }
 
-/** Joint torques as bent arrows about the joints, the greatest of the case over three quarters of a turn. */
+/** Joint torques as bent arrows about the joints, the greatest of all shown over three quarters of a turn. */
 function drawTorques(chosen, now, screen, scale) {
-  const line = state.lines[chosen], turn = 1.5 * Math.PI / greatestOf(chosen).torque, radius = thickness(scale) + 8;
+  const line = state.lines[chosen], turn = 1.5 * Math.PI / greatestShown().torque, radius = thickness(scale) + 8;
   const torques = line.joint_torques.map((column) => between(line, column, state.time));
   let joint = 0;
   now.arms.forEach((arm, i) => study.layout.arms[i].links.forEach((_, k) => {

@@ -204,9 +204,13 @@ function begin() {
     draw();
   };
   window.addEventListener("resize", fit);
-  // paper is white
+  // paper is white, and two plots wide
   let wasDark = false;
-  window.addEventListener("beforeprint", () => { wasDark = element("dark").checked; if (wasDark) switchTheme(false); fit(); });
+  window.addEventListener("beforeprint", () => {
+    wasDark = element("dark").checked;
+    if (wasDark) switchTheme(false);
+    plots.forEach((plot) => plot.setSize({ width: 320, height: 180 }));
+  });
   window.addEventListener("afterprint", () => { if (wasDark) switchTheme(true); fit(); });
   state.listeners.push(() => plots.forEach((plot) => plot.redraw(false)));
   open(fromAddress());

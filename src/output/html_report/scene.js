@@ -45,7 +45,7 @@ function drawScene(chosen, width, height) {
   drawBase(now, screen, overlapping);
   now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
-  line.impacts.forEach((impact) => drawImpact(impact, line, screen, width));
+  line.impacts.forEach((impact) => drawImpact(impact, screen, width));
   const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i)));
@@ -153,9 +153,9 @@ function nameTarget(target, pose, now, screen, scale, width, height, paint) {
 const SHOWN_FOR = 4;
 const isFresh = (impact) => state.time >= impact.time && state.time <= impact.time + SHOWN_FOR;
 
-/** Pixels per N s in a case, so that arrows and visible ellipses fit. */
-function impulseScale(line) {
-  const contacts = line.impacts.flatMap((impact) => impact.contacts), most = (of) => Math.max(...contacts.map(of));
+/** Pixels per N s, so that the arrows and visible ellipses of all shown cases fit. */
+function impulseScale() {
+  const contacts = shownCases().flatMap((index) => state.lines[index].impacts.flatMap((impact) => impact.contacts)), most = (of) => Math.max(...contacts.map(of));
   return Math.min(80 / most((one) => force(one.impulse)), element("ellipse")?.checked ? 110 / most((one) => ellipse(one)[0]) : Infinity);
 }
 
@@ -163,9 +163,9 @@ function impulseScale(line) {
 const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
 
 /** For four seconds after an impact: the impulse on the robot at each contact, and the impulse ellipse. */
-function drawImpact(impact, line, screen, width) {
+function drawImpact(impact, screen, width) {
   if (!isFresh(impact)) return;
-  const scale = impulseScale(line);
+  const scale = impulseScale();
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
   for (const contact of impact.contacts) {
     const from = screen(contact.end_effector), f = force(contact.impulse), [, fx, fy] = contact.impulse;
