@@ -180,10 +180,18 @@ pub fn main_with(robots: &[CompiledRobot]) -> ExitCode {
     main_with_laws(robots, &[])
 }
 
+/// Makes a file that grows beyond what the system allows (`ulimit -f`) an error of its writing, as on a full disk: by default a
+/// signal ends the process without a word.
+fn report_long_files() {
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
 /// As [`main_with`], with control laws of one's own beside the robots: a scenario names one by `tracking = "NAME"` and gives
 /// its numbers in `[approach.law]`.
 #[must_use]
 pub fn main_with_laws(robots: &[CompiledRobot], laws: &[RegisteredLaw]) -> ExitCode {
+    report_long_files();
     let program = Program { robots: Robots::with(robots), laws };
     let robots = program.robots;
     let command = help::parse().command;

@@ -7,8 +7,8 @@ use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat}
 pub fn page(file: FileFormat) -> String {
     let name = file.name();
     let mut page = format!(
-        "# Keys of a {name} file\n\nWritten from the tables by which the program reads (`PLANAR_CAPTURE_WRITE=1 cargo test \
-         --test commands formats`). `planar-capture template {name}` prints a file to start from, `planar-capture schema \
+        "<!-- Written from the tables by which the program reads: PLANAR_CAPTURE_WRITE=1 cargo test --test commands formats \
+         -->\n# Keys of a {name} file\n\n`planar-capture template {name}` prints a file to start from, `planar-capture schema \
          {name}` a JSON Schema for editors. Unknown keys are errors.\n"
     );
     section(&mut page, "", file.table(), &mut Vec::new());

@@ -384,7 +384,10 @@ fn residual_motion(study: &Study) -> String {
             table.note(format!("base torque: {taken} N m s taken, {work} J of work, {limited} s at its limit"));
         }
     }
-    format!("\nResidual motion: rates [rad/s], momentum about the common COM of robot and held targets\n{}", table.text())
+    format!(
+        "\nResidual motion: rates [rad/s], momentum about the common COM of robot and held targets\n{}",
+        table.text()
+    )
 }
 
 /// A sentence in the block of a heading.

@@ -160,6 +160,20 @@ fn what_is_no_folder_is_refused_before_anything_is_computed() {
     assert_eq!(fs::read_to_string(occupied).expect("a file"), "a file");
 }
 
+/// A limit of the system on the size of files is a full disk: a message, and nothing is left.
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_longer_than_allowed_is_an_error() {
+    let folder = TempDir::new().expect("a folder");
+    let one = scenario("one", &["a", "b", "c"], folder.path());
+    let mut limited = Command::new("sh");
+    limited.args(["-c", "ulimit -f 4; exec \"$0\" run \"$1\" -q --out results"]).arg(command().get_program()).arg(one);
+    let (code, _, err) = planar_proof::said(limited.current_dir(folder.path()).output().expect("a shell"));
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("cannot write") && err.contains("too large"), "{err}");
+    assert_eq!(names(folder.path()), ["one.toml"]);
+}
+
 /// Nobody writes into this pipe: whoever opens it waits for good.
 #[cfg(unix)]
 #[test]

@@ -14,6 +14,7 @@
 #[cfg(feature = "figures")]
 mod axis_unit;
 mod columns;
+mod failures;
 #[cfg(feature = "figures")]
 mod gallery;
 mod histogram;
@@ -32,13 +33,14 @@ use crate::output::output_error::OutputError;
 use crate::scenario::find_key;
 pub use columns::UnreadableError;
 use columns::{Column, Columns};
+pub use failures::FailureKind;
+use failures::kinds_of;
 pub use histogram::Histogram;
 use page::page;
 pub use scatter::Scatter;
 use scatter::{effects, strongest_first};
 pub use statistics::Percentile;
 use statistics::{PercentileRanks, correlation, first_order, ranks};
-use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -79,19 +81,6 @@ pub struct SweepReport {
     pub same: Vec<(String, String, f64)>,
     /// Whether keys are independent, as first-order indices suppose.
     pub is_independent: bool,
-}
-
-/// Failures whose messages are alike but for numbers.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct FailureKind {
-    /// How many there are.
-    pub count: usize,
-    /// The first case.
-    pub case: u64,
-    /// Its status.
-    pub status: String,
-    /// Its message.
-    pub message: String,
 }
 
 /// One output.
@@ -264,27 +253,6 @@ fn same_in_all(values: &[f64]) -> Option<f64> {
     let (least, most) = values.iter().fold((first, first), bounds);
     let size = least.abs().max(most.abs());
     (most - least <= SAME * size.max(1.0)).then_some(size)
-}
-
-/// Failures by their messages without numbers, the most frequent kind first.
-fn kinds_of(failures: impl Iterator<Item = FailureKind>) -> Vec<FailureKind> {
-    let mut places = HashMap::new();
-    let mut kinds: Vec<FailureKind> = Vec::new();
-    for failure in failures {
-        let words: Vec<_> = failure.message.split_whitespace().filter(|word| !word.contains(is_digit)).collect();
-        let place = *places.entry((failure.status.clone(), words.join(" "))).or_insert(kinds.len());
-        match kinds.get_mut(place) {
-            Some(kind) => kind.count += 1,
-            None => kinds.push(failure),
-        }
-    }
-    // stable: equally frequent kinds stay in their order
-    kinds.sort_by_key(|kind| Reverse(kind.count));
-    kinds
-}
-
-fn is_digit(c: char) -> bool {
-    c.is_ascii_digit()
 }
 
 /// The unit of a key; empty where another key decides on it, as it does for gains.

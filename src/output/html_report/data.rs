@@ -9,7 +9,7 @@ use crate::outline::Outline;
 use crate::output::run_manifest::RunManifest;
 use crate::output::scene::{PALETTE, hexadecimal};
 use crate::output::summary::{least_distance, overlaps};
-use crate::scenario::{Case, Scenario};
+use crate::scenario::{Case, Scenario, Variant};
 use crate::simulate::system::Body;
 use crate::simulate::{Phase, Sample};
 use serde_json::{Value, json};
@@ -32,6 +32,8 @@ pub(super) fn data(scenario: &Scenario, study: &Study, manifest: &RunManifest) -
         })).collect::<Vec<_>>(),
         "cases": cases.map(|(case, result)| one_case(scenario, study, case, result)).collect::<Vec<_>>(),
         "objections": study.audit_failures(),
+        // they have robots, approaches or outlines of their own, and so pages of their own
+        "others": scenario.variants.iter().map(Variant::name).collect::<Vec<_>>(),
     });
     // with an approach of its own in every case, the study's approach is that without contacts
     if study.cases.iter().any(|case| case.approach.is_none()) {

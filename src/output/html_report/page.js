@@ -157,6 +157,13 @@ function legend() {
   if (!found.size) element("ellipse")?.parentElement.remove();
 }
 
+/** The pages of cases with values of their own, beside this one. */
+function others() {
+  const links = study.others.map((name) => Object.assign(cell("a", name), { href: `${encodeURIComponent(name)}.report.html` }));
+  element("others").replaceChildren("Cases with values of their own: ", ...links.flatMap((link, i) => (i ? [", ", link] : [link])));
+  element("others").hidden = !links.length;
+}
+
 /** Where the page comes from. */
 function origin() {
   const { version, command, scenario_sha256, layout_sha256, integrator, features } = study.run;
@@ -186,6 +193,7 @@ function begin() {
   });
   if (study.cases.length < 2) element("second").remove();
   origin();
+  others();
   legend();
 
   preference.addEventListener("change", (event) => switchTheme(event.matches));
