@@ -8,15 +8,15 @@ use std::fmt::Write;
 
 const STYLE: &str = ":root{color-scheme:light dark;--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}\
     @media(prefers-color-scheme:dark){:root{--text:#ddd;--page:#16181c;--line:#3a3f47;--quiet:#a0a6ae;--code:#262a30}}\
-    body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:var(--text);background:var(--page)}\
+    body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:80em;padding:0 1em;color:var(--text);background:var(--page)}\
     table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
-    th,td{padding:.25em .7em;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
+    th,td{padding:.25em .5em;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
     th:first-child,td:first-child,.words th,.words td{text-align:left}.words td{white-space:normal}\
     .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
     figure{margin:0;break-inside:avoid}figure img{width:100%;background:#fff}figcaption{color:var(--quiet);font-size:.85em}\
-    h3{margin:1.5em 0 .3em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
+    h3{margin:1.5em 0 .3em}td small{font-size:.75em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
     @media print{:root{--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}body{font-size:9pt;margin:0;max-width:none}\
-    table{font-size:7.5pt;display:table;overflow:visible}th,td{padding:.15em .4em;white-space:normal;overflow-wrap:anywhere}tr{break-inside:avoid}\
+    table{font-size:7.5pt;display:table;overflow:visible}th,td{padding:.15em .3em}td,.words th{white-space:normal;overflow-wrap:anywhere}tr{break-inside:avoid}\
     .pictures{grid-template-columns:repeat(3,1fr)}}code{background:var(--code);padding:0 .3em}";
 
 /// Below this a sensitivity is not shown: it is what chance leaves.
@@ -47,7 +47,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     }
     let about: Vec<_> =
         report.about.iter().map(|(what, value)| format!("{what} <b>{}</b>", markup::attribute(value))).collect();
-    add(&format!(" {}</p>\n", about.join(", ")));
+    add(&format!(" Of {}</p>\n", about.join(", ")));
     if !report.varied.is_empty() {
         let rows = report.varied.iter().map(|(key, values)| [key, values].map(|text| markup::attribute(text)).to_vec());
         add(&in_words(&table(&["varies", "distribution"].map(str::to_owned), rows)));
