@@ -115,6 +115,26 @@ fn two_targets_at_once() {
     assert_eq!((capture.impact.contacts.len(), capture.later_impacts.len()), (2, 0));
 }
 
+/// A bar that two arms are to pin: the second end effector meets it after the first one holds it.
+#[test]
+fn a_target_that_is_held_is_met_by_another_arm() {
+    let text = format!(
+        "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {ANGLES:?}\n[approach]\nduration = 5.0\n\
+         step = 0.05\ntrajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = {ANGLES:?}\n[contact]\n\
+         detection = \"event\"\n[[target]]\nname = \"bar\"\narm = [\"arm1\", \"arm2\"]\nkind = \"pin\"\nmass = 10.0\n\
+         inertia = 8.0\npolygon = [[-3.3, -0.2], [3.3, -0.2], [3.3, 0.2], [-3.3, 0.2]]\nposition = [0.1, -0.6]\n\
+         yaw = 0.03\ntwist = [0.0, 0.0, 0.2]\n[post_impact]\nduration = 20.0\nstep = 0.05\n"
+    );
+    let scenario = Scenario::parse(&text, "it.toml", &file("scenarios"), registry::SHIPPED);
+    let study = run(&scenario.unwrap_or_else(|e| panic!("{e}"))).expect("a study");
+    let case = &study.cases[0];
+    let capture = case.capture.as_ref().expect("a capture");
+    let impacts = std::iter::once(&capture.impact).chain(capture.later_impacts.iter().map(|later| &later.impact));
+    let arms: Vec<usize> = impacts.flat_map(|impact| &impact.contacts).map(|made| made.contact.arm).collect();
+    assert!(arms == [0, 1] || arms == [1, 0], "{arms:?}");
+    assert!(capture.later_impacts.len() == 1 && case.closest.is_empty(), "{:?}", case.closest);
+}
+
 /// A target that passes beside its end effector is the one that is not met, by its least distance and time.
 #[test]
 fn what_is_not_met() {

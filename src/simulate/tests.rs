@@ -459,3 +459,22 @@ fn a_law_is_sampled_at_one_interval() {
         assert_close("times", &law.0, expected, 1e-12);
     }
 }
+
+/// Samples are at the multiples of the interval that are nearest to whole steps: 0.3 s are three steps of 0.1 s, although their
+/// quotient is less than 3.
+#[test]
+fn samples_are_the_nearest_number_of_steps_apart() {
+    let (model, state) = robot();
+    let system = System::alone(&*model);
+    for (sample, expected) in [
+        (0.3, &[0.0, 0.3, 0.6, 0.9, 1.0][..]),
+        (0.26, &[0.0, 0.3, 0.6, 0.9, 1.0]),
+        (0.54, &[0.0, 0.5, 1.0]),
+        (9.0, &[0.0, 1.0]),
+    ] {
+        let timing = Timing { duration: 1.0, step: 0.1, sample, ..Timing::default() };
+        let phase = simulate(&system, &mut ZeroTorque, &state, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+        let times: Vec<f64> = phase.samples.iter().map(|sample| sample.time).collect();
+        assert_close(&format!("every {sample} s"), &times, expected, 1e-12);
+    }
+}

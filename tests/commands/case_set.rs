@@ -97,8 +97,8 @@ fn files_have_the_name_of_the_case() {
     let wanted = [&common[..], &["heavy.csv", "heavy.report.html", "report.html", "summary.json"]].concat();
     assert_eq!(found.iter().filter(|name| *name != "figures").collect::<Vec<_>>(), wanted);
     let report = fs::read_to_string(place.path("out/heavy.report.html")).expect("a report");
-    let common = fs::read_to_string(place.path("out/report.html")).expect("a report");
-    assert!(common.contains("\"others\":[\"heavy\"]") && report.contains("\"others\":[]"), "links to pages beside it");
+    let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
+    assert!(page.contains("\"others\":[\"heavy\"]") && report.contains("\"others\":[]"), "links to pages beside it");
     assert!(report.contains("\"heavy\"") && !report.contains("\"name\":\"case1\""));
     if cfg!(feature = "figures") {
         assert_eq!(names(&place.path("out/figures")).last().map(String::as_str), Some("heavy"));

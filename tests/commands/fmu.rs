@@ -133,6 +133,9 @@ fn what_is_exact_at_the_start_has_a_value() {
         *(if is_exact { &mut with } else { &mut without }) += 1;
     }
     assert!(with > 20 && without > 5, "{with} and {without} variables");
+    // the structure of the model has each output once
+    let outputs = description.matches("causality=\"output\"").count();
+    assert!(outputs > 20 && description.matches("<Output ").count() == outputs, "{outputs} outputs");
 }
 
 /// All are refused before anything is derived.

@@ -100,6 +100,25 @@ pub fn outcome(mut command: Command) -> (i32, String, String) {
     said(command.output().expect("it runs"))
 }
 
+const MERGING: &str = r#"
+#[path = "robot.rs"]
+mod robot;
+use robot::{ARMS, JOINTS, Model, Status};
+
+fn main() {
+    let (mut robot, before) = (Model::<f64>::default(), Model::<f64>::default());
+    let merge = |robot: &mut Model<f64>, masses: [f64; ARMS]| {
+        robot.merge(&[0.0; 3], &[0.1; JOINTS], &masses, &[0.5; ARMS], &[[0.2, 0.1]; ARMS])
+    };
+    let mut masses = [1.0; ARMS];
+    masses[ARMS - 1] = f64::NAN;
+    assert_eq!(merge(&mut robot, masses), Err(Status::NotFinite));
+    assert!(robot == before);
+    assert_eq!(merge(&mut robot, [1.0; ARMS]), Ok(()));
+    assert!(robot != before);
+}
+"#;
+
 #[test]
 fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
     if without_python() {
@@ -132,6 +151,16 @@ fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
     assert_eq!(code, 0, "{err}");
     let (code, out, _) = outcome(Command::new(&binary));
     assert!(code == 0 && out.contains("2 passed"), "{out}");
+
+    // a robot that cannot be merged is as before
+    let merging = folder.path().join("merging.rs");
+    fs::write(&merging, MERGING).expect("written");
+    let mut compile = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    compile.args(["--edition", "2024", "-A", "dead_code", "-o"]).arg(&binary).arg(&merging);
+    let (code, _, err) = outcome(compile);
+    assert_eq!(code, 0, "{err}");
+    let (code, _, err) = outcome(Command::new(&binary));
+    assert_eq!(code, 0, "{err}");
 
     // a number that is off by 1e-9, a pivot that says nothing, a manifest that says something else
     let pivot = text.lines().find(|line| line.trim_start().starts_with("smallest_pivot: t")).expect("a pivot");

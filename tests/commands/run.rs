@@ -398,6 +398,16 @@ fn rows_that_cannot_be_as_close_as_asked_are_noted() {
     let (code_without, _, err) = noted("0.005");
     assert!(!err.contains("--sample"), "{err}");
     assert_eq!(code, code_without);
+    // the longer step of either phase
+    let text = fs::read_to_string(&path).expect("the scenario");
+    let places: Vec<usize> = text.match_indices("step = 0.005").map(|(place, _)| place).collect();
+    assert_eq!(places.len(), 2, "one for each phase");
+    for place in places {
+        let (before, after) = text.split_at(place);
+        fs::write(&path, format!("{before}{}", after.replacen("0.005", "0.01", 1))).expect("written");
+        let (_, _, err) = noted("0.006");
+        assert!(err.contains("warning: --sample 0.006 s is shorter than the scenario's step of 0.01 s"), "{err}");
+    }
 }
 
 /// The page needs no other files; `report_browser.py` opens it in a browser.

@@ -87,6 +87,19 @@ fn quaternions_turn_as_rpy_does() {
     assert!(read(&both).expect_err("both").contains("both `rpy` and `quat_xyzw`"));
 }
 
+/// Before version 1.2 a limit that is not given is 0, from then on there is none: read as the version says.
+#[test]
+fn limits_that_are_not_given_are_those_of_the_version() {
+    let plain = robot("", "", "").replace("\"continuous\"", "\"revolute\"");
+    let limited = plain.replace("<axis", "<limit velocity=\"2.0\"/><axis");
+    for (version, angles) in [("1.0", true), ("1.1", true), ("1.2", false), ("1.3", false)] {
+        let text = limited.replace("version=\"1.0\"", &format!("version=\"{version}\""));
+        let omitted = format!("{:?}", read(&text).unwrap_or_else(|problem| panic!("{problem}")));
+        assert_eq!(omitted.contains("angle [-0.0, 0.0] rad"), angles, "{version}: {omitted}");
+        assert!(omitted.contains("2.0 rad/s"), "{version}: {omitted}");
+    }
+}
+
 #[test]
 fn what_is_no_document_is_refused_with_its_line() {
     let plain = robot("", "", "");

@@ -139,6 +139,27 @@ fn the_reports_targets_move_as_they_do() {
     }
 }
 
+/// A loop of two rigid contacts opens in the report where one of them turns, too.
+#[test]
+fn the_reports_openings_have_rotations() {
+    let mut scenario = scenario("large_target");
+    scenario.post_impact.as_mut().expect("a capture").duration = 1.0;
+    let mut study = run(&scenario);
+    let capture = study.cases[0].capture.as_mut().expect("a capture");
+    let turned = capture.targets.len() / 2;
+    let before = report_data(&scenario, &study);
+    study.cases[0].capture.as_mut().expect("a capture").targets[turned][0].pose[0] += 1e-3;
+    let after = report_data(&scenario, &study);
+    let open = |data: &Value| {
+        let holds = &data["cases"][0]["post_impact"]["holds"];
+        let columns: Vec<f64> =
+            holds.as_array().expect("a list").iter().map(|hold| number(&hold["open"][turned])).collect();
+        columns.into_iter().fold(0.0, f64::max)
+    };
+    assert!(open(&before) < 1e-9, "{}", open(&before));
+    assert_close("the turn", &[open(&after)], &[1e-3], 1e-5);
+}
+
 /// In the report the work of a phase is that of all actuators, which the energy of all bodies has gained.
 #[test]
 fn the_reports_work_is_that_of_joints_and_base() {

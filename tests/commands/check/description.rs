@@ -61,6 +61,20 @@ fn description_of_a_scenario() {
     assert!(in_one_line(&moving).contains("1078, 0] N m s, N s; 1078 J approach"), "{moving}");
 }
 
+/// Of a computed torque the errors obey ë + Kd ė + Kp e = 0: the larger of Kd and √Kp bounds the rate.
+#[test]
+fn the_fastest_mode_of_a_computed_torque() {
+    for (gains, expected) in [
+        ("", "fastest mode 14 1/s"),
+        ("proportional_gain = 400.0\nderivative_gain = 14.0\n", "fastest mode 20 1/s"),
+        ("proportional_gain = 400.0\nderivative_gain = 30.0\n", "fastest mode 30 1/s"),
+    ] {
+        let tracked = format!("[approach]\ntracking = \"computed_torque\"\n{gains}");
+        let shown = inspect_text(&SCENARIO.replace("[approach]\n", &tracked)).description;
+        assert!(in_one_line(&shown).contains(expected), "{expected} in\n{shown}");
+    }
+}
+
 #[test]
 fn description_of_a_sweep() {
     let (code, out, err) = check(&["uncertain_capture.toml"], &file("scenarios/sweeps"));
@@ -75,7 +89,7 @@ fn description_of_a_sweep() {
         "varies              approach.proportional_gain[2]: 40.0, 49.0, 60.0\n",
         "correlated          target.target1.mass with target.target1.inertia: rank correlation 0.6\n",
         "outputs             the default ones, path_errors\n",
-        "time series         of case 0, every 0.1 s\n",
+        "time series         of case 0, every 0.05 s\n",
     ] {
         assert!(out.contains(expected), "no `{expected}` in\n{out}");
     }

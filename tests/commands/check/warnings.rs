@@ -412,3 +412,30 @@ fn targets_that_the_robot_starts_in_are_refused() {
     };
     assert!(depth(0.25).contains(" starts 0.2500 m inside") && depth(2.2e-16).contains(" starts 2.2e-16 m inside"));
 }
+
+/// Two arms of one link that hold a target rigidly: six constraints of five freedoms. Cases with fewer do not hide it.
+#[test]
+fn constraints_that_no_motion_satisfies_are_those_of_the_case_with_most() {
+    let arm = |name: &str, x: f64| {
+        format!(
+            "[[arm]]\nname = \"{name}\"\nmount = [{x}, 0.0]\n[[arm.link]]\nlength = 1.0\nmass = 8.0\ninertia = 0.7\n"
+        )
+    };
+    let layout = format!("name = \"two\"\n[base]\nmass = 300.0\ninertia = 50.0\n{}{}", arm("a", 0.5), arm("b", -0.5));
+    let scenario = |cases: &str| {
+        format!(
+            "name = \"it\"\nlayout = \"two\"\n[initial]\njoint_angles = [1.2, 1.9]\n[approach]\nduration = 5.0\n\
+             trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = [1.3, 1.8]\n[[target]]\nname = \"t\"\n\
+             arm = [\"a\", \"b\"]\ncontact = [[0.5, -0.5], [-0.5, -0.5]]\nmass = 10.0\ninertia = 3.0\n\
+             polygon = [[-0.6, -0.5], [0.6, -0.5], [0.6, 0.5], [-0.6, 0.5]]\n{cases}[post_impact]\nduration = 1.0\n"
+        )
+    };
+    let (rigid, pins) = ("[[case]]\nname = \"rigid\"\n", "[[case]]\nname = \"pins\"\nkinds = { t = \"pin\" }\n");
+    for (cases, warned) in [(&[rigid, pins].concat(), true), (&[pins, rigid].concat(), true), (&pins.to_owned(), false)]
+    {
+        let shown =
+            inspect(&scenario(cases), "it.toml", Path::new(""), &[("two", &*layout)]).expect("a scenario").warnings;
+        let is_warned = shown.to_string().contains("6 constraints hold it, but its arms' 2 joints and itself have 5");
+        assert_eq!(is_warned, warned, "{cases}: {shown}");
+    }
+}
