@@ -134,10 +134,8 @@ fn beyond_torques(scenario: &Scenario, planned: &Phase) -> Vec<Warning> {
         (torque(peak) > *limit).then(|| {
             let (name, needed) = (scenario.layout.joint_name(joint), short(torque(peak)));
             let why = format!("the planned motion takes up to {needed} N m of {name}, at {} s", short(peak.time));
-            let help = format!(
-                "more than {} N m, or more time: the arm cannot follow, and meets its target elsewhere",
-                needed
-            );
+            let help =
+                format!("more than {needed} N m, or more time: the arm cannot follow, and meets its target elsewhere");
             warning("approach.torque_limits", why, help)
         })
     });

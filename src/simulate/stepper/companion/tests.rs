@@ -14,13 +14,13 @@ use crate::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, layout, tolerance};
 
 /// A constant torque, held for a step; refuses all times but multiples of `refuses`, s.
-struct Held {
+struct Constant {
     refuses: Option<f64>,
     is_held: bool,
     is_limited: bool,
 }
 
-impl Control<f64> for Held {
+impl Control<f64> for Constant {
     fn joint_torques(
         &mut self,
         time: f64,
@@ -113,7 +113,7 @@ fn fixed_steps_are_compared_with_double_ones() {
 #[test]
 fn held_torques_are_compared_with_half_steps() {
     for (integrator, growth) in FIXED {
-        let mut law = Held { refuses: None, is_held: true, is_limited: false };
+        let mut law = Constant { refuses: None, is_held: true, is_limited: false };
         let [found, half] = [STEP, 0.5 * STEP].map(|step| run(integrator, &mut law, &initial(), [5.0 * STEP, step]));
         let expected = largest(found.samples.iter(), half.samples.iter().step_by(2)) * growth / (growth - 1.0);
         check(&format!("{integrator:?}"), found.path_error, expected);
@@ -124,7 +124,7 @@ fn held_torques_are_compared_with_half_steps() {
 #[test]
 fn steps_under_limits_have_the_order_one() {
     for (integrator, growth) in FIXED {
-        let law = |is_held| Held { refuses: None, is_held, is_limited: true };
+        let law = |is_held| Constant { refuses: None, is_held, is_limited: true };
         let [found, double] =
             [STEP, 2.0 * STEP].map(|step| run(integrator, &mut law(false), &initial(), [4.0 * STEP, step]));
         let expected = largest(found.samples.iter().step_by(2), double.samples.iter());
@@ -152,7 +152,7 @@ fn a_lost_companion_is_an_objection() {
         let run = |refuses| {
             run(
                 Integrator::SemiImplicitEuler,
-                &mut Held { refuses, is_held, is_limited: false },
+                &mut Constant { refuses, is_held, is_limited: false },
                 &initial(),
                 [steps * STEP, STEP],
             )
