@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::capture::impact::ImpactResult;
+use crate::capture::impact::{ContactResult, ImpactResult, ImpactSolution};
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::scenario::Scenario;
 use crate::simulate::Phase;
@@ -140,7 +140,7 @@ pub fn outputs(scenario: &Scenario, groups: &[OutputGroup]) -> Vec<Output> {
         for (arm, name) in arms.iter().enumerate() {
             let force = move |part: f64| part / duration;
             list.vector(&format!("{name}_mean_force"), FORCE, move |_, case| {
-                (*exact(case)?.impulses.get(arm)?).map(|impulse| impulse.map(force))
+                impulse(case, arm).map(|impulse| impulse.map(force))
             });
         }
     }
@@ -178,12 +178,21 @@ fn exact(case: &CaseResult) -> Option<&ImpactResult> {
     Some(&captured(case)?.impact.exact)
 }
 
-/// Of all impacts of a case.
-fn contacts(case: &CaseResult) -> impl Iterator<Item = &crate::capture::impact::ContactResult> {
-    let impacts = captured(case).into_iter().flat_map(|capture| {
+/// Of a case, in their order.
+fn impacts(case: &CaseResult) -> impl Iterator<Item = &ImpactSolution> {
+    captured(case).into_iter().flat_map(|capture| {
         std::iter::once(&capture.impact).chain(capture.later_impacts.iter().map(|later| &later.impact))
-    });
-    impacts.flat_map(|impact| &impact.contacts)
+    })
+}
+
+/// Of all impacts of a case.
+fn contacts(case: &CaseResult) -> impl Iterator<Item = &ContactResult> {
+    impacts(case).flat_map(|impact| &impact.contacts)
+}
+
+/// On the robot at an end effector, in the first impact in which it makes a contact.
+fn impulse(case: &CaseResult, arm: usize) -> Option<[f64; 3]> {
+    impacts(case).find_map(|impact| *impact.exact.impulses.get(arm)?)
 }
 
 /// How far an end effector was from its contact point, or at least from its target where it made no contact.
@@ -265,7 +274,7 @@ impl List {
         self.one("first_overlap", "s", |_, case| Some(case.clearance.overlaps.first()?.span[0]));
     }
 
-    /// The exact solution of the first impact.
+    /// The exact solution of the first impact, and each arm's impulse.
     fn impact(&mut self, scenario: &Scenario, arms: &[&str], joints: &[String]) {
         for (k, joint) in joints.iter().enumerate() {
             self.one(&format!("{joint}_rate_after"), "rad/s", move |_, case| {
@@ -279,10 +288,9 @@ impl List {
             });
         }
         for (arm, name) in arms.iter().enumerate() {
-            let impulse = move |case: &CaseResult| *exact(case)?.impulses.get(arm)?;
-            self.vector(&format!("{name}_impulse"), IMPULSE, move |_, case| impulse(case));
+            self.vector(&format!("{name}_impulse"), IMPULSE, move |_, case| impulse(case, arm));
             self.one(&format!("{name}_impulse_magnitude"), "N s", move |_, case| {
-                let [_, fx, fy] = impulse(case)?;
+                let [_, fx, fy] = impulse(case, arm)?;
                 Some(libm::hypot(fx, fy))
             });
         }
@@ -325,6 +333,8 @@ mod tests {
         let mut impact = capture.impact.clone();
         impact.contacts.remove(0);
         impact.contacts[0].contact.miss = 0.25;
+        impact.exact.impulses = vec![None, Some([0.1, 0.3, -0.4])];
+        capture.impact.exact.impulses[1] = None;
         capture.impact.contacts.truncate(1);
         capture.later_impacts.push(LaterImpact { time: 0.3, impact });
         let case = &study.cases[0];
@@ -332,6 +342,10 @@ mod tests {
         let outputs = outputs(&scenario, &[]);
         let miss = |name: &str| outputs.iter().find(|output| output.name == name).map(|it| it.value(&study, case));
         assert_eq!(miss("arm2_miss"), Some(Some(0.25)));
+        assert_eq!(
+            ["arm2_impulse_n", "arm2_impulse_fy", "arm2_impulse_magnitude"].map(miss),
+            [0.1, -0.4, 0.5].map(|x| Some(Some(x)))
+        );
         assert_eq!(
             miss("arm1_miss"),
             Some(Some(study.cases[0].capture.as_ref().expect("a capture").impact.contacts[0].contact.miss))

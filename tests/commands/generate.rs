@@ -101,7 +101,6 @@ pub fn outcome(mut command: Command) -> (i32, String, String) {
 }
 
 const MERGING: &str = r#"
-#[path = "robot.rs"]
 mod robot;
 use robot::{ARMS, JOINTS, Model, Status};
 
