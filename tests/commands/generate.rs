@@ -100,7 +100,7 @@ pub fn outcome(mut command: Command) -> (i32, String, String) {
     said(command.output().expect("it runs"))
 }
 
-const MERGING: &str = r#"
+const MERGING: &str = r"
 mod robot;
 use robot::{ARMS, JOINTS, Model, Status};
 
@@ -116,7 +116,7 @@ fn main() {
     assert_eq!(merge(&mut robot, [1.0; ARMS]), Ok(()));
     assert!(robot != before);
 }
-"#;
+";
 
 #[test]
 fn a_standalone_module_compiles_alone_and_passes_its_own_test() {
