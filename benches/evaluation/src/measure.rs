@@ -15,7 +15,6 @@ use planar_capture::generated::dual_arm_3r::{FullImpact, Model, ReducedImpact};
 use planar_capture::integrate::RungeKutta4;
 use planar_capture::owned::RobotState;
 use planar_capture::simulate::event::NoEvents;
-use planar_capture::simulate::stepper::Integration;
 use planar_capture::simulate::system::System;
 use planar_capture::simulate::{Timing, simulate};
 use planar_capture::state::{Forces, State as View, vector_length};
@@ -220,7 +219,7 @@ fn simulated_steps(model: &Model<f64>) -> f64 {
         LAW,
     );
     let duration = STEP * f64::from(STEPS);
-    let timing = Timing { duration, step: STEP, sample: duration, integration: Integration::default() };
+    let timing = Timing { duration, step: STEP, sample: duration, ..Timing::default() };
     let mut run = |()| simulate(&System::alone(model), &mut law, &start, &timing, &mut NoEvents, &mut || ());
     each(&[()], |()| consume(run(()))) / f64::from(STEPS)
 }
