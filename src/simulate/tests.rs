@@ -478,3 +478,26 @@ fn samples_are_the_nearest_number_of_steps_apart() {
         assert_close(&format!("every {sample} s"), &times, expected, 1e-12);
     }
 }
+
+/// A step is divided at a kink within it, and not where that is at one of its ends but for rounding.
+#[test]
+fn a_kink_divides_the_step_that_it_is_within() {
+    let (model, state) = robot();
+    let at_rest = RobotState { base_twist: [0.0; 3], joint_rates: vec![0.0; 2], ..state };
+    for step in [1e-3, 0.5, 16.0] {
+        for (before, part, is_divided) in [
+            (0.0, 5e-7, false),
+            (0.0, 2e-6, true),
+            (0.0, 0.5, true),
+            (2.0, 5e-7, false),
+            (2.0, 2e-6, true),
+            (3.0, 1.0 - 2e-6, true),
+            (3.0, 1.0 - 5e-7, false),
+        ] {
+            let (mut law, kink) = (Asked(Vec::new()), (before + part) * step);
+            let timing = Timing { duration: 4.0 * step, step, sample: step, kink: Some(kink), ..Timing::default() };
+            simulate(&System::alone(&*model), &mut law, &at_rest, &timing, &mut NoEvents, &mut || ()).expect("a phase");
+            assert_eq!(law.0.contains(&kink), is_divided, "{step} {before} {part}");
+        }
+    }
+}

@@ -226,3 +226,39 @@ fn a_step_that_leaves_what_the_motion_is_defined_for_is_rejected() {
     let found = solve(&mut solver, &[1.0], 0.11, broken);
     assert!(matches!(found, Err(Error::NotFinite { quantity: "rate", .. })), "{found:?}");
 }
+
+/// f may be another one after the end and before the start: it is asked for between them.
+#[test]
+fn the_motion_is_asked_for_between_start_and_end() {
+    for length in [0.3, 1.0, 5.3, 10.0, 20.0] {
+        let (start, end) = (3.0, 3.0 + length);
+        let (mut earliest, mut latest, mut follow) = (f64::INFINITY, f64::NEG_INFINITY, feedback(2.0));
+        let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
+            (earliest, latest) = (time.min(earliest), time.max(latest));
+            follow(time, x, rate)
+        };
+        let (mut solver, mut x, mut time) = (Adaptive::new(1e-10), [libm::cos(start)], start);
+        solver.start(start, end, &x, &mut motion).expect("a start");
+        while time < end {
+            time = solver.advance([time, end], &mut x, &mut motion).expect("a step");
+        }
+        assert!(earliest >= start && latest <= end * (1.0 + 2.0 * f64::EPSILON), "{earliest} to {latest}, not {end}");
+    }
+}
+
+/// Where x or its rate is zero at the start there is a first step, too.
+#[test]
+fn a_start_at_zero() {
+    let from_zero = |time: f64, _: &[f64], rate: &mut [f64]| {
+        rate[0] = libm::cos(time);
+        Ok(())
+    };
+    let found = solve(&mut Adaptive::new(1e-10), &[0.0], 2.0, from_zero).expect("a solution");
+    assert!((found[0] - libm::sin(2.0)).abs() < 1e-9, "{found:?}");
+    let from_rest = |time: f64, _: &[f64], rate: &mut [f64]| {
+        rate[0] = libm::sin(time);
+        Ok(())
+    };
+    let found = solve(&mut Adaptive::new(1e-10), &[1.0], 2.0, from_rest).expect("a solution");
+    assert!((found[0] - (2.0 - libm::cos(2.0))).abs() < 1e-9, "{found:?}");
+}

@@ -86,3 +86,6 @@ impl Steps for AdaptiveSteps {
         equation.restore(x)
     }
 }
+
+#[cfg(test)]
+mod tests;

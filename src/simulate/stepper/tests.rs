@@ -179,6 +179,21 @@ fn the_frame_moves_with_the_centre_of_mass() {
     let origin = far.origin.map(|place| -place);
     assert_close("base", &came(base, from), &origin, tolerance::IDENTITY);
     assert_close("body", &came(bodies[0].pose, before[0].pose), &origin, tolerance::IDENTITY);
+    let mut later = x.clone();
+    far.enter(3.0, &mut later).expect("a vector");
+    let went = [0, 1].map(|i: usize| -(far.origin[i] + 3.0 * far.velocity[i]));
+    assert_close("later", &came(at(&later).0, from), &went, tolerance::IDENTITY);
+    assert_close(
+        "rounding",
+        &[far.rounding(3.0) / f64::EPSILON],
+        &[libm::hypot(went[0], went[1])],
+        tolerance::IDENTITY,
+    );
+    // a fiftieth of the energy is of relative motion
+    let slower = Body { twist: [0.0, 2.3, -0.7], ..body };
+    let system = System { bodies: &[slower], ..system };
+    let slower = MovingFrame::of(&system, &system.vector(&state.view()).expect("a vector"), 1e6).expect("a frame");
+    assert_close("slower", &slower.velocity, &[0.0; 2], 0.0);
     // bodies that are as fast relative to each other stay in the inertial frame, however far they go
     let apart = Body { twist: [0.0, 40.0, 20.0], ..body };
     let system = System { bodies: &[apart], ..system };

@@ -142,6 +142,17 @@ fn adaptive_steps_are_compared_with_looser_ones() {
     let [found, looser] = [1e-7, 1e-5]
         .map(|tolerance| run(Integrator::Adaptive { tolerance }, &mut ZeroTorque, &initial(), [20.0 * STEP, STEP]));
     check("adaptive", found.path_error, 0.1 * largest(found.samples.iter(), looser.samples.iter()));
+    // with their signs, of the robot alone
+    let at_end = [&found, &looser].map(|phase| {
+        let state = &phase.end().state;
+        [[&state.base_pose[..], &state.joint_angles].concat(), [&state.base_twist[..], &state.joint_rates].concat()]
+    });
+    for (i, errors) in found.end_error.iter().enumerate() {
+        let expected: Vec<f64> =
+            at_end[1][i].iter().zip(&at_end[0][i]).map(|(looser, found)| 0.1 * (looser - found)).collect();
+        assert_close("at the end", errors, &expected, tolerance::SAME_STEPS);
+        assert!(expected.iter().any(|error| error.abs() > 1e-8), "{expected:?}");
+    }
 }
 
 /// A second solution that cannot be continued leaves an error that no phase passes with, and the phase itself alone.
@@ -232,5 +243,54 @@ fn errors_of_two_phases_have_their_signs() {
     assert!(most > 1e-6, "{errors:?}");
     for (estimated, error) in found.end_error[0].iter().zip(&errors) {
         assert!((estimated - error).abs() < 0.05 * most, "{:?} {errors:?}", found.end_error[0]);
+    }
+}
+
+/// A limit within the law that acts after this time, s.
+struct LimitedAfter {
+    time: f64,
+    is_limited: bool,
+}
+
+impl Control<f64> for LimitedAfter {
+    fn joint_torques(
+        &mut self,
+        time: f64,
+        _: &AnyModel<f64>,
+        _: &State<'_, f64>,
+        torques: &mut [f64],
+    ) -> Result<(), Error> {
+        self.is_limited = time > self.time;
+        torques.fill(0.0);
+        Ok(())
+    }
+
+    fn is_limited(&self) -> bool {
+        self.is_limited
+    }
+}
+
+/// Where a limit begins to act the error so far stays as it is, and the order is one from there on.
+#[test]
+fn a_limit_that_acts_later_keeps_the_error() {
+    for (integrator, growth) in [FIXED[0], FIXED[2]] {
+        let half = 4.0 * STEP;
+        let mut law = LimitedAfter { time: half, is_limited: false };
+        let found = run(integrator, &mut law, &initial(), [2.0 * half, STEP]);
+        let [first, double] = [STEP, 2.0 * STEP]
+            .map(|step| run(integrator, &mut ZeroTorque, &initial(), [half, step]).end().state.clone());
+        let beside = |first: &[f64], double: &[f64]| -> Vec<f64> {
+            first.iter().zip(double).map(|(first, double)| first - (first - double) / (growth - 1.0)).collect()
+        };
+        let second = RobotState {
+            base_pose: beside(&first.base_pose, &double.base_pose).try_into().expect("three"),
+            base_twist: beside(&first.base_twist, &double.base_twist).try_into().expect("three"),
+            joint_angles: beside(&first.joint_angles, &double.joint_angles),
+            joint_rates: beside(&first.joint_rates, &double.joint_rates),
+        };
+        let first = run(integrator, &mut ZeroTorque, &first, [half, STEP]);
+        let second = run(integrator, &mut ZeroTorque, &second, [half, 2.0 * STEP]);
+        let expected = largest(first.samples.iter().step_by(2), second.samples.iter());
+        check(&format!("{integrator:?}"), found.path_error, expected);
     }
 }
