@@ -138,6 +138,23 @@ fn a_normal_along_x_takes_y_for_the_planes_x_axis() {
     assert_links(&import, 0, &[[1.0, 3.0, 1.0, 0.5, 0.0]]);
 }
 
+/// A normal n that is neither along x nor across it: the plane's x axis is x − n (n · x), normalized.
+#[test]
+fn an_oblique_normal_projects_the_x_axis() {
+    let parts = [
+        joint("continuous", "a", ["base", "one"], "xyz=\"0.4 0.5 -0.3\"", "<axis xyz=\"0.6 0 0.8\"/>"),
+        link("one", 3.0, "0 0.5 0", [1.0; 3]),
+        joint("fixed", "b", ["one", "tip"], "xyz=\"0 1 0\"", ""),
+        "<link name=\"tip\"/>".to_owned(),
+    ];
+    let import = imported(&robot(&parts.concat()));
+    assert_close("normal", &import.normal, &[0.6, 0.0, 0.8], tolerance::URDF);
+    assert_close("x axis", &import.x_axis, &[0.8, 0.0, -0.6], tolerance::URDF);
+    assert_close("mount", &import.layout.arms[0].mount, &[0.5, 0.5], tolerance::URDF);
+    assert_close("mount angle", &[import.layout.arms[0].mount_angle], &[FRAC_PI_2], tolerance::URDF);
+    assert_links(&import, 0, &[[1.0, 3.0, 1.0, 0.5, 0.0]]);
+}
+
 /// Only what rounding leaves of an exact zero becomes one.
 #[test]
 fn a_small_offset_is_kept() {
@@ -229,6 +246,11 @@ fn the_base_frame_moves_to_the_centre_of_mass() {
     let inertia = 20.0 + 3.0 + 100.0 * (0.04 + 0.16) + 25.0 * (0.64 + 2.56);
     let base = &import.layout.base;
     assert_close("base", &[base.mass, base.inertia], &[125.0, inertia], 100.0 * tolerance::URDF);
+    // heights along the normal change no moment of inertia about it
+    let text = robot(&(arm() + &box_on_it.concat())).replace("xyz=\"0 2 0\"", "xyz=\"0 2 0.5\"");
+    let apart = imported(&text.replace("<origin xyz=\"0 0 0\"/><mass", "<origin xyz=\"0 0 -0.125\"/><mass"));
+    let base = &apart.layout.base;
+    assert_close("base", &[base.mass, base.inertia], &[125.0, inertia], 100.0 * tolerance::URDF);
 }
 
 #[test]
@@ -254,6 +276,8 @@ fn what_would_leave_the_plane_is_named_with_its_numbers() {
     let skewed = imported(&changed(from, &from.replace("ixz=\"0\"", "ixz=\"0.75\"")));
     let text = remarks(&skewed);
     assert!(text.contains("products of inertia") && text.contains("`base` [0.75, 0.0] kg m²"), "{text}");
+    // 7.5e-10 of the moment of inertia, 20 kg m², is rounding
+    assert_eq!(remarks(&imported(&changed(from, &from.replace("ixz=\"0\"", "ixz=\"1.5e-8\"")))), "");
     let nearly =
         imported(&changed("<origin xyz=\"1 0 0\"/><axis", "<origin xyz=\"1 0 0\" rpy=\"0.000003 0 0\"/><axis"));
     assert!(remarks(&nearly).contains("`elbow` 3.0e-6 rad"), "{}", remarks(&nearly));
