@@ -439,3 +439,46 @@ fn constraints_that_no_motion_satisfies_are_those_of_the_case_with_most() {
         assert_eq!(is_warned, warned, "{cases}: {shown}");
     }
 }
+
+/// A warning is about a number beyond its bound: the bound itself has none.
+#[test]
+fn numbers_at_their_bounds_have_no_warnings() {
+    for (from, to) in [
+        // a COM on the border of the link
+        ("com = [0.5, 0.1]", "com = [0.0, 0.5]"),
+        ("com = [0.5, 0.1]", "com = [1.0, 0.5]"),
+        ("com = [0.5, 0.1]", "com = [0.5, 1.0]"),
+        ("com = [0.5, 0.1]", "com = [0.5, -1.0]"),
+        // a base as heavy as its arms, 25 + 10 + 4 kg
+        ("mass = 500.0", "mass = 39.0"),
+        // a millionth of the base's 500 kg, and a billionth of its 80 kg m²
+        ("mass = 4.0", "mass = 0.0005"),
+        ("inertia = 0.5", "inertia = 8e-8"),
+        // ten times the base's radius of gyration, √(80 / 500) m = 0.4 m
+        ("[-0.5, 0.0]", "[-4.0, 0.0]"),
+    ] {
+        let text = LAYOUT.replace(from, to);
+        assert_ne!(text, LAYOUT, "{from}");
+        assert_eq!(inspect_text(&text).warnings.to_string(), "", "{to}");
+    }
+    for (from, to) in [
+        // a target as heavy as the robot, 500 + 39 kg
+        ("mass = 10.0\ninertia", "mass = 539.0\ninertia"),
+        // a ring: 10 kg · (0.5 m)²
+        ("inertia = 1.0", "inertia = 2.5"),
+        // one turn a second
+        ("twist = [0.2,", "twist = [6.283185307179586,"),
+        ("twist = [0.2,", "twist = [-6.283185307179586,"),
+        // a whole turn, to an end at 0
+        ("0.0, 0.0]\n[approach]", "0.0, 6.283185307179586]\n[approach]"),
+        ("rates = [0.01", "rates = [6.283185307179586"),
+        // 3.3 rad/s of an arm that reaches 3 m from the base
+        ("final_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]", "final_end_effector_twists = [[0.0, 0.0, 10.0], [], []]"),
+        // half a time of the fastest mode in a step of 0.005 s
+        ("[approach]", "[approach]\ntracking = \"computed_torque\"\nderivative_gain = 100.0"),
+    ] {
+        let text = SCENARIO.replace(from, to);
+        assert_ne!(text, SCENARIO, "{from}");
+        assert_eq!(inspect_text(&text).warnings.to_string(), "", "{to}");
+    }
+}
