@@ -195,3 +195,15 @@ fn any_number_and_any_cut_is_described_or_refused() {
         (0..text.len()).for_each(|at| inspect_text(&text[..at]));
     }
 }
+
+/// A sample time is at most the duration of its phase; that of one sample is valid.
+#[test]
+fn a_sample_time_is_at_most_the_duration() {
+    let read = |sample_time: &str| {
+        let text = SCENARIO.replace("[approach]", &format!("[approach]\nsample_time = {sample_time}"));
+        inspect(&text, "it.toml", Path::new(""), &[("robot", LAYOUT)]).map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!(read("20.0"), Ok(()));
+    let refusal = read("20.005").expect_err("longer than 20 s");
+    assert!(refusal.contains("`approach.sample_time`") && refusal.contains("it.toml:6:"), "{refusal}");
+}
