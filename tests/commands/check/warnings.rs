@@ -475,7 +475,7 @@ fn numbers_at_their_bounds_have_no_warnings() {
         // 3.3 rad/s of an arm that reaches 3 m from the base
         ("final_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]", "final_end_effector_twists = [[0.0, 0.0, 10.0], [], []]"),
         // half a time of the fastest mode in a step of 0.005 s
-        ("[approach]", "[approach]\ntracking = \"computed_torque\"\nderivative_gain = 100.0"),
+        ("[approach]", "[approach]\ntracking = \"computed_torque\"\nderivative_gain = 100.0\nintegrator = \"rk4\""),
     ] {
         let text = SCENARIO.replace(from, to);
         assert_ne!(text, SCENARIO, "{from}");
