@@ -180,9 +180,7 @@ fn exact(case: &CaseResult) -> Option<&ImpactResult> {
 
 /// Of a case, in their order.
 fn impacts(case: &CaseResult) -> impl Iterator<Item = &ImpactSolution> {
-    captured(case).into_iter().flat_map(|capture| {
-        std::iter::once(&capture.impact).chain(capture.later_impacts.iter().map(|later| &later.impact))
-    })
+    captured(case).into_iter().flat_map(CaptureResult::impacts)
 }
 
 /// Of all impacts of a case.
@@ -323,6 +321,7 @@ mod tests {
         *contacts = missed.into_iter().collect();
         assert_eq!(is_captured(&scenario, case), Some(false));
     }
+
     /// Two targets that are met one after the other are both captured, each with the miss of its own contact.
     #[test]
     fn contacts_of_later_impacts_count() {

@@ -155,6 +155,13 @@ pub struct CaptureResult {
     pub residual_motion: Option<ResidualMotion>,
 }
 
+impl CaptureResult {
+    /// All impacts, in their order.
+    pub fn impacts(&self) -> impl Iterator<Item = &ImpactSolution> {
+        std::iter::once(&self.impact).chain(self.later_impacts.iter().map(|later| &later.impact))
+    }
+}
+
 /// Why a study has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -465,9 +472,7 @@ impl Study {
                 ));
             }
             let Some(captured) = &case.capture else { continue };
-            let impacts =
-                std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|later| &later.impact));
-            found.extend(impacts.flat_map(|impact| impact_failures(&case.name, &impact.exact)));
+            found.extend(captured.impacts().flat_map(|impact| impact_failures(&case.name, &impact.exact)));
             let name = format!("{}, post-impact", case.name);
             found.extend(phase_failures(&name, &captured.post_impact, captured.heavy_target.as_ref()));
         }

@@ -129,8 +129,7 @@ fn a_target_that_is_held_is_met_by_another_arm() {
     let study = run(&scenario.unwrap_or_else(|e| panic!("{e}"))).expect("a study");
     let case = &study.cases[0];
     let capture = case.capture.as_ref().expect("a capture");
-    let impacts = std::iter::once(&capture.impact).chain(capture.later_impacts.iter().map(|later| &later.impact));
-    let arms: Vec<usize> = impacts.flat_map(|impact| &impact.contacts).map(|made| made.contact.arm).collect();
+    let arms: Vec<usize> = capture.impacts().flat_map(|impact| &impact.contacts).map(|made| made.contact.arm).collect();
     assert!(arms == [0, 1] || arms == [1, 0], "{arms:?}");
     assert!(capture.later_impacts.len() == 1 && case.closest.is_empty(), "{:?}", case.closest);
 }

@@ -87,7 +87,10 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     let layout = &scenario.layout;
     let (choice, _) = Choice::fastest(layout, robots);
     let make = || choice.model(layout);
-    let result = match study(&planned, &make, planned.approach.step, &mut Silent) {
+    // torques are looked at where there are limits of them
+    let has_torques = !by_end_effectors && scenario.approach.actuation.torque_limits.is_some();
+    let sample = if has_torques { planned.approach.step } else { planned.approach.duration };
+    let result = match study(&planned, &make, sample, &mut Silent) {
         Ok(result) => result,
         Err(StudyError::ClearanceExhausted { what, .. }) => return Ok(vec![unfinished(what.time, &what.to_string())]),
         Err(StudyError::RoughPath { time, path_error, .. }) => {
@@ -119,7 +122,7 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
         }
     }
     warnings.extend(beyond_limits(scenario, &result));
-    if !by_end_effectors {
+    if has_torques {
         warnings.extend(beyond_torques(scenario, &result.approach));
     }
     Ok(warnings)

@@ -1,9 +1,6 @@
 //! Sample times of control laws, in steps of their phase.
 
-use crate::simulate::Timing;
-
-/// Largest distance of a sample time from a whole number of steps, in steps: rounding of decimal fractions.
-const STEP_TOLERANCE: f64 = 1e-6;
+use crate::simulate::{ROUNDING, Timing};
 
 impl Timing {
     /// Of these s, by steps of at most `step` s.
@@ -31,7 +28,7 @@ impl Timing {
     pub fn whole_steps(&self, time: f64) -> Option<u32> {
         let steps = time / self.step_length();
         let whole = steps.round();
-        let is_whole = (1.0..=f64::from(u32::MAX)).contains(&whole) && (steps - whole).abs() <= STEP_TOLERANCE;
+        let is_whole = (1.0..=f64::from(u32::MAX)).contains(&whole) && (steps - whole).abs() <= ROUNDING;
         is_whole.then_some(whole as u32)
     }
 }

@@ -87,8 +87,8 @@ pub struct Sample {
     pub bodies: Vec<Body>,
 }
 
-/// What decimal fractions leave of a whole number of steps, in steps.
-const ROUNDING: f64 = 1e-6;
+/// Largest distance of a time from a whole number of steps, in steps: rounding of decimal fractions.
+pub(crate) const ROUNDING: f64 = 1e-6;
 
 /// Duration, steps and samples of one phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

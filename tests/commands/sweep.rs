@@ -56,6 +56,12 @@ impl Workplace {
         Self::new(&SWEEP.replace("SAMPLING", sampling))
     }
 
+    /// With all combinations of the choices of what varies.
+    fn grid(varied: &str) -> Self {
+        let head = "name = \"grid\"\nscenario = \"scenario.toml\"\nseed = 1\nsampling = \"grid\"\n";
+        Self::new(&format!("{head}{varied}"))
+    }
+
     fn write(&self, sweep: &str) {
         fs::write(self.path("sweep.toml"), sweep).expect("written");
     }
@@ -370,12 +376,8 @@ fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
 /// A grid has all combinations, those of the last key fastest, and each key its own choices.
 #[test]
 fn a_grid_goes_through_the_last_key_fastest() {
-    let place = Workplace::new(
+    let place = Workplace::grid(
         r#"
-        name = "grid"
-        scenario = "scenario.toml"
-        seed = 1
-        sampling = "grid"
         [[vary]]
         key = "target.target1.mass"
         distribution = { choice = [10.0, 11.0] }
@@ -397,12 +399,8 @@ fn a_grid_goes_through_the_last_key_fastest() {
 
 #[test]
 fn a_failed_case_is_a_row() {
-    let place = Workplace::new(
+    let place = Workplace::grid(
         r#"
-        name = "failing"
-        scenario = "scenario.toml"
-        seed = 1
-        sampling = "grid"
         [[vary]]
         key = "target.target1.mass"
         distribution = { choice = [10.0, -1.0, 11.0, 12.0] }

@@ -252,8 +252,7 @@ mod drawn {
         let mut contacts: Vec<_> = Vec::new();
         for case in &of_rebound.cases {
             let captured = case.capture.as_ref().expect("a contact");
-            let impacts = std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|one| &one.impact));
-            contacts.extend(impacts.flat_map(|impact| &impact.contacts));
+            contacts.extend(captured.impacts().flat_map(|impact| &impact.contacts));
         }
         contacts.reverse(); // the first is on top
         for (i, result) in contacts.iter().enumerate() {
@@ -318,7 +317,7 @@ mod drawn {
             .filter(|pair| pair[0].0.to_bits() == pair[1].0.to_bits())
             .map(|pair| pair[1].1 - pair[0].1)
             .collect();
-        let impacts = std::iter::once(&captured.impact).chain(captured.later_impacts.iter().map(|one| &one.impact));
+        let impacts = captured.impacts();
         let costs: Vec<f64> =
             impacts.map(|impact| impact.exact.kinetic_energy_after - impact.exact.kinetic_energy_before).collect();
         assert_eq!(steps.len(), costs.len());

@@ -274,8 +274,7 @@ fn the_impulse_index_of_a_bounce_gives_its_impulse() {
     let mut seen = 0;
     for case in &study.cases {
         let Some(capture) = &case.capture else { continue };
-        let later = capture.later_impacts.iter().map(|later| &later.impact);
-        for impact in std::iter::once(&capture.impact).chain(later) {
+        for impact in capture.impacts() {
             let [contact] = impact.contacts.as_slice() else { continue };
             let ([nx, ny], restitution) = contact.contact.law.bounce().expect("a bounce");
             let [_, vx, vy] = contact.response.relative_twist;

@@ -176,8 +176,7 @@ fn every_shipped_study_passes_its_audit() {
         let study = run(&scenario(&name));
         assert_eq!(study.audit_failures(), Vec::<String>::new(), "{name}");
         for captured in study.cases.iter().filter_map(|case| case.capture.as_ref()) {
-            let later = captured.later_impacts.iter().map(|later| &later.impact);
-            for impact in std::iter::once(&captured.impact).chain(later) {
+            for impact in captured.impacts() {
                 let exact = &impact.exact;
                 assert_close(&name, &exact.momentum_jump, &[0.0; 3], tolerance::MOMENTUM_JUMP);
                 let gained = exact.kinetic_energy_after / exact.kinetic_energy_before - 1.0;

@@ -10,7 +10,7 @@ use super::keys::{FORMAT, MOST_CASES};
 use super::outputs::{OutputGroup, outputs};
 use super::sampling::{MOST_DIMENSIONS, Sampling};
 use super::sweep::{Sweep, Varied};
-use crate::diagnostic::{DocumentKind, Report, Table, Value, every, listing, read_document, read_text};
+use crate::diagnostic::{DocumentKind, Report, Table, Value, every, listing, read_text};
 use crate::laws::RegisteredLaw;
 use crate::layout::Layout;
 use crate::scenario::variation::Variation;
@@ -57,8 +57,8 @@ impl Campaign {
     pub fn parse<'k>(text: &str, file: &str, folder: &Path, layouts: impl Into<Known<'k>>) -> Result<Self, Report> {
         let known = layouts.into();
         let read = |root: &Table<'_>| read_root(root, folder, &known);
-        let (sweep, (mut scenario, scenario_source), variation) = read_document(text, file, &FORMAT, read)
-            .map_err(|report| DocumentKind::Sweep.reject_others(text, file).unwrap_or(report))?;
+        let (sweep, (mut scenario, scenario_source), variation) =
+            DocumentKind::Sweep.read(text, file, &FORMAT, read)?;
         let source = Source { text: text.to_owned(), file: file.to_owned() };
         let variant = scenario.variant(&sweep.case).cloned();
         if let Some(variant) = &variant {

@@ -14,7 +14,7 @@ mod own_law;
 mod post_impact;
 mod target;
 
-use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_document, read_text, read_text_from};
+use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_text, read_text_from};
 use crate::frames::{FrameMotion, frames};
 use crate::layout::Layout;
 use crate::owned::RobotState;
@@ -148,8 +148,7 @@ impl Scenario {
             }
             Some((scenario, layout))
         };
-        read_document(text, file, &FORMAT, read)
-            .map_err(|report| DocumentKind::Scenario.reject_others(text, file).unwrap_or(report))
+        DocumentKind::Scenario.read(text, file, &FORMAT, read)
     }
 }
 

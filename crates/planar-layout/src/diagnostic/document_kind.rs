@@ -1,6 +1,7 @@
 //! The kinds of documents that the programs read, and what is said of one in place of another.
 
-use super::{Report, reject_document};
+use super::{Report, Table, read_document, reject_document};
+use crate::format::TableFormat;
 
 /// A layout, a scenario or a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,9 +23,22 @@ impl DocumentKind {
         kinds.into_iter().find_map(|(is, kind)| is.then_some(kind))
     }
 
+    /// Reads a text of this kind as [`read_document`] does; of one of another kind the report says that alone.
+    ///
+    /// # Errors
+    /// A report of everything wrong with the content.
+    pub fn read<T>(
+        self,
+        text: &str,
+        file: &str,
+        format: &'static TableFormat,
+        read: impl FnOnce(&Table<'_>) -> Option<T>,
+    ) -> Result<T, Report> {
+        read_document(text, file, format, read).map_err(|report| self.reject_others(text, file).unwrap_or(report))
+    }
+
     /// The report on a text that is of another kind than this one; `None` of any other text.
-    #[must_use]
-    pub fn reject_others(self, text: &str, file: &str) -> Option<Report> {
+    fn reject_others(self, text: &str, file: &str) -> Option<Report> {
         let tree: toml::Table = text.trim_start_matches('\u{feff}').parse().ok()?;
         let found = Self::of(&tree)?;
         let message = match (self, found) {

@@ -27,7 +27,7 @@ use std::path::Path;
 
 use planar_dynamics::manifest::ParameterKind;
 
-use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_document, read_text, report_error};
+use crate::diagnostic::{DocumentKind, Report, Table, Value, every, read_text, report_error};
 use crate::outline::{Outline, outline};
 use crate::proportion::{Disproportion, Inertia, disproportion};
 use resolution::{LEAST_SHARE, Weakest};
@@ -107,7 +107,7 @@ impl Layout {
     /// # Errors
     /// A report of everything wrong with the content.
     pub fn parse(text: &str, file: &str) -> Result<Self, Report> {
-        let layout = read_document(text, file, &FORMAT, |root| {
+        let layout = DocumentKind::Layout.read(text, file, &FORMAT, |root| {
             let name = root.require("name").and_then(|value| module_name(&value));
             let base = root.table("base").and_then(|base| Base::from_table(&base));
             let arms = root.tables("arm").and_then(|arms| {
@@ -115,8 +115,7 @@ impl Layout {
                 every(arms.iter().map(Arm::from_table))
             });
             Some(Self { name: name?, base: base?, arms: arms? })
-        })
-        .map_err(|report| DocumentKind::Layout.reject_others(text, file).unwrap_or(report))?;
+        })?;
         match layout.disproportion() {
             None => Ok(layout),
             Some(Disproportion { kind, arm, link, value, why }) => {

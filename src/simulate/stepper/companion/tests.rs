@@ -14,9 +14,12 @@ use crate::trajectory::ConstantSetpoint;
 use planar_proof::{assert_close, layout, tolerance};
 
 /// A constant torque, held for a step; refuses all times but multiples of `refuses`, s.
+#[derive(Default)]
 struct Constant {
     refuses: Option<f64>,
     is_held: bool,
+    /// When a limit within it begins to act, s.
+    limited_after: Option<f64>,
     is_limited: bool,
 }
 
@@ -28,6 +31,7 @@ impl Control<f64> for Constant {
         _: &State<'_, f64>,
         torques: &mut [f64],
     ) -> Result<(), Error> {
+        self.is_limited = self.limited_after.is_some_and(|start| time > start);
         torques.fill(0.02);
         match self.refuses {
             Some(step) if (time / step).fract() != 0.0 => Err(Error::StateVector { found: 0 }),
@@ -113,7 +117,7 @@ fn fixed_steps_are_compared_with_double_ones() {
 #[test]
 fn held_torques_are_compared_with_half_steps() {
     for (integrator, growth) in FIXED {
-        let mut law = Constant { refuses: None, is_held: true, is_limited: false };
+        let mut law = Constant { is_held: true, ..Constant::default() };
         let [found, half] = [STEP, 0.5 * STEP].map(|step| run(integrator, &mut law, &initial(), [5.0 * STEP, step]));
         let expected = largest(found.samples.iter(), half.samples.iter().step_by(2)) * growth / (growth - 1.0);
         check(&format!("{integrator:?}"), found.path_error, expected);
@@ -124,7 +128,7 @@ fn held_torques_are_compared_with_half_steps() {
 #[test]
 fn steps_under_limits_have_the_order_one() {
     for (integrator, growth) in FIXED {
-        let law = |is_held| Constant { refuses: None, is_held, is_limited: true };
+        let law = |is_held| Constant { is_held, limited_after: Some(f64::NEG_INFINITY), ..Constant::default() };
         let [found, double] =
             [STEP, 2.0 * STEP].map(|step| run(integrator, &mut law(false), &initial(), [4.0 * STEP, step]));
         let expected = largest(found.samples.iter().step_by(2), double.samples.iter());
@@ -163,7 +167,7 @@ fn a_lost_companion_is_an_objection() {
         let run = |refuses| {
             run(
                 Integrator::SemiImplicitEuler,
-                &mut Constant { refuses, is_held, is_limited: false },
+                &mut Constant { refuses, is_held, ..Constant::default() },
                 &initial(),
                 [steps * STEP, STEP],
             )
@@ -246,39 +250,15 @@ fn errors_of_two_phases_have_their_signs() {
     }
 }
 
-/// A limit within the law that acts after this time, s.
-struct LimitedAfter {
-    time: f64,
-    is_limited: bool,
-}
-
-impl Control<f64> for LimitedAfter {
-    fn joint_torques(
-        &mut self,
-        time: f64,
-        _: &AnyModel<f64>,
-        _: &State<'_, f64>,
-        torques: &mut [f64],
-    ) -> Result<(), Error> {
-        self.is_limited = time > self.time;
-        torques.fill(0.0);
-        Ok(())
-    }
-
-    fn is_limited(&self) -> bool {
-        self.is_limited
-    }
-}
-
 /// Where a limit begins to act the error so far stays as it is, and the order is one from there on.
 #[test]
 fn a_limit_that_acts_later_keeps_the_error() {
     for (integrator, growth) in [FIXED[0], FIXED[2]] {
         let half = 4.0 * STEP;
-        let mut law = LimitedAfter { time: half, is_limited: false };
+        let (mut free, mut law) = (Constant::default(), Constant { limited_after: Some(half), ..Constant::default() });
         let found = run(integrator, &mut law, &initial(), [2.0 * half, STEP]);
-        let [first, double] = [STEP, 2.0 * STEP]
-            .map(|step| run(integrator, &mut ZeroTorque, &initial(), [half, step]).end().state.clone());
+        let [first, double] =
+            [STEP, 2.0 * STEP].map(|step| run(integrator, &mut free, &initial(), [half, step]).end().state.clone());
         let beside = |first: &[f64], double: &[f64]| -> Vec<f64> {
             first.iter().zip(double).map(|(first, double)| first - (first - double) / (growth - 1.0)).collect()
         };
@@ -288,8 +268,8 @@ fn a_limit_that_acts_later_keeps_the_error() {
             joint_angles: beside(&first.joint_angles, &double.joint_angles),
             joint_rates: beside(&first.joint_rates, &double.joint_rates),
         };
-        let first = run(integrator, &mut ZeroTorque, &first, [half, STEP]);
-        let second = run(integrator, &mut ZeroTorque, &second, [half, 2.0 * STEP]);
+        let first = run(integrator, &mut free, &first, [half, STEP]);
+        let second = run(integrator, &mut free, &second, [half, 2.0 * STEP]);
         let expected = largest(first.samples.iter().step_by(2), second.samples.iter());
         check(&format!("{integrator:?}"), found.path_error, expected);
     }
