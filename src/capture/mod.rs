@@ -51,10 +51,10 @@ use crate::capture::origin::Origin;
 use crate::capture::residual_motion::ResidualMotion;
 use crate::capture::sequence::CaptureSequence;
 use crate::capture::terminal_error::TerminalError;
-use crate::laws::{Laws, OwnLaws, RegisteredLaw};
+use crate::laws::{Laws, NamedLaws, OwnLaws, RegisteredLaw};
 use crate::owned::CloneModel;
 use crate::scalar::Real;
-use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
+use crate::scenario::{Detection, FinalRates, PostCaptureControl, Scenario, Tracking};
 pub use crate::simulate::conservation::CENTER_OF_MASS_BOUND;
 use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
@@ -166,11 +166,13 @@ impl CaptureResult {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The scenario names a tracking law of the program's own, which was not handed to the study.
+    /// The scenario names a control law of the program's own, which was not handed to the study.
     #[error("the law `{name}` is not a shipped one, and was not handed to the study: `study_with` takes it")]
     NoLaw {
         /// Its name.
         name: &'static str,
+        /// The key that names it: `approach.tracking` or `post_impact.control`.
+        key: &'static str,
     },
     /// The terminal rates could not be computed.
     #[error(transparent)]
@@ -300,7 +302,7 @@ pub fn study(
     study_with(scenario, make, Laws::default(), sample, observer)
 }
 
-/// As [`study`], with the tracking law that the scenario names, where it is one of these.
+/// As [`study`], with the control laws that the scenario names, where they are among these.
 ///
 /// # Errors
 /// [`StudyError`].
@@ -311,8 +313,7 @@ pub fn study_registered(
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
-    let law = RegisteredLaw::of(scenario, laws);
-    study_with(scenario, make, Laws { tracking: law.as_deref(), ..Laws::default() }, sample, observer)
+    study_with(scenario, make, NamedLaws::of(scenario, laws).laws(), sample, observer)
 }
 
 /// As [`study`], with laws of one's own in place of those that the scenario names.
@@ -327,7 +328,11 @@ pub fn study_with(
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
     if let (Tracking::Own { name, .. }, None) = (&scenario.approach.tracking, laws.tracking) {
-        return Err(StudyError::NoLaw { name });
+        return Err(StudyError::NoLaw { name, key: "approach.tracking" });
+    }
+    let control = scenario.post_impact.as_ref().map(|after| &after.control);
+    if let (Some(PostCaptureControl::Own { name, .. }), None) = (control, laws.post_capture) {
+        return Err(StudyError::NoLaw { name, key: "post_impact.control" });
     }
     let about = |origin| OwnLaws { laws, scenario, origin };
     match Origin::of(scenario) {

@@ -71,7 +71,7 @@ impl StudyError {
     #[must_use]
     pub fn key(&self, scenario: &Scenario) -> ScenarioKey {
         match self {
-            Self::NoLaw { .. } => key("approach.tracking", "none"),
+            Self::NoLaw { name, key: path } => key(*path, *name),
             Self::TerminalRates(error) | Self::InverseKinematics(InverseKinematicsError::Rates(error)) => {
                 terminal_rates(scenario, error)
             }
@@ -148,7 +148,7 @@ fn of_approach(scenario: &Scenario, stopped: &PhaseError) -> ScenarioKey {
 
 fn of_post_impact(after: &PostImpact, stopped: &PhaseError) -> ScenarioKey {
     let gain = match &after.control {
-        PostCaptureControl::None => None,
+        PostCaptureControl::None | PostCaptureControl::Own { .. } => None,
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => stiffer(proportional_gain, derivative_gain),
         PostCaptureControl::Damping { derivative_gain } => stiffer(&[], derivative_gain),
         PostCaptureControl::Stabilise { derivative_gain, base_gain, .. } => {

@@ -81,7 +81,7 @@ pub(super) fn fastest_mode(scenario: &Scenario) -> Option<f64> {
 pub(super) fn fastest_mode_afterwards(scenario: &Scenario) -> Option<f64> {
     let angles = &scenario.approach.final_joint_angles;
     match &scenario.post_impact.as_ref()?.control {
-        PostCaptureControl::None => None,
+        PostCaptureControl::None | PostCaptureControl::Own { .. } => None,
         PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
             mode(scenario, angles, proportional_gain, derivative_gain)
         }

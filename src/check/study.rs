@@ -11,8 +11,8 @@ use crate::plain_text::Column::{Left, Right};
 use crate::plain_text::{Table, count, entry, wrap};
 use crate::registry::{self, Robots};
 use crate::scenario::{
-    Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, PostCaptureControl, Scenario, Tracking,
-    contact_name,
+    Actuation, Detection, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, LawNumbers, PostCaptureControl, Scenario,
+    Tracking, contact_name,
 };
 use crate::simulate::Timing;
 use crate::simulate::stepper::Integration;
@@ -152,7 +152,13 @@ fn post_capture_law(control: &PostCaptureControl) -> String {
             let torque = base_torque_limit.map(|limit| format!("; base torque of at most {} N m", short(limit)));
             rates + &torque.unwrap_or_default()
         }
+        PostCaptureControl::Own { name, numbers } => own_law(name, numbers),
     }
+}
+
+fn own_law(name: &str, numbers: &LawNumbers) -> String {
+    let numbers = numbers.iter().map(|(key, number)| format!(", {key} {}", short(number)));
+    format!("{name}, a law of this program{}", numbers.collect::<String>())
 }
 
 fn law(scenario: &Scenario) -> String {
@@ -167,10 +173,7 @@ fn law(scenario: &Scenario) -> String {
             short(*singularity_threshold)
         ),
         Tracking::InverseDynamics => "exact, torques from inverse dynamics".to_owned(),
-        Tracking::Own { name, numbers } => {
-            let numbers: Vec<_> = numbers.iter().map(|(key, number)| format!("{key} {}", short(number))).collect();
-            format!("{name}, a law of this program, {}", numbers.join(", "))
-        }
+        Tracking::Own { name, numbers } => own_law(name, numbers),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain } => {
             format!("PD, {} N m/rad, {} N m s/rad", gains(proportional_gain), gains(derivative_gain))
         }

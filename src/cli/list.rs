@@ -3,11 +3,10 @@
 use super::{CommandError, write_new};
 use crate::engine;
 use crate::format::{Choice, Shape, TableFormat};
-use crate::laws::RegisteredLaw;
 use crate::layout::Layout;
 use crate::plain_text::wrap;
 use crate::program::Program;
-use crate::scenario::{self, LawNumber};
+use crate::scenario::{self, LawFormat, LawNumber};
 use std::process::ExitCode;
 
 /// List what this program knows by name.
@@ -30,13 +29,16 @@ pub fn run(_: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError
         let engine = engine::Choice::fastest(&layout, program.robots).0.engine.name();
         text += &item(name, &format!("{} {arms} of {}, {engine}", links.len(), links.join(" + ")));
     }
+    let laws = program.law_formats();
     let mut all = Vec::new();
     collect(&mut all, "", &scenario::FORMAT);
     for (keys, choices) in all {
         text.extend(["\n", &keys.join(", "), "\n"]);
         text.extend(choices.iter().map(|choice| item(choice.name, &choice.doc.replace('`', ""))));
-        if keys.iter().any(|key| key == "approach.tracking") {
-            text.extend(program.laws.iter().map(own_law));
+        for (key, own) in [("approach.tracking", &laws.tracking), ("post_impact.control", &laws.post_capture)] {
+            if keys.iter().any(|known| known == key) {
+                text.extend(own.iter().map(own_law));
+            }
         }
     }
     write_new(None, &text)?;
@@ -58,8 +60,8 @@ fn collect(all: &mut Vec<(Vec<String>, Vec<Choice>)>, path: &str, table: &'stati
     }
 }
 
-/// A law of the program's own, with the keys of `[approach.law]`.
-fn own_law(RegisteredLaw { format, .. }: &RegisteredLaw) -> String {
+/// A law of the program's own, with the keys of its table `law`.
+fn own_law(format: &LawFormat) -> String {
     let numbers = format.numbers.iter().map(|LawNumber { key, rule, default }| match default {
         Some(default) => format!("{key} = {default} {}", rule.unit()).trim_end().to_owned(),
         None => format!("{key}, {rule}"),

@@ -187,8 +187,8 @@ fn report_long_files() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-/// As [`main_with`], with control laws of one's own beside the robots: a scenario names one by `tracking = "NAME"` and gives
-/// its numbers in `[approach.law]`.
+/// As [`main_with`], with control laws of one's own beside the robots: a scenario names one by `tracking = "NAME"` or,
+/// after the capture, `control = "NAME"`, and gives its numbers in `[approach.law]` or `[post_impact.law]`.
 #[must_use]
 pub fn main_with_laws(robots: &[CompiledRobot], laws: &[RegisteredLaw]) -> ExitCode {
     report_long_files();

@@ -33,10 +33,15 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     let mut text = arguments.kind.schema();
     if let (FileFormat::Scenario, [_, ..]) = (arguments.kind, program.laws) {
         let mut schema: Value = serde_json::from_str(&text).map_err(std::io::Error::from)?;
-        let tracking = &mut schema["properties"]["approach"]["properties"]["tracking"];
-        for (path, word) in [("/enum", 0), ("/x-taplo/docs/enumValues", 1)] {
-            if let Some(Value::Array(words)) = tracking.pointer_mut(path) {
-                words.extend(program.laws.iter().map(|law| [law.format.name, law.format.doc][word].into()));
+        let laws = program.law_formats();
+        for (phase, key, own) in
+            [("approach", "tracking", laws.tracking), ("post_impact", "control", laws.post_capture)]
+        {
+            let choice = &mut schema["properties"][phase]["properties"][key];
+            for (path, word) in [("/enum", 0), ("/x-taplo/docs/enumValues", 1)] {
+                if let Some(Value::Array(words)) = choice.pointer_mut(path) {
+                    words.extend(own.iter().map(|law| [law.name, law.doc][word].into()));
+                }
             }
         }
         text = format!("{schema:#}\n");

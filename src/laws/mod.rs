@@ -12,7 +12,7 @@ mod tracking;
 
 pub use end_effector_feedback::EndEffectorFeedback;
 pub use post_capture::{PostCaptureLaw, PostCaptureTask};
-pub use registered::RegisteredLaw;
+pub use registered::{LawConstructor, NamedLaws, RegisteredLaw};
 pub use tracking::{TrackingLaw, TrackingTask};
 
 use crate::control::Control;

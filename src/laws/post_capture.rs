@@ -24,7 +24,8 @@ pub struct PostCaptureTask<'a> {
     pub timing: Timing,
 }
 
-/// A law of the motion after a capture. The shipped ones are those of [`PostCaptureControl`].
+/// A law of the motion after a capture. The shipped ones are those of [`PostCaptureControl`]; one of the program's own, which
+/// that only names, is not a law by itself.
 pub trait PostCaptureLaw {
     /// As it is to be called in results.
     fn name(&self) -> &'static str;
@@ -68,6 +69,7 @@ impl PostCaptureLaw for PostCaptureControl {
                 mass_matrix: &mut vec![0.0; size * size],
                 bias: &mut vec![0.0; size],
             }),
+            Self::Own { .. } => unreachable!("a study takes the law itself, or has no result"),
         }
     }
 

@@ -1,13 +1,14 @@
-//! Tracking laws of a program of one's own, which its scenarios name.
+//! Control laws of a program of one's own, which its scenarios name.
 
-use super::TrackingLaw;
-use crate::scenario::{LawFormat, LawNumbers, Scenario, Tracking};
+use super::{Laws, PostCaptureLaw, TrackingLaw};
+use crate::scenario::{LawFormat, LawNumbers, PostCaptureControl, Scenario, Tracking};
 
-/// A law that scenarios name by `tracking = "NAME"`; numbers of their table `[approach.law]` are handed to its constructor.
+/// A law that scenarios name, by `tracking = "NAME"` in `[approach]` or `control = "NAME"` in `[post_impact]`; the numbers of
+/// the table `law` beside it are handed to its constructor.
 ///
 /// ```
 /// use planar_capture::format::NumberRule;
-/// use planar_capture::laws::{RegisteredLaw, Run, TrackingLaw, TrackingTask};
+/// use planar_capture::laws::{LawConstructor, RegisteredLaw, Run, TrackingLaw, TrackingTask};
 /// use planar_capture::scenario::{LawFormat, LawNumber, LawNumbers};
 /// use planar_capture::simulate::{Phase, PhaseError};
 ///
@@ -40,7 +41,7 @@ use crate::scenario::{LawFormat, LawNumbers, Scenario, Tracking};
 ///             default: Some(14.0),
 ///         }],
 ///     },
-///     make: |numbers: &LawNumbers| Box::new(Limp { damping: numbers["damping"] }),
+///     make: LawConstructor::Tracking(|numbers: &LawNumbers| Box::new(Limp { damping: numbers["damping"] })),
 /// };
 /// // planar_capture::cli::main_with_laws(&[], &[LIMP])
 /// ```
@@ -49,15 +50,50 @@ pub struct RegisteredLaw {
     /// Its name and its numbers.
     pub format: LawFormat,
     /// Makes it of its numbers, all of which keep their rules.
-    pub make: fn(&LawNumbers) -> Box<dyn TrackingLaw>,
+    pub make: LawConstructor,
 }
 
-impl RegisteredLaw {
-    /// The law that a scenario names, made of the scenario's numbers; `None` for a shipped one, and for one that is not
-    /// among these.
+/// Makes a law for one of the phases.
+#[derive(Clone, Copy, Debug)]
+pub enum LawConstructor {
+    /// For the approach: `approach.tracking` names it.
+    Tracking(fn(&LawNumbers) -> Box<dyn TrackingLaw>),
+    /// For the motion after the capture: `post_impact.control` names it.
+    PostCapture(fn(&LawNumbers) -> Box<dyn PostCaptureLaw>),
+}
+
+/// The laws of a program's own that a scenario names; `None` where it names a shipped one.
+#[derive(Default)]
+pub struct NamedLaws {
+    tracking: Option<Box<dyn TrackingLaw>>,
+    post_capture: Option<Box<dyn PostCaptureLaw>>,
+}
+
+impl NamedLaws {
+    /// Those that the scenario names, made of its numbers. One that is not among these laws is left out.
     #[must_use]
-    pub fn of(scenario: &Scenario, laws: &[Self]) -> Option<Box<dyn TrackingLaw>> {
-        let Tracking::Own { name, numbers } = &scenario.approach.tracking else { return None };
-        laws.iter().find(|law| law.format.name == *name).map(|law| (law.make)(numbers))
+    pub fn of(scenario: &Scenario, laws: &[RegisteredLaw]) -> Self {
+        let mut named = Self::default();
+        let control = scenario.post_impact.as_ref().map(|after| &after.control);
+        for RegisteredLaw { format, make } in laws {
+            match (make, &scenario.approach.tracking, control) {
+                (LawConstructor::Tracking(make), Tracking::Own { name, numbers }, _) if format.name == *name => {
+                    named.tracking = Some(make(numbers));
+                }
+                (LawConstructor::PostCapture(make), _, Some(PostCaptureControl::Own { name, numbers }))
+                    if format.name == *name =>
+                {
+                    named.post_capture = Some(make(numbers));
+                }
+                _ => {}
+            }
+        }
+        named
+    }
+
+    /// To be handed to [`study_with`](crate::capture::study_with).
+    #[must_use]
+    pub fn laws(&self) -> Laws<'_> {
+        Laws { tracking: self.tracking.as_deref(), post_capture: self.post_capture.as_deref() }
     }
 }

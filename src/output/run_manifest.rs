@@ -16,7 +16,7 @@
 //! ```
 
 use crate::layout::sha256;
-use crate::scenario::{LawNumbers, Scenario, ScenarioSource, Tracking, Variant};
+use crate::scenario::{LawNumbers, PostCaptureControl, Scenario, ScenarioSource, Tracking, Variant};
 use crate::simulate::Timing;
 use crate::simulate::stepper::Integration;
 use serde_json::{Map, Value, json};
@@ -37,8 +37,19 @@ pub struct RunManifest {
     pub layout_sha256: String,
     /// Of each phase that the scenario has.
     pub phases: Vec<PhaseManifest>,
-    /// The tracking law with its numbers, where it is one of the program's own.
-    pub law: Option<(&'static str, LawNumbers)>,
+    /// Control laws of the program's own.
+    pub laws: Vec<LawManifest>,
+}
+
+/// A control law of the program's own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawManifest {
+    /// `approach` or `post_impact`.
+    pub phase: &'static str,
+    /// As in the scenario.
+    pub name: &'static str,
+    /// Given or default.
+    pub numbers: LawNumbers,
 }
 
 /// How one phase is integrated.
@@ -59,11 +70,17 @@ impl PhaseManifest {
     }
 }
 
-fn law(scenario: &Scenario) -> Option<(&'static str, LawNumbers)> {
-    match &scenario.approach.tracking {
-        Tracking::Own { name, numbers } => Some((name, numbers.clone())),
+fn laws(scenario: &Scenario) -> Vec<LawManifest> {
+    let law = |phase, name, numbers: &LawNumbers| LawManifest { phase, name, numbers: numbers.clone() };
+    let before = match &scenario.approach.tracking {
+        Tracking::Own { name, numbers } => Some(law("approach", name, numbers)),
         _ => None,
-    }
+    };
+    let after = match scenario.post_impact.as_ref().map(|after| &after.control) {
+        Some(PostCaptureControl::Own { name, numbers }) => Some(law("post_impact", name, numbers)),
+        _ => None,
+    };
+    before.into_iter().chain(after).collect()
 }
 
 fn phases(scenario: &Scenario) -> Vec<PhaseManifest> {
@@ -84,7 +101,7 @@ impl RunManifest {
             layout_toml: source.layout.text,
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
-            law: law(scenario),
+            laws: laws(scenario),
         }
     }
 
@@ -95,7 +112,7 @@ impl RunManifest {
             layout_toml: layout.clone(),
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
-            law: law(scenario),
+            laws: laws(scenario),
             ..self.clone()
         }
     }
@@ -105,7 +122,7 @@ impl RunManifest {
     pub fn to_json_of_case(&self, dynamics: &str) -> Value {
         let mut value = self.to_json();
         if let Value::Object(entries) = &mut value {
-            entries.retain(|key, _| ["layout_sha256", "integrator", "steps", "law"].contains(&key.as_str()));
+            entries.retain(|key, _| ["layout_sha256", "integrator", "steps", "laws"].contains(&key.as_str()));
         }
         value["dynamics"] = json!(dynamics);
         value
@@ -134,10 +151,10 @@ impl RunManifest {
             "scenario_toml": self.scenario_toml,
             "layout_toml": self.layout_toml,
         });
-        if let Some((name, numbers)) = &self.law {
+        for LawManifest { phase, name, numbers } in &self.laws {
             let numbers: Map<String, Value> =
                 numbers.iter().map(|(key, number)| (key.to_owned(), json!(number))).collect();
-            value["law"] = json!({"name": name, "numbers": numbers});
+            value["laws"][phase] = json!({"name": name, "numbers": numbers});
         }
         value
     }

@@ -8,22 +8,31 @@ use std::ops::Index;
 pub struct Known<'a> {
     /// (name, TOML text) of layouts.
     pub layouts: Vec<(&'a str, &'a str)>,
-    /// Tracking laws beside the shipped ones.
-    pub laws: Vec<LawFormat>,
+    /// Control laws beside the shipped ones.
+    pub laws: LawFormats,
 }
 
-/// A tracking law as scenarios name it, and the numbers of its table `[approach.law]`.
+/// Control laws of a program's own, by the phase that they control.
+#[derive(Clone, Debug, Default)]
+pub struct LawFormats {
+    /// Those that `approach.tracking` can name.
+    pub tracking: Vec<LawFormat>,
+    /// Those that `post_impact.control` can name.
+    pub post_capture: Vec<LawFormat>,
+}
+
+/// A control law as scenarios name it, and the numbers of its table `law` in that of its phase.
 #[derive(Clone, Copy, Debug)]
 pub struct LawFormat {
-    /// The value of `approach.tracking`; not that of a shipped law.
+    /// The value of `approach.tracking` or `post_impact.control`; not that of a shipped law.
     pub name: &'static str,
     /// What it does, for `list`.
     pub doc: &'static str,
-    /// The keys of `[approach.law]`.
+    /// The keys of `[approach.law]` or `[post_impact.law]`.
     pub numbers: &'static [LawNumber],
 }
 
-/// A key of `[approach.law]`.
+/// A key of `[approach.law]` or `[post_impact.law]`.
 #[derive(Clone, Copy, Debug)]
 pub struct LawNumber {
     /// As in the scenario.
@@ -61,7 +70,10 @@ impl Index<&str> for LawNumbers {
 
 impl<'a, S: AsRef<str>> From<&'a [(&'a str, S)]> for Known<'a> {
     fn from(layouts: &'a [(&'a str, S)]) -> Self {
-        Self { layouts: layouts.iter().map(|(name, text)| (*name, text.as_ref())).collect(), laws: Vec::new() }
+        Self {
+            layouts: layouts.iter().map(|(name, text)| (*name, text.as_ref())).collect(),
+            laws: LawFormats::default(),
+        }
     }
 }
 

@@ -29,7 +29,7 @@ pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
 pub use key_path::{KeyFile, find_key};
 pub use keys::FORMAT;
-pub use known::{Known, LawFormat, LawNumber, LawNumbers};
+pub use known::{Known, LawFormat, LawFormats, LawNumber, LawNumbers};
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use source::{ScenarioSource, Source};
 pub use target::{PlannedContact, Target, contact_name};

@@ -1,5 +1,6 @@
 //! The `[post_impact]` table: the motion after the capture.
 
+use super::LawNumbers;
 use crate::simulate::actuators::Actuation;
 use crate::simulate::stepper::Integration;
 
@@ -46,10 +47,18 @@ pub enum PostCaptureControl {
         /// Largest torque on the base in N m, 0 or more; `None`, the default, where there is no such actuator.
         base_torque_limit: Option<f64>,
     },
+    /// A law that the program has of its own, and hands to the study:
+    /// [`RegisteredLaw`](crate::laws::RegisteredLaw).
+    Own {
+        /// As in the scenario.
+        name: &'static str,
+        /// Of `[post_impact.law]`.
+        numbers: LawNumbers,
+    },
 }
 
 impl PostCaptureControl {
-    /// All laws, without gains.
+    /// All shipped laws, without gains.
     pub(crate) const LAWS: &'static [Self] = &[
         Self::None,
         Self::Hold { proportional_gain: Vec::new(), derivative_gain: Vec::new() },
@@ -65,6 +74,7 @@ impl PostCaptureControl {
             Self::Hold { .. } => "hold",
             Self::Damping { .. } => "damping",
             Self::Stabilise { .. } => "stabilise",
+            Self::Own { name, .. } => name,
         }
     }
 }

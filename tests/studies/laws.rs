@@ -7,7 +7,7 @@ use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
 use planar_capture::laws::{Laws, PostCaptureLaw, PostCaptureTask, Run, TrackingLaw, TrackingTask};
 use planar_capture::registry;
-use planar_capture::scenario::{PostCaptureControl, Scenario};
+use planar_capture::scenario::{LawNumbers, PostCaptureControl, Scenario, Tracking};
 use planar_capture::simulate::{Phase, PhaseError};
 use planar_capture::state::State;
 use std::cell::RefCell;
@@ -166,6 +166,26 @@ impl PostCaptureLaw for DelayedBrake {
     fn control(&self, task: &PostCaptureTask<'_>, run: Run<'_>) -> Result<Phase, PhaseError> {
         if task.since_impact < self.wait { run(&mut ZeroTorque) } else { self.brake.control(task, run) }
     }
+}
+
+/// A scenario that names laws of another program's has no result, whichever phase they are of.
+#[test]
+fn a_study_without_a_law_that_its_scenario_names_is_refused() {
+    let given = || scenario("raina_shah_2017");
+    let [mut before, mut after] = [given(), given()];
+    before.approach.tracking = Tracking::Own { name: "absent", numbers: LawNumbers::default() };
+    after.post_impact.as_mut().expect("a phase").control =
+        PostCaptureControl::Own { name: "absent", numbers: LawNumbers::default() };
+    for (refused, key) in [(&before, "approach.tracking"), (&after, "post_impact.control")] {
+        let error = run_with(refused, Laws::default()).expect_err("no study");
+        assert_eq!(error, StudyError::NoLaw { name: "absent", key });
+        assert_eq!(error.key(refused).path, key);
+    }
+    // the other phase's law is none of it
+    let given = given();
+    let same = Same(&given);
+    assert!(run_with(&after, Laws { tracking: Some(&same), post_capture: None }).is_err());
+    assert!(run_with(&before, Laws { tracking: None, post_capture: Some(&same) }).is_err());
 }
 
 #[test]

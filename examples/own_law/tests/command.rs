@@ -1,4 +1,5 @@
-//! The law through the command line: named by a scenario, with its numbers, in a sweep of these, and refused where it is wrong.
+//! The laws through the command line: named by a scenario, with their numbers, in a sweep of these, and refused where they are
+//! wrong.
 
 use std::fs;
 use std::path::Path;
@@ -51,15 +52,44 @@ fn a_scenario_names_the_law_and_gives_its_numbers() {
     assert_eq!(end(&set), end(&stiff));
 }
 
+/// The largest joint rate at the end of the motion after the capture, rad/s.
+fn rate_at_the_end(summary: &str) -> f64 {
+    let value = summary.split("\"largest_joint_rate\": ").nth(1).and_then(|rest| rest.split(',').next());
+    value.and_then(|value| value.parse().ok()).expect("a number")
+}
+
 #[test]
-fn lists_checks_and_schemas_know_the_law() {
+fn a_scenario_names_the_law_after_the_capture() {
+    let weak = run("weak", &scenario());
+    assert!(weak.contains("\"name\": \"encoder_damping\"") && weak.contains("\"derivative_gain\": 7.0"), "{weak}");
+    let more = scenario().replace("derivative_gain = 7.0", "derivative_gain = 28.0");
+    let strong = run("strong", &more);
+    assert!(rate_at_the_end(&strong) < 0.8 * rate_at_the_end(&weak));
+    let set = "[[case]]\nname = \"strong\"\nset = { \"post_impact.law.derivative_gain\" = 28.0 }\n[post_impact]";
+    let set = run("set_afterwards", &scenario().replace("[post_impact]", set));
+    assert_eq!(rate_at_the_end(&set).to_bits(), rate_at_the_end(&strong).to_bits());
+    // encoders without noise and delay to speak of damp as the shipped law does
+    let fine = scenario().replace("\n[post_impact.law]", "\n[post_impact.law]\nresolution = 1e-12\nfilter_time = 1e-9");
+    let shipped = scenario();
+    let shipped = shipped.split("[post_impact]").next().expect("a scenario").to_owned()
+        + "[post_impact]\nduration = 1.0\ncontrol = \"damping\"\nderivative_gain = 7.0\n";
+    let [fine, shipped] = [("fine", fine), ("shipped", shipped)].map(|(name, text)| rate_at_the_end(&run(name, &text)));
+    // rates are late by a sample and half of one, 0.03 s, where 7 N m s/rad damp some 10 kg m²
+    assert!((fine - shipped).abs() < 0.03 * shipped, "{fine} {shipped}");
+}
+
+#[test]
+fn lists_checks_and_schemas_know_the_laws() {
     let (code, out, err) = said(&["list"]);
     assert!(code == 0 && out.contains("encoder_control") && out.contains("filter_time = 0.05 s"), "{out}{err}");
     let (_, out, _) = said(&["schema", "scenario"]);
-    assert!(out.contains("\"encoder_control\""));
+    assert!(out.contains("\"encoder_control\"") && out.contains("\"encoder_damping\""));
+    let choices = |key: &str| out.split(&format!("\"{key}\": {{")).nth(1).and_then(|rest| rest.split(']').next());
+    assert!(choices("control").is_some_and(|names| names.contains("damping") && !names.contains("encoder_control")));
     let file = written(&folder("check"), "scenario.toml", &scenario());
     let (code, out, err) = said(&["check", &file]);
     assert!(code == 0 && out.contains("encoder_control, a law of this program, resolution 0.0001"), "{out}{err}");
+    assert!(out.contains("encoder_damping, a law of this program, resolution 0.0001"), "{out}{err}");
     let out = format!("{}/moving.svg", folder("check"));
     let _ = fs::remove_file(&out);
     let (code, _, err) = said(&["animate", &file, "--out", &out, "--seconds", "1", "-q"]);
@@ -87,6 +117,18 @@ fn what_is_wrong_is_refused() {
             "sample_time",
             "proportional_gain = 1.0\nsample_time",
             "the numbers of a law of one's own are in `[approach.law]`",
+        ),
+        ("\"encoder_damping\"", "\"encoder_control\"", "`stabilise` or `encoder_damping`"),
+        ("\"encoder_damping\"", "\"damping\"", "only `control` with the name of a law"),
+        (
+            "derivative_gain = 7.0",
+            "derivative_gain = -7.0",
+            "`post_impact.law.derivative_gain` is -7.0, expected a derivative gain in N m s/rad of 0 or more",
+        ),
+        (
+            "control = \"encoder_damping\"",
+            "control = \"encoder_damping\"\nbase_gain = 1.0",
+            "the numbers of a law of one's own are in `[post_impact.law]`",
         ),
     ] {
         let text = scenario();

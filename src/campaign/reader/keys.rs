@@ -4,13 +4,13 @@ use super::super::distribution::Distribution;
 use crate::diagnostic::Table;
 use crate::format::Step;
 use crate::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
-use crate::scenario::{LawFormat, Scenario, ScenarioSource};
+use crate::scenario::{LawFormats, Scenario, ScenarioSource};
 
 /// Reads the paths, and sets each of them once, alone, to the median of its distribution.
 pub(super) fn keys(
     tables: &[Table<'_>],
     distributions: &[Option<Distribution>],
-    (scenario, source, laws): (&Scenario, &ScenarioSource, &[LawFormat]),
+    (scenario, source, laws): (&Scenario, &ScenarioSource, &LawFormats),
     case: &str,
 ) -> Option<(Vec<KeyPath>, Variation)> {
     let medians: Vec<VariedValue> = distributions

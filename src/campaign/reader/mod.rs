@@ -33,7 +33,7 @@ pub struct Campaign {
     pub scenario_source: ScenarioSource,
     /// The texts of the cases.
     pub variation: Variation,
-    /// Tracking laws that the scenario may name beside the shipped ones; none of them after reading.
+    /// Control laws that the scenario may name beside the shipped ones; none of them after reading.
     pub laws: Vec<RegisteredLaw>,
 }
 

@@ -1,6 +1,6 @@
 //! The keys of `[approach]`.
 
-use super::phase::{COORDINATES, DURATION, INTEGRATOR, SAMPLE_TIME, STEP, TIME, TOLERANCE, TORQUE_LIMITS};
+use super::phase::{COORDINATES, DURATION, INTEGRATOR, LAW_NUMBER, SAMPLE_TIME, STEP, TIME, TOLERANCE, TORQUE_LIMITS};
 use super::rules::{GOAL, JOINT_ANGLE, JOINT_RATE, TWIST_GOAL};
 use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use crate::scenario::Tracking;
@@ -12,9 +12,6 @@ const ANGLE_ERROR_GAIN: Shape =
     Shape::Number(NumberRule::non_negative("a proportional gain of computed torque (or one per joint)", "1/s²"));
 const RATE_ERROR_GAIN: Shape =
     Shape::Number(NumberRule::non_negative("a derivative gain of computed torque (or one per joint)", "1/s"));
-
-/// Of any law, which has a rule for it.
-const LAW_NUMBER: Shape = Shape::Number(NumberRule::any("a number", ""));
 
 const IN_JOINT_SPACE: &[&str] = &["pd", "exact", "computed_torque"];
 const WITH_LIMITS: &[&str] = &["pd", "computed_torque", "resolved_motion_rate"];

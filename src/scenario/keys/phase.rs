@@ -10,6 +10,9 @@ const LARGEST_TOLERANCE: f64 = 1e-3;
 
 pub(super) const TIME: Shape = Shape::Number(DURATION_RULE);
 
+/// Of any law of a program's own, which has a rule for it.
+pub(super) const LAW_NUMBER: Shape = Shape::Number(NumberRule::any("a number", ""));
+
 pub(super) const DURATION: Key = Key::required("duration", TIME, "of the phase");
 
 pub(super) const STEP: Key = Key::optional(

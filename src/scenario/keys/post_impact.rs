@@ -1,6 +1,6 @@
 //! The keys of `[post_impact]`.
 
-use super::phase::{COORDINATES, DURATION, INTEGRATOR, SAMPLE_TIME, STEP, TOLERANCE, TORQUE_LIMITS};
+use super::phase::{COORDINATES, DURATION, INTEGRATOR, LAW_NUMBER, SAMPLE_TIME, STEP, TOLERANCE, TORQUE_LIMITS};
 use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use crate::scenario::PostCaptureControl;
 
@@ -60,6 +60,13 @@ pub(super) static POST_IMPACT: TableFormat = TableFormat {
         )
         .with("control", &["stabilise"])
         .example("5.0"),
+        Key::optional(
+            "law",
+            Shape::ByName(&LAW_NUMBER, "key"),
+            Default::Words("the law's defaults"),
+            "the numbers of a law that the program has of its own, which `control` names",
+        )
+        .example("{ gain = 7.0 }"),
         TORQUE_LIMITS.with("control", LAWS),
         SAMPLE_TIME.with("control", LAWS),
         INTEGRATOR,
@@ -75,6 +82,7 @@ fn laws() -> Vec<Choice> {
         PostCaptureControl::Hold { .. } => "PD control to the angles at the capture",
         PostCaptureControl::Damping { .. } => "`−K_v θ̇`",
         PostCaptureControl::Stabilise { .. } => "the joint rates decay exponentially, the paper's future work",
+        PostCaptureControl::Own { .. } => "of the program's own",
     };
     PostCaptureControl::LAWS.iter().map(|law| Choice { name: law.name(), doc: doc(law) }).collect()
 }

@@ -4,7 +4,7 @@ use super::actuation::actuation;
 use super::duration_and_step;
 use super::integration::integration;
 use super::joints::{Joints, check_length};
-use super::own_law::own_law;
+use super::own_law::law_numbers;
 use crate::diagnostic::{Table, Value, every};
 use crate::scenario::{Approach, EndEffectorGoal, EndEffectorTwistGoal, FinalRates, LawFormat, LawNumbers, Tracking};
 use crate::simulate::actuators::Actuation;
@@ -268,7 +268,10 @@ fn tracking(table: &Table<'_>, joints: &Joints<'_>, law: &Tracking, own: &[LawFo
         GAINS.map(gain)
     };
     Some(match law {
-        Tracking::Own { name, .. } => own_law(table, own.iter().find(|known| known.name == *name)?)?,
+        Tracking::Own { name, .. } => {
+            let law = own.iter().find(|known| known.name == *name)?;
+            Tracking::Own { name, numbers: law_numbers(table, "approach.law", law)? }
+        }
         Tracking::InverseDynamics => Tracking::InverseDynamics,
         Tracking::ProportionalDerivative { .. } => {
             let [proportional_gain, derivative_gain] = gains();

@@ -8,7 +8,7 @@ use super::target::{NO_BOUNCE, target};
 use crate::contact::ContactKind;
 use crate::diagnostic::{Table, every};
 use crate::layout::Layout;
-use crate::scenario::{Case, ContactRules, Detection, PostImpact, Target};
+use crate::scenario::{Case, ContactRules, Detection, LawFormat, PostImpact, Target};
 use std::collections::HashSet;
 
 /// The contents of the tables.
@@ -22,8 +22,13 @@ pub(super) struct Capture<'a> {
     pub(super) post_impact: Option<PostImpact>,
 }
 
-/// Reads the tables; `name` is the scenario's.
-pub(super) fn capture<'a>(root: &Table<'a>, layout: Option<&Layout>, name: Option<&str>) -> Option<Capture<'a>> {
+/// Reads the tables; `name` is the scenario's, `own` are laws that `post_impact.control` may name beside the shipped ones.
+pub(super) fn capture<'a>(
+    root: &Table<'a>,
+    layout: Option<&Layout>,
+    name: Option<&str>,
+    own: &[LawFormat],
+) -> Option<Capture<'a>> {
     let contact = root.read_or("contact", ContactRules::default(), |value| contact_rules(&value.table()?));
     let detection = contact.unwrap_or_default().detection;
     let tables = root.tables("target")?;
@@ -56,7 +61,7 @@ pub(super) fn capture<'a>(root: &Table<'a>, layout: Option<&Layout>, name: Optio
         root.reject_keys(&["contact", "post_impact"], "there is nothing to capture, expected a `[[target]]` with it");
         Some(None)
     } else {
-        after.as_ref().and_then(|table| post_impact(table, &Joints { layout })).map(Some)
+        after.as_ref().and_then(|table| post_impact(table, &Joints { layout }, own)).map(Some)
     };
 
     let ((mut cases, sets), targets) = (cases?, targets?);

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Report, Table, Value, every};
 use crate::format::Step;
 use crate::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
-use crate::scenario::{KeyFile, LawFormat, Scenario, ScenarioSource, Variant};
+use crate::scenario::{KeyFile, LawFormats, Scenario, ScenarioSource, Variant};
 
 /// What a case sets, and where.
 pub(super) struct CaseSet<'a> {
@@ -55,7 +55,7 @@ fn entry<'a>(key: &str, value: Value<'a>) -> Option<Entry<'a>> {
 
 impl CaseSet<'_> {
     /// The scenario of the case; `None` where its values are not valid.
-    pub(super) fn variant(&self, scenario: &Scenario, source: &ScenarioSource, laws: &[LawFormat]) -> Option<Variant> {
+    pub(super) fn variant(&self, scenario: &Scenario, source: &ScenarioSource, laws: &LawFormats) -> Option<Variant> {
         let case = &scenario.cases[self.index].name;
         let keys: Vec<_> = self.entries.iter().map(|entry| (entry.path.clone(), entry.varied.clone())).collect();
         let read = |keys: &[(KeyPath, VariedValue)]| -> Result<_, Refused> {

@@ -100,8 +100,9 @@ impl Scenario {
             let initial_table = root.table("initial");
             let initial = initial_table.as_ref().and_then(|table| initial_state(table, &joints));
             let start = initial.as_ref().map(|initial| initial.joint_angles.as_slice());
-            let approach =
-                root.table("approach").and_then(|table| approach::approach(&table, &joints, start, &known.laws));
+            let approach = root
+                .table("approach")
+                .and_then(|table| approach::approach(&table, &joints, start, &known.laws.tracking));
             let limits = root.read_or("limits", Vec::new(), |value| limits::joint_limits(&value.table()?, &joints));
             if let (Some(table), Some(initial)) = (&initial_table, &initial) {
                 if let Some(value) = table.get("base_pose") {
@@ -118,7 +119,7 @@ impl Scenario {
                 }
                 limits::check_initial(table, initial, limits.as_deref().unwrap_or_default());
             }
-            let capture = capture::capture(root, layout.as_ref(), name)?;
+            let capture = capture::capture(root, layout.as_ref(), name, &known.laws.post_capture)?;
             let clearance = root.read_or("clearance", ClearanceRules::default(), |value| {
                 let targets = capture.targets.iter().map(|target| target.name.as_str());
                 let bodies = frames(layout.as_ref()?, targets).into_iter();

@@ -1,12 +1,12 @@
-//! `[approach.law]`: the numbers of a law that the program has of its own.
+//! `[approach.law]` and `[post_impact.law]`: the numbers of a law that the program has of its own.
 
 use crate::diagnostic::{Table, every};
-use crate::scenario::{LawFormat, LawNumbers, Tracking};
+use crate::scenario::{LawFormat, LawNumbers};
 
-/// The law with its numbers, given or default.
-pub(super) fn own_law(approach: &Table<'_>, law: &LawFormat) -> Option<Tracking> {
+/// The numbers of the law of a phase, given in its table `law` of this path, or default.
+pub(super) fn law_numbers(phase: &Table<'_>, path: &str, law: &LawFormat) -> Option<LawNumbers> {
     let names: Vec<_> = law.numbers.iter().map(|number| number.key).collect();
-    let table = match approach.get("law") {
+    let table = match phase.get("law") {
         Some(value) => Some(value.by_name(&names)?),
         None => None,
     };
@@ -19,14 +19,13 @@ pub(super) fn own_law(approach: &Table<'_>, law: &LawFormat) -> Option<Tracking>
                 // a misspelling of it is reported as such
                 if !table.as_ref().is_some_and(|table| table.is_misspelt(number.key)) {
                     let (key, rule) = (number.key, &number.rule);
-                    let message =
-                        format!("missing key `approach.law.{key}` of the law `{}`, expected {rule}", law.name);
-                    approach.reject(&message, "it belongs into its table `law`");
+                    let message = format!("missing key `{path}.{key}` of the law `{}`, expected {rule}", law.name);
+                    phase.reject(&message, "it belongs into its table `law`");
                 }
                 return None;
             }
         };
         Some((number.key, number_of))
     }))?;
-    Some(Tracking::Own { name: law.name, numbers: LawNumbers(numbers) })
+    Some(LawNumbers(numbers))
 }

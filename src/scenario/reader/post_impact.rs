@@ -4,13 +4,14 @@ use super::actuation::actuation;
 use super::duration_and_step;
 use super::integration::integration;
 use super::joints::Joints;
+use super::own_law::law_numbers;
 use crate::diagnostic::Table;
-use crate::scenario::{PostCaptureControl, PostImpact};
+use crate::scenario::{LawFormat, LawNumbers, PostCaptureControl, PostImpact};
 use crate::simulate::actuators::Actuation;
 
-pub(super) fn post_impact(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostImpact> {
+pub(super) fn post_impact(table: &Table<'_>, joints: &Joints<'_>, own: &[LawFormat]) -> Option<PostImpact> {
     let times = duration_and_step(table);
-    let control = control(table, joints);
+    let control = control(table, joints, own);
     let actuation = match control {
         Some(PostCaptureControl::None) => Some(Actuation::default()),
         _ => actuation(table, times, joints),
@@ -20,26 +21,34 @@ pub(super) fn post_impact(table: &Table<'_>, joints: &Joints<'_>) -> Option<Post
     Some(PostImpact { duration, step, control: control?, actuation: actuation?, integration: integration? })
 }
 
-/// The law of the table with its gains.
-fn control(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostCaptureControl> {
-    let laws: Vec<_> = PostCaptureControl::LAWS.iter().map(|law| (law.name(), law)).collect();
+/// Numbers that shipped laws have.
+const OF_SHIPPED_LAWS: [&str; 4] = ["proportional_gain", "derivative_gain", "base_gain", "base_torque_limit"];
+
+/// The law of the table with its numbers.
+fn control(table: &Table<'_>, joints: &Joints<'_>, own: &[LawFormat]) -> Option<PostCaptureControl> {
+    let unmade = own.iter().map(|law| PostCaptureControl::Own { name: law.name, numbers: LawNumbers::default() });
+    let unmade: Vec<_> = unmade.collect();
+    let laws: Vec<_> = PostCaptureControl::LAWS.iter().chain(&unmade).map(|law| (law.name(), law)).collect();
     let law = table.choice("control", &laws)?;
-    table.reject_keys_without(
-        "control",
-        law.name(),
-        match law {
-            PostCaptureControl::None => {
-                "without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it"
-            }
-            PostCaptureControl::Hold { .. } => "only `control = \"stabilise\"` acts on the base",
-            PostCaptureControl::Damping { .. } => {
-                "damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it"
-            }
-            PostCaptureControl::Stabilise { .. } => {
-                "stabilisation wants no angles, expected `control = \"hold\"` with it"
-            }
-        },
-    );
+    let why_not = match law {
+        PostCaptureControl::None => {
+            Some("without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it")
+        }
+        PostCaptureControl::Hold { .. } => Some("only `control = \"stabilise\"` acts on the base"),
+        PostCaptureControl::Damping { .. } => {
+            Some("damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it")
+        }
+        PostCaptureControl::Stabilise { .. } => {
+            Some("stabilisation wants no angles, expected `control = \"hold\"` with it")
+        }
+        PostCaptureControl::Own { .. } => None,
+    };
+    if let Some(why) = why_not {
+        table.reject_keys_without("control", law.name(), why);
+        table.reject_keys(&["law"], "only `control` with the name of a law of the program's own has it");
+    } else {
+        table.reject_keys(&OF_SHIPPED_LAWS, "the numbers of a law of one's own are in `[post_impact.law]`");
+    }
     let gain = |key| joints.gain(table, table.entry_with(key, "control", law.name()));
     Some(match law {
         PostCaptureControl::None => PostCaptureControl::None,
@@ -57,6 +66,10 @@ fn control(table: &Table<'_>, joints: &Joints<'_>) -> Option<PostCaptureControl>
                 base_gain: base_gain?,
                 base_torque_limit: base_torque_limit?,
             }
+        }
+        PostCaptureControl::Own { name, .. } => {
+            let law = own.iter().find(|known| known.name == *name)?;
+            PostCaptureControl::Own { name, numbers: law_numbers(table, "post_impact.law", law)? }
         }
     })
 }

@@ -25,7 +25,7 @@ mod varied_value;
 use crate::diagnostic::Report;
 use crate::format::Step;
 use crate::layout::Layout;
-use crate::scenario::{KeyFile, Known, LawFormat, Scenario, ScenarioSource};
+use crate::scenario::{KeyFile, Known, LawFormats, Scenario, ScenarioSource};
 use key_place::{Place, place, set};
 use replaced::replaced;
 use std::ops::Range;
@@ -45,7 +45,7 @@ pub struct Variation {
     scenario: Template,
     layout: Template,
     layout_name: String,
-    laws: Vec<LawFormat>,
+    laws: LawFormats,
 }
 
 /// The texts of one case.
@@ -128,14 +128,14 @@ impl Variation {
             scenario: of(KeyFile::Scenario, &of_scenario),
             layout,
             layout_name: scenario.layout.name.clone(),
-            laws: Vec::new(),
+            laws: LawFormats::default(),
         })
     }
 
-    /// With tracking laws that the scenario may name beside the shipped ones.
+    /// With control laws that the scenario may name beside the shipped ones.
     #[must_use]
-    pub fn with_laws(self, laws: &[LawFormat]) -> Self {
-        Self { laws: laws.to_vec(), ..self }
+    pub fn with_laws(self, laws: &LawFormats) -> Self {
+        Self { laws: laws.clone(), ..self }
     }
 
     /// The scenario of a case with these values, one per key.
