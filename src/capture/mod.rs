@@ -36,6 +36,7 @@ pub(crate) mod reduced_matrices;
 pub mod residual_motion;
 pub mod scenario_key;
 mod sequence;
+pub mod step_advice;
 mod target_motion;
 pub mod terminal_error;
 
@@ -506,22 +507,27 @@ fn impact_failures(case: &str, exact: &ImpactResult) -> Vec<String> {
 }
 
 fn phase_failures(name: &str, phase: &Phase, heavy: Option<&HeavyTarget>) -> Vec<String> {
-    let drift = "momentum drift";
+    let drifts = over_bounds(phase).map(|(what, value, bound)| {
+        let remedy = heavy.filter(|_| what == MOMENTUM_DRIFT).map(|heavy| format!("; {}", heavy.remedy()));
+        format!("{what} {value:.2e} is over its bound {bound:.0e}{}", remedy.unwrap_or_default())
+    });
+    let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
+    drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()
+}
+
+const MOMENTUM_DRIFT: &str = "momentum drift";
+
+/// What is beyond its bound in a phase: name, value and bound.
+fn over_bounds(phase: &Phase) -> impl Iterator<Item = (&'static str, f64, f64)> {
     let checks = [
-        (drift, phase.drift.momentum_drift, MOMENTUM_BOUND),
+        (MOMENTUM_DRIFT, phase.drift.momentum_drift, MOMENTUM_BOUND),
         ("energy error", phase.drift.energy_error, ENERGY_BOUND),
         ("centre-of-mass drift", phase.drift.center_of_mass_drift, CENTER_OF_MASS_BOUND),
         ("path error", phase.path_error, PATH_BOUND),
         ("opening of what is held", phase.constraint_errors[0], CONSTRAINT_BOUND),
         ("rate of opening of what is held", phase.constraint_errors[1], CONSTRAINT_BOUND),
     ];
-    let out_of_bound = checks.into_iter().filter(|(_, value, bound)| exceeds(*value, *bound));
-    let drifts = out_of_bound.map(|(what, value, bound)| {
-        let remedy = heavy.filter(|_| what == drift).map(|heavy| format!("; {}", heavy.remedy())).unwrap_or_default();
-        format!("{what} {value:.2e} is over its bound {bound:.0e}{remedy}")
-    });
-    let limit_violations = phase.limit_violations.iter().flat_map(LimitViolations::sentences);
-    drifts.chain(limit_violations).map(|what| format!("{name}: {what}")).collect()
+    checks.into_iter().filter(|(_, value, bound)| exceeds(*value, *bound))
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@
 //! ```
 
 use crate::capture::Study;
+use crate::capture::step_advice::step_advice;
 use crate::output::run_manifest::RunManifest;
 use crate::scenario::{Scenario, Variant};
 use std::borrow::Cow;
@@ -48,5 +49,15 @@ impl StudyPart<'_> {
         let Some(name) = self.variant.map(Variant::name) else { return failures.collect() };
         // the approach, too, is that of the case
         failures.map(|failure| if failure.starts_with(name) { failure } else { format!("{name}, {failure}") }).collect()
+    }
+
+    /// What would keep the audit's bounds, each with the case where it is that of one.
+    #[must_use]
+    pub fn step_advice(&self) -> Vec<String> {
+        let advice = step_advice(self.scenario, &self.study).into_iter();
+        match self.variant.map(Variant::name) {
+            Some(name) => advice.map(|sentence| format!("{name}: {sentence}")).collect(),
+            None => advice.collect(),
+        }
     }
 }

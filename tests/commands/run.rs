@@ -351,7 +351,11 @@ fn gains_that_break_a_small_robot_are_named() {
 fn the_audit_decides_the_exit_code() {
     let (code, out, err, folder) = run_text(&paper().replace("step = 0.005", "step = 0.05"));
     assert_eq!(code, 1, "{out}{err}");
-    assert!(err.contains("audit: approach: momentum drift") && err.contains("a shorter `step`"), "{err}");
+    assert!(
+        err.contains("audit: approach: momentum drift")
+            && err.contains("[approach] is integrated by `rk4` with steps of 0.05 s: `step = 0.00"),
+        "{err}"
+    );
     assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");
 }
 

@@ -24,6 +24,7 @@ mod reported;
 mod reproduction;
 mod resolved_motion_rate;
 mod serialized;
+mod step_advice;
 mod study;
 
 use planar_capture::capture::{Silent, Study};

@@ -9,7 +9,7 @@ use planar_capture::trajectory::TrajectoryKind;
 const FULL: Formulation = Formulation::Full;
 
 /// An approach without torques from these rates, rad/s.
-fn free(rates: [f64; 3], duration: f64, step: f64, integrator: Integrator) -> Scenario {
+pub fn free(rates: [f64; 3], duration: f64, step: f64, integrator: Integrator) -> Scenario {
     let mut scenario = scenario("redysim_single_arm_3r");
     scenario.initial.joint_angles = vec![0.3, -0.9, 0.6];
     scenario.initial.joint_rates = rates.to_vec();

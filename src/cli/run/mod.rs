@@ -172,7 +172,7 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
             is_written = true;
             codes.take(product.add(&printed));
             task.note_objections(&objections);
-            codes.add(u8::from(!objections.is_empty()));
+            codes.add(u8::from(!objections.failures.is_empty()));
         }
     }
     if let Some(folder) = above.filter(|_| is_written) {

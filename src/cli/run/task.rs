@@ -44,9 +44,15 @@ pub struct Task<'a> {
     pub named: String,
 }
 
+/// What the audit objects to, and what would keep its bounds.
+pub struct Objections {
+    pub failures: Vec<String>,
+    pub advice: Vec<String>,
+}
+
 impl Task<'_> {
     /// Computes the study and writes its files: what is printed, and what the audit objects to.
-    pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Vec<String>), CommandError> {
+    pub fn run(&self, arguments: &Arguments) -> Result<(Printed, Objections), CommandError> {
         let Self { path, scenario, source, folder, choice, own, named, .. } = self;
         if let Some((sample, step)) = arguments.sample.and_then(|sample| Some((sample, longer_step(scenario, sample)?)))
         {
@@ -90,17 +96,20 @@ impl Task<'_> {
             self.note_files(&summary);
         }
         let table = format!("{}\nResults in {}\n", table_of_parts(&parts), folder.path().display());
-        let objections = parts.iter().flat_map(StudyPart::audit_failures).collect();
+        let objections = Objections {
+            failures: parts.iter().flat_map(StudyPart::audit_failures).collect(),
+            advice: parts.iter().flat_map(StudyPart::step_advice).collect(),
+        };
         Ok((Printed { table, summary }, objections))
     }
 
     /// Says what the audit objects to.
-    pub fn note_objections(&self, objections: &[String]) {
-        for objection in objections {
-            note(format_args!("{}audit: {objection}", self.named));
+    pub fn note_objections(&self, objections: &Objections) {
+        for failure in &objections.failures {
+            note(format_args!("{}audit: {failure}", self.named));
         }
-        if objections.iter().any(|objection| objection.contains("over its bound")) {
-            note("a smaller `tolerance`, or with a fixed integrator a shorter `step`, makes drifts and errors smaller");
+        for advice in &objections.advice {
+            note(format_args!("{}{advice}", self.named));
         }
     }
 

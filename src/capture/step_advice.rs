@@ -1,0 +1,82 @@
+//! What would keep the bounds of the audit: shorter steps, or a smaller tolerance.
+//!
+//! The error of steps of length h and order p is C hᵖ, and that of adaptive steps is proportional to their tolerance. From the
+//! error r times its bound follow the step h (s/r)^(1/p) and the tolerance times s/r that leave a share s of the bound. Where
+//! actuators were at their limits, kinks in the torques make the order 1.
+
+use super::{Study, over_bounds};
+use crate::integrate::Adaptive;
+use crate::scenario::Scenario;
+use crate::simulate::stepper::{Integration, Integrator};
+use crate::simulate::{Phase, Saturation};
+
+/// The share of a bound that is aimed at.
+const SHARE: f64 = 0.5;
+
+/// Beyond so many steps of a phase no shorter step is advised where steps can follow from a tolerance.
+const MOST_STEPS: f64 = 1e6;
+
+/// For each table of the scenario with a phase beyond a bound of the audit, how it was integrated and what would do.
+#[must_use]
+pub fn step_advice(scenario: &Scenario, study: &Study) -> Vec<String> {
+    let approaches =
+        std::iter::once(&study.approach).chain(study.cases.iter().filter_map(|case| case.approach.as_ref()));
+    // a momentum that drifts because a target is heavy has a remedy of its own
+    let captured = study.cases.iter().filter_map(|case| case.capture.as_ref());
+    let afterwards = captured.filter(|capture| capture.heavy_target.is_none()).map(|capture| &capture.post_impact);
+    let before = advice(
+        "approach",
+        [scenario.approach.duration, scenario.approach.step],
+        scenario.approach.integration,
+        approaches,
+    );
+    let after = scenario.post_impact.as_ref();
+    let after =
+        after.and_then(|after| advice("post_impact", [after.duration, after.step], after.integration, afterwards));
+    before.into_iter().chain(after).collect()
+}
+
+fn advice<'p>(
+    table: &str,
+    [duration, step]: [f64; 2],
+    Integration { integrator, .. }: Integration,
+    phases: impl Iterator<Item = &'p Phase> + Clone,
+) -> Option<String> {
+    let ratios = phases.clone().flat_map(over_bounds).map(|(_, value, bound)| value / bound);
+    let worst = ratios.reduce(f64::max).filter(|ratio| ratio.is_finite())?;
+    let name = integrator.properties().name;
+    if let Integrator::Adaptive { tolerance } = integrator {
+        let wanted = rounded_down(tolerance * SHARE / worst);
+        let remedy = if wanted >= Adaptive::SMALLEST_TOLERANCE {
+            format!("`tolerance = {wanted:e}` would probably do")
+        } else {
+            format!("even the smallest, {:e}, would not do", Adaptive::SMALLEST_TOLERANCE)
+        };
+        return Some(format!("[{table}] is integrated by `{name}` with a tolerance of {tolerance:e}: {remedy}"));
+    }
+    let is_limited = phases.clone().any(|phase| {
+        let Saturation { joints, base } = &phase.saturation;
+        *base > 0.0 || joints.iter().any(|time| *time > 0.0)
+    });
+    let order = if is_limited { 1 } else { integrator.properties().order? };
+    let wanted = rounded_down(step * libm::pow(SHARE / worst, 1.0 / f64::from(order)));
+    let remedy = if is_limited {
+        format!("`step = {wanted}` would probably do")
+    } else if duration / wanted > MOST_STEPS {
+        "`integrator = \"adaptive\"` would do".to_owned()
+    } else {
+        format!("`step = {wanted}` would probably do, or `integrator = \"adaptive\"`")
+    };
+    Some(format!("[{table}] is integrated by `{name}` with steps of {step} s: {remedy}"))
+}
+
+/// A number with its first digit alone.
+fn rounded_down(value: f64) -> f64 {
+    let text = format!("{value:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let first = digits.get(..1).unwrap_or(digits);
+    format!("{first}e{exponent}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests;
