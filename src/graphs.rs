@@ -98,7 +98,7 @@ pub struct FoundGraph {
 /// # Errors
 /// [`NoGraph`].
 pub fn find(layout: &Layout) -> Result<FoundGraph, NoGraph> {
-    if let Some(found) = cached(layout)? {
+    if let Some(found) = derived(layout)? {
         return Ok(found);
     }
     let fits = |carried: &&Carried| parameters(&carried.structure(), layout).is_ok();
@@ -132,7 +132,11 @@ impl Carried {
     }
 }
 
-fn cached(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
+/// The graph of a layout's structure that was derived into the user's cache folder; `None` where there is none.
+///
+/// # Errors
+/// [`NoGraph::Unusable`] for a file that is not as it was derived and proved.
+pub fn derived(layout: &Layout) -> Result<Option<FoundGraph>, NoGraph> {
     // without a cache folder there is nothing in it
     let Ok(path) = cache_path(layout) else { return Ok(None) };
     let unusable = |problem| NoGraph::Unusable { path: path.clone(), problem };

@@ -5,7 +5,7 @@ use super::terminal::print;
 use super::{CommandError, derive, file_error, layout};
 use crate::build::quoted;
 use crate::generate::complete;
-use crate::graphs::of_shipped;
+use crate::graphs::{cache_path, derived, keep, of_shipped};
 use crate::layout::Layout;
 use crate::output::result_folder::ResultFolder;
 use crate::own_crate::{Dependency, OwnCrate, check_name, has_sources, renamed};
@@ -23,7 +23,7 @@ Examples:
 /// Write a crate with a robot of your own.
 ///
 /// It has the robot's compiled code, this whole command line, a first scenario and a test. It builds without Python and without this program. A graph is copied from a shipped robot of the same arms, links and
-/// exact zeros; for any other structure it is derived, as by `generate`.
+/// exact zeros, or is the one that you have derived; for any other structure it is derived now, and kept as by `derive`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -89,12 +89,19 @@ pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, Comman
     Ok(ExitCode::SUCCESS)
 }
 
-/// The graph of a layout, which is in `file`: that of a shipped layout of its structure, else derived.
+/// The graph of a layout, which is in `file`: that of a shipped layout of its structure, else the one in the user's cache folder,
+/// else one that is derived and kept there.
 fn graph(layout: &Layout, file: &str) -> Result<String, CommandError> {
     let Some((shipped, text)) = of_shipped(layout) else {
+        // one that cannot be used is derived again
+        if let Ok(Some(found)) = derived(layout) {
+            return Ok(found.text.into_owned());
+        }
+        let path = cache_path(layout).map_err(file_error(file))?;
         let progress = spinner("starting Python");
         let proved = derive::proved(layout, &[], file, &progress)?;
         progress.finish_and_clear();
+        keep(&path, &proved.text)?;
         return Ok(proved.text);
     };
     let twin = Layout { name: layout.name.clone(), ..shipped.clone() };

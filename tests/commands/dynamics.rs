@@ -149,4 +149,17 @@ fn a_derived_graph_serves_its_structure() {
     assert_eq!(derive().0, 0);
     let [again, its_hash] = [&graph, &hash].map(|file| fs::read_to_string(file).expect("a file"));
     assert_eq!((again, its_hash), (whole, proved), "derived again");
+    // a crate of one's own takes it, for other numbers too, without Python
+    fs::write(&layout, text.replace("mass = 50.0", "mass = 70.0")).expect("written");
+    let crate_folder = folder.path().join("mine");
+    let mut new = command();
+    new.env("PLANAR_CAPTURE_HOME", folder.path())
+        .env("PATH", "")
+        .arg("new")
+        .arg(&crate_folder)
+        .arg("--layout")
+        .arg(&layout);
+    let (code, _, err) = said(new.output().expect("it runs"));
+    assert_eq!((code, err.as_str()), (0, ""));
+    planar_capture::build::render_to(crate_folder.join("layouts"), folder.path()).expect("it is rendered");
 }

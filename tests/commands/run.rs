@@ -353,7 +353,7 @@ fn the_audit_decides_the_exit_code() {
     assert_eq!(code, 1, "{out}{err}");
     assert!(
         err.contains("audit: approach: momentum drift")
-            && err.contains("[approach] is integrated by `rk4` with steps of 0.05 s: `step = 0.00"),
+            && err.contains("[approach] is integrated by `rk4` with steps of 0.05 s: `step = 0.01`"),
         "{err}"
     );
     assert!(folder.path().join("results/summary.json").exists(), "the numbers are there to be looked at");

@@ -82,7 +82,7 @@ pub enum InverseKinematicsError {
          m per m of reach; all residuals: {}), with smallest/largest singular value {singularity_margin:.1e} of the \
          generalized Jacobian. {}",
         shortened(history),
-        hint(history)
+        hint(*residual, history)
     )]
     NotConverged {
         /// How many were tracked.
@@ -99,9 +99,15 @@ pub enum InverseKinematicsError {
     Rates(#[from] TerminalRatesError),
 }
 
+/// Residuals up to this are no matter of reach.
+const NEARLY_REACHED: f64 = 1e-6;
+
 /// What may help an iteration that did not converge.
-fn hint(history: &[f64]) -> &'static str {
-    if history.last().is_some_and(|last| last.is_finite()) {
+fn hint(residual: f64, history: &[f64]) -> &'static str {
+    if residual <= NEARLY_REACHED {
+        "They are nearly reached, but pose and final rates do not settle together: give final_joint_rates in place of \
+         final_end_effector_twists, or final_joint_angles near the wanted pose to start from"
+    } else if history.last().is_some_and(|last| last.is_finite()) {
         "They may be out of reach; or give final_joint_angles near the wanted pose to start from"
     } else {
         "The iteration diverged: give final_joint_angles near the wanted pose to start from, or a shorter duration, in which the \

@@ -52,6 +52,27 @@ proptest! {
     }
 }
 
+/// What helps depends on how far it came.
+#[test]
+fn advice_is_that_of_the_residual() {
+    let said = |residual, last| {
+        let history = vec![0.1, residual, last];
+        InverseKinematicsError::NotConverged { iterations: 3, residual, history, singularity_margin: 0.1 }.to_string()
+    };
+    for (residual, last, advice) in [
+        (1e-3, 1e-3, "may be out of reach"),
+        (2e-6, 2e-6, "may be out of reach"),
+        (1e-3, f64::NAN, "diverged"),
+        (1e-10, 1e-10, "nearly reached"),
+        (1e-10, f64::NAN, "nearly reached"),
+    ] {
+        let found = said(residual, last);
+        let each = ["may be out of reach", "diverged", "nearly reached"];
+        let given: Vec<_> = each.into_iter().filter(|words| found.contains(words)).collect();
+        assert_eq!(given, [advice], "{found}");
+    }
+}
+
 #[test]
 fn nothing_to_move_is_no_step() {
     let (change, margin) = damped_step(DMatrix::zeros(2, 3), &DVector::from_element(2, 1.0));
