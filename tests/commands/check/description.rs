@@ -75,6 +75,79 @@ fn the_fastest_mode_of_a_computed_torque() {
     }
 }
 
+/// The rate after `fastest mode` in a line of the description.
+fn mode(description: &str, line: &str) -> f64 {
+    let text = in_one_line(description);
+    let (_, rest) = text.split_once(line).unwrap_or_else(|| panic!("no {line} in {text}"));
+    let (_, rest) = rest.split_once("fastest mode ").unwrap_or_else(|| panic!("no mode in {rest}"));
+    let word = rest.trim_start_matches("at most ").split(' ').next().expect("a word");
+    word.parse().unwrap_or_else(|_| panic!("{word} is no number"))
+}
+
+/// Under PD control the fastest mode is that of the pose, first or last, in which the robot is easier to move; after the impact
+/// that of the last one.
+#[test]
+fn the_fastest_mode_is_that_of_the_poses() {
+    let [folded, bent] = ["[0.7, -2.6, 2.5, 0.0, 0.0]", "[0.7, -0.4, 0.3, 0.0, 0.0]"];
+    let of = |from: &str, to: &str| {
+        let text = SCENARIO.replace("[0.7, -1.6, 1.0, 0.0, 0.0]", from).replace("[-0.5, -1.4, -0.1, 0.0, 0.0]", to);
+        let hold = "duration = 50.0\ncontrol = \"hold\"\nproportional_gain = 49.0\nderivative_gain = 14.0";
+        let shown = inspect_text(&text.replace("duration = 50.0", hold)).description;
+        ["tracking ", "control afterwards "].map(|line| mode(&shown, line))
+    };
+    let [[of_folded, _], [of_bent, _]] = [of(folded, folded), of(bent, bent)];
+    assert!((of_folded / of_bent - 1.0).abs() > 0.1, "{of_folded} and {of_bent} 1/s");
+    let larger = of_folded.max(of_bent);
+    for (from, to, after) in [(folded, bent, of_bent), (bent, folded, of_folded)] {
+        let found = of(from, to);
+        assert!((found[0] - larger).abs() < 1e-9 && (found[1] - after).abs() < 1e-9, "{found:?}: {larger}, {after}");
+    }
+}
+
+/// The laws are described with their own numbers, each with its unit.
+#[test]
+fn the_description_has_the_numbers_of_the_laws() {
+    let after = |keys: &str| SCENARIO.replace("duration = 50.0", &format!("duration = 50.0\n{keys}"));
+    let before = |keys: &str| SCENARIO.replace("[approach]", &format!("[approach]\n{keys}"));
+    let end = "final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]\nfinal_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]";
+    let goals = "tracking = \"resolved_motion_rate\"\npose_gain = 2.0\nrate_gain = 5.0\n\
+                 final_end_effector_poses = [[1.8, -1.0], [], []]";
+    let steered = SCENARIO.replace("\"quartic\"", "\"quintic\"").replace(end, goals);
+    for (text, expected) in [
+        (after("control = \"hold\"\nproportional_gain = 3.0\nderivative_gain = 2.0"), "hold, 3 N m/rad, 2 N m s/rad"),
+        (after("control = \"damping\"\nderivative_gain = [1, 2, 3, 4, 5]"), "damping, [1, 2, 3, 4, 5] N m s/rad"),
+        (
+            after("control = \"stabilise\"\nderivative_gain = 0.5\nbase_gain = 3.0\nbase_torque_limit = 7.0"),
+            "joints 0.5 1/s, base 3 1/s; base torque of at most 7 N m; fastest mode at most 3 1/s",
+        ),
+        (steered, "resolved motion rate, poses 2 1/s, rates 5 1/s"),
+        (
+            before("sample_time = 0.02\ntorque_limits = [1, 2, 3, 4, 5]"),
+            "; at most [1, 2, 3, 4, 5] N m; sampled every 4 steps, and held",
+        ),
+        (
+            before("trajectory_duration = 20.0"),
+            "trajectory quartic, to joint rates [0.01, 0, 0, 0, 0] rad/s largest turn",
+        ),
+    ] {
+        let shown = in_one_line(&inspect_text(&text).description);
+        assert!(shown.contains(expected), "no `{expected}` in\n{shown}");
+    }
+}
+
+/// A robot whose joints turn is not at rest, and arms without a task have no final pose.
+#[test]
+fn the_description_says_what_moves() {
+    let turning = SCENARIO.replace("[approach]", "joint_rates = [0.0, 0.0, 0.0, 0.1, 0.0]\n[approach]");
+    let shown = inspect_text(&turning).description;
+    assert!(!shown.contains("at rest") && shown.contains("momentum [l, px, py]"), "{shown}");
+    let (_, out, _) = check(&["redysim_single_arm_3r.toml"], &file("scenarios"));
+    assert!(out.contains("start               at rest") && !out.contains("final pose"), "{out}");
+    // one kind for all contacts of a target, or each
+    let (_, out, _) = check(&["large_target.toml"], &file("scenarios"));
+    assert!(in_one_line(&out).contains("rigid and pin") || in_one_line(&out).contains("pin and rigid"), "{out}");
+}
+
 #[test]
 fn description_of_a_sweep() {
     let (code, out, err) = check(&["uncertain_capture.toml"], &file("scenarios/sweeps"));

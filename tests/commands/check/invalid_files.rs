@@ -171,6 +171,9 @@ fn the_kind_is_seen_in_broken_files_too() {
     assert!(shown.contains("did you mean `base`?") && shown.contains("missing key `arm`"), "{shown}");
     let shown = wrong(&format!("{SCENARIO}[base]\nmass = 1\n"));
     assert!(shown.contains("unknown key `base`"), "{shown}");
+    // of two kinds that have as many keys in it the first, which is a layout
+    let shown = wrong("[base]\nmass = 1\ninertia = 1\n[approach]\n");
+    assert!(shown.contains("a layout has the tables `[base]` and `[[arm]]`"), "{shown}");
 }
 
 /// Numbers at the ends of what 64 bits hold, and any cut: described or refused, never a panic.

@@ -1,9 +1,10 @@
 //! `check`: every warning once, and none for valid files.
 
 use super::{LAYOUT, SCENARIO, inspect_text};
-use planar_capture::capture::StudyError;
+use planar_capture::capture::{Silent, StudyError, study};
 use planar_capture::check::{CheckReport, inspect};
-use planar_capture::registry::SHIPPED;
+use planar_capture::registry::{SHIPPED, generic};
+use planar_capture::scenario::Scenario;
 use planar_proof::file;
 use std::fs;
 use std::path::Path;
@@ -27,6 +28,15 @@ const LAYOUT_EDITS: &[Edit] = &[
         27,
         &["more than 10 kg m²", "x · (length − x)", "rod has mass · length² / 12 = 3.333"],
     ),
+    (
+        "inertia = 1.0\ncom = [0.5, 0.1]",
+        "inertia = 3.6\ncom = [0.5, 0.1]",
+        15,
+        &["more than 2.6 kg m²", "if this one is about the joint, it is 1 about the COM"],
+    ),
+    // about the joint it would be 36.1 kg m² more, which leaves less than nothing about the COM
+    ("inertia = 3.0", "inertia = 3.0\ncom = [1.9, 0.0]", 27, &["more than 1.9 kg m²", "a uniform rod has"]),
+    ("inertia = 3.0", "inertia = 3.0\ncom = [2.0, 0.0]", 27, &["more than 0 kg m²", "com = [1, 0] is mid-link"]),
     ("com = [0.5, 0.1]", "com = [0.05, 0.1]", 15, &["`arm[0].link[1].inertia` is 1.0", "0.575 kg m²", "+ y²"]),
     (
         "com = [0.5, 0.1]",
@@ -43,6 +53,7 @@ const LAYOUT_EDITS: &[Edit] = &[
         &["`arm[1].link[0].inertia` is 3e-4", "0.005477 m", "2 m", "point mass", "3.333"],
     ),
     ("inertia = 0.5", "inertia = 0.5\ncom = [0.1, 0.0]", 35, &["`arm[2].link[0].com` is [0.1, 0.0]", "axle", "[0, 0]"]),
+    ("inertia = 0.5", "inertia = 0.5\ncom = [0.0, 0.1]", 35, &["`arm[2].link[0].com` is [0.0, 0.1]", "axle"]),
     // the base
     ("mass = 500.0\ninertia = 80.0", "mass = 30\ninertia = 8", 3, &["`base.mass` is 30", "arms together", "39 kg"]),
     ("inertia = 80.0", "inertia = 8e7", 4, &["`base.inertia` is 8e7", "400 m", "kg m²", "83.33"]),
@@ -62,6 +73,7 @@ const LAYOUT_EDITS: &[Edit] = &[
         23,
         &["`arm[1].mount` is [-50, 0.0]", "50 m from the base COM", "125 times", "0.4 m"],
     ),
+    ("[-0.5, 0.0]", "[0.0, -50]", 23, &["`arm[1].mount` is [0.0, -50]", "50 m from the base COM"]),
     ("[-0.5, 0.0]", "[0.5, 0.0]", 23, &["`arm[1].mount` is [0.5, 0.0]", "`arm[0]` is mounted there too"]),
     ("length = 1.0", "length = 0.0\ncom = [0, 0]", 9, &["`arm[0].link[0].length` is 0.0", "two joints", "one place"]),
 ];
@@ -135,6 +147,13 @@ const SCENARIO_EDITS: &[Edit] = &[
         7,
         &["`approach.step` is 0.5", "fastest joint motion", "or less"],
     ),
+    // torques are held for longer than the step, which is too long already
+    (
+        "duration = 20.0",
+        "duration = 20.0\nstep = 0.5\nsample_time = 1.0\nintegrator = \"rk4\"",
+        7,
+        &["`approach.step` is 0.5", "fastest joint motion"],
+    ),
     (
         "duration = 20.0",
         "duration = 20.0\nderivative_gain = 5e4\nintegrator = \"rk4\"",
@@ -185,6 +204,7 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("[1.5, -2.0]", "[3.0, -2.5]", 18, &["`target[0].position` is [3.0, -2.5]", "no pose", "further out than"]),
     // names
     ("\"study\"", "\"-study\"", 1, &["`name` is \"-study\"", "option"]),
+    ("\"spin\"", "\"-spin\"", 20, &["`case[0].name` is \"-spin\"", "option"]),
     // pairs that are not compared anyway
     (
         "[post_impact]",
@@ -230,13 +250,16 @@ fn layouts_with_warnings() {
 #[test]
 fn scenarios_with_warnings() {
     assert_warnings(SCENARIO, SCENARIO_EDITS);
-    let twists = "end_effector_twists = [[0, -100, 0], [7, 0, 0]]";
     let paper = fs::read_to_string(file("scenarios/raina_shah_2017.toml")).expect("a scenario");
-    let paper = paper.replace("end_effector_twists = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]", twists);
-    let shown = inspect(&paper, "it.toml", Path::new(""), SHIPPED).expect("a scenario").warnings;
-    assert_eq!(shown.count(), 2, "{shown}");
-    for expected in ["twists[0]` is [0, -100, 0]: faster than arm1", "twists[1]` is [7, 0, 0]: faster than arm2"] {
-        assert!(shown.to_string().contains(expected), "{shown}");
+    for turn in ["7", "-7"] {
+        let twists = format!("end_effector_twists = [[0, -100, 0], [{turn}, 0, 0]]");
+        let fast = paper.replace("end_effector_twists = [[0.0, -0.1, 0.0], [0.0, 0.1, 0.0]]", &twists);
+        let shown = inspect(&fast, "it.toml", Path::new(""), SHIPPED).expect("a scenario").warnings;
+        assert_eq!(shown.count(), 2, "{shown}");
+        let of_turn = format!("twists[1]` is [{turn}, 0, 0]: faster than arm2");
+        for expected in ["twists[0]` is [0, -100, 0]: faster than arm1", &of_turn] {
+            assert!(shown.to_string().contains(expected), "{shown}");
+        }
     }
 }
 
@@ -262,6 +285,16 @@ fn end_effector_poses_out_of_reach() {
     assert_eq!(inspect_text(&adaptive).warnings.to_string(), "", "its steps are as short as the motion needs");
     let fast = adaptive.replace("tracking", "integrator = \"rk4\"\ntracking");
     one_warning(&fast, 5, &["`approach.step` is left at its default", "within 0.003333 s"]);
+    one_warning(&fast.replace("rate_gain", "pose_gain"), 5, &["`approach.step` is left", "within 0.003333 s"]);
+}
+
+/// Of two arms the one that has the far goal is named.
+#[test]
+fn the_arm_whose_goal_is_out_of_reach_is_named() {
+    let text = "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = [0.698, -1.571, 1.047, 2.444, 1.571, -1.047]\n\
+                [approach]\nduration = 20.0\ntracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[], [-9.0, 0.0]]\n";
+    let shown = inspect(text, "it.toml", Path::new(""), SHIPPED).expect("a scenario").warnings.to_string();
+    assert!(shown.contains("`approach.final_end_effector_poses[1]`") && shown.contains("no pose of arm2"), "{shown}");
 }
 
 /// The bound on the modes after the impact: a captured target increases the inertia against joint rates.
@@ -440,6 +473,86 @@ fn constraints_that_no_motion_satisfies_are_those_of_the_case_with_most() {
     }
 }
 
+/// A contact point is given in inertial axes, in which the target has its yaw.
+#[test]
+fn contact_points_are_on_the_outline_as_it_is_turned() {
+    let (half, across, yaw) = (0.5_f64, 0.1_f64, 0.5_f64);
+    let held = |yaw: f64, [x, y]: [f64; 2]| {
+        let ([sine, cosine], bar) = ([yaw.sin(), yaw.cos()], "[[-0.5, -0.2], [0.5, -0.2], [0.5, 0.2], [-0.5, 0.2]]");
+        let point = [cosine * x - sine * y, sine * x + cosine * y];
+        let text = SCENARIO.replace(
+            "contact = [0.0, 0.5]\nradius = 0.5",
+            &format!("contact = {point:?}\npolygon = {bar}\nyaw = {yaw:?}"),
+        );
+        text.replace("[1.5, -2.0]", "[1.2, -1.8]")
+    };
+    for yaw in [0.0, yaw, -yaw] {
+        assert_eq!(inspect_text(&held(yaw, [half, across])).warnings.to_string(), "", "{yaw}");
+        one_warning(&held(yaw, [half + 0.1, across]), 15, &["`target[0].contact`", "0.1 m outside the outline"]);
+        one_warning(&held(yaw, [half - 0.1, across]), 15, &["`target[0].contact`", "0.1 m inside the outline"]);
+    }
+}
+
+/// The torques that a planned motion takes are those of exact tracking, each of its own joint and the largest of either sign.
+#[test]
+fn torques_of_the_planned_motion_are_those_of_exact_tracking() {
+    let layout = [("robot", LAYOUT)];
+    let ends = ["[0.7, -1.6, 1.0, 0.0, 0.0]", "[-0.5, -1.4, -0.1, 0.0, 0.0]"];
+    let there = SCENARIO.to_owned();
+    let back = there.replace(ends[0], "START").replace(ends[1], ends[0]).replace("START", ends[1]);
+    let mut largest_of_both_signs = [false; 2];
+    for text in [there, back] {
+        let exact = text.replace("[approach]", "[approach]\ntracking = \"exact\"");
+        let exact =
+            Scenario::parse(&exact, "it.toml", Path::new(""), &layout).unwrap_or_else(|report| panic!("{report}"));
+        let study = study(&exact, &|| generic(&exact.layout), 0.02, &mut Silent).expect("a study");
+        let limited = "[approach]\ntracking = \"computed_torque\"\ntorque_limits = 0.01";
+        let shown = inspect_text(&text.replace("[approach]", limited)).warnings.to_string();
+        for joint in 0..exact.layout.joints() {
+            let torques = study.approach.samples.iter().map(|sample| sample.joint_torques[joint]);
+            let (least, most) = torques.fold((0.0_f64, 0.0_f64), |(least, most), x| (least.min(x), most.max(x)));
+            let peak = most.max(-least);
+            let before =
+                shown.split_once(&format!(" N m of {}", exact.layout.joint_name(joint))).map(|(before, _)| before);
+            assert_eq!(peak > 0.01, before.is_some(), "{peak} N m of joint {joint}\n{shown}");
+            if let Some(before) = before {
+                let found: f64 = before.rsplit(' ').next().and_then(|text| text.parse().ok()).expect("a torque");
+                assert!((found / peak - 1.0).abs() < 0.02, "joint {joint}: {found} N m for {peak} N m");
+                largest_of_both_signs[0] |= most > 1.05 * -least;
+                largest_of_both_signs[1] |= -least > 1.05 * most;
+            }
+        }
+    }
+    assert_eq!(largest_of_both_signs, [true; 2]);
+}
+
+/// Two cases that hold a target each: the loop of one of them is not hidden by the other, which has fewer constraints.
+#[test]
+fn constraints_are_those_of_the_target_itself() {
+    let arm = |name: &str, x: f64| {
+        format!(
+            "[[arm]]\nname = \"{name}\"\nmount = [{x}, 0.0]\n[[arm.link]]\nlength = 1.0\nmass = 8.0\ninertia = 0.7\n"
+        )
+    };
+    let arms = arm("a", 0.5) + &arm("b", -0.5) + &arm("c", 0.0).replace("[0, 0.0]", "[0.0, 0.6]");
+    let layout = format!("name = \"three\"\n[base]\nmass = 300.0\ninertia = 50.0\n{arms}");
+    let scenario = |kinds: &str| {
+        format!(
+            "name = \"it\"\nlayout = \"three\"\n[initial]\njoint_angles = [1.2, 1.9, 1.5]\n[approach]\nduration = 5.0\n\
+             trajectory = \"cycloidal\"\ntracking = \"exact\"\nfinal_joint_angles = [1.3, 1.8, 1.5]\n[[target]]\nname = \"s\"\n\
+             arm = \"c\"\ncontact = [0.0, -0.5]\nmass = 10.0\ninertia = 1.0\nradius = 0.5\n[[target]]\nname = \"t\"\n\
+             arm = [\"a\", \"b\"]\nkind = {kinds}\ncontact = [[0.5, -0.5], [-0.5, -0.5]]\nmass = 10.0\ninertia = 3.0\n\
+             polygon = [[-0.6, -0.5], [0.6, -0.5], [0.6, 0.5], [-0.6, 0.5]]\n[post_impact]\nduration = 1.0\n"
+        )
+    };
+    // two joints and the target's three freedoms are as many as a rigid contact and a pin take
+    for (kinds, warned) in [("[\"rigid\", \"rigid\"]", true), ("[\"rigid\", \"pin\"]", false)] {
+        let shown = inspect(&scenario(kinds), "it.toml", Path::new(""), &[("three", &*layout)]);
+        let shown = shown.unwrap_or_else(|report| panic!("{report}")).warnings.to_string();
+        assert_eq!(shown.contains("constraints hold it"), warned, "{kinds}: {shown}");
+    }
+}
+
 /// A warning is about a number beyond its bound: the bound itself has none.
 #[test]
 fn numbers_at_their_bounds_have_no_warnings() {
@@ -456,6 +569,8 @@ fn numbers_at_their_bounds_have_no_warnings() {
         ("inertia = 0.5", "inertia = 8e-8"),
         // ten times the base's radius of gyration, √(80 / 500) m = 0.4 m
         ("[-0.5, 0.0]", "[-4.0, 0.0]"),
+        // above the other arm
+        ("[-0.5, 0.0]", "[0.5, 0.3]"),
     ] {
         let text = LAYOUT.replace(from, to);
         assert_ne!(text, LAYOUT, "{from}");
@@ -472,8 +587,17 @@ fn numbers_at_their_bounds_have_no_warnings() {
         // a whole turn, to an end at 0
         ("0.0, 0.0]\n[approach]", "0.0, 6.283185307179586]\n[approach]"),
         ("rates = [0.01", "rates = [6.283185307179586"),
-        // 3.3 rad/s of an arm that reaches 3 m from the base
-        ("final_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]", "final_end_effector_twists = [[0.0, 0.0, 10.0], [], []]"),
+        // 6 rad/s of an arm that reaches 3 m from the base, and less from its mount
+        ("final_joint_rates = [0.01, 0.0, 0.0, 0.0, 0.0]", "final_end_effector_twists = [[0.0, 0.0, 18.0], [], []]"),
+        // one joint without stiffness among others
+        ("[approach]", "[approach]\nproportional_gain = [0.0, 49.0, 49.0, 49.0, 49.0]"),
+        // to the angles that it has, with rates
+        ("final_joint_angles = [-0.5, -1.4, -0.1, 0.0, 0.0]", "final_joint_angles = [0.7, -1.6, 1.0, 0.0, 0.0]"),
+        // a bar of 1 m × 0.4 m that is held at the middle of a long side: its inertia is that of its size
+        (
+            "contact = [0.0, 0.5]\nradius = 0.5",
+            "contact = [0.0, 0.2]\npolygon = [[-0.5, -0.2], [0.5, -0.2], [0.5, 0.2], [-0.5, 0.2]]",
+        ),
         // half a time of the fastest mode in a step of 0.005 s
         ("[approach]", "[approach]\ntracking = \"computed_torque\"\nderivative_gain = 100.0\nintegrator = \"rk4\""),
     ] {
