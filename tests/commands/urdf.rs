@@ -6,7 +6,7 @@ use crate::said;
 use planar_capture::diagnostic::is_hidden;
 use planar_capture::layout::{Arm, Base, Layout, Link};
 use planar_capture::registry;
-use planar_capture::urdf::{ImportOptions, ImportedLayout, export, import};
+use planar_capture::urdf::{HeldJoint, ImportOptions, ImportedJoint, ImportedLayout, export, import};
 use planar_proof::{assert_close, file, sample, tolerance};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -101,6 +101,11 @@ fn an_arm_in_the_plane_is_taken_as_it_is() {
     let base = Base { mass: 100.0, inertia: 20.0, outline: None };
     assert_eq!(import.layout, Layout { name: "bot".to_owned(), base, arms: vec![arm] });
     assert_angles(&import, &[[1.0, 0.0]; 2]);
+    let header = import.to_toml("robot.urdf");
+    for line in ["normal [0.0, 0.0, 1.0], x axis [1.0, 0.0, 0.0].", "arm `shoulder`, tip = `tip`"] {
+        assert!(header.lines().any(|found| found.starts_with('#') && found.ends_with(line)), "no `{line}` in {header}");
+    }
+    assert!(import.joints.iter().all(ImportedJoint::is_same_angle));
     assert_eq!((import.end_effectors, import.remarks), (vec![Some("tip".to_owned())], vec![]));
 }
 
@@ -179,6 +184,7 @@ fn an_axis_the_other_way_changes_the_sign_of_its_joint_alone() {
     assert_angles(&import, &[[1.0, 0.0], [-1.0, 0.0]]);
     assert_eq!(import.layout, imported(&robot(&arm())).layout);
     assert_eq!(import.joints[1].to_string(), "arm `shoulder`, joint 2 = -`elbow`");
+    assert_eq!(import.joints.iter().map(ImportedJoint::is_same_angle).collect::<Vec<_>>(), [true, false]);
 }
 
 /// The frame of the lower arm is rotated; the layout has an offset of the joint's zero instead.
@@ -188,6 +194,7 @@ fn rotated_frames_are_offsets_and_mount_angles() {
     let import = imported(&changed(from, "<child link=\"lower\"/><origin xyz=\"1 0 0\" rpy=\"0 0 0.5\"/>"));
     assert_angles(&import, &[[1.0, 0.0], [1.0, 0.5]]);
     assert_eq!(import.joints[1].to_string(), "arm `shoulder`, joint 2 = `elbow` + 0.5 rad");
+    assert!(!import.joints[1].is_same_angle());
     let import =
         imported(&changed("<origin xyz=\"0.5 0 0\"/><axis", "<origin xyz=\"0.5 0 0\" rpy=\"0 0 -2.5\"/><axis"));
     assert_close("mount angle", &[import.layout.arms[0].mount_angle], &[-2.5], tolerance::URDF);
@@ -276,6 +283,10 @@ fn what_would_leave_the_plane_is_named_with_its_numbers() {
     let skewed = imported(&changed(from, &from.replace("ixz=\"0\"", "ixz=\"0.75\"")));
     let text = remarks(&skewed);
     assert!(text.contains("products of inertia") && text.contains("`base` [0.75, 0.0] kg m²"), "{text}");
+    let from = "izz=\"20\" ixy=\"0\" ixz=\"0\" iyz=\"0\"";
+    let skewed = imported(&changed(from, &from.replace("iyz=\"0\"", "iyz=\"0.75\"")));
+    assert!(remarks(&skewed).contains("`base` [0.0, 0.75] kg m²"), "{}", remarks(&skewed));
+    let from = "<mass value=\"100\"/><inertia ixx=\"20\" iyy=\"20\" izz=\"20\" ixy=\"0\" ixz=\"0\"";
     // 7.5e-10 of the moment of inertia, 20 kg m², is rounding
     assert_eq!(remarks(&imported(&changed(from, &from.replace("ixz=\"0\"", "ixz=\"1.5e-8\"")))), "");
     let nearly =
@@ -300,6 +311,78 @@ fn inertias_are_turned_with_their_origin() {
     let expected: f64 = row.iter().zip(moments).map(|(part, moment)| part * part * moment).sum();
     assert!((expected - 0.302_339).abs() < 1e-6, "{expected}");
     assert_links(&imported(&turned), 0, &[[1.0, 10.0, expected, 0.5, 0.0], [1.0, 10.0, 1.0, 0.5, 0.0]]);
+}
+
+/// With products of inertia the moment about the normal is r I rᵀ, r the last row of the rotation; a quaternion of the same
+/// rotation gives the same.
+#[test]
+fn products_of_inertia_are_turned_with_their_origin() {
+    let [roll, pitch, yaw] = [0.5_f64, 0.4, 0.3];
+    let ([xx, yy, zz], [xy, xz, yz]) = ([0.3, 0.32, 0.35], [0.04, -0.03, 0.02]);
+    let plain = link("upper", 10.0, "0.5 0 0", [xx, yy, zz]);
+    let products = plain.replace("ixy=\"0\" ixz=\"0\" iyz=\"0\"", &format!("ixy=\"{xy}\" ixz=\"{xz}\" iyz=\"{yz}\""));
+    assert_ne!(plain, products);
+    let row = [-pitch.sin(), pitch.cos() * roll.sin(), pitch.cos() * roll.cos()];
+    let [x, y, z] = row;
+    let of_products = 2.0 * (x * y * xy + x * z * xz + y * z * yz);
+    let expected = x * x * xx + y * y * yy + z * z * zz + of_products;
+    assert!(of_products.abs() > 0.01, "{of_products}");
+    // the product of half turns about z, y and x
+    let [[sr, cr], [sp, cp], [sy, cy]] = [roll, pitch, yaw].map(|angle| [(0.5 * angle).sin(), (0.5 * angle).cos()]);
+    let quaternion = [
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    ];
+    let quaternion = quaternion.map(|part| format!("{part:?}")).join(" ");
+    for (version, rotation) in
+        [("1.0", format!("rpy=\"{roll} {pitch} {yaw}\"")), ("1.1", format!("quat_xyzw=\"{quaternion}\""))]
+    {
+        let turned = products.replace("<origin xyz=\"0.5 0 0\"/>", &format!("<origin xyz=\"0.5 0 0\" {rotation}/>"));
+        let text = changed(&link("upper", 10.0, "0.5 0 0", [1.0; 3]), &turned);
+        let import =
+            imported(&text.replace("<robot name=\"bot\">", &format!("<robot name=\"bot\" version=\"{version}\">")));
+        assert_links(&import, 0, &[[1.0, 10.0, expected, 0.5, 0.0], [1.0, 10.0, 1.0, 0.5, 0.0]]);
+    }
+}
+
+/// A rotor that is given by its inertia alone adds that to the link which it is fixed to, wherever it sits.
+#[test]
+fn an_inertia_without_a_mass_is_added() {
+    let rotor = joint("fixed", "bearing", ["upper", "rotor"], "xyz=\"0.2 0.1 0\"", "")
+        + &link("rotor", 0.0, "0 0 0", [0.25; 3]);
+    let import = imported(&robot(&(arm() + &rotor)));
+    assert_links(&import, 0, &[[1.0, 10.0, 1.25, 0.5, 0.0], [1.0, 10.0, 1.0, 0.5, 0.0]]);
+}
+
+/// Rounding of a rotated frame leaves no part of a mount: an exact zero selects generated code.
+#[test]
+fn a_mount_on_a_turned_frame_has_exact_zeros() {
+    let turned = joint("fixed", "bolts", ["base", "bracket"], &format!("xyz=\"0 0 0\" rpy=\"0 0 {FRAC_PI_2:?}\""), "");
+    let text = changed("<parent link=\"base\"/>", "<parent link=\"bracket\"/>");
+    let import = imported(&text.replace("</robot>", &(turned + "<link name=\"bracket\"/></robot>")));
+    assert_eq!(import.layout.arms[0].mount.map(f64::to_bits), [0.0, 0.5_f64].map(f64::to_bits));
+    // 25 kg at 1.5 m move the centre of mass of 125 kg by 0.3 m, up to the mount but for its last digit
+    let ballast =
+        joint("fixed", "bolts", ["base", "ballast"], "xyz=\"1.5 0 0\"", "") + &link("ballast", 25.0, "0 0 0", [1.0; 3]);
+    let text = changed("<origin xyz=\"0.5 0 0\"/><axis", "<origin xyz=\"0.30000000000000004 0.5 0\"/><axis");
+    let import = imported(&text.replace("</robot>", &(ballast + "</robot>")));
+    assert_eq!(import.layout.arms[0].mount.map(f64::to_bits), [0.0, 0.5_f64].map(f64::to_bits));
+}
+
+/// Arms are in the order of their first joints in the file, whatever these are mounted on.
+#[test]
+fn arms_are_in_the_order_of_the_file() {
+    let wheel = [
+        joint("continuous", "wheel", ["box", "disc"], "xyz=\"0 0 0\"", UP),
+        link("disc", 1.0, "0 0 0", [1.0; 3]),
+        joint("fixed", "bolts", ["base", "box"], "xyz=\"0 0 0\"", ""),
+        "<link name=\"box\"/>".to_owned(),
+    ];
+    let names = |text: &str| imported(text).layout.arms.into_iter().map(|arm| arm.name).collect::<Vec<_>>();
+    assert_eq!(names(&robot(&(wheel.concat() + &arm()))), ["wheel", "shoulder"]);
+    assert_eq!(names(&robot(&(arm() + &wheel.concat()))), ["shoulder", "wheel"]);
 }
 
 #[test]
@@ -345,7 +428,50 @@ fn the_world_is_no_base() {
         let import = imported(&robot(&(arm() + "<link name=\"world\"/>" + &world)));
         assert_eq!(import.layout, imported(&robot(&arm())).layout, "{kind}");
         assert_eq!(remarks(&import).contains("floats freely"), kind == "fixed");
+        // a frame between both
+        let world = joint("fixed", "anchor", ["world", "ground"], "xyz=\"7 8 9\"", "")
+            + &joint(kind, "float", ["ground", "base"], "xyz=\"1 2 3\" rpy=\"3 2 1\"", "");
+        let import = imported(&robot(&(arm() + "<link name=\"world\"/><link name=\"ground\"/>" + &world)));
+        assert_eq!(
+            (import.layout, &*import.base),
+            (imported(&robot(&arm())).layout, &["base".to_owned()][..]),
+            "{kind}"
+        );
     }
+}
+
+/// From version 1.2 on one limit of an angle may be without the other; a continuous joint has none, whatever is written.
+#[test]
+fn limits_of_angles_are_those_of_revolute_joints() {
+    let limited = |kind: &str, version: &str, limit: &str| {
+        let text = robot(&arm()).replacen(UP, &format!("{UP}<limit {limit}/>"), 1).replacen("continuous", kind, 1);
+        remarks(&imported(
+            &text.replace("<robot name=\"bot\">", &format!("<robot name=\"bot\" version=\"{version}\">")),
+        ))
+    };
+    let omitted = "limits of joints are omitted: `shoulder`";
+    for (limit, range) in
+        [("lower=\"-1\"", "[-1.0, inf]"), ("upper=\"2\"", "[-inf, 2.0]"), ("lower=\"-1\" upper=\"2\"", "[-1.0, 2.0]")]
+    {
+        let found = limited("revolute", "1.2", limit);
+        assert!(found.contains(&format!("{omitted} angle {range} rad")), "{limit}: {found}");
+        assert_eq!(limited("continuous", "1.2", limit), "", "{limit}");
+    }
+    let found = limited("continuous", "1.0", "lower=\"-1\" upper=\"2\" effort=\"30\" velocity=\"4\"");
+    assert!(found.contains(&format!("{omitted} rate 4.0 rad/s, torque 30.0 N m")), "{found}");
+    // limits of 0, which are those that are not given, do not bound a continuous joint that is held
+    let text = robot(&arm()).replacen(UP, &format!("{UP}<limit effort=\"30\" velocity=\"4\"/>"), 1);
+    let held = vec![HeldJoint { name: "shoulder".to_owned(), position: 0.5 }];
+    let import = import(&text, &ImportOptions { held, ..ImportOptions::default() }).expect("a layout");
+    assert!(remarks(&import).contains("note: joint `shoulder` is fixed at 0.5 rad"), "{}", remarks(&import));
+    assert!(!remarks(&import).contains("outside its limits"), "{}", remarks(&import));
+}
+
+#[test]
+fn friction_alone_is_a_loss() {
+    let text = robot(&arm()).replacen(UP, &format!("{UP}<dynamics friction=\"0.5\"/>"), 1);
+    let expected = "warning: losses of joints are omitted: `shoulder` damping 0.0 N m s/rad, friction 0.5 N m";
+    assert_eq!(remarks(&imported(&text)), expected);
 }
 
 #[test]
@@ -475,6 +601,16 @@ fn refused_bodies() -> Vec<Refused> {
         ),
         ("not finite", changed(lower, &lower.replace("10", "inf")), &["link `lower`", "[inf]"]),
         (
+            "a centre of mass that is not finite",
+            changed(lower, &lower.replace("0.5 0 0", "0.5 inf 0")),
+            &["link `lower`", "its centre of mass is [0.5, inf, 0.0]", "finite numbers"],
+        ),
+        (
+            "a rotation of an inertia that is not finite",
+            changed(lower, &lower.replace("0.5 0 0\"", "0.5 0 0\" rpy=\"0 0 inf\"")),
+            &["link `lower`", "the rpy of its inertia is [0.0, 0.0, inf]"],
+        ),
+        (
             "comma for point",
             changed(lower, &lower.replace("10", "1,5")),
             &["line 7, link `lower`", "`value` of <mass>", "`1,5`"],
@@ -511,6 +647,16 @@ fn refused_trees() -> Vec<Refused> {
             "two parents",
             with(&joint("fixed", "loop", ["base", "lower"], "", "")),
             &["link `lower`", "`elbow`", "`loop`"],
+        ),
+        (
+            "a rotation that is not finite",
+            changed("<origin xyz=\"1 0 0\"/><axis", "<origin xyz=\"1 0 0\" rpy=\"0 0 inf\"/><axis"),
+            &["joint `elbow`", "its origin's rpy is [0.0, 0.0, inf]"],
+        ),
+        (
+            "a place that is not finite",
+            changed("<origin xyz=\"1 0 0\"/><axis", "<origin xyz=\"1 inf 0\"/><axis"),
+            &["joint `elbow`", "its origin is [1.0, inf, 0.0]"],
         ),
         ("a circle", with(&joint("fixed", "loop", ["tip", "base"], "", "")), &["circle"]),
         (

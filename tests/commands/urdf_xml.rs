@@ -111,6 +111,7 @@ fn what_is_no_document_is_refused_with_its_line() {
         (format!("{plain}\n<robot/>"), &["line 6", "second root element"][..]),
         (format!("text\n{plain}"), &["line 1", "text outside"]),
         (format!("<![CDATA[x]]>{plain}"), &["text outside"]),
+        (format!("{plain}&amp;"), &["line 5", "text outside"]),
         (changed("</link>\n<joint", "\n<joint"), &["line 5", "</link>"]),
         (changed("</robot>", "</robot></robot>"), &["line 5", "robot"]),
         (changed("</robot>", ""), &["line 1: `<robot>` is not closed"]),
