@@ -271,6 +271,13 @@ const SCENARIO_EDITS: &[Edit] = &[
         15,
         &["`target[0].contact` is [0.0, 1e8]", "1.000e8 m from the COM", "at most 2.500e6 m"],
     ),
+    ("[0.0, 0.5]", "[-1e8, 0.0]", 15, &["`target[0].contact` is [-1e8, 0.0]", "1.000e8 m from the COM"]),
+    (
+        "[post_impact]",
+        "[clearance]\nignore = [[\"base\", \"arms/left/tip\"]]\n[post_impact]",
+        24,
+        &["`clearance.ignore[0][1]` is \"arms/left/tip\", expected `base`"],
+    ),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = 0", 5, &["`initial.base_twist` is 0", "[ω, vx, vy] in rad/s, m/s, m/s"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [1e60, 0, 0]", 5, &["`initial.base_twist[0]` is 1e60", "1e-100 to 1e9"]),
     ("[0.1, 0.2]", "[0.1, 0.2]\nbase_twist = [0, 0, -3e8]", 5, &["`initial.base_twist[2]` is -3e8", "2.99792458e8"]),
@@ -378,6 +385,7 @@ const SCENARIO_EDITS: &[Edit] = &[
         6,
         &["`limits.joint_angles` is [1, -1]", "low < high"],
     ),
+    ("[approach]", "[limits]\njoint_angles = [0.2, 0.2]\n[approach]", 6, &["is [0.2, 0.2]", "low < high"]),
     ("[approach]", "[limits]\njoint_angles = 3\n[approach]", 6, &["is 3, expected [low, high] in rad, or a list of 2"]),
     ("[approach]", "[limits]\njoint_angles = [[-1, 1]]\n[approach]", 6, &["2 numbers, one per joint", "found 1"]),
     ("[approach]", "[limits]\njoint_angles = [[-1, 1], [2]]\n[approach]", 6, &["angles[1]` is [2]", "[low, high]"]),
@@ -390,6 +398,12 @@ const SCENARIO_EDITS: &[Edit] = &[
         "joint_rates = [0, 1]\n[limits]\njoint_rates = 0.5\n[approach]",
         5,
         &["`initial.joint_rates[1]` is 1: faster than joint 2 of left may turn, 0.5 rad/s"],
+    ),
+    (
+        "[approach]",
+        "joint_rates = [0, -1]\n[limits]\njoint_rates = 0.5\n[approach]",
+        5,
+        &["`initial.joint_rates[1]` is -1: faster than joint 2 of left may turn, 0.5 rad/s"],
     ),
     (
         "[approach]",
@@ -984,6 +998,8 @@ const CONTACT_EDITS: &[Edit] = &[
     (OUTLINE, "[[-1, 0], [1, 0], [0, 0]]", 19, &["encloses nothing", "not all on a line"]),
     (OUTLINE, "[[-1, -1], [1, 1], [1, -1], [-1, 1]]", 19, &["edges 1 and 3", "expected corners in their order"]),
     (OUTLINE, "[[-1, 0], [1, 1], [1]]", 19, &["`target[0].polygon[2]` is [1], expected [x, y] in m"]),
+    // no body of a positive density has its COM on an edge
+    (OUTLINE, "[[0, -1], [2, -1], [2, 1], [0, 1]]", 19, &["the COM", "is outside, expected corners around [0, 0]"]),
     (OUTLINE, "[[0, 0], [2, 0], [2, 1], [0, 1]]", 19, &["the COM", "is outside, expected corners around [0, 0]"]),
     ("restitution = 0.5", "restitution = 1.5", 20, &["`target[0].restitution` is 1.5", "0 (no rebound) to 1"]),
     ("restitution = 0.5", "restitution = -0.5", 20, &["`target[0].restitution` is -0.5", "0 (no rebound) to 1"]),
@@ -1069,6 +1085,73 @@ fn broken_contacts() {
         assert!(count == 1 && shown.contains(&place) && shown.contains(key), "{shown}");
         assert!(shown.contains("no outward normal"), "{shown}");
     }
+}
+
+/// Reduced coordinates are those of a robot alone: every target is a part of a link, from one impact on.
+#[test]
+fn reduced_coordinates_want_targets_that_become_links() {
+    let layout = two_arms();
+    let head = &CONTACTS[..CONTACTS.find("[contact]").unwrap_or(0)];
+    let target = |name: &str, arm: &str, kind: &str| {
+        format!("[[target]]\nname = \"{name}\"\narm = {arm}\nkind = {kind}\nmass = 10.0\ninertia = 1.0\nradius = 0.5\n")
+    };
+    let one = |name: &str, arm: &str, kind: &str| target(name, &format!("\"{arm}\""), &format!("\"{kind}\""));
+    let at_time = |text: String| text.replace("radius", "contact = [0.5, 0.0]\nradius");
+    let detected = |text: String| {
+        "[contact]\ndetection = \"event\"\n".to_owned() + &text.replace("radius", "position = [9.0, 0.0]\nradius")
+    };
+    let both = || one("a", "left", "rigid") + &one("b", "right", "rigid");
+    let of_two_arms = target("a", "[\"left\", \"right\"]", "\"rigid\"")
+        .replace("radius", "contact = [[0.5, 0.0], [-0.5, 0.0]]\nradius");
+    for (targets, is_fine) in [
+        (at_time(one("a", "left", "rigid")), true),
+        (detected(one("a", "left", "rigid")), true),
+        (at_time(both()), true),
+        (detected(both()), false),
+        (at_time(one("a", "left", "pin")), false),
+        (at_time(one("a", "left", "none")), false),
+        (at_time(one("a", "left", "rigid") + &one("b", "right", "pin")), false),
+        (of_two_arms, false),
+    ] {
+        let text = format!("{head}{targets}[post_impact]\nduration = 5.0\ncoordinates = \"reduced\"\n");
+        let report = Scenario::parse(&text, "demo.toml", Path::new(""), &[("two_arms", &layout)]).err();
+        let shown = report.map(|report| report.to_string()).unwrap_or_default();
+        assert_eq!(shown.is_empty(), is_fine, "{targets}{shown}");
+        assert!(is_fine || shown.contains("`post_impact.coordinates` is \"reduced\""), "{shown}");
+    }
+}
+
+/// An arm that may end anywhere has no motion at its end, and in joint space end effectors at rest leave the joints free.
+#[test]
+fn twists_without_poses_and_before_a_rest_are_refused() {
+    let layout = two_arms();
+    let head = &CONTACTS[..CONTACTS.find("[contact]").unwrap_or(0)];
+    let end = "trajectory = \"cycloidal\"\nfinal_joint_angles = [0.5, 0.6, 0.5, 0.6]";
+    assert!(head.contains(end));
+    let report = |keys: &str| {
+        let text = head.replace(end, keys);
+        let report = Scenario::parse(&text, "demo.toml", Path::new(""), &[("two_arms", &layout)]).err();
+        report.map(|report| report.to_string()).unwrap_or_default()
+    };
+    let steered = "tracking = \"resolved_motion_rate\"\nfinal_end_effector_poses = [[1, 1], []]\n";
+    assert_eq!(report(&format!("{steered}final_end_effector_twists = [[1, 1], [0, 0]]")), "");
+    let shown = report(&format!("{steered}final_end_effector_twists = [[1, 1], [0, 1]]"));
+    assert!(
+        shown.contains("`approach.final_end_effector_twists[1]` is [0, 1]: this arm has no pose to reach"),
+        "{shown}"
+    );
+    let joints = "trajectory = \"quintic\"\nfinal_joint_angles = [0.5, 0.6, 0.5, 0.6]\ntrajectory_duration = 10\n";
+    assert_eq!(report(&format!("{joints}final_joint_rates = [0, 0, 0, 0]")), "");
+    let shown = report(&format!("{joints}final_end_effector_twists = [[0, 0, 0], [0, 0]]"));
+    assert!(shown.contains("the arms are to move on") && shown.contains("`final_joint_rates` of zeros"), "{shown}");
+}
+
+/// A step may be as long as its phase, and a trajectory too: then it is that of the phase.
+#[test]
+fn a_phase_may_be_one_step() {
+    let text = SCENARIO.replacen("duration = 20.0", "duration = 20.0\nstep = 20.0\ntrajectory_duration = 20.0", 1);
+    let approach = scenario(&text).unwrap_or_else(|report| panic!("{report}")).approach;
+    assert_eq!((approach.step.to_bits(), approach.trajectory_duration), (20.0_f64.to_bits(), None));
 }
 
 /// Smooth motion is integrated adaptively; torques that are held or limited give it kinks.
