@@ -300,11 +300,12 @@ impl List {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_captured, outputs};
+    use super::{OutputGroup, is_captured, outputs};
     use crate::capture::{LaterImpact, Silent, study};
     use crate::registry;
+    use crate::scenario::Scenario;
     use crate::scenario::fixture::two_discs;
-    use planar_proof::layout;
+    use planar_proof::{file, layout};
 
     #[test]
     fn one_of_two_targets_is_no_capture() {
@@ -320,6 +321,23 @@ mod tests {
         let contacts = &mut case.capture.as_mut().expect("a capture").impact.contacts;
         *contacts = missed.into_iter().collect();
         assert_eq!(is_captured(&scenario, case), Some(false));
+    }
+
+    /// The columns of designed rates are those of their joints.
+    #[test]
+    fn designed_rates_are_those_of_the_joints() {
+        let path = file("scenarios/sweeps/capture.toml");
+        let scenario = Scenario::read(&path, registry::SHIPPED).unwrap_or_else(|report| panic!("{report}"));
+        let model = registry::generic(&scenario.layout);
+        let study = study(&scenario, &|| model.clone_box(), 1e3, &mut Silent).expect("a study");
+        let designed = study.terminal_rates.as_ref().expect("designed rates").joint_rates.clone();
+        let outputs = outputs(&scenario, &[OutputGroup::TerminalRates]);
+        for (k, rate) in designed.iter().enumerate() {
+            let name = format!("arm{}_joint{}_designed_rate", 1 + k / 3, 1 + k % 3);
+            let output = outputs.iter().find(|output| output.name == name).expect("a column");
+            assert_eq!((output.unit, output.value(&study, &study.cases[0])), ("rad/s", Some(*rate)), "{name}");
+            assert!(designed.iter().filter(|other| (**other - rate).abs() < 1e-9).count() == 1, "{designed:?}");
+        }
     }
 
     /// Two targets that are met one after the other are both captured, each with the miss of its own contact.

@@ -6,10 +6,12 @@ use crate::{make_pipe, within_a_minute};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use planar_capture::campaign::Campaign;
+use planar_capture::campaign::outputs::OutputGroup;
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
 use planar_capture::registry::{Robots, SHIPPED};
 use planar_proof::{file, said};
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -354,7 +356,18 @@ fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
             assert!(err.contains("cases: was 10, is 12") && err.contains("only the samplings"), "{err}");
         }
         place.write(&text.replace("cases = 12", "cases = 9"));
-        assert_eq!(place.sweep("out", &[]).0, 2, "fewer cases");
+        let (code, _, err) = place.sweep("out", &[]);
+        let why = if can_grow { "cases: was 12, is 9\n  (there are files of more)" } else { "only the samplings" };
+        assert!(code == 2 && err.contains(why), "fewer cases: {err}");
+        // a key that is new, and one that is gone
+        for (from, to, change) in [
+            ("min = 5.0", "min = 5.0, max = 15.0", "max: was nothing, is 15.0"),
+            (", min = 5.0", "", "min: was 5.0, is nothing"),
+        ] {
+            place.write(&text.replace(from, to));
+            let (code, _, err) = place.sweep("out", &[]);
+            assert!(code == 2 && err.contains(&format!("sweep.vary[0].distribution.{change}")), "{err}");
+        }
         place.write(&text.replace("std = 1.0", "std = 1.5"));
         let (code, _, err) = place.sweep("out", &[]);
         assert_eq!(code, 2);
@@ -371,6 +384,11 @@ fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
     fs::write(place.path("taken").join("notes.txt"), "mine").expect("written");
     let (code, _, err) = place.sweep("taken", &[]);
     assert!(code == 2 && err.contains("notes.txt"), "{err}");
+    // what a file manager leaves is hidden
+    fs::create_dir(place.path("opened")).expect("a folder");
+    fs::write(place.path("opened").join(".DS_Store"), "").expect("written");
+    let (code, _, err) = place.sweep("opened", &[]);
+    assert_eq!(code, 0, "{err}");
 }
 
 /// A grid has all combinations, those of the last key fastest, and each key its own choices.
@@ -436,7 +454,7 @@ fn a_replay_is_the_row_of_its_case() {
     }
     assert!(err.contains("target.target1.mass = "), "{err}");
     let summary = fs::read(replay.join("results/summary.json")).expect("a summary");
-    let case = &serde_json::from_slice::<serde_json::Value>(&summary).expect("JSON")["cases"][0];
+    let case = &serde_json::from_slice::<Value>(&summary).expect("JSON")["cases"][0];
     let row = &place.rows("out", 1)[3];
     let exact = &case["impact"]["exact"];
     for (name, value) in [
@@ -458,6 +476,197 @@ fn a_replay_is_the_row_of_its_case() {
     }
     let (code, _, err) = place.sweep("out", &["--replay", "12"]);
     assert!(code == 2 && err.contains("expected 0 to 11"), "{err}");
+}
+
+/// The numbers of a case in its summary, by the names of a sweep's columns: all but the designed rates, which it has not.
+fn numbers_of(case: &Value, positions: [[f64; 2]; 2]) -> BTreeMap<String, Option<f64>> {
+    let mut found = BTreeMap::new();
+    let mut one = |name: &str, value: &Value| {
+        assert!(found.insert(name.to_owned(), value.as_f64()).is_none(), "{name}");
+    };
+    let mut vector = |owner: &str, parts: [&str; 3], values: &Value| {
+        parts.iter().enumerate().for_each(|(i, part)| one(&format!("{owner}_{part}"), &values[i]));
+    };
+    let joints: Vec<String> =
+        ["arm1", "arm2"].iter().flat_map(|arm| (1..=3).map(move |k| format!("{arm}_joint{k}"))).collect();
+    let (pose, twist) = (["yaw", "x", "y"], ["omega", "vx", "vy"]);
+    let (impulse, momentum) = (["n", "fx", "fy"], ["l", "px", "py"]);
+    let (approach, impact, after) = (&case["approach"], &case["impact"], &case["post_impact"]);
+    let exact = &impact["exact"];
+    for (when, phase) in [("approach", approach), ("end", after)] {
+        vector(&format!("{when}_base"), pose, &phase["base_pose"]);
+        vector(&format!("{when}_base"), twist, &phase["base_twist"]);
+    }
+    vector("base_after", twist, &exact["base_twist_after"]);
+    vector("momentum_jump", momentum, &exact["momentum_jump"]);
+    for (i, arm) in ["arm1", "arm2"].iter().enumerate() {
+        vector(&format!("target{}_after", i + 1), twist, &exact["target_twists_after"][i]);
+        vector(&format!("{arm}_impulse"), impulse, &exact["impulses"][i]);
+        vector(&format!("{arm}_paper_impulse"), impulse, &impact["paper"]["impulses"][i]);
+        vector(&format!("{arm}_mean_force"), impulse, &impact["contacts"][i]["mean_force"]);
+    }
+    for (i, [x, y]) in positions.into_iter().enumerate() {
+        let contact = &impact["contacts"][i];
+        assert_eq!(contact["arm"], format!("arm{}", i + 1));
+        one(&format!("arm{}_miss", i + 1), &contact["miss"]);
+        one(&format!("arm{}_impulse_magnitude", i + 1), &exact["impulse_magnitudes"][i]);
+        // the contact point runs from the target's COM to the end effector
+        let at = |k: usize| {
+            let number = |value: &Value| value.as_f64().expect("a number");
+            number(&approach["end_effector_poses"][i][k + 1]) - number(&contact["offset"][k])
+        };
+        one(&format!("target{}_miss", i + 1), &Value::from((at(0) - x).hypot(at(1) - y)));
+    }
+    for (k, joint) in joints.iter().enumerate() {
+        one(&format!("{joint}_rate_after"), &exact["joint_rates_after"][k]);
+        for (when, phase) in [("approach", approach), ("end", after)] {
+            one(&format!("{when}_{joint}_angle"), &phase["joint_angles"][k]);
+            one(&format!("{when}_{joint}_rate"), &phase["joint_rates"][k]);
+        }
+    }
+    for (when, phase) in [("approach", approach), ("post_impact", after)] {
+        for part in ["momentum_drift", "energy_error", "center_of_mass_drift", "path_error"] {
+            one(&format!("{when}_{part}"), &phase[part]);
+        }
+    }
+    let (clearance, residual) = (&case["clearance"], &after["remainder"]);
+    for (name, value) in [
+        ("contact_time", &approach["duration"]),
+        ("least_distance", &clearance["besides_contacts"]["least_distance"]),
+        ("least_distance_time", &clearance["besides_contacts"]["time"]),
+        ("first_overlap", &clearance["first_overlap"]),
+        ("kinetic_energy_before", &exact["kinetic_energy_before"]),
+        ("kinetic_energy_after", &exact["kinetic_energy_after"]),
+        ("residual_rigid_rate", &residual["rigid_rate"]),
+        ("residual_base_rate", &residual["base_rate"]),
+        ("residual_largest_joint_rate", &residual["largest_joint_rate"]),
+    ] {
+        one(name, value);
+    }
+    // where there is none, the summary does not mention it
+    one("penetration", &Value::from(after["penetration"].as_f64().unwrap_or_default()));
+    one("later_impacts", &Value::from(after["impacts"].as_array().map_or(0, Vec::len)));
+    found
+}
+
+/// All outputs that there are, of robot, targets and impact: the numbers of the summary of the same case.
+#[test]
+fn every_output_is_a_number_of_the_summary() {
+    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let place = Workplace::new(&format!(
+        "name = \"all\"\nscenario = \"scenario.toml\"\ncases = 2\nseed = 1\n[[vary]]\nkey = \"target.target1.mass\"\n\
+         distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n[[vary]]\nkey = \"case.case2.target_twists.target2[0]\"\n\
+         distribution = {{ uniform = {{ min = 0.1, max = 0.2 }} }}\n[collect]\noutputs = {groups:?}\n"
+    ));
+    let scenario = fs::read_to_string(place.path("scenario.toml")).expect("a scenario");
+    // damped afterwards, so that a motion is left over
+    let scenario = scenario.replace("duration = 2.0", "duration = 2.0\ncontrol = \"damping\"\nderivative_gain = 14.0")
+        + "\n[contact]\nduration = 0.25\n";
+    fs::write(place.path("scenario.toml"), scenario).expect("written");
+    place.computed("out", &[]);
+    let (code, _, err) = place.sweep("out", &["--replay", "1"]);
+    assert_eq!(code, 0, "{err}");
+    let summary = fs::read(place.path("out/replay/000001/results/summary.json")).expect("a summary");
+    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+    let mut expected = numbers_of(&summary["cases"][0], [[2.0, -2.0], [-2.0, 2.0]]);
+    let row = &place.rows("out", 0)[1];
+    let others =
+        ["case", "captured", "status", "message", "target.target1.mass", "case.case2.target_twists.target2[0]"];
+    let is_output = |name: &&String| !others.contains(&name.as_str()) && !name.ends_with("_designed_rate");
+    for name in row.keys().filter(is_output) {
+        let expected = expected.remove(name).unwrap_or_else(|| panic!("{name} is no number of the summary"));
+        match (&row[name], expected) {
+            (Field::Null, None) => {}
+            // the miss of a target is a difference of other numbers
+            (Field::Double(found), Some(expected)) if name.starts_with("target") && name.ends_with("_miss") => {
+                assert!((found - expected).abs() < 1e-12, "{name}: {found}, {expected}");
+            }
+            (Field::Double(found), Some(expected)) => assert_eq!(found.to_bits(), expected.to_bits(), "{name}"),
+            (found, expected) => panic!("{name} is {found}, expected {expected:?}"),
+        }
+    }
+    assert_eq!(expected, BTreeMap::new(), "numbers that no column has");
+}
+
+/// The time series of a case are those that a run of it writes, with rows as far apart as the sweep wants them.
+#[test]
+fn time_series_are_those_of_a_run() {
+    let text = SWEEP.replace("SAMPLING", "random") + "[collect]\nseries = [9, 2]\n";
+    let place = Workplace::new(&text);
+    place.computed("out", &[]);
+    let names = |out: &str| {
+        let entries =
+            fs::read_dir(place.path(out).join("series")).expect("a folder").map(|entry| entry.expect("an entry"));
+        let mut names: Vec<_> = entries.map(|entry| entry.file_name().into_string().expect("UTF-8")).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names("out"), ["000002.csv", "000009.csv"]);
+    for case in ["2", "9"] {
+        let (code, _, err) = place.sweep("out", &["--replay", case]);
+        assert_eq!(code, 0, "{err}");
+        let [series, run] = [format!("series/00000{case}.csv"), format!("replay/00000{case}/results/case2.csv")]
+            .map(|name| fs::read_to_string(place.path("out").join(name)).expect("a time series"));
+        assert!(series == run, "case {case}");
+    }
+    place.write(&(text + "sample = 0.5\n"));
+    place.computed("coarse", &[]);
+    let series = fs::read_to_string(place.path("coarse/series/000002.csv")).expect("a time series");
+    let times: Vec<f64> = series.lines().skip(1).filter_map(|row| row.split(',').next()?.parse().ok()).collect();
+    // 20 s and 2 s, both with both of their ends
+    let expected: Vec<f64> = (0..=40).chain(40..=44).map(|i| 0.5 * f64::from(i)).collect();
+    assert!(times.len() == expected.len(), "{times:?}");
+    assert!(times.iter().zip(&expected).all(|(time, expected)| (time - expected).abs() < 1e-9), "{times:?}");
+}
+
+/// A case that the audit objects to is none that is done, but has its numbers; and a scenario without targets captures nothing.
+#[test]
+fn a_case_that_fails_its_audit_is_a_row_with_numbers() {
+    let place = Workplace::grid("[[vary]]\nkey = \"approach.step\"\ndistribution = { choice = [0.005, 0.2] }\n");
+    let text = fs::read_to_string(file("scenarios/redysim_single_arm_3r.toml")).expect("a scenario");
+    fs::write(place.path("scenario.toml"), text.replacen("duration = 20.0", "duration = 20.0\nstep = 0.01", 1))
+        .expect("written");
+    let (code, out, err) = place.sweep("out", &["--report"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("2 of 2 cases computed: 1 done, 1 audit failed"), "{out}");
+    let rows = place.rows("out", 0);
+    assert_eq!((&rows[0]["message"], &rows[0]["captured"]), (&Field::Null, &Field::Null));
+    assert!(rows[1]["message"].to_string().contains("over its bound"), "{:?}", rows[1]["message"]);
+    let drift = |row: &BTreeMap<String, Field>| match row["approach_momentum_drift"] {
+        Field::Double(drift) => drift,
+        ref other => panic!("{other} is no number"),
+    };
+    assert!(drift(&rows[0]) < 1e-9 && drift(&rows[1]) > 1e-9, "{} and {}", drift(&rows[0]), drift(&rows[1]));
+    let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
+    assert!(page.contains("over its bound") && !page.contains("captured in"), "{page}");
+}
+
+#[test]
+fn shards_and_numbers_of_cases_that_there_are_not_are_refused() {
+    let place = Workplace::sampled("random");
+    for shard in ["0/3", "4/3", "1/0", "1"] {
+        let (code, out, err) = place.sweep("out", &["--shard", shard]);
+        assert!(code == 2 && out.is_empty() && err.contains("--shard"), "{shard}: {code} {out}{err}");
+    }
+    let varied = "[[vary]]\nkey = \"target.target1.mass\"\ndistribution = { choice = [10.0, 11.0, 12.0] }\n";
+    for (cases, is_fine) in [(2, false), (3, true), (4, false)] {
+        let text = format!(
+            "name = \"g\"\nscenario = \"scenario.toml\"\nseed = 1\nsampling = \"grid\"\ncases = {cases}\n{varied}"
+        );
+        let said = Campaign::parse(&text, "sweep.toml", place.0.path(), SHIPPED).err().map(|report| report.to_string());
+        assert_eq!(said.is_none(), is_fine, "{cases}: {said:?}");
+        assert!(said.is_none_or(|said| said.contains("sweep.toml:5:") && said.contains("the grid has 3 combinations")));
+    }
+    // two keys have one rank correlation, in whatever order they are named
+    let keys = ["target.target1.mass", "approach.proportional_gain[2]"];
+    let pair = |[a, b]: [&str; 2], rank: f64| format!("[[correlation]]\nkeys = ['{a}', '{b}']\nrank = {rank}\n");
+    for (second, refused) in [(None, false), (Some(keys), true), (Some([keys[1], keys[0]]), true)] {
+        let second = second.map_or_else(String::new, |keys| pair(keys, 0.2));
+        let text = SWEEP.replace("SAMPLING", "random") + &pair(keys, 0.5) + &second;
+        let said = Campaign::parse(&text, "sweep.toml", place.0.path(), SHIPPED).err().map(|report| report.to_string());
+        assert_eq!(said.is_some(), refused, "{said:?}");
+        assert!(said.is_none_or(|said| said.contains("two keys have one rank correlation")));
+    }
 }
 
 #[test]

@@ -66,6 +66,7 @@ fn the_page_says_what_was_computed_and_what_failed() {
         "<td>3</td><td>1</td><td>refused</td><td>",
         "<h2>The same in all cases</h2>",
         "captured in <b>7</b> of 7 cases with a result, 100.0 %",
+        "arm1_impulse_magnitude <small>N s</small>",
     ] {
         assert!(found.contains(expected), "no `{expected}`");
     }

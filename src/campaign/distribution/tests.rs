@@ -103,3 +103,24 @@ fn the_upper_end_of_a_triangular_distribution_has_its_digits() {
     let mass = width * width / (12.0 * 11.0);
     assert!((end.mass_within_bounds() / mass - 1.0).abs() < 1e-8, "{:e}", end.mass_within_bounds());
 }
+
+/// In words, both bounds with it, each where there is one.
+#[test]
+fn distributions_are_described_with_their_bounds() {
+    let none = [f64::NEG_INFINITY, f64::INFINITY];
+    let normal = || Kind::Normal { mean: 10.0, std: 1.5 };
+    for (kind, bounds, words) in [
+        (normal(), none, "normal, mean 10, standard deviation 1.5"),
+        (normal(), [5.0, f64::INFINITY], "normal, mean 10, standard deviation 1.5, at least 5"),
+        (normal(), [f64::NEG_INFINITY, 12.0], "normal, mean 10, standard deviation 1.5, at most 12"),
+        (
+            Kind::LogNormal { mean: 1.0, std: 0.2 },
+            [0.5, 2.0],
+            "lognormal, mean 1, standard deviation 0.2, at least 0.5, at most 2",
+        ),
+        (Kind::Uniform { min: -1.0, max: 3.0 }, none, "uniform from -1 to 3"),
+        (Kind::Triangular { min: 1.0, mode: 2.0, max: 5.0 }, none, "triangular from 1 to 5, most likely 2"),
+    ] {
+        assert_eq!(Distribution { kind, bounds }.to_string(), words);
+    }
+}

@@ -152,6 +152,21 @@ mod tests {
         }
     }
 
+    /// A percentile is the least of the values that at least this part of them does not exceed.
+    #[test]
+    fn a_percentile_has_its_part_of_the_values_up_to_it() {
+        for count in [1_u32, 2, 3, 10, 19, 20, 21, 99, 100, 101] {
+            let values: Vec<f64> = (1..=count).map(f64::from).collect();
+            for hundredths in [5_u32, 25, 50, 75, 95] {
+                let found = PercentileRanks::new(values.len(), f64::from(hundredths) / 100.0).of(&values).value;
+                // as whole numbers
+                let up_to = |value: f64| 100 * values.iter().filter(|other| **other <= value).count();
+                let wanted = (hundredths * count) as usize;
+                assert!(up_to(found) >= wanted && up_to(found - 1.0) < wanted, "{hundredths} % of {count}: {found}");
+            }
+        }
+    }
+
     #[test]
     fn equal_values_have_their_mean_rank() {
         assert_eq!(ranks(&[3.0, 1.0, 3.0, 2.0]), [2.5, 0.0, 2.5, 1.0]);
