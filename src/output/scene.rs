@@ -132,3 +132,34 @@ impl Shape {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Shape, visuals};
+    use crate::outline::Outline;
+    use crate::registry::SHIPPED;
+    use crate::scenario::Scenario;
+
+    /// A uniform disc of mass m and radius r has the inertia m r² / 2, by which a wheel is drawn, whatever its link is.
+    #[test]
+    fn a_wheel_is_drawn_as_the_disc_of_its_inertia() {
+        let (mass, radius) = (4.0, 0.3);
+        let layout = format!(
+            "name = \"wheel\"\n[base]\nmass = 50.0\ninertia = 8.0\n[[arm]]\nname = \"arm\"\nmount = [0.5, 0.0]\n[[arm.link]]\n\
+             length = 1.0\nmass = 5.0\ninertia = 0.4\n[[arm]]\nname = \"wheel\"\nmount = [0.0, 0.0]\n[[arm.link]]\nlength = 0.0\n\
+             mass = {mass}\ninertia = {}\n",
+            0.5 * mass * radius * radius
+        );
+        let text = "name = \"it\"\nlayout = \"wheel\"\n[initial]\njoint_angles = [0.0, 0.0]\n[approach]\nduration = 1.0\n\
+                    trajectory = \"cycloidal\"\nfinal_joint_angles = [0.5, 0.0]\n";
+        let shipped: Vec<_> = SHIPPED.iter().copied().chain([("wheel", &*layout)]).collect();
+        let scenario =
+            Scenario::parse(text, "it.toml", "".as_ref(), &shipped[..]).unwrap_or_else(|report| panic!("{report}"));
+        let drawn = visuals(&scenario);
+        let wheel = drawn.iter().find(|visual| visual.frame.contains("wheel")).expect("a wheel");
+        let Shape::Outline(Outline::Disc { center, radius: found }) = wheel.shape else { panic!("{wheel:?}") };
+        assert!((found - radius).abs() < 1e-15 && center == [0.0; 2], "{found} m about {center:?}");
+        let link = drawn.iter().find(|visual| visual.frame.contains("arm/")).expect("a link");
+        assert!(matches!(link.shape, Shape::Rectangle { centre: [0.5, 0.0], size: [1.0, _] }), "{link:?}");
+    }
+}

@@ -378,11 +378,15 @@ fn every_case_decides_the_exit_code() {
 
 #[test]
 fn usage_errors_are_exit_code_2() {
-    for arguments in
-        [&["run"][..], &["rum", "x.toml"], &["run", "x.toml", "--sample", "-1"], &["run", "x", "--dynamics", "magic"]]
-    {
+    for arguments in [&["run"][..], &["rum", "x.toml"], &["run", "x", "--dynamics", "magic"]] {
         let output = command().args(arguments).output().expect("it runs");
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+    for time in ["-1", "0", "nan", "inf", "soon"] {
+        let output = command().args(["run", "x.toml", &format!("--sample={time}")]).output().expect("it runs");
+        let (code, _, err) = said(output);
+        let wanted = if time == "soon" { "expected a number of seconds" } else { "expected a time greater than 0 s" };
+        assert!(code == 2 && err.contains(wanted), "{time}: {err}");
     }
 }
 

@@ -131,6 +131,7 @@ fn the_exit_code_is_the_worst() {
     let (code, out, err) = files.run(&[&poor, &good], &[]);
     assert_eq!(code, 1, "{err}");
     assert!(err.contains("poor: audit: ") && !err.contains("good: audit: "), "{err}");
+    assert!(err.contains("over its bound") && err.contains("a smaller `tolerance`"), "{err}");
     assert!(out.contains("good on ") && files.has("good/summary.json") && files.has("poor/summary.json"));
     assert_eq!(files.run(&[&good, &poor], &[]).0, 1);
 }
@@ -190,6 +191,12 @@ fn verbose_runs_say_what_they_read_and_write() {
             ["a.toml, sha256 ", "single_arm_3r.toml (shipped), sha256 ", "approach: 4000 steps", "computed in ", &size]
         {
             assert!(err.contains(part), "no {part} in {err}");
+        }
+        // of each its own, as in the summary
+        let run = &summary(&files.path("results"))["run"];
+        for (file, key) in [("a.toml", "scenario_sha256"), ("single_arm_3r.toml (shipped)", "layout_sha256")] {
+            let hash = run[key].as_str().expect("a hash");
+            assert!(err.contains(&format!("{file}, sha256 {}", &hash[..12])), "{key} {hash} in {err}");
         }
     }
     let (code, _, err) = files.run(&[&a], &["-v", "-q"]);

@@ -30,6 +30,7 @@ mod drawn {
     use planar_capture::output::figures::{
         Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, Width, draw, figures,
     };
+    use planar_capture::scenario::FinalRates;
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
     use std::fs;
@@ -155,6 +156,48 @@ mod drawn {
             let line = robot.iter().find(|series| series.label.as_ref() == Some(&arm.name)).expect("the arm");
             let (x, y) = line.points[3];
             assert!((x - end_effector[1]).abs() + (y - end_effector[2]).abs() < 1e-12, "{}", arm.name);
+        }
+    }
+
+    /// The velocities that are wanted of each end effector are in the panel of their component.
+    #[test]
+    fn wanted_velocities_are_in_the_panels_of_their_components() {
+        let mut scenario = scenario("raina_shah_2017");
+        let study = run(&scenario);
+        let twists = [[0.01, 0.02, 0.03], [0.04, 0.05, 0.06]];
+        scenario.approach.end = FinalRates::EndEffectorTwists(twists.map(|twist| twist.map(Some)).to_vec());
+        let all = figures(&scenario, &study);
+        let figure = all.iter().find(|figure| figure.name == "approach_end_effector_velocities").expect("the figure");
+        let component =
+            |label: &str| ["rad/s", "x", "y"].iter().position(|part| label.contains(part)).expect("a component");
+        for panel in &figure.panels {
+            for (arm, twist) in twists.iter().enumerate() {
+                let wanted = points(panel, &format!("arm{}, wanted", arm + 1));
+                let value = twist[component(&panel.y.label)];
+                assert_eq!(wanted, [(0.0, value), (20.0, value)], "{}", panel.y.label);
+            }
+        }
+        assert_eq!(figure.panels.len(), 3);
+    }
+
+    /// After the impact the work of the approach still counts: what is left of the energy is the same up to the impact, and after it.
+    #[test]
+    fn energy_less_the_work_steps_at_the_impact_alone() {
+        let scenario = scenario("raina_shah_2017");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        for case in &study.cases {
+            let name = format!("energy_{}", case.name);
+            let figure = all.iter().find(|figure| figure.name == name).expect("the figure");
+            let less = points(&figure.panels[0], "less the work done");
+            let exact = &case.capture.as_ref().expect("a capture").impact.exact;
+            let work = study.approach.end().work.total();
+            assert!(work.abs() > 1e-3, "{work} J");
+            let (before, after) = less.split_at(study.approach.samples.len());
+            let start = before[0].1;
+            let end = start + exact.kinetic_energy_after - exact.kinetic_energy_before;
+            assert!(before.iter().all(|(_, energy)| (energy - start).abs() < FIGURE_VALUES), "{name}");
+            assert!(after.iter().all(|(_, energy)| (energy - end).abs() < FIGURE_VALUES), "{name}");
         }
     }
 

@@ -177,7 +177,7 @@ mod parquet_files {
 mod mcap_files {
     use super::written::{assert_survives_a_full_disk, bits, csv};
     use crate::{manifest, run, scenario};
-    use foxglove::messages::{FrameTransforms, PointCloud, SceneUpdate};
+    use foxglove::messages::{FrameTransforms, Log, PointCloud, SceneUpdate};
     use planar_capture::capture::{CaseResult, LaterImpact, Study};
     use planar_capture::outline::Outline;
     use planar_capture::output::mcap::write_mcap;
@@ -287,6 +287,18 @@ mod mcap_files {
         let impact = numbers(&file, "/impact", &file.messages["/impact"][0].1);
         let exact = &study.cases[0].capture.as_ref().expect("a capture").impact.exact;
         assert!(impact.contains(&("kinetic_energy_after".to_owned(), exact.kinetic_energy_after)), "{impact:?}");
+        let [l, px, py] = exact.momentum_jump;
+        for (name, value) in [
+            ("angular_momentum_jump", l),
+            ("linear_momentum_jump_x", px),
+            ("linear_momentum_jump_y", py),
+            ("kinetic_energy_before", exact.kinetic_energy_before),
+        ] {
+            assert!(impact.contains(&(name.to_owned(), value)), "{name}: {impact:?}");
+        }
+        let said: Vec<_> = file.messages["/log"].iter().map(|(_, log)| Log::decode(&log[..]).expect("a log")).collect();
+        let said: Vec<_> = said.iter().map(|log| log.message.as_str()).collect();
+        assert_eq!(said, ["approach begins", "post_impact begins"]);
         let fx = exact.impulses.iter().flatten().next().expect("an impulse")[1];
         assert!(impact.iter().any(|(name, value)| name.ends_with("_impulse_fx") && value.to_bits() == fx.to_bits()));
     }
@@ -389,9 +401,31 @@ mod mcap_files {
             };
             assert!((low..high).contains(&f64::from(reach)), "{}: {reach}", entity.id);
             assert!(points.iter().all(|[_, _, z]| *z == 0.0));
+            // every part of the outline is near a point
+            let outline = &entity.lines[0];
+            let thickness = 2.0 * outline.pose.expect("a pose").position.expect("one").z;
+            for (from, to) in outline.points.iter().zip(&outline.points[1..]) {
+                for part in [0.25, 0.5, 0.75, 0.9] {
+                    let [x, y] = [from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)];
+                    let distance = |p: &[f32; 3]| (f64::from(p[0]) - x).hypot(f64::from(p[1]) - y);
+                    let nearest = points.iter().map(distance).fold(f64::MAX, f64::min);
+                    assert!(nearest < 0.25 * thickness, "{}: {nearest} m from ({x}, {y})", entity.id);
+                }
+            }
         }
         let impulses = SceneUpdate::decode(&file.messages["/impulses"][0].1[..]).expect("a scene");
         assert_eq!(impulses.entities.len(), 2);
+        // as long as the impulses are large, the longest a quarter of the longest arm
+        let magnitudes = study.cases[0].capture.as_ref().expect("a capture").impact.exact.impulse_magnitudes();
+        let magnitudes: Vec<f64> = magnitudes.into_iter().flatten().collect();
+        let largest = magnitudes.iter().copied().fold(0.0, f64::max);
+        assert!(magnitudes.iter().any(|magnitude| *magnitude < 0.95 * largest), "{magnitudes:?}");
+        for (entity, magnitude) in impulses.entities.iter().zip(&magnitudes) {
+            let arrow = &entity.arrows[0];
+            let expected = 0.25 * 3.0 * magnitude / largest;
+            assert_close("length", &[arrow.shaft_length + arrow.head_length], &[expected], tolerance::TRANSFORMS);
+            assert_eq!(entity.texts[0].text, format!("{magnitude:.3e} N s"));
+        }
         for (entity, impulse) in
             impulses.entities.iter().zip(&study.cases[0].capture.as_ref().expect("a capture").impact.exact.impulses)
         {

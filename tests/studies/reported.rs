@@ -1,6 +1,7 @@
 //! Numbers of the summary, the table and the report against what they are made of.
 
 use crate::{Silent, command, manifest, run, scenario, summary};
+use planar_capture::capture::clearance::LeastDistance;
 use planar_capture::capture::residual_motion::ResidualMotion;
 use planar_capture::capture::{CaseResult, Study, study};
 use planar_capture::output::console::table;
@@ -8,9 +9,11 @@ use planar_capture::output::html_report::write_report;
 use planar_capture::owned::RobotState;
 use planar_capture::registry;
 use planar_capture::scenario::{PostCaptureControl, Scenario};
+use planar_capture::simulate::Sample;
+use planar_capture::simulate::limits::{LimitViolation, LimitViolations};
 use planar_capture::simulate::system::Body;
 use planar_proof::{assert_close, file, layout, said, tolerance};
-use serde_json::Value;
+use serde_json::{Value, json};
 use tempfile::TempDir;
 
 fn number(value: &Value) -> f64 {
@@ -326,6 +329,164 @@ fn the_reports_frames_end_at_the_end_effectors() {
         }
         assert_eq!(ends.len(), scenario.layout.arms.len());
     }
+}
+
+/// The keys of the summary have the numbers of the study whose names they bear.
+#[test]
+fn the_summary_has_the_numbers_of_its_keys() {
+    let (scenario, mut study) = stabilised();
+    let violation = |joint: &str, value: f64| LimitViolation { joint: joint.to_owned(), time: 0.5, value, limit: 0.25 };
+    study.approach.limit_violations = Some(LimitViolations {
+        joint_angle: Some(violation("joint 1", 0.75)),
+        joint_rate: Some(violation("joint 2", -0.5)),
+    });
+    let expected_limits = json!({
+        "joint_angle": {"joint": "joint 1", "time": 0.5, "value": 0.75, "limit": 0.25},
+        "joint_rate": {"joint": "joint 2", "time": 0.5, "value": -0.5, "limit": 0.25},
+    });
+    let value = summary(&scenario, &study);
+    for (case, value) in study.cases.iter().zip(value["cases"].as_array().expect("cases")) {
+        assert_eq!(value["approach"]["limits"], expected_limits);
+        let capture = case.capture.as_ref().expect("a capture");
+        let residual = capture.residual_motion.as_ref().expect("a motion");
+        let remainder = &value["post_impact"]["remainder"];
+        for (key, wanted) in [
+            ("rigid_rate", &[residual.rigid_rate][..]),
+            ("base_rate", &[residual.base_rate]),
+            ("largest_joint_rate", &[residual.largest_joint_rate]),
+            ("inertia", &[residual.inertia]),
+            ("momentum", &residual.momentum),
+            ("velocity", &residual.velocity),
+            ("wheel_rates", &residual.wheel_rates),
+        ] {
+            let found =
+                if remainder[key].is_array() { numbers(&remainder[key]) } else { vec![number(&remainder[key])] };
+            assert_eq!(found, wanted, "{key}");
+        }
+        for (result, value) in
+            capture.impact.contacts.iter().zip(value["impact"]["contacts"].as_array().expect("contacts"))
+        {
+            let response = &result.response;
+            let optional = |numbers: Option<Vec<f64>>| numbers.map_or(Value::Null, Value::from);
+            for (key, wanted) in [
+                ("offset", json!(result.contact.offset)),
+                ("miss", json!(result.contact.miss)),
+                ("impulse", json!(result.impulse)),
+                ("relative_twist", json!(response.relative_twist)),
+                ("direction", optional(response.direction.map(|direction| direction.to_vec()))),
+                ("effective_masses", optional(response.effective_masses.map(|masses| masses.to_vec()))),
+                ("impulse_index", json!(response.impulse_index)),
+            ] {
+                assert_eq!(value[key], wanted, "{key}");
+            }
+            let [vx, vy] = [response.relative_twist[1], response.relative_twist[2]];
+            // of a contact that does not bounce the direction is that of the relative velocity
+            if let Some([x, y]) = response.direction {
+                assert_close("direction", &[x * vx.hypot(vy), y * vx.hypot(vy)], &[vx, vy], 1e-12);
+            }
+        }
+    }
+}
+
+/// An overlap begins before it ends, and the least distance besides planned contacts is none of theirs.
+#[test]
+fn the_summary_tells_overlaps_and_planned_contacts_apart() {
+    let scenario = scenario("elastic_rebound");
+    let study = run(&scenario);
+    let value = summary(&scenario, &study);
+    let mut overlaps = 0;
+    for (case, value) in study.cases.iter().zip(value["cases"].as_array().expect("cases")) {
+        let (found, clearance) = (&value["clearance"], &case.clearance);
+        let least = |value: &Value| [number(&value["least_distance"]), number(&value["time"])];
+        let of = |least: Option<&LeastDistance>| least.map(|least| [least.distance, least.time]);
+        assert_eq!(Some(least(found)), of(clearance.least.as_ref()));
+        let besides = &found["besides_contacts"];
+        assert_eq!((!besides.is_null()).then(|| least(besides)), of(clearance.besides_contacts.as_ref()));
+        for (overlap, value) in clearance.overlaps.iter().zip(found["overlaps"].as_array().expect("a list")) {
+            let [from, to, depth] = ["from", "to", "depth"].map(|key| number(&value[key]));
+            assert!(from < to && depth > 0.0, "{value}");
+            assert_eq!(([from, to], depth), (overlap.span, overlap.depth));
+            overlaps += 1;
+        }
+        let first = clearance.overlaps.first().map_or(Value::Null, |overlap| json!(overlap.span[0]));
+        assert_eq!(found["first_overlap"], first);
+    }
+    let differ = |case: &CaseResult| case.clearance.least != case.clearance.besides_contacts;
+    assert!(study.cases.iter().any(differ) && overlaps > 0, "{overlaps} overlaps");
+}
+
+/// The columns of the report are those of the samples: joints, end effectors and momentum.
+#[test]
+fn the_reports_columns_are_those_of_the_samples() {
+    let (scenario, study) = stabilised();
+    let data = report_data(&scenario, &study);
+    let phases = std::iter::once((&study.approach, &data["approach"]));
+    let after = study.cases.iter().zip(data["cases"].as_array().expect("cases"));
+    let after =
+        after.map(|(case, data)| (&case.capture.as_ref().expect("a capture").post_impact, &data["post_impact"]));
+    let phases: Vec<_> = phases.filter(|(_, data)| !data.is_null()).chain(after).collect();
+    assert!(!phases.is_empty());
+    for (phase, data) in phases {
+        let column = |what: &str, found: &Value, value: &dyn Fn(&Sample) -> f64| {
+            let wanted: Vec<f64> = phase.samples.iter().map(value).collect();
+            let size = wanted.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            // six digits are written
+            assert_close(what, &numbers(found), &wanted, 1e-5 * size);
+        };
+        for joint in 0..scenario.layout.joints() {
+            column("angles", &data["joint_angles"][joint], &|sample| sample.state.joint_angles[joint]);
+            column("rates", &data["joint_rates"][joint], &|sample| sample.state.joint_rates[joint]);
+            column("torques", &data["joint_torques"][joint], &|sample| sample.joint_torques[joint]);
+        }
+        for part in 0..3 {
+            column("pose", &data["base_pose"][part], &|sample| sample.state.base_pose[part]);
+            column("twist", &data["base_twist"][part], &|sample| sample.state.base_twist[part]);
+            for arm in 0..scenario.layout.arms.len() {
+                column("end effector", &data["end_effectors"][arm][part], &|sample| {
+                    sample.end_effector_poses[arm][part]
+                });
+            }
+        }
+        for part in 0..2 {
+            column("momentum", &data["linear_momentum"][part], &|sample| sample.momentum.linear_momentum[part]);
+        }
+        column("angular momentum", &data["angular_momentum"], &|sample| sample.momentum.angular_momentum);
+        column("energy", &data["kinetic_energy"], &|sample| sample.momentum.kinetic_energy);
+    }
+}
+
+/// Grasps that do not close are listed as such, and distances of detected contacts fall to zero where one is made.
+#[test]
+fn the_report_says_which_contacts_are_made() {
+    let missed = scenario("missed_grasp");
+    let data = report_data(&missed, &run(&missed));
+    let open = |case: usize| -> Vec<[u64; 2]> {
+        let open = data["cases"][case]["open"].as_array().expect("a list").iter();
+        open.map(|one| ["target", "arm"].map(|key| one[key].as_u64().expect("an index"))).collect()
+    };
+    assert_eq!([open(0), open(1), open(2)], [vec![], vec![[1, 1]], vec![[0, 0], [1, 1]]]);
+
+    let rebound = scenario("elastic_rebound");
+    let study = run(&rebound);
+    let data = report_data(&rebound, &study);
+    let mut met = 0;
+    for (case, data) in study.cases.iter().zip(data["cases"].as_array().expect("cases")) {
+        let before = case.approach(&study).samples.len();
+        let contacts = case.capture.iter().flat_map(|capture| &capture.impact.contacts).map(|result| result.contact);
+        for contact in contacts {
+            let distances = data["distances"].as_array().expect("a list");
+            let is_its_own = |one: &&Value| one["target"] == contact.target && one["arm"] == contact.arm;
+            let distance = numbers(&distances.iter().find(is_its_own).expect("one")["distance"]);
+            assert!(
+                distance[0] > 0.1 && distance[before - 1].abs() < 1e-5,
+                "{} m, {} m",
+                distance[0],
+                distance[before - 1]
+            );
+            met += 1;
+        }
+    }
+    assert!(met > 1, "{met} contacts");
 }
 
 /// The data that the report's programs read.
