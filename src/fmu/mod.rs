@@ -76,7 +76,8 @@ impl Fmu {
     /// What [`CModule::render`] and [`CoSimulation::render`] say.
     pub fn new(graph: &Graph, origin: &Origin<'_>) -> Result<Self, String> {
         let Origin { name, source, command, .. } = *origin;
-        let header = format!("{name}.h");
+        let file = sources::module_file(name);
+        let header = format!("{file}.h");
         let module = CModule { header: &header, source, command };
         let text = module.render(graph)?;
         let describe = |token: &str| -> Result<(CoSimulation, String), String> {
@@ -92,8 +93,8 @@ impl Fmu {
             ("documentation/index.html".to_owned(), documentation::html(origin, &robot.variables)),
             ("documentation/licenses/license.txt".to_owned(), documentation::licences()),
             ("sources/buildDescription.xml".to_owned(), build_description::xml(name)),
-            (format!("sources/{name}.c"), text.source),
-            (format!("sources/{name}.h"), text.header),
+            (format!("sources/{file}.c"), text.source),
+            (format!("sources/{file}.h"), text.header),
             ("sources/robot.c".to_owned(), robot.source),
             ("sources/robot.h".to_owned(), robot.header),
         ];

@@ -19,7 +19,15 @@ pub(super) fn fixed() -> impl Iterator<Item = (&'static str, &'static str)> {
     .into_iter()
 }
 
+/// The name of a module's files without extension: its own, or another one where files of every FMU have that.
+pub(super) fn module_file(name: &str) -> String {
+    let own = fixed().map(|(file, _)| file).chain(["robot.c"]);
+    let mut names = own.filter_map(|file| file.split('.').next());
+    // on some systems `A.c` is `a.c`
+    if names.any(|own| own.eq_ignore_ascii_case(name)) { format!("{name}_module") } else { name.to_owned() }
+}
+
 /// The sources that are compiled, for a module of this name.
 pub(super) fn compiled(name: &str) -> Vec<String> {
-    [format!("{name}.c"), "robot.c".to_owned()].into_iter().chain(COMPILED.map(str::to_owned)).collect()
+    [format!("{}.c", module_file(name)), "robot.c".to_owned()].into_iter().chain(COMPILED.map(str::to_owned)).collect()
 }

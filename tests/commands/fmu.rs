@@ -77,6 +77,25 @@ fn an_fmu_without_a_compiler_has_sources_alone_and_always_the_same_bytes() {
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 2, "the layout and the FMU");
 }
 
+/// A robot may be called as a file that every FMU has, and then has files of another name.
+#[test]
+fn a_layout_may_have_the_name_of_a_file_of_every_fmu() {
+    if without_python() || crate::c::without("cc") {
+        return;
+    }
+    for name in ["robot", "instance"] {
+        let folder = TempDir::new().expect("a folder");
+        fs::write(folder.path().join("small.toml"), LAYOUT.replace("\"small\"", &format!("\"{name}\"")))
+            .expect("written");
+        let (code, out, err) = written(folder.path(), "cc", &[]);
+        assert!(code == 0 && out.contains("sources and binaries/") && err.is_empty(), "{name}: {out}{err}");
+        let bytes = fs::read(folder.path().join("robot.fmu")).expect("an FMU");
+        let file = format!("sources/{name}_module.c");
+        assert!(bytes.windows(file.len()).any(|part| part == file.as_bytes()), "{name}");
+        assert_eq!(written(folder.path(), "cc", &["--check"]), (0, "robot.fmu: fresh\n".to_owned(), String::new()));
+    }
+}
+
 /// The units of the variables in a description, by their names.
 fn units(description: &str) -> BTreeMap<String, String> {
     let attribute = |line: &str, name: &str| {

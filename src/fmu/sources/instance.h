@@ -1,6 +1,6 @@
 /* An instance of the FMU, for the files that implement the functions of FMI. */
-#ifndef INSTANCE_H
-#define INSTANCE_H
+#ifndef INSTANCE_INCLUDED
+#define INSTANCE_INCLUDED
 
 #include "fmi3Functions.h"
 #include "robot.h"
