@@ -15,6 +15,7 @@ mod diagnostics;
 mod dynamics;
 mod eval;
 mod fmu;
+mod fmu_motion;
 mod formats;
 mod generate;
 mod hidden_characters;

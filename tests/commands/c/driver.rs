@@ -238,7 +238,7 @@ fn compare_with_the_library(layout: &str, printed: &str) {
 }
 
 /// [pose, angles, twist, rates, torques, step] after the step.
-fn step(model: &dyn Model<f64>, x: &[f64]) -> Vec<f64> {
+pub fn step(model: &dyn Model<f64>, x: &[f64]) -> Vec<f64> {
     let n = model.joints();
     let (mut state, rest) = (x[..6 + 2 * n].to_vec(), &x[6 + 2 * n..]);
     let mut workspace = vec![0.0; 3 * state.len()];

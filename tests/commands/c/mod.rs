@@ -2,7 +2,7 @@
 //!
 //! Without a C compiler `cc` the tests say so and check nothing; `PLANAR_CAPTURE_NO_C=1` skips them too.
 
-mod driver;
+pub mod driver;
 
 use planar_capture::build::graph;
 use planar_capture::build::{CModule, CText, Module};
