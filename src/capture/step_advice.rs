@@ -3,6 +3,22 @@
 //! The error of steps of length h and order p is C hᵖ, and that of adaptive steps is proportional to their tolerance. From the
 //! error r times its bound follow the step h (s/r)^(1/p) and the tolerance times s/r that leave a share s of the bound. Where
 //! actuators were at their limits, kinks in the torques make the order 1.
+//!
+//! # Example
+//! ```
+//! use planar_capture::capture::{Silent, step_advice::step_advice, study};
+//! use planar_capture::registry;
+//! use planar_capture::scenario::Scenario;
+//!
+//! let path = "scenarios/raina_shah_2017.toml";
+//! let mut scenario = Scenario::read(path.as_ref(), registry::SHIPPED).expect("a scenario");
+//! scenario.approach.step = 0.05; // s, in place of 0.005 s
+//! let robot = registry::generated(&scenario.layout)?;
+//! let study = study(&scenario, &|| robot.clone_box(), 1.0, &mut Silent)?;
+//! let advice = "[approach] is integrated by `rk4` with steps of 0.05 s: `step = 0.01` would probably do, or `integrator = \"adaptive\"`";
+//! assert_eq!(step_advice(&scenario, &study), [advice]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::{Study, over_bounds};
 use crate::integrate::Adaptive;
