@@ -1,6 +1,7 @@
 //! The same program built with several sets of compiler flags, which measure in turns.
 
 use crate::Problem;
+use crate::engines::{self, ENGINES};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -15,7 +16,7 @@ pub const BUILDS: [(&str, &str, bool); 4] = [
 
 /// What one build has measured, round by round: names and nanoseconds.
 pub struct Measured {
-    /// As in [`BUILDS`].
+    /// As in [`BUILDS`] or [`ENGINES`].
     pub build: &'static str,
     /// Name of a measurement, and its times of all rounds, ns, sorted.
     pub times: Vec<(String, Vec<f64>)>,
@@ -36,19 +37,28 @@ impl Measured {
     }
 }
 
-/// Builds all, then lets each measure once per round.
-pub fn run(rounds: usize) -> Result<Vec<Measured>, Problem> {
-    let programs =
-        BUILDS.iter().map(|(name, flags, fused)| build(name, flags, *fused)).collect::<Result<Vec<_>, _>>()?;
-    let mut measured: Vec<Measured> = BUILDS.iter().map(|(build, ..)| Measured { build, times: Vec::new() }).collect();
+/// Builds all, with the engines of an interpreter's packages, then lets each measure once per round.
+pub fn run(rounds: usize, python: Option<&str>) -> Result<Vec<Measured>, Problem> {
+    let mut programs = Vec::new();
+    for (name, flags, fused) in BUILDS {
+        programs.push((name, build(name, flags, fused)?, "measure".to_owned()));
+    }
+    if let Some(python) = python {
+        let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/engines");
+        let compiled = engines::compile(python, &target)?;
+        let input = target.join("input.txt").display().to_string();
+        if let Some((_, program, _)) = programs.first() {
+            engines::output(Command::new(program).args(["input", &input]))?;
+        }
+        programs.extend(ENGINES.into_iter().zip(compiled).map(|(name, program)| (name, program, input.clone())));
+    }
+    let of = |(build, ..): &(&'static str, PathBuf, String)| Measured { build, times: Vec::new() };
+    let mut measured: Vec<Measured> = programs.iter().map(of).collect();
     for round in 1..=rounds {
         eprintln!("round {round} of {rounds}");
-        for (program, measured) in programs.iter().zip(&mut measured) {
-            let output = Command::new(program).arg("measure").output()?;
-            if !output.status.success() {
-                return Err(format!("{}: {}", measured.build, String::from_utf8_lossy(&output.stderr)).into());
-            }
-            let found: serde_json::Map<String, Value> = serde_json::from_slice(&output.stdout)?;
+        for ((_, program, argument), measured) in programs.iter().zip(&mut measured) {
+            let found = engines::output(Command::new(program).arg(argument))?;
+            let found: serde_json::Map<String, Value> = serde_json::from_str(&found)?;
             for (name, time) in found {
                 let time = time.as_f64().ok_or("a time that is no number")?;
                 match measured.times.iter_mut().find(|(other, _)| *other == name) {

@@ -1,7 +1,9 @@
-//! Time of one evaluation of the paper's robot: generated code against CasADi's C and the generic implementation.
+//! Time of one evaluation of the paper's robot: generated code against CasADi's C, the generic implementation and, with
+//! `--reference PYTHON`, Pinocchio and MuJoCo.
 //!
-//! The program builds itself for several sets of compiler flags, lets the builds measure in turns, and writes medians and
-//! ratios to `docs/performance.md` and `target/performance.json`. With `measure ROUNDS` it is one of these builds.
+//! The program builds itself for several sets of compiler flags, lets the builds and the engines measure in turns, and writes
+//! medians and ratios to `docs/performance.md` and `target/performance.json`. With `measure` it is one of these builds; with
+//! `input FILE` one writes what the engines compute with.
 
 #[cfg(feature = "measure")]
 mod batch;
@@ -10,6 +12,9 @@ mod builds;
 mod casadi;
 #[cfg(feature = "measure")]
 mod derivatives;
+mod engines;
+#[cfg(feature = "measure")]
+mod input;
 #[cfg(feature = "measure")]
 mod measure;
 mod report;
@@ -29,11 +34,11 @@ fn main() -> ExitCode {
     let done = match arguments.as_slice() {
         #[cfg(feature = "measure")]
         ["measure"] => measure::print(),
-        [] => builds::run(9).and_then(|measured| report::write(&measured)),
-        ["--rounds", rounds] => {
-            rounds.parse().map_err(Problem::from).and_then(builds::run).and_then(|measured| report::write(&measured))
-        }
-        _ => Err("expected no arguments, or --rounds NUMBER".into()),
+        #[cfg(feature = "measure")]
+        ["input", file] => measure::layout().and_then(|layout| input::write(&layout, file.as_ref())),
+        arguments => options(arguments)
+            .and_then(|(rounds, python)| builds::run(rounds, python))
+            .and_then(|measured| report::write(&measured)),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -41,5 +46,23 @@ fn main() -> ExitCode {
             eprintln!("error: {problem}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Rounds, and the interpreter whose packages have the other engines.
+fn options<'a>(mut arguments: &[&'a str]) -> Result<(usize, Option<&'a str>), Problem> {
+    let (mut rounds, mut python) = (9, None);
+    while let [option, value, rest @ ..] = arguments {
+        match *option {
+            "--rounds" => rounds = value.parse()?,
+            "--reference" => python = Some(*value),
+            _ => break,
+        }
+        arguments = rest;
+    }
+    if arguments.is_empty() {
+        Ok((rounds, python))
+    } else {
+        Err("expected --rounds NUMBER, --reference PYTHON or nothing".into())
     }
 }

@@ -36,8 +36,8 @@ const LEAST: f64 = 0.02;
 const AGREEMENT: f64 = 1e-11;
 
 /// Joint angles at the start of a motion, rad; its step, s; and the number of steps until the robot is at rest.
-const ANGLES: [f64; 6] = [0.3, -0.4, 0.5, -0.3, 0.4, -0.5];
-const STEP: f64 = 1e-3;
+pub const ANGLES: [f64; 6] = [0.3, -0.4, 0.5, -0.3, 0.4, -0.5];
+pub const STEP: f64 = 1e-3;
 const STEPS: u32 = 20_000;
 
 /// Forward dynamics of as many states at once as there are lanes, per state.
@@ -66,11 +66,16 @@ macro_rules! per_lane {
         }) / f64::from($count)
     }};
 }
+
+/// The paper's robot.
+pub fn layout() -> Result<Layout, Problem> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen/layouts/dual_arm_3r.toml");
+    Layout::read(&path).map_err(|report| report.to_string().into())
+}
+
 /// Compares with CasADi, measures, and prints names and times as JSON.
 pub fn print() -> Result<(), Problem> {
-    let layout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../codegen/layouts/dual_arm_3r.toml");
-    let layout = Layout::read(&layout).map_err(|report| report.to_string())?;
-    let (generic, model) = (Generic::new(&layout), Model::<f64>::default());
+    let (generic, model) = (Generic::new(&layout()?), Model::<f64>::default());
     let (few, many) = (states(FEW), states(MANY));
     compare(&model, &few)?;
     let mut times = Map::new();

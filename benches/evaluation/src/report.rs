@@ -2,6 +2,7 @@
 
 use crate::Problem;
 use crate::builds::{BUILDS, Measured};
+use crate::engines::ENGINES;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -70,6 +71,20 @@ const BATCHED: [(&str, &str, &str); 10] = [
     ("Runge–Kutta step, 16,384 states", "step, many states", "step"),
 ];
 
+const OTHERS: &str = "
+## Pinocchio and MuJoCo
+
+C++ of Pinocchio, header only and compiled by clang with `-O3 -march=native`, with a planar joint for the base, and MuJoCo's library with
+two slides and a hinge: ns, and in brackets how many times that of generated code (native, fused). What they compute agrees with it to
+1e-10 and 1e-9. Both are for robots in space of any structure, which generated code is not. Derivatives are those of
+`computeABADerivatives`; generalized inertia, bias and Jacobian follow from `crba`, `nonLinearEffects` and the Jacobians of frames by
+elimination of the base; MuJoCo's step is `mj_step` with its own Runge–Kutta integrator, and the control as springs and dampers.
+
+| |";
+
+/// Measurements of other engines: title and name.
+const OF_OTHERS: [(&str, &str); 4] = [COMPARED[0], COMPARED[2], COMPARED[3], COMPARED[6]];
+
 /// Writes `docs/performance.md`, and `performance.json` beside the builds.
 pub fn write(measured: &[Measured]) -> Result<(), Problem> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -86,7 +101,8 @@ pub fn write(measured: &[Measured]) -> Result<(), Problem> {
     Ok(std::fs::write(folder.join("target/performance.json"), serde_json::to_string_pretty(&all)?)?)
 }
 
-fn markdown(measured: &[Measured]) -> Result<String, Problem> {
+fn markdown(all: &[Measured]) -> Result<String, Problem> {
+    let (measured, others) = all.split_at(BUILDS.len());
     let c = |name: &str| {
         // C is compiled in the same way for every build
         let of_builds = measured.iter().filter_map(|build| build.median(&format!("C, {name}")));
@@ -110,6 +126,7 @@ fn markdown(measured: &[Measured]) -> Result<String, Problem> {
         let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
         writeln!(text, " {:.0} % |", 100.0 * spread)?;
     }
+    text += &of_engines(measured, others)?;
     text += "\n## Other scalars\n\nForward dynamics, ns per state (one per lane), and the ratio to one state of CasADi's C.\n\n| |";
     for (build, ..) in BUILDS {
         write!(text, " {build} |")?;
@@ -168,6 +185,24 @@ fn markdown(measured: &[Measured]) -> Result<String, Problem> {
                 return Err(format!("no time of generic, {name}").into());
             };
             write!(text, " {:.0} |", generic / generated)?;
+        }
+        text += "\n";
+    }
+    Ok(text)
+}
+
+/// What other engines need, where they were measured.
+fn of_engines(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
+    let Some(generated) = measured.last().filter(|_| !others.is_empty()) else { return Ok(String::new()) };
+    let mut text = format!("{OTHERS} generated | {} |\n|---|---|---|---|\n", ENGINES.join(" | "));
+    for (title, name) in OF_OTHERS {
+        let base = generated.median(&format!("f64, {name}")).ok_or(format!("no time of {name}"))?;
+        write!(text, "| {title} | {base:.0} |")?;
+        for engine in others {
+            match engine.median(name) {
+                Some(time) => write!(text, " {time:.0} (**{:.1}**) |", time / base)?,
+                None => text += " – |",
+            }
         }
         text += "\n";
     }
