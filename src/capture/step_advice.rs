@@ -32,6 +32,9 @@ const SHARE: f64 = 0.5;
 /// Beyond so many steps of a phase no shorter step is advised where steps can follow from a tolerance.
 const MOST_STEPS: f64 = 1e6;
 
+/// Errors so many times beyond their bounds are those of steps that have lost the motion, and have no order.
+const LOST: f64 = 1e7;
+
 /// For each table of the scenario with a phase beyond a bound of the audit, how it was integrated and what would do.
 #[must_use]
 pub fn step_advice(scenario: &Scenario, study: &Study) -> Vec<String> {
@@ -78,7 +81,7 @@ fn advice<'p>(
     let wanted = rounded_down(step * libm::pow(SHARE / worst, 1.0 / f64::from(order)));
     let remedy = if is_limited {
         format!("`step = {wanted}` would probably do")
-    } else if duration / wanted > MOST_STEPS {
+    } else if worst > LOST || duration / wanted > MOST_STEPS {
         "`integrator = \"adaptive\"` would do".to_owned()
     } else {
         format!("`step = {wanted}` would probably do, or `integrator = \"adaptive\"`")

@@ -131,7 +131,8 @@ fn the_exit_code_is_the_worst() {
     let (code, out, err) = files.run(&[&poor, &good], &[]);
     assert_eq!(code, 1, "{err}");
     assert!(err.contains("poor: audit: ") && !err.contains("good: audit: "), "{err}");
-    assert!(err.contains("over its bound") && err.contains("a smaller `tolerance`"), "{err}");
+    assert!(err.contains("over its bound") && err.contains("poor: [approach] is integrated by `rk4`"), "{err}");
+    assert!(err.contains("steps of 0.2 s: `integrator = \"adaptive\"` would do\n"), "the motion is lost: {err}");
     assert!(out.contains("good on ") && files.has("good/summary.json") && files.has("poor/summary.json"));
     assert_eq!(files.run(&[&good, &poor], &[]).0, 1);
 }
