@@ -44,8 +44,7 @@ fn digits_behind(by: u32, first: u32, second: u32) -> u32 {
 /// (remainder in rad, number of quarter turns modulo 4) of an angle of at least 2²⁰ rad; NaN for one that is not finite.
 ///
 /// In words of 32 bits, one after the other: wider integers take a long stack frame on a small processor.
-#[cold]
-#[inline(never)]
+#[inline]
 #[allow(clippy::cast_possible_truncation, reason = "words of 32 bits")]
 pub(super) fn reduce_f64(angle: f64) -> (f64, u64) {
     let [lower, upper] = [angle.to_bits() as u32, (angle.to_bits() >> 32) as u32];
@@ -95,8 +94,7 @@ pub(super) fn reduce_f64(angle: f64) -> (f64, u64) {
 }
 
 /// As [`reduce_f64`], of an angle of at least 2⁹ rad, with integers of 64 bits.
-#[cold]
-#[inline(never)]
+#[inline]
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "words; rounding to the scalar")]
 pub(super) fn reduce_f32(angle: f32) -> (f32, u32) {
     // the angle is m 2ᵉ with e = exponent - 150

@@ -6,7 +6,8 @@ use super::sine::{sin_cos_f32, sin_cos_f64, sin_cos_pair_f32, sin_cos_pair_f64};
 macro_rules! portable {
     ($float:ident, $bits:ident, $sin_cos:ident, $sin_cos_pair:ident, $sin_cos_all:ident, $mul_add:ident, $sqrt:ident) => {
         /// (sine, cosine) of each angle, rad.
-        #[inline]
+        #[cfg_attr(target_arch = "arm", inline(always))]
+        #[cfg_attr(not(target_arch = "arm"), inline)]
         pub(super) fn $sin_cos_all<const N: usize>(angles: [$float; N]) -> [($float, $float); N] {
             let mut results = [(0.0, 0.0); N];
             for (angles, results) in angles.chunks(2).zip(results.chunks_mut(2)) {

@@ -94,8 +94,9 @@ fn turned_f32(x: f32, quadrant: u32) -> (f32, f32) {
 }
 
 macro_rules! sines {
-    ($float:ident, $coefficients:expr, $turned:ident, $near:ident, $reduce:ident, $far:ident, $far_pair:ident,
-     $sin_cos:ident, $sin_cos_pair:ident, $pair:ident, $error:literal) => {
+    ($float:ident, $bits:ident, $coefficients:expr, $turned:ident, $reduce_near:ident, $near:ident, $reduce_far:ident,
+     $any:ident, $sin_cos:ident, $near_pair:ident, $any_pair:ident, $sin_cos_pair:ident, $pair:ident,
+     $error:literal) => {
         /// Sines and cosines of two angles.
         #[derive(Clone, Copy, Debug)]
         #[repr(C)]
@@ -113,19 +114,28 @@ macro_rules! sines {
             }
         }
 
-        /// Of an angle that is not far from 0.
+        /// (remainder, quarter turns) of an angle that is not far from 0.
         #[inline]
-        fn $near(angle: $float) -> ($float, $float) {
+        fn $reduce_near(angle: $float) -> ($float, $bits) {
             let shifted = angle * core::$float::consts::FRAC_2_PI + $coefficients.round;
             let quarters = shifted - $coefficients.round;
             let [a, b, c] = $coefficients.quarter_turn;
-            $turned(((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
+            (((angle - quarters * a) - quarters * b) - quarters * c, shifted.to_bits())
         }
 
+        /// Of an angle that is not far from 0.
+        #[inline]
+        fn $near(angle: $float) -> ($float, $float) {
+            let (x, quadrant) = $reduce_near(angle);
+            $turned(x, quadrant)
+        }
+
+        /// Of an angle that may be far. It calls nothing: its frame is on top of that of a function that may be large.
         #[cold]
         #[inline(never)]
-        fn $far(angle: $float) -> ($float, $float) {
-            let (x, quadrant) = $reduce(angle);
+        fn $any(angle: $float) -> ($float, $float) {
+            let (x, quadrant) =
+                if angle.abs() <= $coefficients.furthest { $reduce_near(angle) } else { $reduce_far(angle) };
             $turned(x, quadrant)
         }
 
@@ -134,54 +144,61 @@ macro_rules! sines {
         #[cfg_attr(not(target_arch = "arm"), inline)]
         #[must_use]
         pub fn $sin_cos(angle: $float) -> ($float, $float) {
-            if angle.abs() <= $coefficients.furthest { $near(angle) } else { $far(angle) }
+            if angle.abs() <= $coefficients.furthest { $near(angle) } else { $any(angle) }
         }
 
-        /// Of two angles: a call less, and one set of constants, where it is not inlined. Four numbers come back in registers
-        /// by the convention of C, not by that of Rust.
+        /// Of two angles: a call less, and one set of constants, where they are not inlined.
+        #[inline]
+        #[must_use]
+        pub fn $sin_cos_pair(first: $float, second: $float) -> $pair {
+            // here, so that far angles do not need the frame of near ones
+            let is_near = first.abs() + second.abs() <= $coefficients.furthest;
+            if is_near { $near_pair(first, second) } else { $any_pair(first, second) }
+        }
+
+        /// Of angles that are not far. Four numbers come back in registers by the convention of C, not by that of Rust.
         #[cfg_attr(target_arch = "arm", inline(never))]
         #[cfg_attr(not(target_arch = "arm"), inline)]
-        #[must_use]
-        pub extern "C" fn $sin_cos_pair(first: $float, second: $float) -> $pair {
-            if first.abs() + second.abs() <= $coefficients.furthest {
-                let [first, second] = [first, second].map(|angle| $near(angle).into());
-                $pair { first, second }
-            } else {
-                $far_pair(first, second)
-            }
+        extern "C" fn $near_pair(first: $float, second: $float) -> $pair {
+            $pair { first: $near(first).into(), second: $near(second).into() }
         }
 
         #[cold]
         #[inline(never)]
-        extern "C" fn $far_pair(first: $float, second: $float) -> $pair {
-            let [first, second] = [first, second].map(|angle| $sin_cos(angle).into());
-            $pair { first, second }
+        extern "C" fn $any_pair(first: $float, second: $float) -> $pair {
+            $pair { first: $any(first).into(), second: $any(second).into() }
         }
     };
 }
 
 sines!(
     f64,
+    u64,
     DOUBLE,
     turned_f64,
+    reduce_near_f64,
     near_f64,
     reduce_f64,
-    far_f64,
-    far_pair_f64,
+    any_f64,
     sin_cos_f64,
+    near_pair_f64,
+    any_pair_f64,
     sin_cos_pair_f64,
     PairF64,
     "3·10⁻¹⁶"
 );
 sines!(
     f32,
+    u32,
     SINGLE,
     turned_f32,
+    reduce_near_f32,
     near_f32,
     reduce_f32,
-    far_f32,
-    far_pair_f32,
+    any_f32,
     sin_cos_f32,
+    near_pair_f32,
+    any_pair_f32,
     sin_cos_pair_f32,
     PairF32,
     "1.5·10⁻⁷"
