@@ -2,10 +2,10 @@
 
 use super::real::Real;
 
-/// Whether the numbers of all slices are finite: 0 x is 0 where x is, else NaN. There is no branch per number.
+/// Whether the numbers of all slices are finite: 0 x is 0 where x is, else NaN. There is no branch per number, and no call:
+/// what a function borrows is in memory, where it could have been in registers.
 ///
-/// A processor with vectors compares several at once, and would wait for a sum. One without adds instead: an addition each,
-/// and only where the sum overflows each is looked at.
+/// A processor with vectors compares several at once, and would wait for a sum. One without adds the products.
 #[inline]
 #[must_use]
 #[allow(clippy::needless_bitwise_bool, reason = "a branch per number costs more than the comparison")]
@@ -14,13 +14,6 @@ pub fn all_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
         let each = |all, values: &[T]| values.iter().fold(all, |all, value| all & (*value * T::ZERO == T::ZERO));
         return slices.into_iter().fold(true, each);
     }
-    let sums = slices.map(|values| values.iter().fold(T::ZERO, |sum, value| sum + *value));
-    let sum = sums.iter().fold(T::ZERO, |sum, value| sum + *value);
-    sum * T::ZERO == T::ZERO || is_each_finite(slices)
-}
-
-#[cold]
-#[inline(never)]
-fn is_each_finite<T: Real, const N: usize>(slices: [&[T]; N]) -> bool {
-    slices.iter().all(|values| values.iter().all(|value| value.is_finite()))
+    let sums = slices.map(|values| values.iter().fold(T::ZERO, |sum, value| sum + *value * T::ZERO));
+    sums.iter().fold(T::ZERO, |sum, value| sum + *value) == T::ZERO
 }
