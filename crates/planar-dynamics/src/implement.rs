@@ -23,7 +23,8 @@ macro_rules! implement_dynamics {
             use $crate::target::{LinkInertia, Target};
             use $crate::validate::{
                 all_finite, array, array_mut, finite, finite_configuration, finite_joint_arrays, finite_state,
-                finite_target, is_regular, joint_arrays, no_accelerations, pivot, rows_mut, store, store_rows,
+                finite_target, is_regular, joint_arrays, no_accelerations, no_reduced_dynamics, pivot, rows_mut, store,
+                store_rows,
             };
 
             impl<T: Real> Robot<T> for Model<T> {
@@ -68,18 +69,14 @@ macro_rules! implement_dynamics {
                     let jacobian = rows_mut("generalized_jacobian", generalized_jacobian)?;
                     let (pose, twist) = (&state.base_pose, &state.base_twist);
                     let result = Model::reduced_dynamics(self, pose, angles, twist, rates);
-                    let (i, c) = (result.generalized_inertia.as_flattened(), &result.generalized_bias);
-                    let j = result.generalized_jacobian.as_flattened();
-                    let is_finite = all_finite([&pose[..], angles, twist, rates, i, c, j]);
+                    let (i, c, j) = (result.generalized_inertia, result.generalized_bias, result.generalized_jacobian);
+                    let is_finite = all_finite([&pose[..], angles, twist, rates])
+                        && all_finite([i.as_flattened(), &c, j.as_flattened()]);
                     if !(is_finite && is_regular(result.smallest_pivot)) {
-                        finite_state(state)?;
-                        pivot("the base inertia", result.smallest_pivot)?;
-                        finite("generalized_inertia", i)?;
-                        finite("generalized_bias", c)?;
-                        finite("generalized_jacobian", j)?;
+                        // copies: what is borrowed is in memory, and is written there before it is known that there is an error
+                        no_reduced_dynamics(state, result.smallest_pivot, i, c, j)?;
                     }
-                    (*inertia, *bias) = (result.generalized_inertia, result.generalized_bias);
-                    *jacobian = result.generalized_jacobian;
+                    (*inertia, *bias, *jacobian) = (i, c, j);
                     Ok(())
                 }
             }
@@ -165,17 +162,18 @@ macro_rules! implement_dynamics {
                     let (masses, inertias, contacts, twists) = by_arm(of_arms);
                     let result =
                         Model::full_impact(self, pose, angles, twist, rates, &masses, &inertias, &contacts, &twists);
-                    let (base, after) = (&result.base_twist_after, &result.joint_rates_after);
+                    // copies: a result whose parts are borrowed would be kept in memory as a whole, with its matrix
+                    let (base, after) = (result.base_twist_after, result.joint_rates_after);
                     // the velocities depend on all numbers but the place of the base
-                    if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], base, after])) {
+                    if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], &base, &after])) {
                         finite_state(state)?;
                         of_arms.iter().flatten().try_for_each(finite_target)?;
                         pivot("the impact matrix G in full coordinates", result.smallest_pivot)?;
-                        finite("base_twist_after", base)?;
-                        finite("joint_rates_after", after)?;
+                        finite("base_twist_after", &{ base })?;
+                        finite("joint_rates_after", &{ after })?;
                     }
-                    *joints = result.joint_rates_after;
-                    Ok(result.base_twist_after)
+                    *joints = after;
+                    Ok(base)
                 }
             }
 
@@ -289,13 +287,14 @@ macro_rules! implement_dynamics {
         ) -> Result<[T; 3], Error> {
             let (pose, twist) = (&state.base_pose, &state.base_twist);
             let result = Model::$function(model, pose, angles, twist, rates, torques $(, $wrench)*);
-            let (base, of_joints) = (&result.base_acceleration, &result.joint_accelerations);
+            let (base, of_joints) = (result.base_acceleration, result.joint_accelerations);
             // neither pivot nor accelerations depend on place and velocity of the base, and on all else they do
-            if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, base, of_joints])) {
-                return Err(no_accelerations(state, forces, result.smallest_pivot, base, of_joints));
+            if !(is_regular(result.smallest_pivot) && all_finite([&pose[..], twist, &base, &of_joints])) {
+                // copies: what is borrowed is in memory, and is written there before it is known that there is an error
+                return Err(no_accelerations(state, forces, result.smallest_pivot, &{ base }, &{ of_joints }));
             }
-            *joints = result.joint_accelerations;
-            Ok(result.base_acceleration)
+            *joints = of_joints;
+            Ok(base)
         }
     };
     ($other:tt) => {

@@ -165,3 +165,20 @@ pub fn no_accelerations<T: Real>(
         .and_then(|()| finite("joint_accelerations", joints));
     in_order.err().unwrap_or(Error::NotFinite { quantity: "base_acceleration", index: 0, value: f64::NAN })
 }
+
+/// Why reduced dynamics have no result, if they have none.
+#[cold]
+#[inline(never)]
+pub fn no_reduced_dynamics<T: Real, const N: usize, const R: usize>(
+    state: &State<'_, T>,
+    smallest_pivot: T,
+    inertia: [[T; N]; N],
+    bias: [T; N],
+    jacobian: [[T; N]; R],
+) -> Result<(), Error> {
+    finite_state(state)?;
+    pivot("the base inertia", smallest_pivot)?;
+    finite("generalized_inertia", inertia.as_flattened())?;
+    finite("generalized_bias", &bias)?;
+    finite("generalized_jacobian", jacobian.as_flattened())
+}
