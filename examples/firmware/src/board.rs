@@ -82,7 +82,8 @@ fn measure<R: Route>() {
             let instructions = timer.instructions(function, &mut case) - overhead;
             let stack = stack::used(&mut || {
                 black_box(function.call)(&mut case);
-            }) - none;
+            })
+            .saturating_sub(none);
             if state < FIRST_FAR {
                 near = [near[0].min(instructions), near[1].max(instructions)];
                 deepest[0] = deepest[0].max(stack);
@@ -97,7 +98,8 @@ fn measure<R: Route>() {
     let mut record: Record = [0.0; _];
     let stack = stack::used(&mut || {
         let _ = black_box(R::capture as fn(&mut Record) -> Result<(), &'static str>)(&mut record);
-    }) - none;
+    })
+    .saturating_sub(none);
     hprintln!("mission {}", stack);
 }
 
