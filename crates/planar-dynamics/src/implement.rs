@@ -210,7 +210,9 @@ macro_rules! implement_dynamics {
                             }
                         }
                     }
-                    finite("merged parameters", &values)?;
+                    if !all_finite([&values[..]]) {
+                        finite("merged parameters", &{ values })?;
+                    }
                     *self = Model::new(Parameters::from_array(values));
                     Ok(())
                 }
