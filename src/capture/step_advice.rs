@@ -38,30 +38,26 @@ const LOST: f64 = 1e7;
 /// For each table of the scenario with a phase beyond a bound of the audit, how it was integrated and what would do.
 #[must_use]
 pub fn step_advice(scenario: &Scenario, study: &Study) -> Vec<String> {
-    let approaches =
-        std::iter::once(&study.approach).chain(study.cases.iter().filter_map(|case| case.approach.as_ref()));
+    let Scenario { approach, post_impact, .. } = scenario;
+    let approaches = study.cases.iter().filter_map(|case| case.approach.as_ref());
+    let approaches: Vec<_> = std::iter::once(&study.approach).chain(approaches).collect();
+    let before = advice("approach", [approach.duration, approach.step], approach.integration, &approaches);
     // a momentum that drifts because a target is heavy has a remedy of its own
     let captured = study.cases.iter().filter_map(|case| case.capture.as_ref());
-    let afterwards = captured.filter(|capture| capture.heavy_target.is_none()).map(|capture| &capture.post_impact);
-    let before = advice(
-        "approach",
-        [scenario.approach.duration, scenario.approach.step],
-        scenario.approach.integration,
-        approaches,
-    );
-    let after = scenario.post_impact.as_ref();
-    let after =
-        after.and_then(|after| advice("post_impact", [after.duration, after.step], after.integration, afterwards));
+    let captured = captured.filter(|capture| capture.heavy_target.is_none());
+    let phases: Vec<_> = captured.map(|capture| &capture.post_impact).collect();
+    let after = post_impact.as_ref();
+    let after = after.and_then(|after| advice("post_impact", [after.duration, after.step], after.integration, &phases));
     before.into_iter().chain(after).collect()
 }
 
-fn advice<'p>(
+fn advice(
     table: &str,
     [duration, step]: [f64; 2],
     Integration { integrator, .. }: Integration,
-    phases: impl Iterator<Item = &'p Phase> + Clone,
+    phases: &[&Phase],
 ) -> Option<String> {
-    let ratios = phases.clone().flat_map(over_bounds).map(|(_, value, bound)| value / bound);
+    let ratios = phases.iter().flat_map(|phase| over_bounds(phase)).map(|(_, value, bound)| value / bound);
     let worst = ratios.reduce(f64::max).filter(|ratio| ratio.is_finite())?;
     let name = integrator.properties().name;
     if let Integrator::Adaptive { tolerance } = integrator {
@@ -73,7 +69,7 @@ fn advice<'p>(
         };
         return Some(format!("[{table}] is integrated by `{name}` with a tolerance of {tolerance:e}: {remedy}"));
     }
-    let is_limited = phases.clone().any(|phase| {
+    let is_limited = phases.iter().any(|phase| {
         let Saturation { joints, base } = &phase.saturation;
         *base > 0.0 || joints.iter().any(|time| *time > 0.0)
     });
