@@ -117,7 +117,8 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
         );
         // the same for several cases
         if warnings.iter().all(|warning| warning.why != why) {
-            let help = "choose another approach; `outline` in the layout and `clearance.ignore` say what may overlap";
+            let help = "choose another approach, or an `outline` that does not go beyond the end effector where it is to touch; \
+                        `clearance.ignore` says what may overlap";
             warnings.push(warning("approach", why, help));
         }
     }

@@ -391,7 +391,7 @@ fn every_line_of_a_template_can_be_switched_on() {
                 "bounces",
                 "without control",
                 "longer than the phase",
-                "to move on",
+                "may move at its end",
                 "keys that vary",
                 "missing key `correlation",
             ]);

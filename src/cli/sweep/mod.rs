@@ -104,7 +104,10 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
         write_report(&campaign, &arguments.sweep, &folder)?;
     }
     if tally.is_interrupted.load(Ordering::Relaxed) {
-        note("interrupted: the same command goes on from here");
+        note(
+            "interrupted: the same command goes on from the files that are complete (`block` cases in each); the cases of \
+             others are computed again",
+        );
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)

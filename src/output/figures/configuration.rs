@@ -62,10 +62,15 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
     let largest = magnitudes.fold(0.0, f64::max);
     let reach = scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max);
     let length_per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };
-    let at_impact = |event: &ImpactEvent<'_>| {
+    let count = events.len();
+    let at_impact = |(i, event): (usize, &ImpactEvent<'_>)| {
         let results = &event.solution.contacts;
         let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
-        let title = format!("Impact at {:.3} s", event.time);
+        let title = if count > MAX_IMPACTS {
+            format!("Impact {} of {count}, at {:.3} s", i + 1, event.time)
+        } else {
+            format!("Impact at {:.3} s", event.time)
+        };
         let mut snapshot = snapshot(title, event.before, event.targets, &contacts);
         snapshot.series.extend(results.iter().filter_map(|result| {
             let [_, x, y] = event.before.end_effector_poses[result.contact.arm];
@@ -74,7 +79,7 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
         }));
         snapshot
     };
-    let mut snapshots: Vec<Snapshot> = events.iter().take(MAX_IMPACTS).map(at_impact).collect();
+    let mut snapshots: Vec<Snapshot> = events.iter().enumerate().take(MAX_IMPACTS).map(at_impact).collect();
     if snapshots.is_empty() {
         let approach = case.approach(study);
         let title = format!("No contact by {} s", approach.duration);

@@ -26,7 +26,7 @@ pub(super) static APPROACH: TableFormat = TableFormat {
             "trajectory_duration",
             TIME,
             Default::Words("the duration"),
-            "of the trajectory alone: afterwards its end is held, at rest",
+            "of the trajectory alone: afterwards its end is held, at rest, for which final rates are zeros or not given",
         )
         .example("15.0"),
         Key::optional(

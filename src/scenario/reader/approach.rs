@@ -186,7 +186,7 @@ fn trajectory_duration(
     }
     if trajectory < duration && !rest {
         value.reject(&format!(
-            "the arms are to move on at its end and cannot stay there, expected `{key}` of zeros, or no such key"
+            "the arms may move at its end, where they are to stay: expected `{key}` of zeros, or no such key"
         ));
         return None;
     }
@@ -252,7 +252,7 @@ fn why_not(law: &Tracking, key: &str) -> &'static str {
     match (law, key) {
         (_, "pose_gain" | "rate_gain" | "singularity_threshold") => "only `tracking = \"resolved_motion_rate\"` has it",
         (Tracking::InverseDynamics, "torque_limits" | "sample_time") => {
-            "exact tracking gives whatever torque it takes, expected `tracking` `computed_torque` or `pd`"
+            "exact tracking gives whatever torque it takes, expected `tracking` `computed_torque`, `pd` or `resolved_motion_rate`"
         }
         (Tracking::InverseDynamics, _) => "exact tracking has no gains, expected `tracking = \"pd\"` with them",
         (_, "final_joint_angles") => "the joints follow the end effectors, expected no such key",
