@@ -76,3 +76,29 @@ pub fn is_generated(archive: impl Read + Seek) -> bool {
     description.take(2048).read_to_end(&mut start).is_ok()
         && String::from_utf8_lossy(&start).contains(r#"generationTool="planar-capture "#)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of each file that is missing, too many or other, an archive is not the same; of a binary it is.
+    #[test]
+    fn an_archive_is_the_same_with_all_files_and_no_others() {
+        let entry = |path: &str, text: &str| Entry { path: path.to_owned(), content: text.into() };
+        let entries = vec![entry("modelDescription.xml", "<x/>"), entry("sources/a.c", "a"), entry("sources/b.h", "b")];
+        let fmu = Fmu { name: "a".to_owned(), entries };
+        let is_same_with = |change: &dyn Fn(&mut Vec<Entry>)| {
+            let mut other = fmu.clone();
+            change(&mut other.entries);
+            is_same(Cursor::new(bytes(&other).expect("an archive")), &fmu)
+        };
+        assert!(is_same_with(&|_| ()));
+        assert!(is_same_with(&|entries| entries.push(entry("binaries/x86_64-linux/a.so", "code"))));
+        for i in 0..3 {
+            assert!(!is_same_with(&|entries| drop(entries.remove(i))), "without {i}");
+            assert!(!is_same_with(&|entries| entries[i].content.push(b' ')), "{i} is longer");
+        }
+        assert!(!is_same_with(&|entries| entries.push(entry("sources/c.c", "c"))));
+        assert!(!is_same(Cursor::new(b"no archive"), &fmu));
+    }
+}

@@ -331,6 +331,22 @@ mod tests {
         times
     }
 
+    /// Of s (s - 1) (s - 2), s from 0 to 2, the extremes are 1/√3 beside the middle, and the rate is least there.
+    #[test]
+    fn extremes_are_those_of_the_cubic_and_of_its_rate() {
+        let interval =
+            |of: [&'static [f64]; 2]| PathInterval { span: [2.0, 4.0], start: [of[0], of[1]], end: [of[0], of[1]] };
+        let mut found: Vec<f64> = interval([&[0.0], &[2.0]]).extremes(0).into_iter().flatten().collect();
+        found.sort_by(f64::total_cmp);
+        let beside = 1.0 / 3.0_f64.sqrt();
+        assert_eq!(found.len(), 3, "{found:?}");
+        for (time, expected) in found.iter().zip([3.0 - beside, 3.0, 3.0 + beside]) {
+            assert!((time - expected).abs() < 1e-14, "{found:?}");
+        }
+        // a coordinate at rest has none within
+        assert_eq!(interval([&[1.0], &[0.0]]).extremes(0).into_iter().flatten().count(), 0);
+    }
+
     #[test]
     fn the_interpolant_reproduces_the_omitted_states() {
         let motion = |t: f64| [(3.0 * t).sin(), 3.0 * (3.0 * t).cos()];

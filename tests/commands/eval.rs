@@ -159,6 +159,11 @@ fn a_bad_state_is_named_with_key_value_and_what_would_be_right() {
         &["`targets[1].mass` is 1", "expected at most 5.600e8 kg", "1e6 times that of the robot, 5.600e2"],
     );
     holds(said(&|s| s["targets"][1]["inertia"] = json!(1e14)), &["`targets[1].inertia` is 1", "kg m², 1e6 times"]);
+    // positions are no angles
+    let mut far = reference().0[2].clone();
+    far["base_pose"] = json!([0.0, 2e6, -3e6]);
+    let (code, results, problem) = eval("dual_arm_3r", &json!([far]).to_string(), "generated");
+    assert_eq!((code, results.len()), (0, 1), "{problem}");
     holds(said(&|s| s["base_pose"][0] = json!(-2e6)), &["`base_pose[0]` is -2", "an angle of at most 1e6 rad"]);
     holds(said(&|s| s["joint_angles"][5] = json!(1e50)), &["`joint_angles[5]` is 1", "an angle of at most 1e6 rad"]);
     holds(

@@ -327,6 +327,7 @@ fn names_and_numbers_are_the_layouts() {
     let module = render(&mine).expect("the same structure");
     assert!(module.contains(&mine.sha256()) && !module.contains(&layout.sha256()));
     assert!(module.contains("default: 123.25 }") && module.contains("of arm 1 (crane)") && !module.contains("(arm1)"));
+    assert!(module.contains("crane joint 1") && !module.contains("arm1 joint 1"), "a name of the other layout");
     let reference = format!("Parameters::from_array([{:?}, ", layout.base.mass);
     assert!(module.contains(&reference), "no `{reference}`");
     assert_eq!(fs::read_to_string(at("mine.layout")).expect("the layout"), mine.to_toml());

@@ -6,7 +6,7 @@ use planar_capture::outline::Outline;
 use planar_capture::registry;
 use planar_capture::scenario::Scenario;
 use planar_capture::simulate::system::Body;
-use planar_proof::{file, tolerance};
+use planar_proof::{assert_close, file, tolerance};
 use std::f64::consts::TAU;
 
 const ONE_ARM: &str = "[0.4, -0.9, 0.5]";
@@ -136,6 +136,14 @@ fn rules_of_overlaps() {
             let after = case.capture.as_ref().map_or(0.0, |captured| captured.post_impact.duration);
             assert_eq!(after > 0.0, !ignored.is_empty());
             let end = case.approach(&stopped).duration + after;
+            if ignored.is_empty() {
+                // the targets have moved until then
+                let left = free.approach(&report).duration - end;
+                for (now, at_contact) in case.targets.iter().zip(&free.targets) {
+                    let expected: [f64; 3] = std::array::from_fn(|k| at_contact.pose[k] - left * at_contact.twist[k]);
+                    assert_close("pose", &now.pose, &expected, tolerance::REACHED);
+                }
+            }
             assert!((end - first.span[0]).abs() < 1e-9, "{}: {end}, not {first:?}", case.name);
             // nothing of what would have come
             assert!(case.clearance.overlaps.iter().all(|overlap| overlap.span[1] <= first.span[0]), "{}", case.name);

@@ -47,6 +47,9 @@ fn the_papers_final_pose_is_found_from_its_end_effectors() {
     assert_close("angles", joint_angles, &original.approach.final_joint_angles, 100.0 * tolerance::REACHED);
     let rates = |study: &Study| study.terminal_rates.as_ref().expect("rates").joint_rates.clone();
     assert_close("rates", &rates(&found), &rates(&study), 100.0 * tolerance::REACHED);
+    // of the equations of the rates, whose lengths are not those of the pose's
+    let margin = |study: &Study| study.terminal_rates.as_ref().expect("rates").singularity_margin;
+    assert_close("margin", &[margin(&found)], &[margin(&study)], 100.0 * tolerance::REACHED);
     assert_eq!(*spare_joints, 0);
     assert!(*iterations < 40, "{iterations} iterations");
     for (twist, expected) in found.approach.end().end_effector_twists.iter().zip([-0.1, 0.1]) {

@@ -163,3 +163,64 @@ fn default_list(path: &KeyPath, scenario: &Scenario) -> Option<Vec<f64>> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::registry::SHIPPED;
+
+    const TEXT: &str = r#"
+name = "defaults"
+layout = "dual_arm_2r"
+initial = { joint_angles = [0.6, -1.2, 2.5, 1.2], base_pose = [0.1, 0.2, 0.3] }
+approach = { duration = 1.0, trajectory = "cycloidal", final_joint_angles = [0.6, -1.2, 2.5, 1.2], proportional_gain = 7.0 }
+[[target]]
+name = "ball"
+arm = "arm1"
+mass = 1.0
+inertia = 0.1
+contact = [0.1, 0.0]
+radius = 0.1
+twist = [0.4, 0.5, 0.6]
+[[case]]
+name = "given"
+target_twists = { ball = [0.7, 0.8, 0.9] }
+[post_impact]
+duration = 1.0
+control = "hold"
+derivative_gain = [1.0, 2.0, 3.0, 4.0]
+"#;
+
+    /// A list that is not given, or one number for all joints, is written out with the scenario's values before one of its
+    /// elements is set.
+    #[test]
+    fn lists_are_written_out_with_the_values_that_hold() {
+        let scenario = Scenario::parse(TEXT, "it.toml", "".as_ref(), SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+        for (path, values) in [
+            ("initial.base_pose[1]", vec![0.1, 0.2, 0.3]),
+            ("initial.base_twist[1]", vec![0.0; 3]),
+            ("initial.joint_rates[1]", vec![0.0; 4]),
+            ("approach.proportional_gain[1]", vec![7.0; 4]),
+            ("approach.derivative_gain[1]", vec![14.0; 4]),
+            ("post_impact.proportional_gain[1]", vec![49.0; 4]),
+            ("post_impact.derivative_gain[1]", vec![1.0, 2.0, 3.0, 4.0]),
+            ("target.ball.twist[1]", vec![0.4, 0.5, 0.6]),
+            ("case.given.target_twists.ball[1]", vec![0.7, 0.8, 0.9]),
+        ] {
+            let mut tree: Table = TEXT.parse().expect("TOML");
+            let place = place(&mut tree, &KeyPath::parse(path).expect("a path"), &scenario).expect(path);
+            set(&mut tree, &place, Value::Float(5.5));
+            let list = place[..place.len() - 1]
+                .iter()
+                .fold(&Value::Table(tree), |value, step| match step {
+                    Step::Key(key) => &value[key.as_str()],
+                    Step::Index(index) => &value[*index],
+                    Step::Named(name) => panic!("{name}: a place has indices"),
+                })
+                .clone();
+            let expected: Vec<_> =
+                values.iter().enumerate().map(|(i, value)| Value::Float(if i == 1 { 5.5 } else { *value })).collect();
+            assert_eq!(list, Value::Array(expected), "{path}");
+        }
+    }
+}

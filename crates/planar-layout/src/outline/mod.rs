@@ -265,6 +265,17 @@ mod tests {
     }
 
     #[test]
+    fn the_reach_is_that_of_the_farthest_point() {
+        let capsule = Outline::Capsule { ends: [[0.0, 0.0], [-3.0, 4.0]], radius: 0.5 };
+        let polygon = Outline::polygon(vec![[0.0, 0.0], [6.0, 8.0], [1.0, 0.0]]).expect("a triangle");
+        for (outline, reach) in
+            [(Outline::Disc { center: [3.0, -4.0], radius: 1.0 }, 6.0), (capsule, 5.5), (polygon, 10.0)]
+        {
+            assert!((outline.reach() - reach).abs() < 1e-14, "{outline:?}");
+        }
+    }
+
+    #[test]
     fn signed_distances_of_a_plus() {
         let cases = [
             ([4.0, 0.0], 1.0, [1.0, 0.0]),
