@@ -72,7 +72,8 @@ def conserved(page, impacts):
     steps = [(t, b - a) for t, u, a, b in zip(time, time[1:], left, left[1:], strict=False) if t == u]
     costs = [i["exact"]["kinetic_energy_after"] - i["exact"]["kinetic_energy_before"] for i in impacts]
     near([step for _, step in steps], costs, "steps of the energy")
-    lost = page.evaluate("""[...document.querySelectorAll("tr")].filter((row) => row.cells[0]?.textContent.includes("– lost"))
+    lost = page.evaluate("""[...document.querySelectorAll("tr")]
+        .filter((row) => row.cells[0]?.textContent.includes("– lost"))
         .flatMap((row) => [...row.cells].slice(1).map((cell) => cell.textContent))""")
     assert len(lost) == len(impacts), f"{lost} of {len(impacts)} impacts"
     for text, impact in zip(lost, impacts, strict=True):
