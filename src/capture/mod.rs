@@ -55,7 +55,7 @@ use crate::capture::terminal_error::TerminalError;
 use crate::laws::{Laws, NamedLaws, OwnLaws, RegisteredLaw};
 use crate::owned::CloneModel;
 use crate::scalar::Real;
-use crate::scenario::{Detection, FinalRates, PostCaptureControl, Scenario, Tracking};
+use crate::scenario::{Detection, FinalRates, Scenario, Tracking};
 pub use crate::simulate::conservation::CENTER_OF_MASS_BOUND;
 use crate::simulate::event::NoEvents;
 use crate::simulate::limits::LimitViolations;
@@ -328,11 +328,11 @@ pub fn study_with(
     sample: f64,
     observer: &mut dyn Observer,
 ) -> Result<Study, StudyError> {
-    if let (Tracking::Own { name, .. }, None) = (&scenario.approach.tracking, laws.tracking) {
+    let [tracking, post_capture] = scenario.own_laws();
+    if let (Some((name, _)), None) = (tracking, laws.tracking) {
         return Err(StudyError::NoLaw { name, key: "approach.tracking" });
     }
-    let control = scenario.post_impact.as_ref().map(|after| &after.control);
-    if let (Some(PostCaptureControl::Own { name, .. }), None) = (control, laws.post_capture) {
+    if let (Some((name, _)), None) = (post_capture, laws.post_capture) {
         return Err(StudyError::NoLaw { name, key: "post_impact.control" });
     }
     let about = |origin| OwnLaws { laws, scenario, origin };
@@ -448,15 +448,17 @@ impl Study {
         std::iter::once(&mut self.approach).chain(of_cases)
     }
 
+    /// The approach that cases have in common; `None` where each has its own, by contact detection.
+    fn common_approach(&self) -> Option<&Phase> {
+        self.cases.iter().any(|case| case.approach.is_none()).then_some(&self.approach)
+    }
+
     /// The failures of the audit; empty when every phase and every exact impact passes, and no bodies overlap where the
     /// scenario forbids it.
     #[must_use]
     pub fn audit_failures(&self) -> Vec<String> {
         let mut found = Vec::new();
-        // the approach without contacts is not part of any case with contact detection
-        if self.cases.iter().any(|case| case.approach.is_none()) {
-            found.extend(phase_failures("approach", &self.approach, None));
-        }
+        found.extend(self.common_approach().into_iter().flat_map(|common| phase_failures("approach", common, None)));
         for case in &self.cases {
             if let Some(own) = &case.approach {
                 found.extend(phase_failures(&format!("{}, approach", case.name), own, None));

@@ -40,7 +40,7 @@ const LOST: f64 = 1e7;
 pub fn step_advice(scenario: &Scenario, study: &Study) -> Vec<String> {
     let Scenario { approach, post_impact, .. } = scenario;
     let approaches = study.cases.iter().filter_map(|case| case.approach.as_ref());
-    let approaches: Vec<_> = std::iter::once(&study.approach).chain(approaches).collect();
+    let approaches: Vec<_> = study.common_approach().into_iter().chain(approaches).collect();
     let before = advice("approach", [approach.duration, approach.step], approach.integration, &approaches);
     // a momentum that drifts because a target is heavy has a remedy of its own
     let captured = study.cases.iter().filter_map(|case| case.capture.as_ref());

@@ -1,7 +1,7 @@
 //! Control laws of a program of one's own, which its scenarios name.
 
 use super::{Laws, PostCaptureLaw, TrackingLaw};
-use crate::scenario::{LawFormat, LawNumbers, PostCaptureControl, Scenario, Tracking};
+use crate::scenario::{LawFormat, LawNumbers, Scenario};
 
 /// A law that scenarios name, by `tracking = "NAME"` in `[approach]` or `control = "NAME"` in `[post_impact]`; the numbers of
 /// the table `law` beside it are handed to its constructor.
@@ -72,20 +72,17 @@ pub struct NamedLaws {
 impl NamedLaws {
     /// Those that the scenario names, made of its numbers. One that is not among these laws is left out.
     #[must_use]
-    pub fn of(scenario: &Scenario, laws: &[RegisteredLaw]) -> Self {
+    pub fn of<'s>(scenario: &'s Scenario, laws: &[RegisteredLaw]) -> Self {
         let mut named = Self::default();
-        let control = scenario.post_impact.as_ref().map(|after| &after.control);
+        let [tracking, post_capture] = scenario.own_laws();
         for RegisteredLaw { format, make } in laws {
-            match (make, &scenario.approach.tracking, control) {
-                (LawConstructor::Tracking(make), Tracking::Own { name, numbers }, _) if format.name == *name => {
-                    named.tracking = Some(make(numbers));
+            let numbers =
+                |of: Option<(&str, &'s LawNumbers)>| of.filter(|(name, _)| *name == format.name).map(|(_, n)| n);
+            match make {
+                LawConstructor::Tracking(make) => named.tracking = numbers(tracking).map(make).or(named.tracking),
+                LawConstructor::PostCapture(make) => {
+                    named.post_capture = numbers(post_capture).map(make).or(named.post_capture);
                 }
-                (LawConstructor::PostCapture(make), _, Some(PostCaptureControl::Own { name, numbers }))
-                    if format.name == *name =>
-                {
-                    named.post_capture = Some(make(numbers));
-                }
-                _ => {}
             }
         }
         named

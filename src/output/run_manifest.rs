@@ -16,7 +16,7 @@
 //! ```
 
 use crate::layout::sha256;
-use crate::scenario::{LawNumbers, PostCaptureControl, Scenario, ScenarioSource, Tracking, Variant};
+use crate::scenario::{LawNumbers, Scenario, ScenarioSource, Variant};
 use crate::simulate::Timing;
 use crate::simulate::stepper::Integration;
 use serde_json::{Map, Value, json};
@@ -71,16 +71,11 @@ impl PhaseManifest {
 }
 
 fn laws(scenario: &Scenario) -> Vec<LawManifest> {
-    let law = |phase, name, numbers: &LawNumbers| LawManifest { phase, name, numbers: numbers.clone() };
-    let before = match &scenario.approach.tracking {
-        Tracking::Own { name, numbers } => Some(law("approach", name, numbers)),
-        _ => None,
+    let laws = ["approach", "post_impact"].into_iter().zip(scenario.own_laws());
+    let law = |(phase, law): (_, Option<(_, &LawNumbers)>)| {
+        law.map(|(name, numbers)| LawManifest { phase, name, numbers: numbers.clone() })
     };
-    let after = match scenario.post_impact.as_ref().map(|after| &after.control) {
-        Some(PostCaptureControl::Own { name, numbers }) => Some(law("post_impact", name, numbers)),
-        _ => None,
-    };
-    before.into_iter().chain(after).collect()
+    laws.filter_map(law).collect()
 }
 
 fn phases(scenario: &Scenario) -> Vec<PhaseManifest> {

@@ -69,6 +69,20 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// Names and numbers of the laws of the program's own that control the approach and the motion after the capture.
+    #[must_use]
+    pub fn own_laws(&self) -> [Option<(&'static str, &LawNumbers)>; 2] {
+        let tracking = match &self.approach.tracking {
+            Tracking::Own { name, numbers } => Some((*name, numbers)),
+            _ => None,
+        };
+        let post_capture = match self.post_impact.as_ref().map(|after| &after.control) {
+            Some(PostCaptureControl::Own { name, numbers }) => Some((*name, numbers)),
+            _ => None,
+        };
+        [tracking, post_capture]
+    }
+
     /// The names of all cases, in the order of the file.
     #[must_use]
     pub fn case_names(&self) -> Vec<&str> {

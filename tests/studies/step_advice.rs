@@ -71,3 +71,15 @@ fn advice_is_that_of_the_phase() {
     study.cases[1].capture.as_mut().expect("a capture").post_impact.path_error = f64::NAN;
     assert_eq!(step_advice(&scenario, &study), Vec::<String>::new());
 }
+
+/// An approach without contacts is part of no case with contact detection, and neither the audit's matter nor the advice's.
+#[test]
+fn an_approach_that_no_case_has_is_not_advised_on() {
+    let scenario = scenario("elastic_rebound");
+    let mut study = run(&scenario);
+    assert!(study.cases.iter().all(|case| case.approach.is_some()));
+    study.approach.path_error = 1.0;
+    assert_eq!((study.audit_failures(), step_advice(&scenario, &study)), (Vec::new(), Vec::new()));
+    study.cases[0].approach.as_mut().expect("its own").path_error = 1.0;
+    assert_eq!((study.audit_failures().len(), step_advice(&scenario, &study).len()), (1, 1));
+}

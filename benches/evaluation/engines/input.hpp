@@ -1,7 +1,6 @@
 // Robot and states that the Rust program has written, with the results that it computes, and the clock.
 #pragma once
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

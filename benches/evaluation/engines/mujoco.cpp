@@ -1,6 +1,5 @@
 // Times of MuJoCo: the robot as two slides and hinges, without gravity and contacts.
 #include "input.hpp"
-#include <cstring>
 #include <mujoco/mujoco.h>
 #include <sstream>
 

@@ -4,7 +4,7 @@ use crate::Problem;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Names of their columns, files, and what their compilation needs beside the headers.
+/// Names of their columns.
 pub const ENGINES: [&str; 2] = ["Pinocchio", "MuJoCo"];
 
 /// Boost's lists are as long as Pinocchio's choice of joints.

@@ -1,6 +1,6 @@
 //! The keys of `[approach]`.
 
-use super::phase::{COORDINATES, DURATION, INTEGRATOR, LAW_NUMBER, SAMPLE_TIME, STEP, TIME, TOLERANCE, TORQUE_LIMITS};
+use super::phase::{COORDINATES, DURATION, INTEGRATOR, SAMPLE_TIME, STEP, TIME, TOLERANCE, TORQUE_LIMITS, law};
 use super::rules::{GOAL, JOINT_ANGLE, JOINT_RATE, TWIST_GOAL};
 use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use crate::scenario::Tracking;
@@ -120,13 +120,7 @@ pub(super) static APPROACH: TableFormat = TableFormat {
             "singular values below this part of the largest, with translations in units of the reach, are damped",
         )
         .with("tracking", BY_END_EFFECTORS),
-        Key::optional(
-            "law",
-            Shape::ByName(&LAW_NUMBER, "key"),
-            Default::Words("the law's defaults"),
-            "the numbers of a law that the program has of its own, which `tracking` names",
-        )
-        .example("{ gain = 49.0 }"),
+        law("the numbers of a law that the program has of its own, which `tracking` names", "{ gain = 49.0 }"),
         TORQUE_LIMITS.with("tracking", WITH_LIMITS),
         SAMPLE_TIME.with("tracking", WITH_LIMITS),
         INTEGRATOR,

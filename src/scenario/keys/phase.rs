@@ -11,7 +11,12 @@ const LARGEST_TOLERANCE: f64 = 1e-3;
 pub(super) const TIME: Shape = Shape::Number(DURATION_RULE);
 
 /// Of any law of a program's own, which has a rule for it.
-pub(super) const LAW_NUMBER: Shape = Shape::Number(NumberRule::any("a number", ""));
+const LAW_NUMBER: Shape = Shape::Number(NumberRule::any("a number", ""));
+
+/// The numbers of a law of a program's own.
+pub(super) const fn law(doc: &'static str, example: &'static str) -> Key {
+    Key::optional("law", Shape::ByName(&LAW_NUMBER, "key"), Default::Words("the law's defaults"), doc).example(example)
+}
 
 pub(super) const DURATION: Key = Key::required("duration", TIME, "of the phase");
 

@@ -1,6 +1,6 @@
 //! The keys of `[post_impact]`.
 
-use super::phase::{COORDINATES, DURATION, INTEGRATOR, LAW_NUMBER, SAMPLE_TIME, STEP, TOLERANCE, TORQUE_LIMITS};
+use super::phase::{COORDINATES, DURATION, INTEGRATOR, SAMPLE_TIME, STEP, TOLERANCE, TORQUE_LIMITS, law};
 use crate::format::{Choice, Count, Default, Key, NumberRule, Shape, TableFormat};
 use crate::scenario::PostCaptureControl;
 
@@ -60,13 +60,7 @@ pub(super) static POST_IMPACT: TableFormat = TableFormat {
         )
         .with("control", &["stabilise"])
         .example("5.0"),
-        Key::optional(
-            "law",
-            Shape::ByName(&LAW_NUMBER, "key"),
-            Default::Words("the law's defaults"),
-            "the numbers of a law that the program has of its own, which `control` names",
-        )
-        .example("{ gain = 7.0 }"),
+        law("the numbers of a law that the program has of its own, which `control` names", "{ gain = 7.0 }"),
         TORQUE_LIMITS.with("control", LAWS),
         SAMPLE_TIME.with("control", LAWS),
         INTEGRATOR,

@@ -268,10 +268,7 @@ fn tracking(table: &Table<'_>, joints: &Joints<'_>, law: &Tracking, own: &[LawFo
         GAINS.map(gain)
     };
     Some(match law {
-        Tracking::Own { name, .. } => {
-            let law = own.iter().find(|known| known.name == *name)?;
-            Tracking::Own { name, numbers: law_numbers(table, "approach.law", law)? }
-        }
+        Tracking::Own { name, .. } => Tracking::Own { name, numbers: law_numbers(table, "approach.law", name, own)? },
         Tracking::InverseDynamics => Tracking::InverseDynamics,
         Tracking::ProportionalDerivative { .. } => {
             let [proportional_gain, derivative_gain] = gains();

@@ -3,8 +3,9 @@
 use crate::diagnostic::{Table, every};
 use crate::scenario::{LawFormat, LawNumbers};
 
-/// The numbers of the law of a phase, given in its table `law` of this path, or default.
-pub(super) fn law_numbers(phase: &Table<'_>, path: &str, law: &LawFormat) -> Option<LawNumbers> {
+/// The numbers of the law of a phase that has this name among `laws`, given in its table `law` of this path, or default.
+pub(super) fn law_numbers(phase: &Table<'_>, path: &str, name: &str, laws: &[LawFormat]) -> Option<LawNumbers> {
+    let law = laws.iter().find(|known| known.name == name)?;
     let names: Vec<_> = law.numbers.iter().map(|number| number.key).collect();
     let table = match phase.get("law") {
         Some(value) => Some(value.by_name(&names)?),

@@ -68,8 +68,7 @@ fn control(table: &Table<'_>, joints: &Joints<'_>, own: &[LawFormat]) -> Option<
             }
         }
         PostCaptureControl::Own { name, .. } => {
-            let law = own.iter().find(|known| known.name == *name)?;
-            PostCaptureControl::Own { name, numbers: law_numbers(table, "post_impact.law", law)? }
+            PostCaptureControl::Own { name, numbers: law_numbers(table, "post_impact.law", name, own)? }
         }
     })
 }

@@ -5,7 +5,6 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::document::Document;
-use super::table::A_TABLE;
 use super::{Diagnostic, Report, Severity, Value};
 
 /// A value that is valid but probably a mistake.
@@ -61,12 +60,10 @@ fn report_at(
     let found = follow(root, key);
     let span = found.as_ref().map_or(0..0, |(value, _)| value.span());
     let (message, label) = if let Some((value, "")) = found {
+        let value = Value::new(document, value, key.to_owned(), None);
         // of a table with a header there is no value to show
-        let message = match Value::new(document, value, key.to_owned(), None).shown() {
-            shown if shown == A_TABLE => format!("`{key}`: {why}"),
-            shown => format!("`{key}` is {shown}: {why}"),
-        };
-        (message, None)
+        let is_shown = if value.has_header() { String::new() } else { format!(" is {}", value.shown()) };
+        (format!("`{key}`{is_shown}: {why}"), None)
     } else {
         let default = default.map_or_else(String::new, |default| format!(", {default}"));
         (format!("`{key}` is left at its default{default}: {why}"), Some("it could stand here".to_owned()))

@@ -13,7 +13,6 @@ use crate::format::{Default, Key, Shape, TableFormat};
 use crate::names::{is_bare, listing, nearest};
 use value::did_you_mean;
 
-pub(super) use value::A_TABLE;
 pub use value::Value;
 
 /// The keys that a table may hold.

@@ -11,9 +11,6 @@ use crate::diagnostic::{Report, excerpt, is_hidden};
 use crate::format::{NumberRule, Refusal, Shape, form, quoted_key};
 use crate::names::{listing, nearest};
 
-/// What a table with a header is shown as.
-pub(in crate::diagnostic) const A_TABLE: &str = "a table";
-
 /// A value in a document, with its path from the root: `arm[1].link[0].mass`.
 #[derive(Clone, Debug)]
 pub struct Value<'a> {
@@ -107,10 +104,15 @@ impl<'a> Value<'a> {
     /// The value as in the source, or the kind of a table with a header.
     pub(in crate::diagnostic) fn shown(&self) -> String {
         match (self.tree, self.document.text(&self.span)) {
-            (DeValue::Table(_), text) if !text.starts_with('{') => A_TABLE.to_owned(),
+            _ if self.has_header() => "a table".to_owned(),
             (DeValue::Array(_), _) if self.is_list_of_tables() => "a list of tables".to_owned(),
             (_, text) => excerpt(text),
         }
+    }
+
+    /// Whether the value is a table that is not written in braces.
+    pub(in crate::diagnostic) fn has_header(&self) -> bool {
+        matches!(self.tree, DeValue::Table(_)) && !self.document.text(&self.span).starts_with('{')
     }
 
     /// Whether the value is written `[[key]]`.
