@@ -23,11 +23,11 @@
 
 use crate::capture::assembly::rotated;
 use crate::capture::proximity::convex::ConvexPart;
-use crate::capture::proximity::motion::FrameKinematics;
+use crate::capture::proximity::motion::{FrameKinematics, FramePair};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
 use crate::error::Error;
-use crate::frames::{Frame, FrameMotion};
+use crate::frames::FrameMotion;
 use crate::outline::SignedDistance;
 use crate::scenario::Scenario;
 use crate::simulate::event::{EventState, Events};
@@ -48,7 +48,7 @@ pub struct ContactDetection<'a> {
     motion: TargetMotion<'a>,
     pairs: Vec<DetectedPair>,
     end_effectors: Vec<[f64; 3]>,
-    frames: Vec<Frame>,
+    motions: FrameKinematics<'a>,
     end_effector: ConvexPart,
     workspace: PathWorkspace,
     /// How many distances were computed.
@@ -58,8 +58,8 @@ pub struct ContactDetection<'a> {
 /// A pair, and what is known of its distance at the end of the last step.
 struct DetectedPair {
     pair: ContactPair,
-    /// Indices of the frames of end effector and target.
-    frames: [usize; 2],
+    /// Of end effector and target.
+    frames: FramePair,
     /// Of the target.
     parts: Vec<ConvexPart>,
     /// Lower bound of the distance, m.
@@ -80,9 +80,11 @@ impl<'a> ContactDetection<'a> {
             let found = frames.iter().position(|frame| frame.motion == motion && frame.arm == arm);
             found.expect("every end effector and target has a frame")
         };
+        let motions = FrameKinematics::new(&frames, motion);
         let detected = |pair: ContactPair| DetectedPair {
             pair,
-            frames: [frame(FrameMotion::Fixed, Some(pair.arm)), frame(FrameMotion::Target(pair.target), None)],
+            frames: motions
+                .pair([frame(FrameMotion::Fixed, Some(pair.arm)), frame(FrameMotion::Target(pair.target), None)]),
             parts: ConvexPart::of(&scenario.targets[pair.target].outline),
             lower: f64::NEG_INFINITY,
             armed: false,
@@ -94,7 +96,7 @@ impl<'a> ContactDetection<'a> {
             motion,
             pairs,
             end_effectors,
-            frames,
+            motions,
             end_effector: ConvexPart::point(),
             workspace: PathWorkspace::default(),
             evaluations: 0,
@@ -148,8 +150,7 @@ impl Events for ContactDetection<'_> {
     }
 
     fn crossings(&mut self, step: &PathInterval<'_>) -> Result<Vec<Option<[f64; 2]>>, Error> {
-        let Self { scenario, motion, pairs, frames, end_effector, workspace, evaluations, .. } = self;
-        let motions = FrameKinematics { frames, targets: *motion, joints: scenario.layout.joints() };
+        let Self { motions, pairs, end_effector, workspace, evaluations, .. } = self;
         workspace.set_bounds(motions, step);
         let mut search = StepSearch { motions, step, workspace, evaluations };
         pairs.iter_mut().map(|pair| search.crossing(pair, end_effector)).collect()
@@ -158,7 +159,7 @@ impl Events for ContactDetection<'_> {
 
 /// The search for contacts within one step.
 struct StepSearch<'a> {
-    motions: FrameKinematics<'a>,
+    motions: &'a FrameKinematics<'a>,
     step: &'a PathInterval<'a>,
     workspace: &'a mut PathWorkspace,
     evaluations: &'a mut u64,
@@ -169,13 +170,14 @@ impl StepSearch<'_> {
     fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Result<Option<[f64; 2]>, Error> {
         let [start, end] = self.step.span;
         let reaches = [0.0, detected.parts.iter().map(|part| part.reach).fold(0.0, f64::max)];
-        let speed = self.workspace.speed(detected.frames, reaches);
+        let bound = self.workspace.relative_bound(self.motions, detected.frames);
+        let speed = bound.speed(reaches);
         let approach = speed * (end - start);
         if detected.armed && detected.lower - approach > 0.0 {
             detected.lower -= approach;
             return Ok(None);
         }
-        let acceleration = self.workspace.acceleration(detected.frames, reaches);
+        let acceleration = bound.acceleration(reaches);
         let pairs: Vec<_> =
             detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], speed, acceleration }).collect();
         let frames = detected.frames;
@@ -207,7 +209,7 @@ impl StepSearch<'_> {
         Ok(first.map(|below| [from, below]))
     }
 
-    fn at(&mut self, pair: &PartPair<'_>, frames: [usize; 2], time: f64) -> Instant {
+    fn at(&mut self, pair: &PartPair<'_>, frames: FramePair, time: f64) -> Instant {
         *self.evaluations += 1;
         self.workspace.instant(self.motions, self.step, (frames, pair), time)
     }

@@ -2,7 +2,7 @@
 //! bound.
 
 use super::bodies::BodyPair;
-use crate::capture::proximity::motion::FrameKinematics;
+use crate::capture::proximity::motion::{FrameKinematics, FramePair};
 use crate::capture::proximity::part_pair::{Instant, PartPair, SHORTEST};
 use crate::capture::proximity::workspace::PathWorkspace;
 use crate::simulate::path::{PathPart, PathWindow};
@@ -95,9 +95,9 @@ impl Findings {
 /// Two parts over a window of the path.
 pub(super) struct WindowSearch<'a> {
     pub(super) shapes: PartPair<'a>,
-    /// Indices of the frames of their bodies.
-    pub(super) frames: [usize; 2],
-    pub(super) motions: FrameKinematics<'a>,
+    /// Of their bodies.
+    pub(super) frames: FramePair,
+    pub(super) motions: &'a FrameKinematics<'a>,
     pub(super) window: PathWindow<'a>,
     /// Of the phase, s.
     pub(super) start: f64,

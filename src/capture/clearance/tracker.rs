@@ -8,7 +8,7 @@ use crate::capture::proximity::motion::FrameKinematics;
 use crate::capture::proximity::part_pair::PartPair;
 use crate::capture::proximity::workspace::PathWorkspace;
 use crate::capture::target_motion::TargetMotion;
-use crate::frames::{Frame, FrameMotion};
+use crate::frames::Frame;
 use crate::simulate::path::{Path, PathPart};
 
 /// Intervals of a path that are looked at together: what is far apart, or comes steadily nearer, needs no more instants
@@ -24,8 +24,6 @@ pub(super) struct DistanceTracker {
     /// One for each pair.
     distances: Vec<PairDistance>,
     pub(super) found: Findings,
-    /// Number of joints.
-    joints: usize,
 }
 
 /// What is known of the distance of a pair.
@@ -54,8 +52,7 @@ impl DistanceTracker {
         };
         let distances = pairs.iter().enumerate().map(of_pair).collect();
         let found = Findings::new(&pairs, max_distances);
-        let joints = frames.iter().filter(|frame| matches!(frame.motion, FrameMotion::Joint(_))).count();
-        Self { frames, bodies, pairs, distances, found, joints }
+        Self { frames, bodies, pairs, distances, found }
     }
 
     /// Whether the layout leaves the outline of a body of a pair at its default.
@@ -74,8 +71,10 @@ impl DistanceTracker {
         targets: TargetMotion<'_>,
         attachments: &[Attachment],
     ) -> Result<(), ClearanceError> {
-        let Self { frames, bodies, pairs, distances, found, joints, .. } = self;
-        let motions = FrameKinematics { frames, targets, joints: *joints };
+        let Self { frames, bodies, pairs, distances, found } = self;
+        let motions = &FrameKinematics::new(frames, targets);
+        let of_frames: Vec<_> =
+            pairs.iter().map(|pair| motions.pair(pair.bodies.map(|body| bodies[body].frame))).collect();
         let (mut workspace, mut instants) = (PathWorkspace::default(), Default::default());
         let holds = |pair: &BodyPair| {
             pair.contact.is_some_and(|(arm, target)| attachments.iter().any(|a| (a.arm, a.target) == (arm, target)))
@@ -87,15 +86,15 @@ impl DistanceTracker {
             let length = last - first;
             end = start + last;
             workspace.set_bounds(motions, &window);
-            for (pair, known) in pairs.iter().zip(distances.iter_mut()) {
+            for ((pair, frames), known) in pairs.iter().zip(of_frames.iter().copied()).zip(distances.iter_mut()) {
                 if holds(pair) {
                     known.parts.iter_mut().for_each(|part| part.open = None);
                     continue;
                 }
                 let [a, b] = pair.bodies.map(|body| &bodies[body]);
-                let frames = [a.frame, b.frame];
+                let bound = workspace.relative_bound(motions, frames);
                 if known.parts.iter().all(|part| part.open.is_none()) {
-                    let (goal, away) = (found.goal(pair), workspace.speed(frames, [0.0; 2]) * length);
+                    let (goal, away) = (found.goal(pair), bound.speed([0.0; 2]) * length);
                     if known.circles - away < goal {
                         let between = workspace.origin_distance(motions, &window, frames, first);
                         known.circles = between - a.reach() - b.reach();
@@ -112,12 +111,12 @@ impl DistanceTracker {
                 for part in &mut known.parts {
                     let shapes = [&a.parts[part.parts[0]], &b.parts[part.parts[1]]];
                     let reaches = shapes.map(|part| part.reach);
-                    let speed = workspace.speed(frames, reaches);
+                    let speed = bound.speed(reaches);
                     if part.open.is_none() && part.lower - speed * length >= found.goal(pair) {
                         part.lower -= speed * length;
                         continue;
                     }
-                    let acceleration = workspace.acceleration(frames, reaches);
+                    let acceleration = bound.acceleration(reaches);
                     let mut search = WindowSearch {
                         shapes: PartPair { parts: shapes, speed, acceleration },
                         frames,

@@ -7,13 +7,42 @@ use crate::scalar::Scalar;
 use crate::simulate::path::PathPart;
 use crate::simulate::system::Body;
 
-/// The motion of all frames during a phase.
+/// Where a frame is during a phase.
 #[derive(Clone, Copy)]
+enum Place<'a> {
+    /// That of a body of the integrated vector, by the index of its first coordinate.
+    Body(usize),
+    /// That of a body that moves freely.
+    Free(&'a Body),
+    /// Carried by a frame that comes before it, or by the inertial one.
+    Carried {
+        by: Option<usize>,
+        /// In the frame that carries it, where the angle of the joint is 0.
+        pose: [f64; 3],
+        /// Of its origin from that of the frame that carries it, m.
+        distance: f64,
+        joint: Option<usize>,
+        /// Sine and cosine of the angle of `pose`.
+        turn: (f64, f64),
+    },
+}
+
+/// The motion of all frames during a phase.
 pub(in crate::capture) struct FrameKinematics<'a> {
-    pub(in crate::capture) frames: &'a [Frame],
-    pub(in crate::capture) targets: TargetMotion<'a>,
+    places: Vec<Place<'a>>,
+    /// Indices of those whose yaw is not that of another one but for a constant.
+    turning: Vec<usize>,
     /// Number of joints.
-    pub(in crate::capture) joints: usize,
+    joints: usize,
+}
+
+/// Two frames.
+#[derive(Clone, Copy)]
+pub(in crate::capture) struct FramePair {
+    pub(in crate::capture) frames: [usize; 2],
+    /// The last frame that carries both, or is one of them; `None` for the inertial one. How it moves is nothing to the
+    /// distance of the two.
+    pub(in crate::capture) carrier: Option<usize>,
 }
 
 /// Pose and twist of the origin of a frame.
@@ -81,6 +110,7 @@ impl FrameState {
     /// Of the inertial frame.
     const INERTIAL: Self = Self { pose: [0.0; 3], twist: [0.0; 3], direction: (0.0, 1.0) };
 
+    #[cfg(test)]
     pub(in crate::capture) fn new(pose: [f64; 3], twist: [f64; 3]) -> Self {
         Self { pose, twist, direction: Scalar::sin_cos(pose[0]) }
     }
@@ -103,66 +133,116 @@ impl FrameState {
         (sin, cos)
     }
 
-    fn carried(&self, [angle, x, y]: [f64; 3], rate: f64) -> Self {
-        let ([yaw, ox, oy], [omega, vx, vy]) = (self.pose, self.twist);
-        let [dx, dy] = self.rotated([x, y]);
-        let (pose, twist) = ([yaw + angle, ox + dx, oy + dy], [omega + rate, vx - omega * dy, vy + omega * dx]);
-        if angle == 0.0 { Self { pose, twist, ..*self } } else { Self::new(pose, twist) }
+    /// Moves with another frame: the origin is where it was in that one, and the yaw rate is known.
+    fn carry(&mut self, by: &Self) {
+        let ([_, x, y], [_, ox, oy], [omega, vx, vy]) = (self.pose, by.pose, by.twist);
+        let [dx, dy] = by.rotated([x, y]);
+        (self.pose[1], self.pose[2]) = (ox + dx, oy + dy);
+        (self.twist[1], self.twist[2]) = (vx - omega * dy, vy + omega * dx);
+    }
+
+    /// The same with the twist relative to another frame, which turns with it.
+    pub(super) fn relative_to(&self, other: &Self) -> Self {
+        let ([_, x, y], [_, ox, oy]) = (self.pose, other.pose);
+        let ([omega, vx, vy], [turn, ux, uy]) = (self.twist, other.twist);
+        let twist = [omega - turn, vx - ux + turn * (y - oy), vy - uy - turn * (x - ox)];
+        Self { twist, ..*self }
     }
 }
 
-impl FrameKinematics<'_> {
-    /// The state of a frame where the coordinates and their rates are these; it is added to the `states` that are known, with
-    /// those of the frames that carry it.
-    pub(in crate::capture) fn state(
-        &self,
-        index: usize,
-        time: f64,
-        coordinates: &[Vec<f64>; 2],
-        states: &mut [Option<FrameState>],
-    ) -> FrameState {
-        if let Some(known) = states[index] {
-            return known;
-        }
-        let [positions, rates] = coordinates;
-        let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
-        let body = |i: usize| FrameState::new(three(positions, i), three(rates, i));
-        let frame = &self.frames[index];
-        let mut carried = |by: Option<usize>, pose, rate| {
-            by.map_or(FrameState::INERTIAL, |by| self.state(by, time, coordinates, states)).carried(pose, rate)
+impl<'a> FrameKinematics<'a> {
+    /// Of these frames, each of which comes after the one that carries it; targets move as given.
+    pub(in crate::capture) fn new(frames: &[Frame], targets: TargetMotion<'a>) -> Self {
+        let joints = frames.iter().filter(|frame| matches!(frame.motion, FrameMotion::Joint(_))).count();
+        let carried = |by: Option<usize>, pose: [f64; 3], joint| {
+            let distance = libm::hypot(pose[1], pose[2]);
+            Place::Carried { by, pose, distance, joint, turn: Scalar::sin_cos(pose[0]) }
         };
-        let state = match frame.motion {
-            FrameMotion::Base => body(0),
-            FrameMotion::Joint(joint) => {
-                let [angle, x, y] = frame.pose;
-                carried(frame.parent, [angle + positions[3 + joint], x, y], rates[3 + joint])
-            }
-            FrameMotion::Fixed => carried(frame.parent, frame.pose, 0.0),
-            FrameMotion::Target(target) => match self.targets {
-                TargetMotion::Free(bodies) => {
-                    let Body { pose, twist, .. } = bodies[target].after(time);
-                    FrameState::new(pose, twist)
-                }
+        let place = |frame: &Frame| match frame.motion {
+            FrameMotion::Base => Place::Body(0),
+            FrameMotion::Joint(joint) => carried(frame.parent, frame.pose, Some(joint)),
+            FrameMotion::Fixed => carried(frame.parent, frame.pose, None),
+            FrameMotion::Target(target) => match targets {
+                TargetMotion::Free(bodies) => Place::Free(&bodies[target]),
                 TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
-                    TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
+                    TargetPlacement::Separate(i) => Place::Body(3 + joints + 3 * i),
                     TargetPlacement::Merged { arm, offset: [x, y], yaw } => {
-                        carried(Some(self.end_effector(index, arm)), [yaw, x, y], 0.0)
+                        let is_end = |frame: &Frame| frame.arm == Some(arm) && frame.motion == FrameMotion::Fixed;
+                        carried(frames.iter().position(is_end), [yaw, x, y], None)
                     }
                 },
             },
         };
-        states[index] = Some(state);
-        state
+        let places: Vec<_> = frames.iter().map(place).collect();
+        let is_turning = |index: &usize| !matches!(places[*index], Place::Carried { joint: None, .. });
+        let turning = (0..places.len()).filter(is_turning).collect();
+        Self { places, turning, joints }
     }
 
-    /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start.
+    /// Two frames, by their indices.
+    pub(in crate::capture) fn pair(&self, frames: [usize; 2]) -> FramePair {
+        let carrier_of = |frame: usize| match self.places[frame] {
+            Place::Carried { by, .. } => by,
+            Place::Body(_) | Place::Free(_) => None,
+        };
+        let [mut a, mut b] = frames.map(Some);
+        while a != b {
+            let later = if a > b { &mut a } else { &mut b };
+            *later = later.and_then(carrier_of);
+        }
+        FramePair { frames, carrier: a }
+    }
+
+    /// The states of all frames where the coordinates and their rates are these.
+    pub(super) fn states(&self, time: f64, [positions, rates]: &[Vec<f64>; 2], states: &mut Vec<FrameState>) {
+        let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
+        states.clear();
+        for place in &self.places {
+            let (pose, twist) = match *place {
+                Place::Body(first) => (three(positions, first), three(rates, first)),
+                Place::Free(body) => {
+                    let Body { pose, twist, .. } = body.after(time);
+                    (pose, twist)
+                }
+                Place::Carried { by, pose: [angle, x, y], joint, .. } => {
+                    let FrameState { pose: [yaw, ..], twist: [omega, ..], .. } =
+                        by.map_or(FrameState::INERTIAL, |by| states[by]);
+                    let [angle, rate] =
+                        joint.map_or([angle, 0.0], |joint| [angle + positions[3 + joint], rates[3 + joint]]);
+                    ([yaw + angle, x, y], [omega + rate, 0.0, 0.0])
+                }
+            };
+            states.push(FrameState { pose, twist, direction: (0.0, 1.0) });
+        }
+        for four in self.turning.chunks(4) {
+            let mut yaws = [0.0; 4];
+            yaws.iter_mut().zip(four).for_each(|(yaw, index)| *yaw = states[*index].pose[0]);
+            let directions = Scalar::sin_cos_all(yaws);
+            four.iter().zip(directions).for_each(|(index, direction)| states[*index].direction = direction);
+        }
+        for (index, place) in self.places.iter().enumerate() {
+            if let Place::Carried { by, joint, turn, .. } = *place {
+                let carrier = by.map_or(FrameState::INERTIAL, |by| states[by]);
+                let state = &mut states[index];
+                state.carry(&carrier);
+                if joint.is_none() {
+                    let (sin, cos) = turn;
+                    let [cos, sin] = carrier.rotated([cos, sin]);
+                    state.direction = (sin, cos);
+                }
+            }
+        }
+    }
+
+    /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start; `coordinates`
+    /// holds those of the rates and their derivatives afterwards.
     pub(in crate::capture) fn bounds(
         &self,
         part: &impl PathPart,
         coordinates: &mut [Vec<f64>; 2],
         bounds: &mut Vec<MotionBound>,
     ) {
-        let [rates, accelerations] = coordinates;
+        let [rates, accelerations] = &mut *coordinates;
         // all bodies move together in an orbit
         let [bx, by] = velocity_of_base(part);
         let reference = |i: usize| {
@@ -171,36 +251,37 @@ impl FrameKinematics<'_> {
             [0.0, bx, by].get(component).copied().unwrap_or(0.0)
         };
         part.bounds(reference, rates, accelerations);
-        let body = |i: usize| MotionBound::of_body(&rates[i..i + 3], &accelerations[i..i + 3]);
         bounds.clear();
-        for (k, frame) in self.frames.iter().enumerate() {
-            let distance = libm::hypot(frame.pose[1], frame.pose[2]);
-            let parent = frame.parent.map_or_else(MotionBound::default, |parent| bounds[parent]);
-            let bound = match frame.motion {
-                FrameMotion::Base => body(0),
-                FrameMotion::Joint(joint) => parent.carried(distance, [rates[3 + joint], accelerations[3 + joint]]),
-                FrameMotion::Fixed => parent.carried(distance, [0.0; 2]),
-                FrameMotion::Target(target) => match self.targets {
-                    TargetMotion::Free(bodies) => {
-                        let [omega, vx, vy] = bodies[target].twist;
-                        let speed = libm::hypot(vx - bx, vy - by);
-                        MotionBound { yaw_rate: omega.abs(), speed, ..MotionBound::default() }
-                    }
-                    TargetMotion::Assembled(assembly, _) => match assembly.places[target] {
-                        TargetPlacement::Separate(i) => body(3 + self.joints + 3 * i),
-                        TargetPlacement::Merged { arm, offset: [x, y], .. } => {
-                            bounds[self.end_effector(k, arm)].carried(libm::hypot(x, y), [0.0; 2])
-                        }
-                    },
-                },
+        for (index, place) in self.places.iter().enumerate() {
+            let bound = match *place {
+                Place::Body(i) => MotionBound::of_body(&coordinates[0][i..i + 3], &coordinates[1][i..i + 3]),
+                Place::Free(Body { twist: [omega, vx, vy], .. }) => {
+                    let speed = libm::hypot(vx - bx, vy - by);
+                    MotionBound { yaw_rate: omega.abs(), speed, ..MotionBound::default() }
+                }
+                Place::Carried { by, .. } => {
+                    let carrier = by.map_or_else(MotionBound::default, |by| bounds[by]);
+                    self.carried(index, &carrier, coordinates)
+                }
             };
             bounds.push(bound);
         }
     }
 
-    /// Index of the frame of an arm's end effector, which comes before those of the targets.
-    fn end_effector(&self, before: usize, arm: usize) -> usize {
-        let is_end = |frame: &Frame| frame.arm == Some(arm) && frame.motion == FrameMotion::Fixed;
-        self.frames[..before].iter().position(is_end).expect("every arm has an end effector")
+    /// The bound of a frame from that of the frame that carries it.
+    fn carried(&self, frame: usize, carrier: &MotionBound, [rates, accelerations]: &[Vec<f64>; 2]) -> MotionBound {
+        let Place::Carried { distance, joint, .. } = self.places[frame] else { return *carrier };
+        let turning = joint.map_or([0.0; 2], |joint| [rates[3 + joint], accelerations[3 + joint]]);
+        carrier.carried(distance, turning)
+    }
+
+    /// The bound of the motion of a frame relative to one that carries it.
+    pub(super) fn bound_in(&self, carrier: usize, frame: usize, coordinates: &[Vec<f64>; 2]) -> MotionBound {
+        match self.places[frame] {
+            Place::Carried { by: Some(by), .. } if frame != carrier => {
+                self.carried(frame, &self.bound_in(carrier, by, coordinates), coordinates)
+            }
+            _ => MotionBound::default(),
+        }
     }
 }

@@ -28,7 +28,7 @@ const DIFFERENCE: f64 = 1e-7;
 
 /// The motion of frames over an interval.
 struct Motion<'a> {
-    kinematics: FrameKinematics<'a>,
+    kinematics: &'a FrameKinematics<'a>,
     span: [f64; 2],
     /// Positions and rates at its ends.
     ends: [[Vec<f64>; 2]; 2],
@@ -48,13 +48,19 @@ impl Motion<'_> {
         let mut coordinates = self.buffers();
         let [positions, rates] = &mut coordinates;
         self.interval().at(time, positions, rates);
-        let count = self.kinematics.frames.len();
-        let mut states = vec![None; count];
-        // the last one first, which adds those that carry it
-        let mut found: Vec<_> =
-            (0..count).rev().map(|frame| self.kinematics.state(frame, time, &coordinates, &mut states)).collect();
-        found.reverse();
-        found
+        let mut states = Vec::new();
+        self.kinematics.states(time, &coordinates, &mut states);
+        states
+    }
+
+    /// A point of a frame, in the frame that carries it or the inertial one.
+    fn seen_from(&self, carrier: Option<usize>, frame: usize, at: [f64; 2], time: f64) -> [f64; 2] {
+        let states = self.states(time);
+        let [x, y] = point(states[frame].pose, at);
+        carrier.map_or([x, y], |by| {
+            let [_, ox, oy] = states[by].pose;
+            states[by].seen([x - ox, y - oy])
+        })
     }
 
     fn bounds(&self) -> Vec<MotionBound> {
@@ -116,7 +122,7 @@ proptest! {
     ) {
         let (frames, assembly, targets) = captured(&ends[0][0][3..7], holds);
         let motion = if free { TargetMotion::Free(&targets) } else { TargetMotion::Assembled(&assembly, &targets) };
-        let kinematics = FrameKinematics { frames: &frames, targets: motion, joints: 4 };
+        let kinematics = &FrameKinematics::new(&frames, motion);
         let motion = Motion { kinematics, span: [0.0, 0.7], ends };
         let (states, bounds) = (motion.states(time), motion.bounds());
 
@@ -147,6 +153,31 @@ proptest! {
             prop_assert!(length(motion.relative(velocity)) <= bound.speed_within(reach) * slack, "{}", frames[i].name);
             prop_assert!(length(acceleration) <= bound.acceleration_within(reach) * slack + DIFFERENCE * 1e3, "{}", frames[i].name);
             prop_assert!((frames[i].motion != FrameMotion::Base) || (state.twist[0] - rates[0]).abs() < 1e-12);
+        }
+        let mut workspace = PathWorkspace::default();
+        workspace.set_bounds(kinematics, &motion.interval());
+        for a in 0..frames.len() {
+            for b in 0..a {
+                let pair = kinematics.pair([a, b]);
+                let bound = workspace.relative_bound(kinematics, pair);
+                let point_a = [reach * cos, reach * sin];
+                let [before, after] = [-HALF, HALF].map(|step| motion.seen_from(pair.carrier, a, point_a, time + step));
+                let [of_b_before, of_b_after] = [-HALF, HALF].map(|step| motion.seen_from(pair.carrier, b, [0.0; 2], time + step));
+                let rate = |before: [f64; 2], after: [f64; 2]| [0, 1].map(|i| (after[i] - before[i]) / (2.0 * HALF));
+                let (rate_a, rate_b) = (rate(before, after), rate(of_b_before, of_b_after));
+                let speed = length([rate_a[0] - rate_b[0], rate_a[1] - rate_b[1]]);
+                prop_assert!(speed <= bound.speed([reach, 0.0]) + DIFFERENCE * 1e3, "{} {}", frames[a].name, frames[b].name);
+                // the states of a pair have these rates, in inertial axes
+                let exact = |frame: usize, at: [f64; 2]| {
+                    let state = &states[frame];
+                    let relative = pair.carrier.map_or(*state, |by| state.relative_to(&states[by]));
+                    let [dx, dy] = relative.rotated(at);
+                    let [omega, vx, vy] = relative.twist;
+                    length([vx - omega * dy, vy + omega * dx])
+                };
+                prop_assert!((exact(a, point_a) - length(rate_a)).abs() < DIFFERENCE * 1e3, "{}", frames[a].name);
+                prop_assert!((exact(b, [0.0; 2]) - length(rate_b)).abs() < DIFFERENCE * 1e3, "{}", frames[b].name);
+            }
         }
     }
 
@@ -194,7 +225,7 @@ fn straight_arm() -> Vec<Frame> {
 #[test]
 fn bounds_are_attained_by_a_stretched_arm() {
     let frames = straight_arm();
-    let kinematics = FrameKinematics { frames: &frames, targets: TargetMotion::Free(&[]), joints: 2 };
+    let kinematics = &FrameKinematics::new(&frames, TargetMotion::Free(&[]));
     let rates = vec![0.6, 0.0, 0.3, 0.4, 0.9]; // turns, moves across
     let scaled = |factor: f64| rates.iter().map(|rate| rate * factor).collect::<Vec<_>>();
     let turning =
@@ -205,14 +236,13 @@ fn bounds_are_attained_by_a_stretched_arm() {
         span: [-short, short],
         ends: [[scaled(0.5 * short * short), scaled(-short)], [scaled(0.5 * short * short), scaled(short)]],
     };
-    // points on opposite sides of the base accelerate towards each other
+    // seen from the base, which turns with them, only the joints turn
     let mut workspace = PathWorkspace::default();
     workspace.set_bounds(kinematics, &turning.interval());
-    let [_, one] = turning.point_motion(0, [-0.4, 0.0], 0.0);
-    let [_, other] = turning.point_motion(3, [0.3, 0.0], 0.0);
-    let (relative, bound) =
-        (length([one[0] - other[0], one[1] - other[1]]), workspace.acceleration([0, 3], [0.4, 0.3]));
-    assert!((bound - relative).abs() < 1e-4, "{bound} {relative}");
+    let bound = workspace.relative_bound(kinematics, kinematics.pair([0, 3]));
+    let ([first, second], reach) = ([0.4, 0.4 + 0.9], 0.7 + 0.3);
+    assert!((bound.speed([0.4, 0.3]) - (first + second * reach)).abs() < 1e-12);
+    assert!((bound.acceleration([0.4, 0.3]) - (first * first + second * second * reach)).abs() < 1e-12);
     for (motion, at_constant_rates) in [(turning, true), (starting, false)] {
         for (frame, bound) in motion.bounds().iter().enumerate() {
             for reach in [0.0, 0.3, 2.0] {
@@ -244,8 +274,7 @@ fn the_bound_of_a_held_target_is_attained() {
     let grasp = [Attachment { target: 0, arm: 1, kind: ContactKind::Rigid }];
     let assembly = Assembly::new(model, &state, &[held], &grasp).expect("an assembly");
     let (frames, targets) = (frames(&layout, ["held"]), [held]);
-    let kinematics =
-        FrameKinematics { frames: &frames, targets: TargetMotion::Assembled(&assembly, &targets), joints: 4 };
+    let kinematics = &FrameKinematics::new(&frames, TargetMotion::Assembled(&assembly, &targets));
     let rates = vec![0.6, 0.0, 0.0, 0.0, 0.0, 0.4, 0.9];
     let middle = [0.0, 0.0, 0.0, 0.0, 0.0, PI, 0.0];
     let moved = |time: f64| middle.iter().zip(&rates).map(|(angle, rate)| angle + time * rate).collect::<Vec<_>>();
@@ -406,7 +435,7 @@ fn parts_on_one_line() {
 #[test]
 fn states_are_those_of_their_time() {
     let frames = straight_arm();
-    let kinematics = FrameKinematics { frames: &frames, targets: TargetMotion::Free(&[]), joints: 2 };
+    let kinematics = &FrameKinematics::new(&frames, TargetMotion::Free(&[]));
     let motion = |rate: f64| Motion {
         kinematics,
         span: [0.0, 200.0],
@@ -419,7 +448,7 @@ fn states_are_those_of_their_time() {
         for time in times {
             let states = motion.states(time);
             let [[_, ax, ay], [_, bx, by]] = [0, 3].map(|frame: usize| states[frame].pose);
-            let found = workspace.origin_distance(kinematics, &motion.interval(), [0, 3], time);
+            let found = workspace.origin_distance(kinematics, &motion.interval(), kinematics.pair([0, 3]), time);
             assert!((found - (ax - bx).hypot(ay - by)).abs() < 1e-15, "{time}");
         }
     }

@@ -1,7 +1,7 @@
 //! Buffers for the states and bounds of all frames over intervals of a path.
 
 use super::convex::PlacedPart;
-use super::motion::{FrameKinematics, FrameState, MotionBound};
+use super::motion::{FrameKinematics, FramePair, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use crate::simulate::path::PathPart;
 
@@ -9,21 +9,40 @@ use crate::simulate::path::PathPart;
 /// of two.
 const PLACES: usize = 64;
 
-/// Coordinates and their rates at a time, s, and the states of the frames that were asked for.
+/// The states of all frames at a time, s.
 #[derive(Default)]
 struct KnownInstant {
     time: f64,
     /// The interval that it is of.
     interval: u64,
-    coordinates: [Vec<f64>; 2],
-    states: Vec<Option<FrameState>>,
+    states: Vec<FrameState>,
+}
+
+/// Bounds over one interval of the motion of two frames in that which carries both.
+pub(in crate::capture) struct RelativeBound([MotionBound; 2]);
+
+impl RelativeBound {
+    /// Of the relative speed of points up to these distances from the origins of the frames, m/s.
+    pub(in crate::capture) fn speed(&self, [a, b]: [f64; 2]) -> f64 {
+        let [first, second] = &self.0;
+        first.speed_within(a) + second.speed_within(b)
+    }
+
+    /// As [`speed`](Self::speed), of the acceleration, m/s².
+    pub(in crate::capture) fn acceleration(&self, [a, b]: [f64; 2]) -> f64 {
+        let [first, second] = &self.0;
+        first.acceleration_within(a) + second.acceleration_within(b)
+    }
 }
 
 /// Bounds over one interval, and states at instants within it.
 #[derive(Default)]
 pub(in crate::capture) struct PathWorkspace {
+    /// Bounds of the rates and of their derivatives.
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
+    /// Positions and rates at an instant.
+    at: [Vec<f64>; 2],
     /// Each where its time has its place.
     instants: Vec<KnownInstant>,
     /// Counts the intervals.
@@ -39,20 +58,21 @@ fn place(time: f64) -> usize {
 
 impl PathWorkspace {
     /// Computes the bounds over an interval.
-    pub(in crate::capture) fn set_bounds(&mut self, motions: FrameKinematics<'_>, part: &impl PathPart) {
-        for half in &mut self.coordinates {
+    pub(in crate::capture) fn set_bounds(&mut self, motions: &FrameKinematics<'_>, part: &impl PathPart) {
+        for half in self.coordinates.iter_mut().chain(&mut self.at) {
             half.resize(part.first_rates().len(), 0.0);
         }
         motions.bounds(part, &mut self.coordinates, &mut self.bounds);
         self.interval += 1;
     }
 
-    /// The states of two frames at a time within the interval whose bounds were computed.
+    /// The states of two frames at a time within the interval whose bounds were computed, with their twists in the frame
+    /// that carries both.
     fn states(
         &mut self,
-        motions: FrameKinematics<'_>,
+        motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        frames: [usize; 2],
+        pair: FramePair,
         time: f64,
     ) -> [FrameState; 2] {
         if self.instants.is_empty() {
@@ -61,46 +81,40 @@ impl PathWorkspace {
         let known = &mut self.instants[place(time)];
         if known.interval != self.interval || known.time.to_bits() != time.to_bits() {
             (known.time, known.interval) = (time, self.interval);
-            let [positions, rates] = &mut known.coordinates;
-            let size = part.first_rates().len();
-            positions.resize(size, 0.0);
-            rates.resize(size, 0.0);
+            let [positions, rates] = &mut self.at;
             part.at(time, positions, rates);
-            known.states.clear();
-            known.states.resize(motions.frames.len(), None);
+            motions.states(time, &self.at, &mut known.states);
         }
-        let KnownInstant { coordinates, states, .. } = known;
-        frames.map(|frame| motions.state(frame, time, coordinates, states))
+        let states = &known.states;
+        pair.frames.map(|frame| pair.carrier.map_or(states[frame], |by| states[frame].relative_to(&states[by])))
     }
 
-    /// Bound of the relative speed of points up to these distances from the origins of two frames, m/s.
-    pub(in crate::capture) fn speed(&self, frames: [usize; 2], [a, b]: [f64; 2]) -> f64 {
-        self.bounds[frames[0]].speed_within(a) + self.bounds[frames[1]].speed_within(b)
-    }
-
-    /// As [`speed`](Self::speed), of the acceleration, m/s².
-    pub(in crate::capture) fn acceleration(&self, frames: [usize; 2], [a, b]: [f64; 2]) -> f64 {
-        self.bounds[frames[0]].acceleration_within(a) + self.bounds[frames[1]].acceleration_within(b)
+    /// The bound of the motion of two frames over the interval.
+    pub(in crate::capture) fn relative_bound(&self, motions: &FrameKinematics<'_>, pair: FramePair) -> RelativeBound {
+        let bound = |frame| {
+            pair.carrier.map_or_else(|| self.bounds[frame], |by| motions.bound_in(by, frame, &self.coordinates))
+        };
+        RelativeBound(pair.frames.map(bound))
     }
 
     /// Distance of the origins of two frames at a time within the interval, m.
     pub(in crate::capture) fn origin_distance(
         &mut self,
-        motions: FrameKinematics<'_>,
+        motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        frames: [usize; 2],
+        pair: FramePair,
         time: f64,
     ) -> f64 {
-        let [[_, ax, ay], [_, bx, by]] = self.states(motions, part, frames, time).map(|state| state.pose);
+        let [[_, ax, ay], [_, bx, by]] = self.states(motions, part, pair, time).map(|state| state.pose);
         libm::hypot(ax - bx, ay - by)
     }
 
     /// Two parts of bodies with these frames at a time within the interval.
     pub(in crate::capture) fn instant(
         &mut self,
-        motions: FrameKinematics<'_>,
+        motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        (frames, pair): ([usize; 2], &PartPair<'_>),
+        (frames, pair): (FramePair, &PartPair<'_>),
         time: f64,
     ) -> Instant {
         let states = self.states(motions, part, frames, time);

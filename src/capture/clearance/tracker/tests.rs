@@ -3,6 +3,7 @@
 use super::*;
 use crate::capture::proximity::convex::ConvexPart;
 use crate::contact::ContactKind;
+use crate::frames::FrameMotion;
 use crate::outline::Outline;
 use crate::simulate::path::PathRecorder;
 use crate::simulate::system::Body;
