@@ -166,6 +166,12 @@ impl Adaptive {
         self.attempts
     }
 
+    /// The length of the next step, s, where none is shortened; 0 before the start.
+    #[must_use]
+    pub fn next_step(&self) -> f64 {
+        self.next_step
+    }
+
     /// x at the end of the last step.
     fn x(&self) -> &[f64] {
         &self.ends[1].as_flattened()[..self.size]

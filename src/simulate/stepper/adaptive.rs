@@ -81,6 +81,10 @@ impl Steps for AdaptiveSteps {
         equation.restore(x).map(|()| reached)
     }
 
+    fn next_step(&self) -> f64 {
+        self.solver.next_step()
+    }
+
     fn within(&mut self, equation: &mut Equation<'_>, [_, time]: [f64; 2], x: &mut [f64]) -> Result<(), Error> {
         self.solver.interpolate(time, x, equation)?;
         equation.restore(x)

@@ -5,7 +5,8 @@
 //! difference of the two over 2ᵖ − 1 (Richardson). It has what the motion makes of every step's error, and what feedback
 //! leaves of it. To what it has after an even number of steps, a last step without a pair adds the difference of itself
 //! and two of half its length. Where torques are held, the second takes steps of half the length, and samples of its own, so that the law answers to its
-//! errors, too; a base torque is that of the first. Adaptive steps are followed with a larger tolerance.
+//! errors, too; a base torque is that of the first. Adaptive steps are followed with a larger tolerance, and compared after a
+//! few of them: to end one at each step of the phase would take more of them.
 //!
 //! The second solution starts with the error that the motion before has left, and so has what this motion makes of it.
 
@@ -20,6 +21,8 @@ use crate::state::{State, StateVector, split, split_mut};
 const LOOSER: f64 = 100.0;
 /// Error over the difference of the two: a tenth, where the error follows the tolerance a hundredth.
 const ADAPTIVE_SHARE: f64 = -0.1;
+/// Adaptive steps of the second solution between two comparisons.
+const COMPARED: f64 = 4.0;
 /// An error that no phase passes with, for a second solution that cannot be continued; rad, m.
 const UNKNOWN: f64 = 1.0;
 
@@ -29,7 +32,7 @@ pub(super) struct Companion {
     x: Vec<f64>,
     /// At the end of its last step, with rates and with momenta.
     last_step: [Vec<f64>; 2],
-    /// A step that the next one is to double, s.
+    /// A step that the next one is to double, or steps over which adaptive ones have not followed yet, s.
     pending: Option<[f64; 2]>,
     /// The order of the steps; `None` where they follow from a tolerance.
     order: Option<i32>,
@@ -40,6 +43,8 @@ pub(super) struct Companion {
     error: f64,
     /// The first solution where this one is, or was last.
     first: Vec<f64>,
+    /// The same at the end of what is pending.
+    latest: Vec<f64>,
     is_lost: bool,
 }
 
@@ -57,13 +62,13 @@ impl Companion {
             Some(growth) => -1.0 / (growth - 1.0),
         };
         let (last_step, held) = ([Vec::new(), Vec::new()], vec![0.0; equation.system.model.joints()]);
-        let (first, mut x) = (x.to_vec(), x.to_vec());
+        let (first, latest, mut x) = (x.to_vec(), x.to_vec(), x.to_vec());
         if let Ok(StateVector { positions, rates, .. }) = split_mut(&mut x) {
             for (half, errors) in [positions, rates].into_iter().zip(equation.system.start_error) {
                 half.iter_mut().zip(errors).for_each(|(x, error)| *x -= error / share);
             }
         }
-        Self { steps, x, last_step, pending: None, order, share, held, error: 0.0, first, is_lost: false }
+        Self { steps, x, last_step, pending: None, order, share, held, error: 0.0, first, latest, is_lost: false }
     }
 
     /// Takes the sample of a law that holds its torques, before the first solution does.
@@ -88,13 +93,16 @@ impl Companion {
             self.lower_order();
         }
         match self.exchanged(equation, |own, equation| own.advance(equation, span)) {
-            Ok(false) => {}
-            Ok(true) => {
-                self.error = Real::maximum(self.error, self.share.abs() * largest_difference(x, &self.x));
-                self.first.copy_from_slice(x);
-            }
+            Ok(false) => self.latest.copy_from_slice(x),
+            Ok(true) => self.compare(x),
             Err(_) => self.lose(),
         }
+    }
+
+    /// Takes the error where the first solution is `x`.
+    fn compare(&mut self, x: &[f64]) {
+        self.error = Real::maximum(self.error, self.share.abs() * largest_difference(x, &self.x));
+        self.first.copy_from_slice(x);
     }
 
     /// Takes the order as one from here on, with the same error so far.
@@ -107,6 +115,9 @@ impl Companion {
     /// The largest error of a position (rad, m), with that of a last step without a pair, and those of positions and rates
     /// where there are both solutions last.
     pub(super) fn errors(&mut self, equation: &mut Equation<'_>) -> PathErrors {
+        if self.order.is_none() && !self.is_lost {
+            self.catch_up(equation);
+        }
         let count = 3 + self.held.len();
         let halves = [&self.first, &self.x].map(|x| split(x).map_or([&[][..], &[]], |x| [x.positions, x.rates]));
         let at_end = std::array::from_fn(|i| {
@@ -120,6 +131,18 @@ impl Companion {
             }
         }
         (self.error, at_end)
+    }
+
+    /// Follows over the adaptive steps that are pending.
+    fn catch_up(&mut self, equation: &mut Equation<'_>) {
+        let Some(span) = self.pending.take() else { return };
+        match self.exchanged(equation, |own, equation| own.steps.advance_to_end(equation, span, &mut own.x)) {
+            Ok(()) => {
+                let latest = std::mem::take(&mut self.latest);
+                self.compare(&latest);
+            }
+            Err(_) => self.lose(),
+        }
     }
 
     /// Runs with the vectors at the end of this solution's last step.
@@ -142,10 +165,16 @@ impl Companion {
 
     /// Advances it; returns whether it is as far as the first.
     fn advance(&mut self, equation: &mut Equation<'_>, span @ [_, end]: [f64; 2]) -> Result<bool, Error> {
+        let is_held = equation.control.held_steps().is_some();
         if self.order.is_none() {
-            return self.steps.advance_to_end(equation, span, &mut self.x).map(|()| true);
+            let from = self.pending.take().map_or(span[0], |[from, _]| from);
+            if !is_held && end - from < COMPARED * self.steps.next_step() {
+                self.pending = Some([from, end]);
+                return Ok(false);
+            }
+            return self.steps.advance_to_end(equation, [from, end], &mut self.x).map(|()| true);
         }
-        if equation.control.held_steps().is_some() {
+        if is_held {
             return self.halves(equation, span).map(|()| true);
         }
         match self.pending.take() {

@@ -143,6 +143,11 @@ trait Steps {
     /// Advances `x` from the start of the last part to a time within it, without changing the data for the next one.
     fn within(&mut self, equation: &mut Equation<'_>, span: [f64; 2], x: &mut [f64]) -> Result<(), Error>;
 
+    /// The length of the next step where it follows from a tolerance, s; 0 before it is known.
+    fn next_step(&self) -> f64 {
+        0.0
+    }
+
     /// Advances `x` over the whole step.
     fn advance_to_end(
         &mut self,
