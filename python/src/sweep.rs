@@ -101,7 +101,7 @@ pub fn sweep(
         .map_err(of_output)?;
     show(py, progress.as_ref(), &tally, plan.cases)?;
     if report {
-        write_report(&campaign, &path, &folder).map_err(of_sweep_report)?;
+        write_report(&campaign, &path, &folder, &[]).map_err(of_sweep_report)?;
     }
     Ok((campaign.sweep.name.clone(), folder, campaign.sweep.cases, tally.counts().collect(), plan.present))
 }
@@ -132,7 +132,7 @@ pub fn sweep_plan(py: Python<'_>, path: PathBuf, out: Option<PathBuf>, dynamics:
 #[pyfunction]
 pub fn sweep_report(path: PathBuf, folder: PathBuf) -> PyResult<PathBuf> {
     let campaign = Campaign::read(&path, SHIPPED).map_err(of_report)?;
-    write_report(&campaign, &path, &folder).map_err(of_sweep_report)
+    write_report(&campaign, &path, &folder, &[]).map_err(of_sweep_report)
 }
 
 /// How many cases of a file of a sweep have each status.

@@ -8,6 +8,10 @@ use crate::layout::{Arm, Layout, Link};
 
 /// Radii of gyration of bases, from a small circuit board's to a space station's, m.
 const BASE_RADII: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
+/// Largest radius of gyration of a base without an outline, in reaches of its arms.
+const MAX_BASE_SIZE: f64 = 2.0;
+/// Largest ratio of the longest link to the next longest one.
+const MAX_LENGTH_RATIO: f64 = 50.0;
 /// Largest ratio of two masses of one robot.
 const MAX_MASS_RATIO: f64 = 1e6;
 /// Largest ratio of two inertias of one robot.
@@ -21,6 +25,7 @@ pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
     let of_all = [
         light_base(layout),
         gyration(layout),
+        long_link(layout),
         ratio(layout, "mass", "kg", MAX_MASS_RATIO, layout.base.mass, |link| link.mass),
         ratio(layout, "inertia", "kg m²", MAX_INERTIA_RATIO, layout.base.inertia, |link| link.inertia),
     ];
@@ -43,11 +48,40 @@ pub(super) fn has_size(layout: &Layout) -> bool {
 
 fn gyration(layout: &Layout) -> Option<Warning> {
     let (mass, radius) = (layout.base.mass, layout.base.radius_of_gyration());
-    (!has_size(layout)).then(|| {
-        let why =
-            format!("gives a radius of gyration √(inertia / mass) of {} m, with {} kg", short(radius), short(mass));
+    let reach = layout.reach_from_base();
+    // no body's is larger than the distance of its farthest point
+    let beyond = match &layout.base.outline {
+        Some(outline) => (radius > outline.reach() * (1.0 + 1e-9)).then(|| {
+            format!(", more than the largest distance of its outline from the COM, {} m", short(outline.reach()))
+        }),
+        None => (radius > MAX_BASE_SIZE * reach && reach > 0.0).then(|| {
+            format!(", {} times what the arms reach from the base COM, {} m", short(radius / reach), short(reach))
+        }),
+    };
+    (!has_size(layout) || beyond.is_some()).then(|| {
+        let why = format!(
+            "gives a radius of gyration √(inertia / mass) of {} m, with {} kg{}",
+            short(radius),
+            short(mass),
+            beyond.unwrap_or_default()
+        );
         let help = format!("inertias are in kg m²; a square plate of that mass, 1 m × 1 m, has {}", short(mass / 6.0));
         warning("base.inertia", why, help)
+    })
+}
+
+/// A link far longer than all others, of any arm: a length in another unit.
+fn long_link(layout: &Layout) -> Option<Warning> {
+    let links = layout.arms.iter().enumerate().flat_map(|(i, arm)| {
+        arm.links.iter().enumerate().map(move |(k, link)| (format!("arm[{i}].link[{k}].length"), link.length))
+    });
+    let mut lengths: Vec<_> = links.filter(|(_, length)| *length > 0.0).collect();
+    lengths.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    let [(key, longest), (_, next), ..] = &lengths[..] else { return None };
+    (*longest > MAX_LENGTH_RATIO * next).then(|| {
+        let why = format!("{} times as long as the next longest link, {} m", short(longest / next), short(*next));
+        let help = format!("lengths are in m; {} mm are {} m", short(*longest), short(longest / 1000.0));
+        warning(key.as_str(), why, help)
     })
 }
 

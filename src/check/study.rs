@@ -28,8 +28,8 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
     out += &entry("approach", &steps(approach.duration, approach.step, approach.integration));
     out += &entry("trajectory", &trajectory(scenario));
     out += &match &approach.final_end_effector_poses {
-        Some(goals) if by_end_effectors(scenario) => entry("end effectors", &format!("to {}", goal_poses(goals))),
-        Some(goals) => entry("final angles", &format!("to be designed, for {}", goal_poses(goals))),
+        Some(goals) if by_end_effectors(scenario) => entry("end effectors", &goal_poses(scenario, goals)),
+        Some(goals) => entry("final angles", &format!("to be designed, for {}", goal_poses(scenario, goals))),
         None => entry("largest turn", &turn(scenario)),
     };
     out += &entry("tracking", &tracking(scenario));
@@ -101,8 +101,9 @@ fn trajectory(scenario: &Scenario) -> String {
         FinalRates::JointRates(rates) => format!("joint rates {} rad/s", list(rates)),
         FinalRates::EndEffectorTwists(twists) => {
             let wanted = |twist: &EndEffectorTwistGoal| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
-            let twists: Vec<_> = twists.iter().map(wanted).collect();
-            format!("end effector twists {} rad/s, m/s", twists.join(", "))
+            let arms = scenario.layout.arms.iter().zip(twists);
+            let twists: Vec<_> = arms.map(|(arm, twist)| format!("{} {}", arm.name, wanted(twist))).collect();
+            format!("end effector twists {} in rad/s, m/s", twists.join(", "))
         }
     };
     let whose = if by_end_effectors(scenario) { " of the end effectors" } else { "" };
@@ -111,11 +112,11 @@ fn trajectory(scenario: &Scenario) -> String {
     format!("{shape}{whose}, to {end}{then}")
 }
 
-fn goal_poses(goals: &[EndEffectorGoal]) -> String {
-    let goals = goals.iter().map(|goal| match goal {
-        EndEffectorGoal::Any => "any pose".to_owned(),
-        EndEffectorGoal::Position(position) => format!("end effector at {} m", point(*position)),
-        EndEffectorGoal::Pose(pose) => format!("end effector pose {} rad, m", list(pose)),
+fn goal_poses(scenario: &Scenario, goals: &[EndEffectorGoal]) -> String {
+    let goals = scenario.layout.arms.iter().zip(goals).map(|(arm, goal)| match goal {
+        EndEffectorGoal::Any => format!("{} in any pose", arm.name),
+        EndEffectorGoal::Position(position) => format!("{} at {} m", arm.name, point(*position)),
+        EndEffectorGoal::Pose(pose) => format!("{} in the pose {} rad, m", arm.name, list(pose)),
     });
     goals.collect::<Vec<_>>().join(", ")
 }

@@ -4,7 +4,7 @@ use super::dynamics::Dynamics;
 use super::progress::{Display, Progress};
 use super::run::study_error;
 use super::seconds::{positive_seconds, seconds};
-use super::{CommandError, write_new};
+use super::{CommandError, Force, cases, check_new, write_new};
 use crate::capture::study_registered;
 use crate::output::animation::{Excerpt, RATE, animation};
 use crate::program::Program;
@@ -27,6 +27,8 @@ pub struct Arguments {
     /// The SVG file [default: the standard output].
     #[arg(long, value_name = "FILE.svg")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
     /// The case, by its name [default: the first one].
     #[arg(long, value_name = "NAME")]
     case: Option<String>,
@@ -50,18 +52,14 @@ fn playing_time(text: &str) -> Result<f64, String> {
 
 /// Computes the case alone and writes the picture.
 pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
+    check_new(arguments.out.as_deref(), &arguments.force)?;
     let (mut scenario, source) = Scenario::read_with_source(&arguments.scenario, program.known())?;
     let names = scenario.case_names();
     let wanted = arguments.case.as_deref().unwrap_or(names.first().copied().unwrap_or_default()).to_owned();
-    if !names.contains(&&*wanted) {
-        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-        let (file, names) = (arguments.scenario.display(), names.join(", "));
-        return Err(CommandError::Usage(format!("{file} has no case `{wanted}`, expected one of {names}")));
-    }
+    cases::retain(&mut scenario, std::slice::from_ref(&wanted), &arguments.scenario.display().to_string())?;
     let variant = scenario.variant(&wanted).cloned();
-    match &variant {
-        Some(variant) => scenario = variant.scenario.clone(),
-        None => scenario.cases.retain(|case| case.name == wanted),
+    if let Some(variant) = &variant {
+        scenario = variant.scenario.clone();
     }
     let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, program.robots)?;
     if !arguments.display.quiet {
@@ -79,6 +77,7 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     let study = result.map_err(|error| study_error(&error, &scenario, variant.as_ref(), &source.scenario))?;
     write_new(
         arguments.out.as_deref(),
+        &arguments.force,
         &animation(&scenario, &study, &study.cases[0], Excerpt { seconds: arguments.seconds, until }),
     )?;
     Ok(ExitCode::SUCCESS)

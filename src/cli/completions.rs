@@ -1,7 +1,7 @@
 //! `planar-capture completions SHELL` and `planar-capture man`: the command line described to other programs.
 
 use super::help::command_line;
-use super::{CommandError, write_new};
+use super::{CommandError, print_product};
 use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
@@ -39,7 +39,7 @@ pub struct Manual {
 pub fn completions(arguments: &Completions) -> Result<ExitCode, CommandError> {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut command_line(), program(), &mut text);
-    write_new(None, &String::from_utf8_lossy(&text))?;
+    print_product(&String::from_utf8_lossy(&text))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -59,7 +59,7 @@ pub fn manual(arguments: &Manual) -> Result<ExitCode, CommandError> {
     let page = page.name(name);
     let mut text = Vec::new();
     Man::new(page.clone()).render(&mut text)?;
-    write_new(None, &with_repetitions(&String::from_utf8_lossy(&text), &page))?;
+    print_product(&with_repetitions(&String::from_utf8_lossy(&text), &page))?;
     Ok(ExitCode::SUCCESS)
 }
 

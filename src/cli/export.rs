@@ -1,7 +1,7 @@
 //! `planar-capture export LAYOUT.toml`: writes a layout as a URDF.
 
 use super::terminal::note;
-use super::{CommandError, layout, write_new};
+use super::{CommandError, Force, layout, write_new};
 use crate::registry::Robots;
 use crate::urdf;
 use std::path::PathBuf;
@@ -20,12 +20,14 @@ pub struct Arguments {
     /// The URDF file [default: the standard output].
     #[arg(long, value_name = "ROBOT.urdf")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Converts the layout.
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
-    write_new(arguments.out.as_deref(), &urdf::export(&layout))?;
+    write_new(arguments.out.as_deref(), &arguments.force, &urdf::export(&layout))?;
     let links = layout.arms.iter().flat_map(|arm| &arm.links).filter(|link| link.outline.is_some()).count();
     let outlines = links + usize::from(layout.base.outline.is_some());
     if outlines > 0 {

@@ -7,7 +7,7 @@ use clap::{Command, CommandFactory, FromArgMatches};
 /// What commands are for, with their names.
 const GROUPS: [(&str, &[&str]); 4] = [
     ("Studies", &["run", "sweep", "animate", "check", "list", "template", "schema"]),
-    ("Robots", &["eval", "compare", "derive", "generate", "new", "import", "export"]),
+    ("Robots", &["draw", "eval", "compare", "derive", "generate", "new", "import", "export"]),
     ("The paper", &["reproduce"]),
     ("This program", &["completions", "man"]),
 ];

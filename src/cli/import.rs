@@ -1,7 +1,7 @@
 //! `planar-capture import ROBOT.urdf`: writes the layout of a URDF.
 
 use super::terminal::note;
-use super::{CommandError, file_error, write_new};
+use super::{CommandError, Force, file_error, write_new};
 use crate::diagnostic::read_text;
 use crate::urdf::{self, HeldJoint, ImportOptions};
 use std::path::PathBuf;
@@ -26,6 +26,8 @@ pub struct Arguments {
     /// The layout file [default: the standard output].
     #[arg(long, value_name = "LAYOUT.toml")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
     /// Link whose frame is the tip of its arm, once for each arm [default: the first massless link fixed to its end].
     #[arg(long = "tip", value_name = "LINK")]
     end_effectors: Vec<String>,
@@ -58,7 +60,7 @@ pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
         held: arguments.held.clone(),
     };
     let imported = urdf::import(&read_text(&arguments.urdf, "URDF")?, &options).map_err(file_error(&file))?;
-    let written = write_new(arguments.out.as_deref(), &imported.to_toml(&file));
+    let written = write_new(arguments.out.as_deref(), &arguments.force, &imported.to_toml(&file));
     for joint in imported.joints.iter().filter(|joint| !joint.is_same_angle()) {
         note(format_args!("import: note: {joint}"));
     }

@@ -1,6 +1,6 @@
 //! `planar-capture list`: what this program knows by name.
 
-use super::{CommandError, write_new};
+use super::{CommandError, print_product};
 use crate::engine;
 use crate::format::{Choice, Shape, TableFormat};
 use crate::layout::Layout;
@@ -41,7 +41,7 @@ pub fn run(_: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError
             }
         }
     }
-    write_new(None, &text)?;
+    print_product(&text)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -19,10 +19,12 @@
 )]
 
 mod animate;
+mod cases;
 mod check;
 mod compare;
 mod completions;
 mod derive;
+mod draw;
 mod dynamics;
 mod eval;
 mod export;
@@ -74,6 +76,7 @@ enum Command {
     #[cfg(feature = "sweep")]
     Sweep(sweep::Arguments),
     Animate(animate::Arguments),
+    Draw(draw::Arguments),
     Eval(eval::Arguments),
     Compare(compare::Arguments),
     Generate(generate::Arguments),
@@ -148,23 +151,41 @@ fn color() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// Writes a text to a new file, or to the standard output without a path.
-fn write_new(path: Option<&Path>, text: &str) -> Result<(), CommandError> {
-    match path {
-        Some(path) if path.exists() => {
+/// Where a command writes its text.
+#[derive(Debug, clap::Args)]
+struct Force {
+    /// Replace the file, whatever it is.
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// Refuses a file that exists, and is not to be replaced.
+fn check_new(path: Option<&Path>, Force { force }: &Force) -> Result<(), CommandError> {
+    match path.filter(|path| !force && path.exists()) {
+        Some(path) => {
             let file = path.display();
-            let message = format!("{file} already exists: choose another file, or move it first");
-            return Err(CommandError::Usage(message));
+            let message = format!("{file} already exists: choose another file, or replace it with --force");
+            Err(CommandError::Usage(message))
         }
-        Some(path) => write_text(path, text)?,
-        None => {
-            let mut out = std::io::stdout().lock();
-            out.write_all(text.as_bytes())?;
-            // what is still in the buffer at the end of the process is lost without an error
-            out.flush()?;
-        }
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Writes a text to a file, a new one without `--force`, or to the standard output without a path.
+fn write_new(path: Option<&Path>, force: &Force, text: &str) -> Result<(), CommandError> {
+    check_new(path, force)?;
+    match path {
+        Some(path) => Ok(write_text(path, text)?),
+        None => print_product(text),
+    }
+}
+
+/// Writes a text, which is the product of the command, to the standard output.
+fn print_product(text: &str) -> Result<(), CommandError> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    // what is still in the buffer at the end of the process is lost without an error
+    Ok(out.flush()?)
 }
 
 /// Runs the command line of `planar-capture`.
@@ -207,6 +228,7 @@ pub fn main_with_laws(robots: &[CompiledRobot], laws: &[RegisteredLaw]) -> ExitC
         #[cfg(feature = "sweep")]
         Command::Sweep(arguments) => sweep::run(&arguments, program),
         Command::Animate(arguments) => animate::run(&arguments, program),
+        Command::Draw(arguments) => draw::run(&arguments, robots),
         Command::Eval(arguments) => eval::run(&arguments, robots),
         Command::Compare(arguments) => compare::run(&arguments, robots),
         Command::Generate(arguments) => generate::run(&arguments, robots),

@@ -1,6 +1,6 @@
 //! `planar-capture schema layout|scenario|sweep`: prints a JSON Schema.
 
-use super::{CommandError, write_new};
+use super::{CommandError, Force, write_new};
 use crate::file_format::FileFormat;
 use crate::program::Program;
 use serde_json::Value;
@@ -26,6 +26,8 @@ pub struct Arguments {
     /// Where to write it [default: the standard output].
     #[arg(long, value_name = "FILE.json")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Prints the schema.
@@ -46,6 +48,6 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
         }
         text = format!("{schema:#}\n");
     }
-    write_new(arguments.out.as_deref(), &text)?;
+    write_new(arguments.out.as_deref(), &arguments.force, &text)?;
     Ok(ExitCode::SUCCESS)
 }

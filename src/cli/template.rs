@@ -1,6 +1,6 @@
 //! `planar-capture template layout|scenario|sweep`: prints a file to start from.
 
-use super::{CommandError, write_new};
+use super::{CommandError, Force, write_new};
 use crate::file_format::FileFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -21,10 +21,12 @@ pub struct Arguments {
     /// Where to write it [default: the standard output].
     #[arg(long, value_name = "FILE.toml")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
 }
 
 /// Prints the template.
 pub fn run(arguments: &Arguments) -> Result<ExitCode, CommandError> {
-    write_new(arguments.out.as_deref(), &arguments.kind.template())?;
+    write_new(arguments.out.as_deref(), &arguments.force, &arguments.kind.template())?;
     Ok(ExitCode::SUCCESS)
 }

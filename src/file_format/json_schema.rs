@@ -64,6 +64,7 @@ fn of_shape(shape: &'static Shape) -> Value {
         Shape::Text(_) => json!({ "type": "string" }),
         Shape::Choice(choices) => of_choices(&choices()),
         Shape::Number(rule) => of_number(rule),
+        Shape::NumberOrNone(rule) => json!({ "anyOf": [of_number(rule), of_vector(&[])] }),
         Shape::Scalar(rule) => json!({ "anyOf": [of_number(rule), { "type": "string" }, { "type": "boolean" }] }),
         Shape::Vector(components) => of_vector(components),
         Shape::OneOf(vectors) => json!({ "anyOf": vectors.iter().map(|vector| of_vector(vector)).collect::<Vec<_>>() }),

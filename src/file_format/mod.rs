@@ -106,7 +106,7 @@ fn condition(key: &Key) -> Option<String> {
 /// The unit of a value, that of each component where they differ; empty where it has none.
 fn unit(shape: &Shape) -> String {
     match shape {
-        Shape::Number(rule) => rule.unit().to_owned(),
+        Shape::Number(rule) | Shape::NumberOrNone(rule) => rule.unit().to_owned(),
         Shape::Vector(components) => units(components),
         Shape::OneOf([longest, ..]) => units(longest),
         Shape::List(item, _) | Shape::OneOrList(item, _) | Shape::ByName(item, _) => unit(item),

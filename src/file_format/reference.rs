@@ -95,6 +95,7 @@ fn value(shape: &Shape, path: &str) -> String {
                 _ => "number".to_owned(),
             }
         }
+        Shape::NumberOrNone(rule) => format!("{}, []", value(&Shape::Number(*rule), path)),
         Shape::Scalar(_) => "number, text, `true` or `false`".to_owned(),
         Shape::Vector(components) => {
             let names: Vec<_> = components.iter().map(NumberRule::what).collect();

@@ -24,6 +24,7 @@
 pub mod animation;
 pub mod atomic_file;
 pub mod console;
+pub mod drawing;
 pub mod figure_kinds;
 #[cfg(feature = "figures")]
 pub mod figures;

@@ -49,6 +49,15 @@ pub enum ClaimError {
         /// What is in it, as a predicate.
         found: String,
     },
+    /// Its content is not what any run may replace, with `--force` neither.
+    #[error("{path} {found}: choose another folder, or a new one in it, such as --out {inner}",
+        path = path.display(), inner = path.join("new").display())]
+    Shared {
+        /// The folder.
+        path: PathBuf,
+        /// What is in it, as a predicate.
+        found: String,
+    },
     /// It has what `--force` is not to delete.
     #[error("--force would delete {kept} with {path}: choose another folder", path = path.display(), kept = kept.display())]
     Protected {
@@ -122,6 +131,8 @@ impl<'a> ResultFolder<'a> {
         let names: Vec<_> = names(path)?.iter().map(|name| name.to_string_lossy().into_owned()).collect();
         match if names.is_empty() { None } else { (self.objection)(path, &names) } {
             Some(_) if self.force => protect(path, &self.keep),
+            // --force, which would refuse it, is no advice
+            Some(found) if protect(path, &self.keep).is_err() => Err(ClaimError::Shared { path: path.clone(), found }),
             Some(found) => Err(ClaimError::Occupied { path: path.clone(), found }),
             None => Ok(()),
         }
@@ -169,7 +180,9 @@ impl<'a> ResultFolder<'a> {
         // held until the end: two runs do not mix
         let _lock = lock_folder(&path);
         self.permit().map_err(|error| match error {
-            ClaimError::Occupied { path, found } => ClaimError::Lost { path, found },
+            ClaimError::Occupied { path, found } | ClaimError::Shared { path, found } => {
+                ClaimError::Lost { path, found }
+            }
             other => other,
         })?;
         if !inside {

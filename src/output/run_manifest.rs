@@ -39,6 +39,8 @@ pub struct RunManifest {
     pub phases: Vec<PhaseManifest>,
     /// Control laws of the program's own.
     pub laws: Vec<LawManifest>,
+    /// The case with values of its own that this is the manifest of.
+    pub case: Option<String>,
 }
 
 /// A control law of the program's own.
@@ -97,13 +99,16 @@ impl RunManifest {
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),
             laws: laws(scenario),
+            case: None,
         }
     }
 
     /// That of a case with values of its own in the same run: with its layout and its phases.
     #[must_use]
-    pub fn of_variant(&self, Variant { scenario, texts: [_, layout], .. }: &Variant) -> Self {
+    pub fn of_variant(&self, variant: &Variant) -> Self {
+        let Variant { scenario, texts: [_, layout], .. } = variant;
         Self {
+            case: Some(variant.name().to_owned()),
             layout_toml: layout.clone(),
             layout_sha256: scenario.layout.sha256(),
             phases: phases(scenario),

@@ -1,9 +1,9 @@
 //! Shapes and colours of base, links and targets, each in its own frame, shared by figures, MCAP and HTML report.
 
-use crate::frames::FrameMotion;
+use crate::frames::{Frame, FrameMotion, robot_frames};
 use crate::layout::{Layout, Link};
 use crate::outline::Outline;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, Target};
 
 /// The visual representation of a rigid body.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +42,13 @@ pub const PALETTE: [[u8; 3]; 6] = [
     [0xe6, 0x9f, 0x00],
     [0x56, 0xb4, 0xe9],
 ];
+/// The place in the palette of a target's colour: after those of the arms, and never the second one, a red that would be taken
+/// for an overlap. The HTML report has the same rule.
+#[must_use]
+pub fn target_colour_index(arms: usize, target: usize) -> usize {
+    arms.max(2) + target
+}
+
 const BASE: [u8; 3] = [0xb4, 0xbf, 0xca];
 const TARGET: [u8; 3] = [0x6d, 0x6d, 0x6d];
 /// Width of a link over the mean length of all links.
@@ -50,17 +57,26 @@ const SLENDERNESS: f64 = 0.08;
 /// The visuals of base, links and targets, in the order of their frames.
 #[must_use]
 pub fn visuals(scenario: &Scenario) -> Vec<Visual> {
-    let layout = &scenario.layout;
+    visuals_of(&scenario.layout, &scenario.targets, scenario.frames())
+}
+
+/// Those of a robot alone.
+#[must_use]
+pub fn robot_visuals(layout: &Layout) -> Vec<Visual> {
+    visuals_of(layout, &[], robot_frames(layout))
+}
+
+fn visuals_of(layout: &Layout, targets: &[Target], frames: Vec<Frame>) -> Vec<Visual> {
     let width = link_width(layout);
     let links: Vec<&Link> = layout.arms.iter().flat_map(|arm| &arm.links).collect();
-    let each = scenario.frames().into_iter().filter_map(|frame| {
+    let each = frames.into_iter().filter_map(|frame| {
         let (shape, colour, thickness) = match frame.motion {
             FrameMotion::Base => (base_shape(layout), colour(BASE, 1.0), 2.0 * width),
             FrameMotion::Joint(joint) => {
                 (link_shape(links[joint], width), colour(PALETTE[frame.arm? % PALETTE.len()], 1.0), width)
             }
             FrameMotion::Target(target) => {
-                (Shape::Outline(scenario.targets[target].outline.clone()), colour(TARGET, 0.5), width)
+                (Shape::Outline(targets[target].outline.clone()), colour(TARGET, 0.5), width)
             }
             // an end effector is a point
             FrameMotion::Fixed => return None,

@@ -121,7 +121,8 @@ fn first_mounts_coincide(layout: &Layout) -> bool {
 pub fn in_words(layout: &Layout) -> String {
     let links: Vec<String> = layout.arms.iter().map(|arm| arm.links.len().to_string()).collect();
     let arms = if links.len() == 1 { "arm" } else { "arms" };
-    let counts = format!("{} {arms} of {} links", links.len(), links.join(" + "));
+    let noun = if links == ["1"] { "link" } else { "links" };
+    let counts = format!("{} {arms} of {} {noun}", links.len(), links.join(" + "));
     let any_arm = |property: fn(&Arm) -> bool| layout.arms.iter().any(property);
     let any_inner_link = |property: fn(&Link) -> bool| {
         layout.arms.iter().filter_map(|arm| arm.links.split_last()).any(|(_, inner)| inner.iter().any(property))

@@ -10,12 +10,12 @@ pub(super) const OUTPUTS: usize = 12;
 
 /// The section of the pictures.
 pub(super) fn gallery(report: &SweepReport) -> String {
-    let places = report.most_sensitive(OUTPUTS);
+    let places = report.pictured(OUTPUTS);
     if places.is_empty() {
         return String::new();
     }
     let mut html = "<h2 id=\"pictures\">Pictures</h2>\n".to_owned();
-    if places.len() < report.outputs.len() {
+    if report.pictured.is_empty() && places.len() < report.outputs.len() {
         let _ = writeln!(
             html,
             "<p>Of the {} outputs on which a key has the strongest effect, by rank correlation or the root of the first-order index; the tables have all {}.</p>",
@@ -89,5 +89,17 @@ mod tests {
         assert!(page.contains("<h3>output250</h3>") && page.contains("<h3>output0</h3>"), "the first of equal ones");
         assert!(!page.contains("<h3>output11</h3>") && page.contains("the tables have all 300"));
         assert_eq!(gallery(&SweepReport::default()), "");
+    }
+
+    /// Whole words: `impulse` is not `impulses`.
+    #[test]
+    fn outputs_that_are_asked_for_are_drawn_alone() {
+        let mut some = report(&["impulse_arm1", "impulses", "least_distance", "impulse"]);
+        some.pictured = ["impulse", "contact"].map(str::to_owned).to_vec();
+        let page = gallery(&some);
+        assert_eq!(page.matches("<h3>").count(), 2);
+        assert!(page.contains("<h3>impulse_arm1</h3>") && page.contains("<h3>impulse</h3>"), "{page}");
+        some.pictured = vec!["contact".to_owned()];
+        assert_eq!(gallery(&some), "");
     }
 }

@@ -29,6 +29,7 @@ use crate::campaign::manifest::origin;
 use crate::campaign::reader::Campaign;
 use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
+use crate::output::figure_kinds::begins_with;
 use crate::output::output_error::OutputError;
 use crate::scenario::find_key;
 pub use columns::UnreadableError;
@@ -81,6 +82,8 @@ pub struct SweepReport {
     pub same: Vec<(String, String, f64)>,
     /// Whether keys are independent, as first-order indices suppose.
     pub is_independent: bool,
+    /// The outputs that have pictures, by the first words of their names; without any the most sensitive ones.
+    pub pictured: Vec<String>,
 }
 
 /// One output.
@@ -107,6 +110,16 @@ pub struct OutputReport {
 }
 
 impl SweepReport {
+    /// The places of the outputs that are asked for; where none are, of so many of the [most sensitive](Self::most_sensitive).
+    #[must_use]
+    pub fn pictured(&self, most: usize) -> Vec<usize> {
+        if self.pictured.is_empty() {
+            return self.most_sensitive(most);
+        }
+        let is_wanted = |output: &OutputReport| self.pictured.iter().any(|word| begins_with(&output.name, word));
+        (0..self.outputs.len()).filter(|place| is_wanted(&self.outputs[*place])).collect()
+    }
+
     /// The places of so many outputs, in their order: those with the strongest effects of a key, then the first ones.
     #[must_use]
     pub fn most_sensitive(&self, most: usize) -> Vec<usize> {
@@ -243,6 +256,7 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
         outputs,
         same,
         is_independent,
+        pictured: Vec::new(),
     })
 }
 
@@ -262,16 +276,22 @@ fn unit_of(key: &str) -> String {
 }
 
 /// Writes the report on all files of a sweep that are in a folder, whoever computed them; returns its path. `sweep` is
-/// the file of the sweep as the command to replay a case has it.
+/// the file of the sweep as the command to replay a case has it; `pictured` as in [`SweepReport`].
 ///
 /// # Errors
 /// [`ReportError`].
-pub fn write_report(campaign: &Campaign, sweep: &Path, folder: &Path) -> Result<PathBuf, ReportError> {
+pub fn write_report(
+    campaign: &Campaign,
+    sweep: &Path,
+    folder: &Path,
+    pictured: &[String],
+) -> Result<PathBuf, ReportError> {
     let words = ["planar-capture", "sweep", &*sweep.to_string_lossy(), "--out", &*folder.to_string_lossy()];
     // only a NUL cannot be quoted, which no path has
     let command = format!("{} --replay", shlex::try_join(words).unwrap_or_default());
     let file = folder.join("report.html");
-    write_text(&file, &page(&report(campaign, folder)?, &command))?;
+    let report = SweepReport { pictured: pictured.to_vec(), ..report(campaign, folder)? };
+    write_text(&file, &page(&report, &command))?;
     Ok(file)
 }
 

@@ -4,6 +4,7 @@ mod product;
 mod task;
 
 use super::CommandError;
+use super::cases;
 use super::dynamics::Dynamics;
 use super::optional_outputs;
 use super::progress::Display;
@@ -31,6 +32,7 @@ const EXAMPLES: &str = "\
 Examples:
   planar-capture run scenarios/raina_shah_2017.toml --report
   planar-capture run scenarios/*.toml --out results/today
+  planar-capture run scenarios/raina_shah_2017.toml --case case2 --case case3 --out results/two
   planar-capture run mine.toml -q --format json | jq '.cases[].impact.exact.impulse_magnitudes'
   sed 's/mass = 10.0/mass = 20.0/' mine.toml | planar-capture run - --out results/heavier
 
@@ -64,6 +66,9 @@ pub struct Arguments {
     /// Time between two rows of the CSV time series, s; at least one step of the scenario [default: 0.05].
     #[arg(long, value_name = "SECONDS", value_parser = positive_seconds, help_heading = "Results")]
     sample: Option<f64>,
+    /// Compute this case alone, once for each case [default: all of them]; the results are those of these cases.
+    #[arg(long = "case", value_name = "NAME", help_heading = "Computation")]
+    cases: Vec<String>,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
     dynamics: Dynamics,
@@ -102,6 +107,7 @@ pub fn run_file(
         report,
         optional_outputs: optional_outputs::Flags::default(),
         sample: None,
+        cases: Vec::new(),
         dynamics: Dynamics::of_name(choice.engine.name()),
         display,
         verbose: false,
@@ -140,7 +146,7 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     let scenarios: Vec<_> = arguments
         .scenarios
         .iter()
-        .filter_map(|path| codes.take(read(path, program).map(|read| (path, read))))
+        .filter_map(|path| codes.take(read(path, &arguments.cases, program).map(|read| (path, read))))
         .collect();
     let folders = folders(arguments, scenarios.iter().map(|(_, (scenario, _))| scenario.name.as_str()))?;
     let sources = scenarios.iter().flat_map(|(_, (_, source))| [&source.scenario.file, &source.layout.file]);
@@ -182,13 +188,15 @@ fn run_by(arguments: &Arguments, program: Program<'_>, mut chosen: Option<Choice
     Ok(ExitCode::from(codes.0))
 }
 
-/// Reads a scenario from a file or the standard input.
-fn read(path: &Path, program: Program<'_>) -> Result<(Scenario, ScenarioSource), CommandError> {
-    Ok(if path == Path::new(STANDARD_INPUT) {
+/// Reads a scenario, these cases of it, from a file or the standard input.
+fn read(path: &Path, cases: &[String], program: Program<'_>) -> Result<(Scenario, ScenarioSource), CommandError> {
+    let (mut scenario, source) = if path == Path::new(STANDARD_INPUT) {
         Scenario::read_stream(io::stdin().lock(), "standard input", program.known())?
     } else {
         Scenario::read_with_source(path, program.known())?
-    })
+    };
+    cases::retain(&mut scenario, cases, &source.scenario.file)?;
+    Ok((scenario, source))
 }
 
 /// The folder with those of several scenarios, where it holds the results of one run, which are to be replaced.

@@ -4,15 +4,19 @@ mod progress;
 mod replay;
 
 use super::dynamics::Dynamics;
+use super::optional_outputs::{self, FIGURES};
 use super::progress::Display;
 use super::terminal::{note, print};
 use super::{CommandError, file_error};
 use crate::campaign::Campaign;
 use crate::campaign::manifest::claim;
+use crate::campaign::outputs::outputs;
 use crate::campaign::report::write_report;
 use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
+use crate::diagnostic::nearest;
 use crate::engine::Choice;
 use crate::output::atomic_file::create_folder;
+use crate::output::figure_kinds::begins_with;
 use crate::output::result_folder::existing_folder;
 use crate::program::Program;
 use crate::registry::Robots;
@@ -56,6 +60,11 @@ pub struct Arguments {
     /// Write DIR/report.html too: percentiles, failures, sensitivities, extremes. With --replay: that of the run.
     #[arg(long, help_heading = "Results")]
     report: bool,
+    /// Pictures of the outputs alone of which a name begins with one in LIST, such as `impulse,least_distance`; needs a build
+    /// with the feature `figures` [default: of those on which a key has the strongest effects].
+    #[arg(long, value_name = "LIST", value_delimiter = ',', require_equals = true, help_heading = "Results")]
+    #[arg(requires = "report", conflicts_with = "replay")]
+    figures: Vec<String>,
     /// The implementation of the dynamics.
     #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
     dynamics: Dynamics,
@@ -77,6 +86,7 @@ fn shard(text: &str) -> Result<Shard, String> {
 pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, CommandError> {
     let mut campaign = Campaign::read(&arguments.sweep, program.known())?;
     campaign.laws = program.laws.to_vec();
+    check_figures(&campaign, &arguments.figures)?;
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("results").join(&campaign.sweep.name));
     existing_folder(&folder)?;
     if let Some(case) = arguments.replay {
@@ -101,7 +111,7 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     result?;
     print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
     if arguments.report {
-        write_report(&campaign, &arguments.sweep, &folder)?;
+        write_report(&campaign, &arguments.sweep, &folder, &arguments.figures)?;
     }
     if tally.is_interrupted.load(Ordering::Relaxed) {
         note(
@@ -111,6 +121,26 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
         return Ok(ExitCode::from(INTERRUPTED));
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses pictures of outputs that the sweep has not, and those that this build does not draw.
+fn check_figures(campaign: &Campaign, figures: &[String]) -> Result<(), CommandError> {
+    if figures.is_empty() {
+        return Ok(());
+    }
+    optional_outputs::require(&[FIGURES])?;
+    let outputs = outputs(&campaign.scenario, &campaign.sweep.collect.outputs);
+    let names = || outputs.iter().map(|output| output.name.as_str());
+    match figures.iter().find(|word| !names().any(|name| begins_with(name, word))) {
+        Some(unknown) => {
+            let meant = nearest(unknown, names()).map_or_else(String::new, |name| format!("did you mean `{name}`? "));
+            let names = names().collect::<Vec<_>>().join(", ");
+            Err(CommandError::Usage(format!(
+                "--figures: the sweep has no output `{unknown}`: {meant}expected some of {names}, or their first words"
+            )))
+        }
+        None => Ok(()),
+    }
 }
 
 /// What computes the cases: chosen for a layout whose numbers that vary are as different from 0 as in the cases.

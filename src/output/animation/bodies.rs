@@ -4,7 +4,7 @@ use super::clip::{Clip, pair, short};
 use crate::frames::{Frame, FrameMotion};
 use crate::layout::{Arm, Link};
 use crate::outline::Outline;
-use crate::output::scene::{PALETTE, base_shape, hexadecimal, wheel_radius};
+use crate::output::scene::{PALETTE, base_shape, hexadecimal, target_colour_index, wheel_radius};
 use crate::output::time_series::TimeSeriesRow;
 use crate::scenario::Scenario;
 use std::fmt::Write as _;
@@ -31,7 +31,7 @@ pub(super) struct Motion<'a> {
 }
 
 /// The colour of a member of the palette.
-pub(super) fn colour(index: usize) -> String {
+pub(in crate::output) fn colour(index: usize) -> String {
     hexadecimal(PALETTE[index % PALETTE.len()])
 }
 
@@ -154,7 +154,7 @@ impl Motion<'_> {
     }
 
     fn target(&self, index: usize) -> String {
-        let colour = colour(self.scenario.layout.arms.len() + index);
+        let colour = colour(target_colour_index(self.scenario.layout.arms.len(), index));
         let outline = &self.scenario.targets[index].outline;
         let path = path(&outline.corners());
         let mut drawn = format!("<path class=\"body\" fill=\"{colour}\" stroke=\"{colour}\" d=\"{path}\"/>");
@@ -175,7 +175,7 @@ fn degrees(angle: f64) -> String {
 }
 
 /// A closed path.
-fn path(corners: &[[f64; 2]]) -> String {
+pub(in crate::output) fn path(corners: &[[f64; 2]]) -> String {
     let points: Vec<_> = corners.iter().map(|corner| pair(*corner)).collect();
     format!("M{}Z", points.join("L"))
 }

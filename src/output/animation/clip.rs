@@ -82,7 +82,7 @@ impl Clip {
 }
 
 /// With at most so many digits after the point; never a negative zero.
-pub(super) fn short(value: f64, digits: usize) -> String {
+pub(in crate::output) fn short(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

@@ -19,8 +19,8 @@
 //! ```
 
 mod bodies;
-mod clip;
-mod view;
+pub(super) mod clip;
+pub(super) mod view;
 
 use crate::capture::{CaseResult, Study};
 use crate::frames::poses;
@@ -29,7 +29,8 @@ use crate::output::markup;
 use crate::output::scene::visuals;
 use crate::output::time_series::{TimeSeriesRow, rows};
 use crate::scenario::Scenario;
-use bodies::{Hold, Motion, colour};
+use bodies::{Hold, Motion};
+pub(super) use bodies::{colour, path};
 use clip::{Clip, short};
 use std::fmt::Write as _;
 use view::{View, WIDTH, round_number};
@@ -46,7 +47,7 @@ const RAIL: f64 = 64.0;
 const SIDE: f64 = 24.0;
 
 /// Colours as those of the HTML report.
-const STYLE: &str = "\
+pub(super) const STYLE: &str = "\
 :root { --ink: #1c2733; --soft: #5b6b7b; --stage: #fbfcfd; --grid: #e6ebf0; --body: #dfe6ed; --edge: #44525f; --impulse: #b3261e; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4eaf0; --soft: #9fadba; --stage: #151b21; --grid: #28323b; --body: #33404c; --edge: #a9b7c4; --impulse: #ff8a80; } }
 text { font: 15px system-ui, sans-serif; fill: var(--soft); }
@@ -101,7 +102,7 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
          <title>{title}</title>\n<style>\n{STYLE}</style>\n\
          <rect class=\"stage\" width=\"{WIDTH}\" height=\"{height}\"/>\n\
          {}{}<g transform=\"matrix({scale} 0 0 -{scale} {left} {top})\">{}</g>\n{}{}</svg>\n",
-        grid(&view),
+        view.grid(),
         traces(&view, &rows),
         motion.bodies(),
         impulses(&view, &clip, &events),
@@ -123,21 +124,6 @@ fn holds(event: &ImpactEvent<'_>) -> Vec<Hold> {
         .filter(|contact| contact.law.kind().holds())
         .map(|contact| Hold { arm: contact.arm, since: event.time })
         .collect()
-}
-
-/// Lines of a round spacing, and what that is.
-fn grid(view: &View) -> String {
-    let spacing = view.spacing();
-    let [across, along] = view.multiples(spacing);
-    let mut lines = String::new();
-    for x in across {
-        let _ = write!(lines, "M{} 0V{}", short(view.pixel([x, 0.0])[0], 1), view.height);
-    }
-    for y in along {
-        let _ = write!(lines, "M0 {}H{WIDTH}", short(view.pixel([0.0, y])[1], 1));
-    }
-    let name = format!("<text x=\"{}\" y=\"22\" text-anchor=\"end\">grid {spacing} m</text>\n", WIDTH - 12.0);
-    format!("<path class=\"grid\" d=\"{lines}\"/>\n{name}")
 }
 
 /// The paths of the end effectors.

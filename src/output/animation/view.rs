@@ -1,10 +1,12 @@
 //! The part of the plane that the picture shows.
 
+use super::clip::short;
 use crate::frames::{Frame, FrameMotion, point};
 use crate::output::scene::Visual;
+use std::fmt::Write as _;
 
 /// Width of the picture, px.
-pub(super) const WIDTH: f64 = 800.0;
+pub(in crate::output) const WIDTH: f64 = 800.0;
 /// Least and greatest height of the scene, px.
 const HEIGHTS: [f64; 2] = [300.0, 560.0];
 /// Free space around it, px.
@@ -40,18 +42,18 @@ impl Extent {
 
 /// Where points of the plane are in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct View {
+pub(in crate::output) struct View {
     /// px per m.
-    pub(super) scale: f64,
+    pub(in crate::output) scale: f64,
     /// Of the scene, px.
-    pub(super) height: f64,
+    pub(in crate::output) height: f64,
     /// Middle of what is shown, m.
     centre: [f64; 2],
 }
 
 impl View {
     /// That contains the robot at all times, and the targets when they are near it; `poses` has those of the frames.
-    pub(super) fn new(frames: &[Frame], visuals: &[Visual], poses: &[Vec<[f64; 3]>]) -> Self {
+    pub(in crate::output) fn new(frames: &[Frame], visuals: &[Visual], poses: &[Vec<[f64; 3]>]) -> Self {
         let is_target = |frame: &Frame| matches!(frame.motion, FrameMotion::Target(_));
         let outline = |i: usize| {
             let visual = visuals.iter().find(|visual| visual.frame == frames[i].name);
@@ -86,18 +88,33 @@ impl View {
     }
 
     /// The transformation from metres, y upwards, to pixels, y downwards: its scale and its offset.
-    pub(super) fn offset(&self) -> [f64; 2] {
+    pub(in crate::output) fn offset(&self) -> [f64; 2] {
         [WIDTH / 2.0 - self.scale * self.centre[0], self.height / 2.0 + self.scale * self.centre[1]]
     }
 
     /// A point in the picture, px.
-    pub(super) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(in crate::output) fn pixel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, top] = self.offset();
         [left + self.scale * x, top - self.scale * y]
     }
 
+    /// Lines of a round spacing, and what that is, as elements.
+    pub(in crate::output) fn grid(&self) -> String {
+        let spacing = self.spacing();
+        let [across, along] = self.multiples(spacing);
+        let mut lines = String::new();
+        for x in across {
+            let _ = write!(lines, "M{} 0V{}", short(self.pixel([x, 0.0])[0], 1), self.height);
+        }
+        for y in along {
+            let _ = write!(lines, "M0 {}H{WIDTH}", short(self.pixel([0.0, y])[1], 1));
+        }
+        let name = format!("<text x=\"{}\" y=\"22\" text-anchor=\"end\">grid {spacing} m</text>\n", WIDTH - 12.0);
+        format!("<path class=\"grid\" d=\"{lines}\"/>\n{name}")
+    }
+
     /// The shown multiples of a spacing, along x and along y.
-    pub(super) fn multiples(&self, spacing: f64) -> [Vec<f64>; 2] {
+    pub(in crate::output) fn multiples(&self, spacing: f64) -> [Vec<f64>; 2] {
         [(0, WIDTH), (1, self.height)].map(|(i, size)| {
             let half = size / 2.0 / self.scale;
             let (mut at, mut all) = (((self.centre[i] - half) / spacing).ceil() * spacing, Vec::new());
@@ -110,13 +127,13 @@ impl View {
     }
 
     /// The spacing of a grid: 1, 2 or 5 times a power of ten, m.
-    pub(super) fn spacing(&self) -> f64 {
+    pub(in crate::output) fn spacing(&self) -> f64 {
         round_number(80.0 / self.scale)
     }
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a number.
-pub(super) fn round_number(least: f64) -> f64 {
+pub(in crate::output) fn round_number(least: f64) -> f64 {
     let power = libm::pow(10.0, libm::log10(least).floor());
     [1.0, 2.0, 5.0].map(|digit| digit * power).into_iter().find(|step| *step >= least).unwrap_or(10.0 * power)
 }

@@ -9,6 +9,7 @@ use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::layout::Arm;
 use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::scene::target_colour_index;
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
 use crate::simulate::system::Body;
@@ -16,8 +17,11 @@ use crate::simulate::system::Body;
 /// Number of snapshots of a post-impact motion.
 const SNAPSHOTS: usize = 6;
 
-/// Largest number of impacts of one case that are shown.
-const MAX_IMPACTS: usize = 6;
+/// Largest number of impacts of one case in one figure: a page of three columns. More of them have further figures.
+const PAGE: usize = 12;
+
+/// Up to so many of them have larger pictures, in two columns.
+const LARGE: usize = 6;
 
 /// Length of the arrow of the largest impulse over the length of the longest arm.
 const ARROW: f64 = 0.3;
@@ -35,7 +39,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
         });
         let series = at_start.into_iter().chain(targets).collect();
         let mut figures = vec![single("initial_configuration", series)];
-        figures.extend(study.cases.iter().map(|case| impacts_of_case(scenario, study, case)));
+        figures.extend(study.cases.iter().flat_map(|case| impacts_of_case(scenario, study, case)));
         return figures;
     }
     let expected = || expected_targets(scenario, "expected targets");
@@ -49,7 +53,7 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
 }
 
 /// The impacts of a case that were found by detection, or the end of an approach without contact.
-fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
+fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Vec<Figure> {
     let snapshot = |title: String, now: &Sample, bodies: &[Body], contacts: &[ImpactContact]| {
         let mut series = expected_targets(scenario, "targets at the start");
         series.extend(robot(&scenario.layout, &now.state));
@@ -66,7 +70,7 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
     let at_impact = |(i, event): (usize, &ImpactEvent<'_>)| {
         let results = &event.solution.contacts;
         let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
-        let title = if count > MAX_IMPACTS {
+        let title = if count > LARGE {
             format!("Impact {} of {count}, at {:.3} s", i + 1, event.time)
         } else {
             format!("Impact at {:.3} s", event.time)
@@ -79,13 +83,23 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Fig
         }));
         snapshot
     };
-    let mut snapshots: Vec<Snapshot> = events.iter().enumerate().take(MAX_IMPACTS).map(at_impact).collect();
+    let mut snapshots: Vec<Snapshot> = events.iter().enumerate().map(at_impact).collect();
     if snapshots.is_empty() {
         let approach = case.approach(study);
         let title = format!("No contact by {} s", approach.duration);
         snapshots.push(snapshot(title, approach.end(), &case.targets, &[]));
     }
-    Figure { name: format!("impact_configuration_{}", case.name), columns: 2, panels: panels(snapshots) }
+    // all figures of one scale
+    let all = panels(snapshots);
+    let columns = if all.len() > LARGE { 3 } else { 2 };
+    let pages = all.chunks(PAGE).enumerate();
+    pages
+        .map(|(page, panels)| {
+            // no name of a case has a plus sign
+            let number = if page > 0 { format!("+{}", page + 1) } else { String::new() };
+            Figure { name: format!("impact_configuration_{}{number}", case.name), columns, panels: panels.to_vec() }
+        })
+        .collect()
 }
 
 /// The post-impact motion at equal intervals.
@@ -154,7 +168,7 @@ fn targets(scenario: &Scenario, bodies: &[Body], now: &Sample, contacts: &[Impac
 
 /// The colours of the targets follow those of the arms.
 fn target_colour(scenario: &Scenario, target: usize) -> Colour {
-    Colour::of(scenario.layout.arms.len() + target)
+    Colour::of(target_colour_index(scenario.layout.arms.len(), target))
 }
 
 fn expected_targets(scenario: &Scenario, label: &str) -> Vec<Series> {

@@ -23,8 +23,7 @@ fn is_flat(values: impl Iterator<Item = f64>, span: f64) -> bool {
     high - low <= FLAT * span
 }
 
-/// [l, px, py] about the inertial origin; with dashes and dots, the values after the first impact by the paper's literal
-/// equations.
+/// [l, px, py] about the inertial origin; in grey, the values after the first impact by the paper's literal equations.
 pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> Figure {
     let momentum: Vec<(f64, [f64; 3])> = rows(study, case)
         .map(|row| {
@@ -41,12 +40,11 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
             let points = momentum.iter().map(|(time, value)| (*time, value[i]));
             Series::line(label, colour, dash, CURVE_WIDTH, points.collect())
         });
-        let literal =
-            curves.iter().zip([Dash::DashDot, Dash::DashDotDot]).filter_map(|(&(label, i, colour, _), dash)| {
-                let after = before[i] + paper?.momentum_jump[i];
-                let (label, points) = (format!("{label}, literal eqs."), vec![(contact, after), (end, after)]);
-                Some(Series::line(&label, colour, dash, CURVE_WIDTH, points))
-            });
+        let literal = curves.iter().filter_map(|&(label, i, _, dash)| {
+            let after = before[i] + paper?.momentum_jump[i];
+            let (label, points) = (format!("{label}, literal eqs."), vec![(contact, after), (end, after)]);
+            Some(Series::line(&label, Colour::GREY, dash, CURVE_WIDTH, points))
+        });
         let mut all: Vec<Series> = exact.chain(literal).collect();
         all.extend(detected_impacts(study, case, &all[..curves.len()]));
         let flat = curves.iter().all(|&(_, i, ..)| is_flat(momentum.iter().map(|(_, value)| value[i]), span));

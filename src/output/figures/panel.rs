@@ -25,6 +25,9 @@ pub(super) const PADDING: f64 = 6.0;
 /// Least side of a frame, points; long names can make a figure wider than its column, which then scales all of it.
 const LEAST_FRAME: f64 = 130.0;
 
+/// Width of a character, points.
+const CHARACTER: f64 = 7.2;
+
 /// Height of an entry of a legend, points.
 const LEGEND_LINE: f64 = 18.0;
 
@@ -118,12 +121,16 @@ fn lines_height(lines: usize) -> f64 {
 
 /// Width of the longest text.
 fn longest<'a>(texts: impl Iterator<Item = &'a String>) -> f64 {
-    7.2 * texts.map(|text| u32::try_from(text.chars().count()).map_or(0.0, f64::from)).fold(0.0, f64::max)
+    CHARACTER * texts.map(|text| u32::try_from(text.chars().count()).map_or(0.0, f64::from)).fold(0.0, f64::max)
 }
 
 /// Axes, grid and legend.
 pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
     let [x, y] = scales(panel);
+    let x = match panel.x.range {
+        AxisRange::Categories(_) | AxisRange::PowersOfTen(..) => x,
+        _ => x.with_room(size.frame[0], CHARACTER),
+    };
     let mut layout = Layout::new((x.low, x.high), (y.low, y.high))
         .with_x_axis_min(x.low)
         .with_x_axis_max(x.high)

@@ -11,6 +11,7 @@ use crate::scenario::Target;
 
 const LINK_WIDTH: f64 = 3.0;
 const OUTLINE_WIDTH: f64 = 1.6;
+const LINK_OUTLINE_WIDTH: f64 = 0.9;
 
 /// Length of an arrow's head over that of the arrow.
 const HEAD: f64 = 0.35;
@@ -22,8 +23,15 @@ pub(super) fn robot(layout: &Layout, state: &RobotState) -> Vec<Series> {
     let mut series = vec![outline("base", Colour::BLACK, Dash::Solid, &base_shape(layout), state.base_pose)];
     for (i, arm) in layout.arms.iter().enumerate() {
         let own = frames.iter().zip(&poses).filter(|(frame, _)| frame.arm == Some(i));
-        let mut points: Vec<(f64, f64)> = own.map(|(_, [_, x, y])| (*x, *y)).collect();
+        let own_poses: Vec<_> = own.map(|(_, pose)| pose).collect();
+        let mut points: Vec<(f64, f64)> = own_poses.iter().map(|[_, x, y]| (*x, *y)).collect();
         series.push(Series::line(&arm.name, Colour::of(i), Dash::Solid, LINK_WIDTH, points.clone()));
+        // given outlines alone: others are the line
+        let bodies = arm.links.iter().zip(own_poses).filter_map(|(link, pose)| Some((link.outline.clone()?, *pose)));
+        series.extend(bodies.map(|(body, pose)| {
+            let line = outline(&arm.name, Colour::of(i), Dash::Solid, &Shape::Outline(body), pose);
+            Series { label: None, mark: Mark::Line(Dash::Solid, LINK_OUTLINE_WIDTH), ..line }
+        }));
         // the end effector is no joint
         points.pop();
         let mark = Mark::Points(Symbol::Circle);

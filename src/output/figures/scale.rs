@@ -12,6 +12,19 @@ pub(super) struct Scale {
 }
 
 impl Scale {
+    /// With ticks so far apart that their labels do not touch along an axis of a length, where a character has a width.
+    pub(super) fn with_room(self, length: f64, character: f64) -> Self {
+        let first = (self.low / self.step).ceil();
+        let ticks =
+            || (0..100).map(|k| (first + f64::from(k)) * self.step).take_while(|tick| *tick <= self.high * 1.001);
+        let longest = ticks().map(|tick| self.label(tick).chars().count()).max().unwrap_or_default();
+        let needed = character * (1.0 + u32::try_from(longest).map_or(0.0, f64::from));
+        if length * self.step / (self.high - self.low) >= needed || self.step >= self.high - self.low {
+            return self;
+        }
+        Self { step: round_step(5.0 * 2.0 * self.step), ..self }.with_room(length, character)
+    }
+
     /// A tick's value with as many digits as its step has.
     pub(super) fn label(&self, value: f64) -> String {
         // a tick at zero has rounding errors
@@ -22,6 +35,8 @@ impl Scale {
             _ if value == 0.0 => "0".to_owned(),
             _ => format!("{value:.0e}"),
         }
+        // as wide as a digit, and seen: a hyphen is neither
+        .replace('-', "−")
     }
 }
 
@@ -60,4 +75,28 @@ fn round_step(span: f64) -> f64 {
         _ => 10.0,
     };
     factor * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::figure::AxisRange;
+    use super::{Scale, scale};
+
+    #[test]
+    fn labels_have_a_true_minus_sign_and_as_many_digits_as_their_step() {
+        let scale = Scale { low: -0.1, high: 0.1, step: 0.05 };
+        assert_eq!([-0.05, 0.0, 1e-12, 0.1].map(|value| scale.label(value)), ["−0.05", "0.00", "0.00", "0.10"]);
+        assert_eq!(Scale { low: -1e7, high: 0.0, step: 1e6 }.label(-2e6), "−2e6");
+    }
+
+    /// 1, 2 and 5 times a power of ten follow each other until the labels fit.
+    #[test]
+    fn ticks_are_farther_apart_where_their_labels_would_touch() {
+        let full = scale(&AxisRange::Fixed(-0.015, 0.015), std::iter::empty());
+        assert!((full.step - 0.005).abs() < 1e-12);
+        for (length, step) in [(470.0, 0.005), (270.0, 0.01), (120.0, 0.02)] {
+            let found = full.with_room(length, 7.2).step;
+            assert!((found - step).abs() < 1e-12, "{found} in {length} points");
+        }
+    }
 }

@@ -59,7 +59,12 @@ const PARTS: [(&str, &str); 15] = [
 /// # Errors
 /// Those of the writer.
 pub fn write_report(scenario: &Scenario, study: &Study, manifest: &RunManifest, mut to: impl Write) -> io::Result<()> {
-    let mut page = PAGE.replace("<!--title-->", &markup::text(&scenario.name));
+    // pages of cases of their own are told apart by their tabs
+    let title = match &manifest.case {
+        Some(case) => format!("{}, {case}", scenario.name),
+        None => scenario.name.clone(),
+    };
+    let mut page = PAGE.replace("<!--title-->", &markup::text(&title));
     for (placeholder, text) in PARTS {
         page = page.replace(placeholder, text.trim_end());
     }

@@ -12,7 +12,7 @@ const RANGE: Shape = Shape::OneOf(&[
     ],
     &[],
 ]);
-const RATE: Shape = Shape::Number(NumberRule::positive("a largest joint rate (or one per joint)", "rad/s"));
+const RATE: Shape = Shape::NumberOrNone(NumberRule::positive("a largest joint rate (or one per joint)", "rad/s"));
 const IMPULSE: Shape = Shape::Number(NumberRule::non_negative("an impulse magnitude", "N s"));
 /// Of any key, which has a rule of its own.
 const SET_VALUE: Shape = Shape::Scalar(NumberRule::any("a number", ""));
@@ -33,7 +33,7 @@ pub(super) static LIMITS: TableFormat = TableFormat {
             "joint_rates",
             Shape::OneOrList(&RATE, Count::Joints),
             Default::Words("any rates"),
-            "the largest joint rates",
+            "the largest joint rate, of all joints, or one per joint, [] for any rate",
         )
         .example("1.0"),
     ],

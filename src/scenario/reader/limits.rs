@@ -8,9 +8,7 @@ use crate::simulate::limits::JointLimits;
 /// One per joint.
 pub(super) fn joint_limits(table: &Table<'_>, joints: &Joints<'_>) -> Option<Vec<JointLimits>> {
     let angles = table.read_or("joint_angles", joints.repeat(None), |value| angles(value, joints));
-    let rates = table.read_or("joint_rates", joints.repeat(None), |value| {
-        Some(joints.one_or_each(value)?.into_iter().map(Some).collect())
-    });
+    let rates = table.read_or("joint_rates", joints.repeat(None), |value| rates(value, joints));
     let layout = joints.layout?;
     let limits = angles?.into_iter().zip(rates?).enumerate();
     Some(limits.map(|(i, (angles, rate))| JointLimits { name: layout.joint_name(i), angles, rate }).collect())
@@ -29,6 +27,19 @@ fn angles(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Option<[f64; 2]>
         0 => Some(None),
         _ => range(item).map(Some),
     }))
+}
+
+/// One largest rate for all joints, or one or `[]` for each.
+fn rates(value: &Value<'_>, joints: &Joints<'_>) -> Option<Vec<Option<f64>>> {
+    if !value.is_array() {
+        return value.number().map(|rate| joints.repeat(Some(rate)));
+    }
+    let expected = format!("{}, [] for any rate", joints.one_each());
+    let items = value.items(&expected)?;
+    joints.check_length(value, items.len(), &expected)?;
+    let is_none = |item: &Value<'_>| item.is_array() && item.items(&expected).is_some_and(|inner| inner.is_empty());
+    // another list is no number
+    every(items.iter().map(|item| if is_none(item) { Some(None) } else { item.number().map(Some) }))
 }
 
 fn range(value: &Value<'_>) -> Option<[f64; 2]> {

@@ -43,6 +43,8 @@ pub enum Shape {
     Choice(fn() -> Vec<Choice>),
     /// A number.
     Number(NumberRule),
+    /// A number, or `[]` for none.
+    NumberOrNone(NumberRule),
     /// A number, a text, or `true` or `false`; with the rule of the number.
     Scalar(NumberRule),
     /// A list with one number for each component, `[x, y]`.
@@ -155,6 +157,7 @@ impl Shape {
             Self::Text(what) => (*what).to_owned(),
             Self::Choice(choices) => listing(&names(*choices), "or"),
             Self::Number(rule) => rule.to_string(),
+            Self::NumberOrNone(rule) => format!("{rule}, or []"),
             Self::Scalar(rule) => format!("{rule}, a text, or `true` or `false`"),
             Self::Vector(components) => form(components),
             Self::OneOf(vectors) => {
@@ -183,7 +186,7 @@ impl Shape {
     #[must_use]
     pub fn is_scalar(&self) -> bool {
         match self {
-            Self::Text(_) | Self::Choice(_) | Self::Number(_) | Self::Scalar(_) => true,
+            Self::Text(_) | Self::Choice(_) | Self::Number(_) | Self::NumberOrNone(_) | Self::Scalar(_) => true,
             Self::OneOrList(item, _) => item.is_scalar(),
             _ => false,
         }
@@ -193,7 +196,7 @@ impl Shape {
     #[must_use]
     pub fn rule(&self) -> Option<&NumberRule> {
         match self {
-            Self::Number(rule) | Self::Scalar(rule) => Some(rule),
+            Self::Number(rule) | Self::NumberOrNone(rule) | Self::Scalar(rule) => Some(rule),
             Self::OneOrList(item, _) => item.rule(),
             _ => None,
         }

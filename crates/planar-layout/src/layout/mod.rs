@@ -34,6 +34,9 @@ use resolution::{LEAST_SHARE, Weakest};
 
 pub use keys::FORMAT;
 
+/// A link so many times as long as any other is named before masses are.
+const LONG: f64 = 20.0;
+
 /// Rust's keywords, strict and reserved, up to edition 2024.
 const KEYWORDS: &str = "abstract as async await become box break const continue crate do dyn else enum extern \
     false final fn for gen if impl in let loop macro match mod move mut override priv pub ref return self static \
@@ -259,6 +262,9 @@ impl Layout {
     fn unresolved_motion(&self) -> Option<Disproportion> {
         let Weakest { link, share } = Weakest::of(self);
         (share < LEAST_SHARE).then(|| {
+            if let Some(long) = self.long_link() {
+                return long;
+            }
             let ((kind, value), what, beyond) = match link {
                 Some((i, k)) => {
                     let arm = &self.arms[i];
@@ -274,6 +280,28 @@ impl Layout {
             );
             let (arm, link) = link.unwrap_or_default();
             Disproportion { kind, arm, link, value, why }
+        })
+    }
+
+    /// The link whose length alone is why: of a length near those of the others the motion would be resolved.
+    fn long_link(&self) -> Option<Disproportion> {
+        let all = || self.arms.iter().enumerate().flat_map(|(i, arm)| (0..arm.links.len()).map(move |k| (i, k)));
+        let length = |&(i, k): &(usize, usize)| self.arms[i].links[k].length;
+        let longest = all().max_by(|a, b| length(a).total_cmp(&length(b)))?;
+        let next = all().filter(|link| *link != longest).map(|link| length(&link)).fold(0.0, f64::max);
+        let (value, (arm, link)) = (length(&longest), longest);
+        let mut shorter = self.clone();
+        let other = &mut shorter.arms[arm].links[link];
+        other.com = other.com.map(|part| part * next / value);
+        other.length = next;
+        let is_why = next > 0.0 && value > LONG * next && Weakest::of(&shorter).share >= LEAST_SHARE;
+        is_why.then(|| {
+            let why = format!(
+                "{:.0} times as long as the next longest link, {next} m: 16 digits do not resolve how the joints of such a \
+                 robot move; lengths are in m",
+                value / next
+            );
+            Disproportion { kind: ParameterKind::LinkLength, arm, link, value, why }
         })
     }
 

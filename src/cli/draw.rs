@@ -1,0 +1,50 @@
+//! `planar-capture draw LAYOUT --out FILE.svg`: a drawing of a robot.
+
+use super::{CommandError, Force, check_new, layout, write_new};
+use crate::output::drawing::drawing;
+use crate::registry::Robots;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+const EXAMPLES: &str = "\
+Examples:
+  planar-capture draw dual_arm_3r --out robot.svg
+  planar-capture draw mine.toml --angles 0.5,-1.2,0.7 --out mine.svg";
+
+/// Draw a robot, as SVG: outlines, joints, mounts, centres of mass and names.
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Arguments {
+    /// The layout: a path, or the name of a shipped one.
+    layout: String,
+    /// The joint angles, rad, arm by arm [default: all 0].
+    #[arg(long, value_name = "RAD,RAD,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = angle)]
+    angles: Option<Vec<f64>>,
+    /// The SVG file [default: the standard output].
+    #[arg(long, value_name = "FILE.svg")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
+}
+
+/// As of a scenario's joint angles: in rad, at most 1e6 of them, beyond which whole turns take the digits.
+fn angle(text: &str) -> Result<f64, String> {
+    let value = text.trim().parse().ok().filter(|value: &f64| value.abs() <= 1e6);
+    value.ok_or_else(|| "expected numbers with commas between them, joint angles in rad".to_owned())
+}
+
+/// Draws the layout.
+pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
+    check_new(arguments.out.as_deref(), &arguments.force)?;
+    let layout = layout::read(&arguments.layout, robots)?;
+    let joints = layout.joints();
+    let angles = arguments.angles.clone().unwrap_or_else(|| vec![0.0; joints]);
+    if angles.len() != joints {
+        let arms: Vec<_> = layout.arms.iter().map(|arm| format!("{}: {}", arm.name, arm.links.len())).collect();
+        let (found, arms) = (angles.len(), arms.join(", "));
+        let message = format!("--angles has {found} numbers, expected {joints}, one per joint ({arms})");
+        return Err(CommandError::Usage(message));
+    }
+    write_new(arguments.out.as_deref(), &arguments.force, &drawing(&layout, &angles))?;
+    Ok(ExitCode::SUCCESS)
+}
