@@ -213,7 +213,7 @@ pub fn generic(layout: &Layout) -> Box<dyn CloneModel> {
 
 /// How to get generated code of a layout.
 fn mend(layout: &Layout) -> String {
-    let others = "without `--dynamics generated` it is computed by its graph or the generic implementation, and \
+    let others = "without `--dynamics generated` it is computed by its graph, where there is none by the generic implementation, and \
                   `planar-capture new DIR --layout LAYOUT` writes a program of your own with code of it";
     let is_shipped = |(name, text): &&(&str, &str)| {
         DISABLED.contains(name) && Layout::parse(text, name).is_ok_and(|shipped| shipped.sha256() == layout.sha256())

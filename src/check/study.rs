@@ -103,7 +103,7 @@ fn trajectory(scenario: &Scenario) -> String {
             let wanted = |twist: &EndEffectorTwistGoal| list(&twist.iter().flatten().copied().collect::<Vec<_>>());
             let arms = scenario.layout.arms.iter().zip(twists);
             let twists: Vec<_> = arms.map(|(arm, twist)| format!("{} {}", arm.name, wanted(twist))).collect();
-            format!("end effector twists {} in rad/s, m/s", twists.join(", "))
+            format!("end effector twists {} rad/s, m/s", twists.join(", "))
         }
     };
     let whose = if by_end_effectors(scenario) { " of the end effectors" } else { "" };

@@ -37,7 +37,9 @@ pub const FIGURES: &str = "figures";
 pub fn objection(folder: &Path, names: &[String], scenario: &str) -> Option<String> {
     let Some(summary) = read(&folder.join(SUMMARY)) else {
         let runs: Vec<_> = names.iter().filter(|name| scenario_in(&folder.join(name)).is_some()).collect();
-        if let [first, others @ ..] = runs.as_slice() {
+        if let [first, others @ ..] = runs.as_slice()
+            && runs.len() == names.len()
+        {
             let others = if others.is_empty() { String::new() } else { format!(" and {} others", others.len()) };
             return Some(format!("has the folders of other runs in it, `{first}`{others}"));
         }

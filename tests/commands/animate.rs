@@ -40,6 +40,26 @@ fn the_picture_of_the_readme_is_what_is_computed() {
     assert!(code == 2 && message.contains("already exists"), "{message}");
 }
 
+/// An arrow at the edge points to a target while that is out of the picture, and at no other time.
+#[test]
+fn targets_that_leave_the_picture_are_pointed_to() {
+    let of = |scenario: &str, more: &[&str]| {
+        let scenario = file(&format!("scenarios/{scenario}.toml")).display().to_string();
+        let (code, svg, message) = said(&[&["animate", &scenario, "-q", "--seconds", "4"], more].concat());
+        assert_eq!((code, message.as_str()), (0, ""));
+        svg
+    };
+    let arrows = |svg: &str| svg.matches("d=\"M0 0l-14 -6v12Z\"").count();
+    let late = of("elastic_rebound", &["--case", "too_late"]);
+    assert!(arrows(&late) > 0, "the box is far below at the end");
+    let line = late.lines().rfind(|line| line.contains("l-14 -6v12Z")).expect("an arrow");
+    let (times, values) = (attributes(line, "keyTimes"), attributes(line, "values"));
+    assert_eq!(values[0], "0;1;1", "until the end");
+    let parts = numbers(times[0]);
+    assert!(parts[1] > 0.0 && parts[1] < 0.8, "from some time on: {parts:?}");
+    assert_eq!(arrows(&of("stabilised_capture", &[])), 0, "all that is held stays in the picture");
+}
+
 /// The ends of a line `x yLx y"`; `None` of another path.
 fn line(path: &str) -> Option<Vec<f64>> {
     let (path, _) = path.split_once('"')?;

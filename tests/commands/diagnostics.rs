@@ -110,6 +110,16 @@ fn scenario(text: &str) -> Result<Scenario, Report> {
     Scenario::parse(text, "demo.toml", Path::new(""), &shipped())
 }
 
+/// Of joints there may be some without a limit of their rate, as of their angles.
+#[test]
+fn a_joint_may_have_no_limit_of_its_rate() {
+    for (rates, expected) in [("[1, []]", [Some(1.0), None]), ("[[], 0.5]", [None, Some(0.5)]), ("2", [Some(2.0); 2])] {
+        let text = SCENARIO.replacen("[approach]", &format!("[limits]\njoint_rates = {rates}\n[approach]"), 1);
+        let scenario = scenario(&text).unwrap_or_else(|report| panic!("{report}"));
+        assert_eq!(scenario.joint_limits.iter().map(|joint| joint.rate).collect::<Vec<_>>(), expected, "{rates}");
+    }
+}
+
 /// One edit of a valid file: replaced text, its replacement, the line reported, and texts of the message.
 type Edit = (&'static str, &'static str, usize, &'static [&'static str]);
 
@@ -397,6 +407,18 @@ const SCENARIO_EDITS: &[Edit] = &[
     ("[approach]", "[limits]\njoint_angles = [-90, 90]\n[approach]", 6, &["looks like degrees"]),
     ("[approach]", "[limits]\njoint_rates = 0\n[approach]", 6, &["`limits.joint_rates` is 0", "rad/s greater than 0"]),
     ("[approach]", "[limits]\njoint_rates = [1]\n[approach]", 6, &["`limits.joint_rates` is [1]", "2 numbers"]),
+    (
+        "[approach]",
+        "[limits]\njoint_rates = [1, [2]]\n[approach]",
+        6,
+        &["`limits.joint_rates[1]` is [2]", "rad/s greater than 0"],
+    ),
+    (
+        "[approach]",
+        "[limits]\njoint_rates = []\n[approach]",
+        6,
+        &["`limits.joint_rates` is []", "2 numbers", "[] for any rate"],
+    ),
     ("[approach]", "[limits]\nangles = 1\n[approach]", 6, &["`limits.angles` (1)", "`joint_angles` and `joint_rates`"]),
     (
         "[approach]",

@@ -12,6 +12,7 @@ mod compare;
 mod derivation;
 mod derivatives;
 mod diagnostics;
+mod draw;
 mod dynamics;
 mod eval;
 mod fmu;

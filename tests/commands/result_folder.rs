@@ -56,6 +56,55 @@ fn a_run_replaces_an_earlier_one_of_its_scenario_whole() {
     assert_eq!(names(&results), ["b.csv", "c.csv", "summary.json"], "nothing of the earlier run is left");
 }
 
+/// The folder of several runs holds none itself: `--force`, which would delete them, is no advice.
+#[test]
+fn a_folder_of_several_runs_is_not_one_for_a_run() {
+    let folder = TempDir::new().expect("a folder");
+    let results = folder.path().join("results");
+    let [one, two] = ["one", "two"].map(|name| scenario(name, &["a"], folder.path()));
+    for (scenario, name) in [(&one, "one"), (&two, "two")] {
+        assert_eq!(run(scenario, &results.join(name), &[]), (0, String::new()));
+    }
+    let (code, err) = run(&one, &results, &[]);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains(
+            "has the folders of other runs in it, `one` and 1 others: choose another folder, or a new one in it"
+        ),
+        "{err}"
+    );
+    assert!(!err.contains("--force"), "{err}");
+    let (code, err) = run(&one, &results, &["--force"]);
+    assert!(code == 2 && err.contains("--force would delete"), "{err}");
+    assert_eq!(names(&results), ["one", "two"]);
+    assert_eq!(run(&one, &results.join("new"), &[]), (0, String::new()));
+}
+
+/// Cases by their names: the results are theirs, with the numbers that they have among all cases.
+#[test]
+fn some_cases_can_be_computed_alone() {
+    let folder = TempDir::new().expect("a folder");
+    let [all, some] = ["all", "some"].map(|name| folder.path().join(name));
+    let path = scenario("it", &["a", "b", "c"], folder.path());
+    let text = fs::read_to_string(&path).expect("a scenario");
+    let own = "[[case]]\nname = \"own\"\nset = { \"approach.duration\" = 12.0 }\n[post_impact]";
+    fs::write(&path, text.replacen("[post_impact]", own, 1)).expect("written");
+    assert_eq!(run(&path, &all, &["--report"]), (0, String::new()));
+    assert_eq!(run(&path, &some, &["--report", "--case", "own", "--case", "b"]), (0, String::new()));
+    assert_eq!(names(&some), ["b.csv", "own.csv", "own.report.html", "report.html", "summary.json"]);
+    for name in ["b.csv", "own.csv"] {
+        assert!(fs::read(all.join(name)).expect("a file") == fs::read(some.join(name)).expect("a file"), "{name}");
+    }
+    for (name, title) in [("report.html", "it"), ("own.report.html", "it, own")] {
+        let page = fs::read_to_string(some.join(name)).expect("a report");
+        assert!(page.contains(&format!("<title>{title} · planar-capture</title>")), "{name}");
+    }
+    let (code, err) = run(&path, &some, &["--case", "d"]);
+    assert!(code == 2 && err.contains("has no case `d`, expected one of `a`, `b`, `c`, `own`"), "{err}");
+    assert_eq!(run(&path, &some, &["--case", "own"]), (0, String::new()));
+    assert_eq!(names(&some), ["own.csv", "summary.json"], "of cases with values of their own alone");
+}
+
 #[test]
 fn results_of_something_else_are_refused_unless_forced() {
     let folder = TempDir::new().expect("a folder");

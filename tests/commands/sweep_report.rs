@@ -18,6 +18,42 @@ fn page(folder: &Path, rest: &str) -> String {
     fs::read_to_string(folder.join("out/report.html")).expect("a report")
 }
 
+/// Outputs are asked for by the first words of their names; of an unknown one nothing is computed.
+#[test]
+fn pictures_of_some_outputs_can_be_asked_for() {
+    let folder = TempDir::new().expect("a folder");
+    let rest = format!("cases = 20\n{MASS}distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n");
+    let default = page(folder.path(), &rest);
+    let with = |list: &str| {
+        let mut command = command();
+        command
+            .arg("sweep")
+            .arg("sweep.toml")
+            .args(["--out", "out", "--report", "-q", list])
+            .current_dir(folder.path());
+        said(command.output().expect("it runs"))
+    };
+    let (code, _, err) = with("--figures=least_distance,arm1_impulse");
+    if cfg!(not(feature = "figures")) {
+        assert!(code == 2 && err.contains("--features figures"), "{err}");
+        return;
+    }
+    assert_eq!((code, err.as_str()), (0, ""));
+    let some = fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    let names: Vec<_> = some.split("<h3>").skip(1).filter_map(|rest| rest.split('<').next()).collect();
+    assert!(
+        names.len() > 1
+            && names.iter().all(|name| name.starts_with("least_distance") || name.starts_with("arm1_impulse")),
+        "{names:?}"
+    );
+    assert!(some.contains("<h3>arm1_impulse") && some != default, "{names:?}");
+    let (code, _, err) = with("--figures=arm1_impulze_n");
+    assert!(
+        code == 2 && err.contains("the sweep has no output `arm1_impulze_n`: did you mean `arm1_impulse_n`?"),
+        "{err}"
+    );
+}
+
 const MASS: &str = "[[vary]]\nkey = \"target.target1.mass\"\n";
 
 #[test]

@@ -275,6 +275,54 @@ mod drawn {
         assert_eq!(shown, 5, "impacts of three cases");
     }
 
+    /// Twelve in a figure, and then another one: of all impacts there are pictures, in their order and of one scale.
+    #[test]
+    fn all_impacts_of_a_case_are_shown() {
+        let scenario = scenario("elastic_rebound");
+        let mut study = run(&scenario);
+        let captured = study.cases[0].capture.as_mut().expect("a contact");
+        let again = captured.later_impacts[0].clone();
+        captured.later_impacts = vec![again; 29];
+        let all = figures(&scenario, &study);
+        let of = |name: &str| all.iter().find(|figure| figure.name == name).unwrap_or_else(|| panic!("no {name}"));
+        let pages = ["", "+2", "+3"].map(|page| of(&format!("impact_configuration_elastic{page}")));
+        assert_eq!(pages.map(|page| (page.panels.len(), page.columns)), [(12, 3), (12, 3), (6, 3)]);
+        let panels: Vec<_> = pages.iter().flat_map(|page| &page.panels).collect();
+        for (i, panel) in panels.iter().enumerate() {
+            let title = panel.title.as_deref().unwrap_or_default();
+            assert!(title.starts_with(&format!("Impact {} of 30, at ", i + 1)), "{title}");
+            assert_eq!((&panel.x.range, &panel.y.range), (&panels[0].x.range, &panels[0].y.range));
+        }
+        let twice = of("impact_configuration_half");
+        assert_eq!(twice.columns, 2, "few of them are larger");
+        assert!(!all.iter().any(|figure| figure.name == "impact_configuration_half+2"));
+        for width in [Width::Page, Width::Double, Width::Single] {
+            assert_labelled(pages[0], &draw::svg(pages[0], width));
+        }
+    }
+
+    /// Outlines that the layout gives are drawn, each in its arm's colour; a target is in no red, whatever the number of arms.
+    #[test]
+    fn links_have_their_outlines_and_targets_are_not_red() {
+        let of = |name: &str| {
+            let scenario = scenario(name);
+            let all = figures(&scenario, &run(&scenario));
+            let figure = all.into_iter().find(|figure| figure.name == "impact_configuration").expect("a figure");
+            (scenario.layout, figure.panels.into_iter().next().expect("a panel").series)
+        };
+        let (layout, series) = of("raina_shah_2017");
+        let links = layout.arms.iter().enumerate().flat_map(|(i, arm)| arm.links.iter().map(move |link| (i, link)));
+        let given: Vec<_> = links.filter(|(_, link)| link.outline.is_some()).map(|(arm, _)| Colour::of(arm)).collect();
+        let is_outline = |series: &&Series| series.label.is_none() && matches!(series.mark, Mark::Line(..));
+        let outlines: Vec<_> = series.iter().filter(is_outline).collect();
+        assert_eq!(outlines.iter().map(|series| series.colour).collect::<Vec<_>>(), given);
+        assert!(given.len() == 6 && outlines.iter().all(|series| series.points.len() > 3));
+        let (layout, series) = of("spinning_target");
+        assert_eq!(layout.arms.len(), 1);
+        let target = series.iter().find(|series| series.label.as_deref() == Some("disc")).expect("the target");
+        assert!(target.colour != Colour::of(1) && target.colour != Colour::RED, "{:?}", target.colour);
+    }
+
     /// Velocities after a bounce follow Poisson's law along the normal; a pin leaves the relative rotation free.
     #[test]
     fn velocities_at_contacts_say_what_kind_they_are() {

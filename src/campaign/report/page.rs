@@ -12,9 +12,12 @@ const STYLE: &str = ":root{color-scheme:light dark;--text:#222;--page:#fff;--lin
     table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
     th,td{padding:.25em .5em;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
     th:first-child,td:first-child,.words th,.words td{text-align:left}.words td{white-space:normal}\
-    .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(22em,1fr));gap:1em;align-items:start}\
+    .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(22em,100%),1fr));gap:1em;align-items:start}\
     figure{margin:0;break-inside:avoid}figure img{width:100%;background:#fff}figcaption{color:var(--quiet);font-size:.85em}\
-    h3{margin:1.5em 0 .3em}td small{font-size:.75em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
+    @media screen and (prefers-color-scheme:dark){figure img{filter:invert(.9) hue-rotate(180deg)}}\
+    @media screen and (max-width:45em){body{margin:1em auto}table{font-size:.85em}th,td{padding:.25em .3em}\
+    th:first-child,td:first-child{position:sticky;left:0;background:var(--page);white-space:normal;overflow-wrap:anywhere;min-width:7.5em;max-width:9em}}\
+    h3{margin:1.5em 0 .3em;overflow-wrap:anywhere}td small{font-size:.75em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
     @media print{:root{--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}body{font-size:9pt;margin:0;max-width:none}\
     table{font-size:7.5pt;display:table;overflow:visible}th,td{padding:.15em .3em}td,.words th{white-space:normal;overflow-wrap:anywhere}tr{break-inside:avoid}\
     .pictures{grid-template-columns:repeat(3,1fr)}}code{background:var(--code);padding:0 .3em}";
@@ -157,7 +160,7 @@ fn percentiles(output: &OutputReport) -> Vec<String> {
 
 fn sensitivities(output: &OutputReport, values: &[Option<f64>]) -> Vec<String> {
     let shown = |value: &Option<f64>| match value {
-        Some(value) if value.abs() >= SHOWN => format!("{value:.2}"),
+        Some(value) if value.abs() >= SHOWN => format!("{value:.2}").replace('-', "−"),
         Some(_) => "·".to_owned(),
         None => "–".to_owned(),
     };
@@ -168,7 +171,9 @@ fn sensitivities(output: &OutputReport, values: &[Option<f64>]) -> Vec<String> {
 fn number(value: f64) -> String {
     let text = format!("{value:.3e}");
     let plain: f64 = text.parse().unwrap_or(value);
-    if plain == 0.0 || (1e-3..1e5).contains(&plain.abs()) { plain.to_string() } else { text }
+    let text = if plain == 0.0 || (1e-3..1e5).contains(&plain.abs()) { plain.to_string() } else { text };
+    // a hyphen is no minus sign
+    text.replace('-', "−")
 }
 
 fn table(head: &[String], rows: impl Iterator<Item = Vec<String>>) -> String {

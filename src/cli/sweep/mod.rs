@@ -60,7 +60,7 @@ pub struct Arguments {
     /// Write DIR/report.html too: percentiles, failures, sensitivities, extremes. With --replay: that of the run.
     #[arg(long, help_heading = "Results")]
     report: bool,
-    /// Pictures of the outputs alone of which a name begins with one in LIST, such as `impulse,least_distance`; needs a build
+    /// Pictures of the outputs alone of which a name begins with one in LIST, such as `arm1_impulse,least_distance`; needs a build
     /// with the feature `figures` [default: of those on which a key has the strongest effects].
     #[arg(long, value_name = "LIST", value_delimiter = ',', require_equals = true, help_heading = "Results")]
     #[arg(requires = "report", conflicts_with = "replay")]

@@ -26,7 +26,7 @@ use crate::capture::{CaseResult, Study};
 use crate::frames::poses;
 use crate::output::impacts::{ImpactEvent, impacts};
 use crate::output::markup;
-use crate::output::scene::visuals;
+use crate::output::scene::{target_colour_index, visuals};
 use crate::output::time_series::{TimeSeriesRow, rows};
 use crate::scenario::Scenario;
 use bodies::{Hold, Motion};
@@ -43,6 +43,8 @@ const IMPULSE_SHOWN: f64 = 1.6;
 const ARROW: f64 = 90.0;
 /// Below the scene, px.
 const RAIL: f64 = 64.0;
+/// Of an arrow to what is outside, from the edge, px.
+const EDGE: f64 = 10.0;
 /// Free space at the ends of the axis of time, px.
 const SIDE: f64 = 24.0;
 
@@ -101,10 +103,11 @@ pub fn animation(scenario: &Scenario, study: &Study, case: &CaseResult, excerpt:
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{title}\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n\
          <rect class=\"stage\" width=\"{WIDTH}\" height=\"{height}\"/>\n\
-         {}{}<g transform=\"matrix({scale} 0 0 -{scale} {left} {top})\">{}</g>\n{}{}</svg>\n",
+         {}{}<g transform=\"matrix({scale} 0 0 -{scale} {left} {top})\">{}</g>\n{}{}{}</svg>\n",
         view.grid(),
         traces(&view, &rows),
         motion.bodies(),
+        pointers(&view, &clip, scenario, &rows, still),
         impulses(&view, &clip, &events),
         rail(&view, &clip, &events, times[times.len() - 1]),
     )
@@ -124,6 +127,46 @@ fn holds(event: &ImpactEvent<'_>) -> Vec<Hold> {
         .filter(|contact| contact.law.kind().holds())
         .map(|contact| Hold { arm: contact.arm, since: event.time })
         .collect()
+}
+
+/// Arrows at the edge towards the targets that are outside of the picture, while they are.
+fn pointers(view: &View, clip: &Clip, scenario: &Scenario, rows: &[TimeSeriesRow<'_>], still: usize) -> String {
+    let mut drawn = String::new();
+    for target in 0..scenario.targets.len() {
+        let places: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                let [_, x, y] = row.targets[target].pose;
+                view.pixel([x, y])
+            })
+            .collect();
+        let head: Vec<_> =
+            places.iter().map(|[x, y]| [x.clamp(EDGE, WIDTH - EDGE), y.clamp(EDGE, view.height - EDGE)]).collect();
+        let is_outside: Vec<_> =
+            places.iter().map(|[x, y]| !(0.0..=WIDTH).contains(x) || !(0.0..=view.height).contains(y)).collect();
+        let turned = |([x, y], [from_x, from_y]): (&[f64; 2], &[f64; 2])| {
+            short(libm::atan2(y - from_y, x - from_x).to_degrees(), 1)
+        };
+        let angles: Vec<_> = places.iter().zip(&head).map(turned).collect();
+        let translations: Vec<_> = head.iter().map(|at| at.map(|pixel| short(pixel, 1)).join(" ")).collect();
+        let arrow = format!(
+            "<path class=\"edge\" d=\"M0 0l-14 -6v12Z\" fill=\"{0}\" stroke=\"{0}\"/>",
+            colour(target_colour_index(scenario.layout.arms.len(), target))
+        );
+        let arrow = clip.moving("translate", &translations, still, &clip.moving("rotate", &angles, still, &arrow));
+        let mut first = 0;
+        while let Some(begin) = (first..rows.len()).find(|i| is_outside[*i]) {
+            let end = (begin..rows.len()).find(|i| !is_outside[*i]);
+            first = end.unwrap_or(rows.len());
+            let group = clip.seen(rows[begin].time, end.map(|end| rows[end].time), &arrow);
+            // without animation it is seen where the target is outside then
+            let group =
+                if (begin..first).contains(&still) { group } else { group.replacen("<g>", "<g opacity=\"0\">", 1) };
+            drawn += &group;
+            drawn.push('\n');
+        }
+    }
+    drawn
 }
 
 /// The paths of the end effectors.

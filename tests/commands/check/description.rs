@@ -45,7 +45,7 @@ fn description_of_a_scenario() {
         "generated code      generated::dual_arm_3r\n",
         "start               at rest, base at (0, 0) m, yaw 0 rad\n",
         "approach            20 s in 4000 steps of 0.005 s\n",
-        "trajectory          quartic, to end effector twists [0, -0.1, 0], [0, 0.1, 0] rad/s, m/s\n",
+        "trajectory          quartic, to end effector twists arm1 [0, -0.1, 0], arm2 [0, 0.1, 0] rad/s, m/s\n",
         "largest turn        joint 2 of arm2, 2.964 rad at up to 0.2779 rad/s\n",
         "tracking            PD, 49 N m/rad, 14 N m s/rad; fastest mode 18.68 1/s, 0.09338 in a step\n",
         "final pose          generalized Jacobian of all twists of arm1, arm2: smallest/largest singular",
@@ -56,6 +56,8 @@ fn description_of_a_scenario() {
     ] {
         assert!(out.contains(expected), "no `{expected}` in\n{out}");
     }
+    let (_, out, _) = check(&["resolved_motion_rate.toml"], &file("scenarios"));
+    assert!(out.contains("end effectors       arm1 at (2, -1.5) m, arm2 at (-2, 1.5) m\n"), "{out}");
     // a base of 500 kg and 80 kg m², 39 kg on it, all moving as one with 2 m/s
     let moving = inspect_text(&SCENARIO.replace("[approach]", "base_twist = [0.0, 2.0, 0.0]\n[approach]")).description;
     assert!(in_one_line(&moving).contains("1078, 0] N m s, N s; 1078 J approach"), "{moving}");

@@ -18,6 +18,18 @@ const BROKEN: &[Broken] = &[
         &[":4:1", "`base.intertia` (80.0)", "did you mean `inertia`?"],
         1,
     ),
+    (
+        "a length in mm",
+        "length = 1.0\nmass = 10.0\ninertia = 1.0\ncom",
+        "length = 2000.0\nmass = 10.0\ninertia = 1.0\ncom",
+        &[
+            ":13:10",
+            "`arm[0].link[1].length` is 2000.0",
+            "1000 times as long as the next longest link, 2 m",
+            "lengths are in m",
+        ],
+        1,
+    ),
     ("a key with its unit", "mass = 5", "mass_kg = 5", &[":3:1", "`base.mass_kg`", "did you mean `mass`?"], 1),
     ("negative mass", "mass = 500.0", "mass = -5", &[":3:8", "`base.mass` is -5", "in kg greater than 0"], 1),
     (

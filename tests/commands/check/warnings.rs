@@ -57,6 +57,24 @@ const LAYOUT_EDITS: &[Edit] = &[
     // the base
     ("mass = 500.0\ninertia = 80.0", "mass = 30\ninertia = 8", 3, &["`base.mass` is 30", "arms together", "39 kg"]),
     ("inertia = 80.0", "inertia = 8e7", 4, &["`base.inertia` is 8e7", "400 m", "kg m²", "83.33"]),
+    (
+        "inertia = 80.0",
+        "inertia = 7e5",
+        4,
+        &["`base.inertia` is 7e5", "37.42 m", "12.47 times what the arms reach", "3 m"],
+    ),
+    (
+        "inertia = 80.0",
+        "inertia = 80.0\noutline = { disc = 0.39 }",
+        4,
+        &["`base.inertia` is 80.0", "0.4 m", "more than the largest distance of its outline from the COM, 0.39 m"],
+    ),
+    (
+        "length = 2.0\nmass = 10.0\ninertia = 3.0",
+        "length = 120.0\nmass = 10.0\ninertia = 3000.0",
+        25,
+        &["`arm[1].link[0].length` is 120", "120 times", "1 m", "0.12 m"],
+    ),
     ("inertia = 80.0", "inertia = 8e-5", 4, &["`base.inertia` is 8e-5", "0.0004 m"]),
     // units of one body
     (
