@@ -154,11 +154,11 @@ fn legend(y: f64) -> String {
         (format!("<circle cx=\"594\" cy=\"{y}\" r=\"{SYMBOL}\" fill=\"{edge}\"/>"), "end effector"),
     ];
     let places = [34.0, 204.0, 424.0, 594.0];
-    let each = entries.iter().zip(places);
-    each.map(|((symbol, text), x)| {
-        format!("{}\n<text x=\"{}\" y=\"{}\">{text}</text>\n", symbol.trim_end(), x + 16.0, y + 5.0)
-    })
-    .collect()
+    let mut drawn = String::new();
+    for ((symbol, text), x) in entries.iter().zip(places) {
+        let _ = writeln!(drawn, "{}\n<text x=\"{}\" y=\"{}\">{text}</text>", symbol.trim_end(), x + 16.0, y + 5.0);
+    }
+    drawn
 }
 
 #[cfg(test)]
