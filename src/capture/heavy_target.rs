@@ -85,7 +85,7 @@ mod tests {
     use crate::owned::RobotState;
     use crate::registry;
     use crate::scenario::Scenario;
-    use crate::simulate::stepper::Integration;
+    use crate::simulate::stepper::{Formulation, Integration, Integrator};
     use crate::simulate::system::Body;
     use planar_proof::{file, layout};
 
@@ -101,16 +101,25 @@ mod tests {
         let scenario = Scenario::parse(text, "it.toml", &file("scenarios"), registry::SHIPPED).expect("a scenario");
         let (base_pose, base_twist) = ([0.0; 3], [0.0; 3]);
         let state = RobotState { base_pose, joint_angles: vec![0.4, -0.9], base_twist, joint_rates: vec![0.0; 2] };
-        let of = |ratio: f64| {
+        let by = |ratio: f64, integration: Integration| {
             let target = Body { mass: 1.0, inertia: ratio * UNIT, pose: [0.0, 1.5, 0.5], twist: [0.0; 3] };
             let grasp = Attachment { target: 0, arm: 0, kind: ContactKind::Rigid };
             let model = registry::generic(&layout("single_arm_2r"));
             let assembly = Assembly::new(model, &state, &[target], &[grasp]).expect("an assembly");
-            HeavyTarget::of(&scenario, &assembly, &[target], Integration::default())
+            HeavyTarget::of(&scenario, &assembly, &[target], integration)
         };
+        let of = |ratio: f64| by(ratio, Integration::default());
         assert_eq!(of(0.9e5), None);
         let found = of(1.5e5).expect("a heavy target");
         assert!((found.inertia / 1.5e5 - 1.0).abs() < 1e-9 && found.mass < 0.01, "{found:?}");
+        // canonical variables and reduced coordinates are no coordinates that reduced ones could replace
+        for integrator in Integrator::ALL {
+            for coordinates in [Formulation::Full, Formulation::Reduced] {
+                let found = by(1.5e5, Integration { integrator: *integrator, coordinates }).expect("a heavy target");
+                let expected = coordinates == Formulation::Full && *integrator != Integrator::GaussLegendre;
+                assert_eq!(found.is_reducible, expected, "{integrator:?} {coordinates:?}");
+            }
+        }
     }
 
     /// The first of two targets is free, and the second one is held and heavy.
@@ -139,5 +148,13 @@ mod tests {
         let assembly = Assembly::new(model, &state, &targets, &[grasp]).expect("an assembly");
         let found = HeavyTarget::of(&scenario, &assembly, &targets, Integration::default()).expect("a heavy target");
         assert!((found.mass / 1e3 - 1.0).abs() < 1e-12 && !found.is_reducible, "{found:?}");
+        // merged with one arm, and in a closed loop with the other
+        let both = [grasp, Attachment { arm: 0, ..grasp }];
+        let model = registry::generic(&layout("dual_arm_2r"));
+        let assembly = Assembly::new(model, &state, &targets[1..], &both.map(|it| Attachment { target: 0, ..it }));
+        let assembly = assembly.expect("an assembly");
+        let found =
+            HeavyTarget::of(&scenario, &assembly, &targets[1..], Integration::default()).expect("a heavy target");
+        assert!(assembly.bodies.is_empty() && !found.is_reducible, "{found:?}");
     }
 }

@@ -49,3 +49,40 @@ fn base_distance_limit(layout: &Layout) -> f64 {
     }
     moment / layout.mass()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Reach;
+    use crate::registry;
+    use crate::scenario::Scenario;
+    use planar_proof::assert_close;
+
+    /// A robot that drifts for 3 s, of which its trajectory takes 1 s.
+    const TEXT: &str = "name = \"it\"\nlayout = \"single_arm_2r\"\n[initial]\njoint_angles = [0.4, -0.9]\n\
+                        base_twist = [0.0, 0.2, -0.1]\n[approach]\nduration = 3.0\ntrajectory_duration = 1.0\n\
+                        trajectory = \"cycloidal\"\nfinal_joint_angles = [0.4, -0.9]\n";
+
+    #[test]
+    fn the_centre_of_mass_moves_to_the_end_of_the_approach() {
+        let moving = Scenario::parse(TEXT, "it.toml", "".as_ref(), registry::SHIPPED).expect("a scenario");
+        let mut resting = moving.clone();
+        resting.initial.base_twist = [0.0; 3];
+        let [end, start] = [&moving, &resting].map(|it| Reach::new(it, 0, [9.0, 9.0]).expect("a reach").center_of_mass);
+        assert_close("way", &[end[0] - start[0], end[1] - start[1]], &[0.6, -0.3], 1e-12);
+    }
+
+    /// Of an arm of one link, whose COM is anywhere in its frame, the base is farthest where the COM is on the line of the
+    /// mount.
+    #[test]
+    fn the_limit_is_that_of_the_stretched_arm() {
+        let mut scenario = Scenario::parse(TEXT, "it.toml", "".as_ref(), registry::SHIPPED).expect("a scenario");
+        let arm = &mut scenario.layout.arms[0];
+        arm.links.truncate(1);
+        arm.links[0].com = [0.3, -0.4];
+        (scenario.initial.joint_angles, scenario.initial.joint_rates) = (vec![0.4], vec![0.0]);
+        let (mount, length) = (libm::hypot(arm.mount[0], arm.mount[1]), arm.links[0].length);
+        let share = arm.links[0].mass / scenario.layout.mass();
+        let limit = Reach::new(&scenario, 0, [9.0, 9.0]).expect("a reach").limit;
+        assert_close("limit", &[limit], &[mount + length + share * (mount + 0.5)], 1e-12);
+    }
+}

@@ -1,13 +1,19 @@
 //! Light targets that reach a robot at rest one after the other: times, contacts and what is not met; bodies that are
 //! held, and terminal errors in words.
 
-use crate::capture::assembly::{Assembly, Attachment};
+use crate::capture::approach::ApproachTracking;
+use crate::capture::assembly::{Assembly, Attachment, TargetPlacement};
+use crate::capture::clearance::ClearanceTracker;
+use crate::capture::contact_detection::ContactDetection;
+use crate::capture::contact_pair::ContactPair;
 use crate::capture::post_capture::wheels;
+use crate::capture::target_motion::TargetMotion;
 use crate::capture::{CaseResult, Silent, Study, StudyError, study};
 use crate::contact::ContactKind;
 use crate::owned::RobotState;
 use crate::registry;
 use crate::scenario::{OnOverlap, PostCaptureControl, Scenario};
+use crate::simulate::Phase;
 use crate::simulate::stepper::Integrator;
 use crate::simulate::system::Body;
 use planar_proof::{assert_close, file, layout};
@@ -151,14 +157,17 @@ fn what_is_not_met() {
     }
 }
 
-/// An end effector inside its target at the start is refused, with how far.
+/// An end effector inside its target at the start is refused, with how far, in full down to a tenth of a millimetre.
 #[test]
 fn a_start_inside_a_target() {
-    let inside = Coming { arm: 0, speed: 1.0, time: -0.15, aside: 0.0 };
-    let error = meet(&[inside, Coming { arm: 1, speed: 1.0, time: 5.0, aside: 0.0 }], 0.1).expect_err("inside");
-    let StudyError::Inside { arm, target, depth, .. } = error else { panic!("{error}") };
-    assert_eq!((arm.as_str(), target.as_str()), ("arm1", "t0"));
-    assert!((depth - 0.15).abs() < 1e-12, "{depth}");
+    for (wanted, shown) in [(0.15, "0.1500 m"), (5e-4, "0.0005 m"), (5e-5, "5.0e-5 m"), (1e-9, "1.0e-9 m")] {
+        let inside = Coming { arm: 0, speed: 1.0, time: -wanted, aside: 0.0 };
+        let error = meet(&[inside, Coming { arm: 1, speed: 1.0, time: 5.0, aside: 0.0 }], 0.1).expect_err("inside");
+        assert!(error.to_string().contains(&format!("starts {shown} inside")), "{error}");
+        let StudyError::Inside { arm, target, depth, .. } = error else { panic!("{error}") };
+        assert_eq!((arm.as_str(), target.as_str()), ("arm1", "t0"));
+        assert!((depth - wanted).abs() < 1e-12, "{depth}");
+    }
 }
 
 /// The bodies beside the robot that pins hold: not those that are free, nor those that are merged.
@@ -180,6 +189,7 @@ fn bodies_that_pins_hold() {
     let hold = |target: usize, arm: usize, kind: ContactKind| Attachment { target, arm, kind };
     assert!(pinned(&[]).is_empty());
     assert_eq!(pinned(&[hold(1, 0, ContactKind::Pin)]), [2.0]);
+    assert_eq!(pinned(&[hold(1, 0, ContactKind::Pin), hold(2, 1, ContactKind::Pin)]), [2.0, 3.0]);
     assert_eq!(pinned(&[hold(1, 0, ContactKind::Rigid), hold(2, 1, ContactKind::Pin)]), [3.0]);
     assert!(pinned(&[hold(0, 1, ContactKind::Rigid)]).is_empty());
 }
@@ -345,4 +355,169 @@ fn an_impact_hands_on_the_estimated_error() {
     let [alone, both] = [one, two].map(|capture| capture.post_impact.path_error);
     // the impact is at the end of a step, so that both have the same ones, but for rounding
     assert!(alone > 1e-9 && (both / alone - 1.0).abs() < 1e-3, "{both:e}, not {alone:e}");
+}
+
+/// What is a tenth of a micrometre away at an impact is not part of it, and touches after it.
+#[test]
+fn what_is_near_touches_later() {
+    let apart = 1e-7;
+    let coming = [0.0, apart / 4.0].map(|later| 5.5 + later);
+    let coming = [0, 1].map(|arm| Coming { arm, speed: 4.0, time: coming[arm], aside: 0.0 });
+    let study = meet(&coming, 0.1).expect("a study");
+    let capture = study.cases[0].capture.as_ref().expect("a capture");
+    let [later] = capture.later_impacts.as_slice() else { panic!("{:?}", capture.later_impacts) };
+    assert_eq!(capture.impact.contacts.len(), 1);
+    assert!((later.time - apart / 4.0).abs() < 1e-9, "{}", later.time);
+}
+
+/// The distances that a case counts are those of its bodies, of its end effectors and of the contact detection.
+#[test]
+fn all_distances_are_counted() {
+    let coming = [5.5, 8.75].into_iter().enumerate();
+    let coming: Vec<_> = coming.map(|(arm, time)| Coming { arm, speed: 4.0, time, aside: 0.75 }).collect();
+    let scenario = meeting(coming.as_array().expect("two"), 2.0);
+    let body = |target: &crate::scenario::Target| {
+        let [x, y] = target.position.expect("a place");
+        Body { mass: target.mass, inertia: target.inertia, pose: [target.yaw, x, y], twist: target.twist }
+    };
+    let bodies: Vec<Body> = scenario.targets.iter().map(body).collect();
+    let pairs = [0, 1].map(|i| ContactPair { target: i, contact: 0, arm: i });
+    let mut detection = ContactDetection::new(&scenario, TargetMotion::Free(&bodies), pairs.to_vec());
+    let model = registry::generic(&layout("dual_arm_3r"));
+    let tracking = ApproachTracking::new(&scenario, 1.0);
+    let phase = tracking.track(&*model, &[0.0; 6], &mut detection, &mut || ()).expect("a phase");
+    let of_clearance = |contacts: &[ContactPair]| {
+        let mut tracker = ClearanceTracker::new(&scenario, contacts);
+        tracker.add_phase(&phase.path, 0.0, TargetMotion::Free(&bodies), &[]).expect("distances");
+        tracker.result().evaluations
+    };
+    let [of_bodies, with_end_effectors] = [of_clearance(&[]), of_clearance(&pairs)];
+    assert!(of_bodies > 0 && with_end_effectors > of_bodies && detection.evaluations() > 0);
+    let counted = run(&scenario).expect("a study").cases[0].clearance.evaluations;
+    assert_eq!(counted, with_end_effectors + detection.evaluations());
+}
+
+/// The residual motion is of robot and captured targets: a heavy target that is not met has no part in it.
+#[test]
+fn the_residual_motion_is_of_what_is_captured() {
+    let coming =
+        [Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 }, Coming { arm: 1, speed: 4.0, time: 8.75, aside: 0.75 }];
+    let mut scenario = meeting(&coming, 0.5);
+    scenario.targets[1].mass = 50.0;
+    scenario.post_impact.as_mut().expect("a phase").control =
+        PostCaptureControl::Damping { derivative_gain: vec![1.0; 6] };
+    let study = run(&scenario).expect("a study");
+    let capture = study.cases[0].capture.as_ref().expect("a capture");
+    let residual = capture.residual_motion.as_ref().expect("a law");
+    // a milligram at 4 m/s
+    assert!(residual.momentum[1..].iter().all(|part| part.abs() < 1e-8), "{:?}", residual.momentum);
+    scenario.post_impact.as_mut().expect("a phase").control = PostCaptureControl::None;
+    let study = run(&scenario).expect("a study");
+    assert!(study.cases[0].capture.as_ref().is_some_and(|capture| capture.residual_motion.is_none()));
+}
+
+/// The first rigid attachment of a target merges it with its arm; others, and pins, are constraints.
+#[test]
+fn a_target_is_merged_with_the_first_arm_that_holds_it_rigidly() {
+    let (base_pose, joint_angles) = ([0.0; 3], ANGLES.to_vec());
+    let state = RobotState { base_pose, joint_angles, base_twist: [0.0; 3], joint_rates: vec![0.0; 6] };
+    let target = Body { mass: 1.0, inertia: 1.0, pose: [0.3, 1.0, 2.0], twist: [0.0; 3] };
+    let (rigid, pin) = (ContactKind::Rigid, ContactKind::Pin);
+    for (held, merged, constrained) in [
+        ([(0, rigid), (1, rigid)], Some(0), vec![1]),
+        ([(1, rigid), (0, rigid)], Some(1), vec![0]),
+        ([(0, pin), (1, rigid)], Some(1), vec![0]),
+        ([(0, rigid), (1, pin)], Some(0), vec![1]),
+        ([(1, pin), (0, pin)], None, vec![1, 0]),
+    ] {
+        let attachments = held.map(|(arm, kind)| Attachment { target: 0, arm, kind });
+        let model = registry::generic(&layout("dual_arm_3r"));
+        let assembly = Assembly::new(model, &state, &[target], &attachments).expect("an assembly");
+        let arm = match assembly.places[0] {
+            TargetPlacement::Merged { arm, .. } => Some(arm),
+            TargetPlacement::Separate(_) => None,
+        };
+        let arms: Vec<usize> = assembly.constraints.iter().map(|constraint| constraint.arm).collect();
+        assert_eq!((arm, arms), (merged, constrained), "{held:?}");
+    }
+}
+
+/// A number of the audit: what it is called, its bound, and where it is in a phase.
+type Audited = (&'static str, f64, fn(&mut Phase) -> &mut f64);
+
+/// Each number of the audit alone fails it above its bound, and not below, in every phase and every impact that it is of.
+#[test]
+fn every_bound_of_the_audit_is_where_it_is_said() {
+    let coming =
+        [Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 }, Coming { arm: 1, speed: 3.0, time: 8.75, aside: 0.0 }];
+    let mut study = meet(&coming, 2.0).expect("a study");
+    // three impacts, and a case without an approach of its own
+    let capture = study.cases[0].capture.as_mut().expect("a capture");
+    capture.later_impacts.push(capture.later_impacts[0].clone());
+    study.cases.push(CaseResult { name: "other".to_owned(), ..CaseResult::default() });
+    let check = |what: &str, break_it: &dyn Fn(&mut Study, f64)| {
+        for (part, count) in [(0.99, 0), (1.01, 1)] {
+            let mut study = study.clone();
+            break_it(&mut study, part);
+            let found = study.audit_failures();
+            assert!(found.len() == count && found.iter().all(|line| line.contains(what)), "{what} {part}: {found:?}");
+        }
+    };
+    let numbers: [Audited; 6] = [
+        (": momentum drift ", 1e-9, |phase| &mut phase.drift.momentum_drift),
+        (": energy error ", 1e-6, |phase| &mut phase.drift.energy_error),
+        (": centre-of-mass drift ", 1e-9, |phase| &mut phase.drift.center_of_mass_drift),
+        (": path error ", 1e-4, |phase| &mut phase.path_error),
+        (": opening of what is held ", 1e-10, |phase| &mut phase.constraint_errors[0]),
+        (": rate of opening of what is held ", 1e-10, |phase| &mut phase.constraint_errors[1]),
+    ];
+    let phases: [fn(&mut Study) -> &mut Phase; 3] = [
+        |study| &mut study.approach,
+        |study| study.cases[0].approach.as_mut().expect("its own"),
+        |study| &mut study.cases[0].capture.as_mut().expect("a capture").post_impact,
+    ];
+    for phase in phases {
+        for (what, bound, number) in numbers {
+            check(what, &|study, part| *number(phase(study)) = part * bound);
+        }
+    }
+    let captured = |study: &mut Study, set: &dyn Fn(&mut crate::capture::CaptureResult)| {
+        set(study.cases[0].capture.as_mut().expect("a capture"));
+    };
+    check("inside a target", &|study, part| captured(study, &|capture| capture.penetration = part * 1e-6));
+    for i in 0..3 {
+        let exact = |capture: &mut crate::capture::CaptureResult,
+                     set: &dyn Fn(&mut crate::capture::impact::ImpactResult)| {
+            let later = capture.later_impacts.iter_mut().map(|later| &mut later.impact);
+            set(&mut std::iter::once(&mut capture.impact).chain(later).nth(i).expect("an impact").exact);
+        };
+        check("changes the momentum", &|study, part| {
+            captured(study, &|capture| exact(capture, &|impact| impact.relative_momentum_jump = part * 1e-9));
+        });
+        check("raises the kinetic energy", &|study, part| {
+            captured(study, &|capture| {
+                exact(capture, &|impact| {
+                    impact.kinetic_energy_after = impact.kinetic_energy_before * (1.0 + part * 1e-9);
+                });
+            });
+        });
+    }
+}
+
+/// Under a law that only follows the trajectory an approach begins as the scenario says, with its rates.
+#[test]
+fn an_approach_begins_with_the_rates_of_the_scenario() {
+    let text = |tracking: &str| {
+        format!(
+            "name = \"it\"\nlayout = \"dual_arm_3r\"\n[initial]\njoint_angles = {ANGLES:?}\n\
+             joint_rates = [0.01, -0.02, 0.03, 0.04, -0.05, 0.06]\n[approach]\nduration = 1.0\n\
+             trajectory = \"cycloidal\"\ntracking = \"{tracking}\"\nfinal_joint_angles = {ANGLES:?}\n"
+        )
+    };
+    for tracking in ["pd", "computed_torque"] {
+        let scenario = Scenario::parse(&text(tracking), "it.toml", &file("scenarios"), registry::SHIPPED);
+        let scenario = scenario.unwrap_or_else(|e| panic!("{e}"));
+        let study = run(&scenario).expect("a study");
+        assert_eq!(study.approach.samples[0].state, scenario.initial, "{tracking}");
+    }
 }

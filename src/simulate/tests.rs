@@ -72,6 +72,31 @@ fn a_phase_and_the_next() {
     assert_eq!(next.then(first).event, None);
 }
 
+/// The larger error of two phases, and the smaller margin, are those of both, whichever phase has it.
+#[test]
+fn the_worse_of_two_phases_is_kept() {
+    let good = Phase { singularity_margin: Some(0.5), ..phase(1.0) };
+    let numbers: [fn(&mut Phase) -> &mut f64; 6] = [
+        |phase| &mut phase.drift.momentum_drift,
+        |phase| &mut phase.drift.energy_error,
+        |phase| &mut phase.drift.center_of_mass_drift,
+        |phase| &mut phase.path_error,
+        |phase| &mut phase.constraint_errors[0],
+        |phase| &mut phase.constraint_errors[1],
+    ];
+    for (i, number) in numbers.into_iter().enumerate() {
+        let mut bad = good.clone();
+        *number(&mut bad) = 0.25;
+        for mut both in [good.clone().then(bad.clone()), bad.clone().then(good.clone())] {
+            assert_eq!(*number(&mut both), 0.25, "{i}");
+        }
+    }
+    let bad = Phase { singularity_margin: Some(0.25), ..good.clone() };
+    for both in [good.clone().then(bad.clone()), bad.then(good)] {
+        assert_eq!(both.singularity_margin, Some(0.25));
+    }
+}
+
 /// What the positions of a fast motion are rounded by counts as an error of its path.
 #[test]
 fn rounding_is_a_path_error() {

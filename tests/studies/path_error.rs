@@ -215,3 +215,17 @@ fn the_last_of_an_odd_number_of_steps_is_estimated() {
     }
     assert_eq!(seen, 16);
 }
+
+/// The motion after an impact at a set time begins with the error that the approach ends with.
+#[test]
+fn an_impact_hands_on_the_error_of_the_approach() {
+    let mut scenario = scenario("raina_shah_2017");
+    scenario.approach.step = 0.02;
+    scenario.cases.truncate(1);
+    let after = scenario.post_impact.as_mut().expect("a phase");
+    after.integration.integrator = Integrator::Adaptive { tolerance: 1e-12 };
+    let study = run(&scenario);
+    let at_end = study.approach.end_error[0].iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+    let after = study.cases[0].capture.as_ref().expect("a capture").post_impact.path_error;
+    assert!(at_end > 1e-10 && after > 0.9 * at_end, "{after:e} {at_end:e}");
+}

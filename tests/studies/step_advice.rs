@@ -64,9 +64,12 @@ fn advice_is_that_of_the_phase() {
     let [of_order_4] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
     assert!(of_order_4.starts_with("[post_impact]"), "{of_order_4}");
     assert!(of_order_4.contains("by `rk4` with steps of 0.005 s: `step = 0.002`"), "{of_order_4}");
-    study.cases[1].capture.as_mut().expect("a capture").post_impact.saturation.joints = vec![0.1, 0.0];
-    let [of_order_1] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
-    assert!(of_order_1.contains("`step = 0.0003`") && !of_order_1.contains("adaptive"), "{of_order_1}");
+    for (joints, base) in [(vec![0.1, 0.0], 0.0), (vec![0.0, 0.1], 0.0), (vec![0.0, 0.0], 0.1)] {
+        let saturation = &mut study.cases[1].capture.as_mut().expect("a capture").post_impact.saturation;
+        (saturation.joints, saturation.base) = (joints, base);
+        let [of_order_1] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
+        assert!(of_order_1.contains("`step = 0.0003`") && !of_order_1.contains("adaptive"), "{of_order_1}");
+    }
     // what no number says has no advice
     study.cases[1].capture.as_mut().expect("a capture").post_impact.path_error = f64::NAN;
     assert_eq!(step_advice(&scenario, &study), Vec::<String>::new());
@@ -82,4 +85,24 @@ fn an_approach_that_no_case_has_is_not_advised_on() {
     assert_eq!((study.audit_failures(), step_advice(&scenario, &study)), (Vec::new(), Vec::new()));
     study.cases[0].approach.as_mut().expect("its own").path_error = 1.0;
     assert_eq!((study.audit_failures().len(), step_advice(&scenario, &study).len()), (1, 1));
+}
+
+/// From an error r times its bound follow the tolerance times 1/(2 r), and the step times that where the order is 1, as long as
+/// the phase has a million steps at most.
+#[test]
+fn what_is_advised_is_half_of_what_keeps_the_bound() {
+    let mut scenario = scenario("raina_shah_2017");
+    let mut study = run(&scenario);
+    for (integrator, ratio, advised) in [
+        (Integrator::Adaptive { tolerance: 1e-8 }, 8.0, "tolerance = 6e-10`"),
+        (Integrator::Adaptive { tolerance: 1e-8 }, 4e5, "tolerance = 1e-14`"),
+        (Integrator::Adaptive { tolerance: 1e-8 }, 6e5, "even the smallest, 1e-14, would not do"),
+        (Integrator::SemiImplicitEuler, 40.0, "`step = 0.00006`"),
+        (Integrator::SemiImplicitEuler, 60.0, "steps of 0.005 s: `integrator = \"adaptive\"` would do"),
+    ] {
+        scenario.post_impact.as_mut().expect("a phase").integration.integrator = integrator;
+        study.cases[0].capture.as_mut().expect("a capture").post_impact.path_error = ratio * 1e-4;
+        let [advice] = &step_advice(&scenario, &study)[..] else { panic!("no advice") };
+        assert!(advice.starts_with("[post_impact]") && advice.contains(advised), "{advice}");
+    }
 }

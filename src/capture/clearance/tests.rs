@@ -2,6 +2,7 @@
 
 use super::SAME_TIME;
 use super::bodies::{ClearanceBody, bodies, pairs};
+use super::search::PairOverlap;
 use super::{Clearance, ClearanceError, ClearanceTracker, LeastDistance, Overlap, ineffective_ignores};
 use crate::capture::assembly::Attachment;
 use crate::capture::contact_pair::ContactPair;
@@ -548,5 +549,55 @@ fn an_overlap_in_words_says_when_however_short_it_is() {
         |span, depth| Overlap { bodies: ["base".into(), "a".into()], span, depth, is_default: false }.sentence();
     assert_eq!(words([1.0, 2.5], 0.25), "`base` and `a` overlap from 1.000 s to 2.500 s by up to 2.50e-1 m");
     assert_eq!(words([1.0, 1.000_002], 3e-7), "`base` and `a` overlap at 1.000 s for 2.0e-6 s by up to 3.00e-7 m");
+    assert_eq!(words([1.0, 1.002], 0.25), "`base` and `a` overlap from 1.000 s to 1.002 s by up to 2.50e-1 m");
     assert_eq!(words([1.0, 1.0], 0.0), "`base` and `a` begin to overlap at 1.000 s");
+}
+
+/// Overlaps of the parts of two bodies are one while they last together: from the first to the last end, as deep as the
+/// deepest. A case ends at the earliest of all pairs.
+#[test]
+fn overlaps_of_parts_are_joined() {
+    let (_, mut tracker) =
+        resting([0.1, 0.1].map(Outline::disc), [([0.0, 30.0, 0.0], [0.0; 3]), ([0.0; 3], [0.0; 3])]).result();
+    tracker.bodies.bodies.iter_mut().for_each(|body| body.is_default = false);
+    let mut found = |overlaps: &[(usize, [f64; 2], f64)]| {
+        let each = overlaps.iter().map(|(pair, span, depth)| PairOverlap { pair: *pair, span: *span, depth: *depth });
+        tracker.bodies.found.overlaps = each.collect();
+        let spans = tracker.result().overlaps.iter().map(|overlap| (overlap.span, overlap.depth)).collect::<Vec<_>>();
+        (spans, tracker.first_given_overlap())
+    };
+    let parts = [(0, [1.0, 5.0], 0.1), (0, [2.0, 3.0], 0.3), (0, [4.0, 6.0], 0.2)];
+    for order in [[0, 1, 2], [1, 0, 2], [2, 1, 0]] {
+        let (spans, first) = found(&order.map(|i| parts[i]));
+        assert_eq!((spans, first), (vec![([1.0, 6.0], 0.3)], Some((0, 1.0))), "{order:?}");
+    }
+    let (spans, first) = found(&[(0, [2.0, 3.0], 0.1), (0, [3.5, 4.0], 0.2), (1, [1.0, 9.0], 0.3)]);
+    assert_eq!(spans, [([1.0, 9.0], 0.3), ([2.0, 3.0], 0.1), ([3.5, 4.0], 0.2)]);
+    assert_eq!(first, Some((1, 1.0)));
+}
+
+/// An overlap of a last link with its target ends where the arm takes hold of it.
+#[test]
+fn what_is_held_overlaps_until_then() {
+    let disc = || Outline::Disc { center: [0.0; 2], radius: 0.25 };
+    let mut motion = resting([disc(), disc()], [([0.0; 3], [0.0; 3]), ([0.0, -30.0, 0.0], [0.0; 3])]);
+    let tip = poses(&motion.frames, &motion.robot(0.0).0, &[[0.0; 3]; 2]);
+    let frame = motion.frames.iter().position(|frame| frame.name == "arms/arm1/tip").expect("a frame");
+    motion.targets[0].pose = tip[frame];
+    let (clearance, _) = motion.result();
+    let names = ["arms/arm1/link2", "targets/t1"];
+    let overlap = clearance.overlaps.iter().find(|overlap| overlap.bodies == names).expect("an overlap");
+    planar_proof::assert_close("span", &overlap.span, &[0.0, DURATIONS[0]], 1e-9);
+}
+
+/// The last links of all arms that are to hold a target are to meet it.
+#[test]
+fn every_arm_of_a_target_is_to_meet_it() {
+    let mut it = scenario("dual_arm_2r", ["arm1", "arm2"], 4);
+    let second = it.targets[1].contacts[0];
+    it.targets[0].contacts.push(second);
+    let meets: BTreeSet<_> =
+        named_pairs(&it).into_iter().filter(|(.., meets)| *meets).map(|(a, b, _)| (a, b)).collect();
+    let expected = [("arm1/link2", "t1"), ("arm2/link2", "t1"), ("arm2/link2", "t2")];
+    assert_eq!(meets, expected.map(|(a, b)| (a.to_owned(), b.to_owned())).into());
 }

@@ -62,3 +62,15 @@ fn a_common_velocity_hides_no_direction() {
     // 7.5 km/s are rounded to 1e-12 m/s
     assert!((direction[0] + 0.6).abs() < 1e-8 && (direction[1] - 0.8).abs() < 1e-8, "{direction:?}");
 }
+
+/// Along a direction n the target has at its contact point the mass of 1/m = 1/M + (r × n)²/I, and both bodies that of the
+/// sum of the reciprocals, which is what stops a bounce.
+#[test]
+fn masses_are_those_at_the_contact_point() {
+    let (found, _) = of([0.5, 1.0, 2.0], ContactLaw::Bounce { normal: [0.6, 0.8], restitution: 0.5 });
+    let [robot, target, both] = found.effective_masses.expect("a direction");
+    let lever: f64 = 0.3 * 0.8 + 0.2 * 0.6;
+    assert_close("target", &[target], &[1.0 / (0.25 + lever * lever / 0.5)], tolerance::POLYNOMIAL);
+    assert_close("both", &[both], &[1.0 / (1.0 / robot + 1.0 / target)], tolerance::POLYNOMIAL);
+    assert_close("index", &[found.impulse_index.expect("a direction")], &[both], tolerance::POLYNOMIAL);
+}

@@ -148,3 +148,28 @@ fn a_held_target_is_touched_where_it_is() {
         assert_close("rates", rates[0], rates[1], tolerance::SAME_IMPACT);
     }
 }
+
+/// A target that nothing touches adds its energy, before and after, and has no part in a jump of the momentum, by both models.
+#[test]
+fn an_untouched_target_adds_its_energy() {
+    let (model, state) = (registry::generic(&layout("dual_arm_3r")), state());
+    let mut poses = [[0.0; 3]; 2];
+    model.end_effector_poses(&state.base_pose, &state.joint_angles, &mut poses).expect("poses");
+    let [_, x, y] = poses[1];
+    let touched = Body { mass: 4.0, inertia: 0.5, pose: [0.2, x - 0.3, y + 0.1], twist: [0.3, -0.1, 0.2] };
+    let free = Body { mass: 3.0, inertia: 0.7, pose: [0.1, 2.0, -1.0], twist: [0.9, 0.4, -0.6] };
+    let solved = |targets: &[Body]| {
+        let assembly = Assembly::new(model.clone_box(), &state, targets, &[]).expect("an assembly");
+        let (target, offset) = (targets.len() - 1, [0.3, -0.1]);
+        let contact = ImpactContact { target, arm: 1, law: ContactLaw::Rigid, offset, miss: 0.0 };
+        let found = solve_impact(&assembly, &state, targets, &[contact]).expect("an impact");
+        [found.exact, found.paper.expect("a rigid capture")]
+    };
+    let energy = 0.5 * (0.7 * 0.9 * 0.9 + 3.0 * (0.4 * 0.4 + 0.6 * 0.6));
+    for (alone, both) in solved(&[touched]).into_iter().zip(solved(&[free, touched])) {
+        let expected = [alone.kinetic_energy_before + energy, alone.kinetic_energy_after + energy];
+        let found = [both.kinetic_energy_before, both.kinetic_energy_after];
+        assert_close("energies", &found, &expected, tolerance::SAME_IMPACT);
+        assert_close("jump", &both.momentum_jump, &alone.momentum_jump, tolerance::SAME_IMPACT);
+    }
+}

@@ -110,3 +110,18 @@ fn distances_that_are_used_up() {
     assert_eq!(key(["base", "targets/slow"], [MANY_PARTS, MANY_PARTS - 1]), "target[0].twist");
     assert_eq!(key(["base", "arms/arm1/link2"], [MANY_PARTS, 1]), "approach");
 }
+
+/// Bounces that do not come to rest have the restitution of the case, where it has its own, else the target's, at its value.
+#[test]
+fn restitutions_of_bounces() {
+    let mut scenario = scenario();
+    (scenario.targets[0].restitution, scenario.targets[1].restitution) = (0.25, 0.5);
+    scenario.cases[0].restitutions = vec![0.25, 0.75];
+    let key = |target: &str| {
+        let (case, target) = (scenario.cases[0].name.clone(), target.to_owned());
+        let ScenarioKey { path, value } = StudyError::Chatter { case, impacts: 9, target, time: 0.5 }.key(&scenario);
+        (path, value)
+    };
+    assert_eq!(key("slow"), ("target[0].restitution".to_owned(), "0.25".to_owned()));
+    assert_eq!(key("fast"), ("case[0].restitutions.fast".to_owned(), "0.75".to_owned()));
+}

@@ -157,3 +157,25 @@ fn long_lists_of_residuals_are_shortened() {
     assert_eq!(shortened(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "1.0e0, 2.0e0, 3.0e0, 4.0e0, 5.0e0, 6.0e0");
     assert_eq!(shortened(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]), "1.0e0, 2.0e0, 3.0e0, …, 5.0e0, 6.0e0, 7.0e0");
 }
+
+/// The terminal rates of a design of angles, and their margin, are those of the design of rates alone for these angles: of both
+/// arms, of which one has a pose to reach.
+#[test]
+fn rates_are_those_of_their_own_design() {
+    let text = TEXT.replace("cycloidal", "quartic") + "final_end_effector_twists = [[0.05, 0.0], [0.0, -0.05]]\n";
+    let mut scenario = Scenario::parse(&text, "two.toml", &file("scenarios"), registry::SHIPPED).expect("a scenario");
+    let model = registry::generic(&scenario.layout);
+    let FinalRates::EndEffectorTwists(twists) = scenario.approach.end.clone() else { panic!("twists") };
+    let start = ApproachTracking::new(&scenario, 1.0).exact_end(&*model, &[0.0; 4]).expect("an end");
+    let [[_, x, y], _] = start.end_effector_poses[..] else { panic!("two arms") };
+    let goals = [EndEffectorGoal::Position([x - 0.1, y + 0.1]), EndEffectorGoal::Any];
+    let mut ticks = 0;
+    let found = inverse_kinematics(&*model, &scenario, &goals, 1.0, &mut || ticks += 1).expect("angles");
+    assert_eq!((found.iterations, found.rates.iterations), (ticks, ticks));
+    scenario.approach.final_joint_angles.clone_from(&found.joint_angles);
+    let approach = ApproachTracking::new(&scenario, 1.0);
+    let alone = crate::capture::approach::terminal_rates::terminal_rates(&*model, &approach, &twists, &mut || ());
+    let alone = alone.expect("rates");
+    assert_close("rates", &found.rates.joint_rates, &alone.joint_rates, 1e-9);
+    assert_close("margin", &[found.rates.singularity_margin], &[alone.singularity_margin], 1e-9);
+}

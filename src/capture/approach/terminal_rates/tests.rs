@@ -170,3 +170,17 @@ fn the_design_has_no_unit_of_time() {
         assert_close("rates", &design(speed), &rates, tolerance::REACHED);
     }
 }
+
+/// What a design says that it took is how often it computed the end of an approach.
+#[test]
+fn iterations_are_ends_of_approaches() {
+    let text = "name = \"it\"\nlayout = \"dual_arm_2r\"\n[initial]\njoint_angles = [0.6, -1.2, 2.5, 1.2]\n[approach]\n\
+                duration = 10.0\ntrajectory = \"quartic\"\nfinal_joint_angles = [0.3, -0.9, 2.7, 1.0]\n\
+                final_end_effector_twists = [[0.05, 0.0], [0.0, -0.05]]\ntracking = \"exact\"\n";
+    let scenario = Scenario::parse(text, "it.toml", "".as_ref(), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+    let FinalRates::EndEffectorTwists(goals) = &scenario.approach.end else { panic!("twists") };
+    let mut ticks = 0;
+    let approach = ApproachTracking::new(&scenario, 1.0);
+    let found = terminal_rates(&*model(), &approach, goals, &mut || ticks += 1).expect("rates");
+    assert!(ticks > 1 && found.iterations == ticks, "{} {ticks}", found.iterations);
+}
