@@ -331,3 +331,6 @@ impl OutputReport {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

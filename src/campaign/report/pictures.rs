@@ -161,6 +161,12 @@ pub(super) mod tests {
         assert_eq!(names[..], ["a.b", "d", "target.<t>.mass"]);
         let ends: Vec<f64> = panel.series[..3].iter().map(|series| series.points[1].0).collect();
         assert_eq!(ends, [0.1, 0.5, -0.9]);
+        // the two signs have a colour each
+        let colours: Vec<_> = panel.series[..3].iter().map(|series| series.colour).collect();
+        assert!(colours[0] == colours[1] && colours[1] != colours[2], "{colours:?}");
+        // what chance leaves of the correlations of the hundred cases with a result
+        let chance: Vec<f64> = panel.series[3..5].iter().map(|series| series.points[0].0).collect();
+        planar_proof::assert_close("chance", &chance, &[-1.96 / 99_f64.sqrt(), 1.96 / 99_f64.sqrt()], 1e-12);
 
         let panel = &scatter.figure.panels[0];
         assert_eq!(panel.series[0].points.len(), 100);

@@ -203,4 +203,18 @@ mod tests {
         let found = first_order(&ranks(&order), &y).expect("varies");
         assert!((found - 122.0 / 222.0).abs() < 1e-12, "{found}");
     }
+
+    /// Fewer than 50 values have no index; sixty have four classes all the same: of 15 values each with the means 0, 1, 2, 3, and
+    /// ±1 seven times each beside them.
+    #[test]
+    fn few_values_have_no_index_or_four_classes() {
+        let index = |count: u32| {
+            let order: Vec<f64> = (0..count).map(f64::from).collect();
+            let beside = |i: u32| if i == 14 { 0.0 } else { [1.0, -1.0][(i % 2) as usize] };
+            let y: Vec<f64> = (0..count).map(|i| f64::from(i / 15) + beside(i % 15)).collect();
+            first_order(&order, &y)
+        };
+        assert!(index(49).is_none() && index(50).is_some());
+        assert!((index(60).expect("varies") - 72.0 / 132.0).abs() < 1e-12, "{:?}", index(60));
+    }
 }

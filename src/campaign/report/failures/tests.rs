@@ -28,3 +28,14 @@ fn names_are_no_numbers() {
     assert_eq!(found[0], FailureKind { count: 2, ..failure(0, "arm1 is 1.0 to 2.0 m away") });
     assert_eq!(found[1].message, messages[2]);
 }
+
+/// A sign is part of its number, and failures that are alike have one status.
+#[test]
+fn signs_and_statuses() {
+    let found =
+        kinds_of([failure(0, "off by +2.0 m"), failure(1, "off by -3.0 m"), failure(2, "off by +4.0 m")].into_iter());
+    assert_eq!(found, [FailureKind { count: 3, ..failure(0, "off by -3.0 to +4.0 m") }]);
+    let stopped = FailureKind { status: "stopped".to_owned(), ..failure(4, "off by +1.0 m") };
+    let found = kinds_of([failure(0, "off by +2.0 m"), stopped.clone(), stopped.clone()].into_iter());
+    assert_eq!(found, [FailureKind { count: 2, ..stopped }, failure(0, "off by +2.0 m")]);
+}
