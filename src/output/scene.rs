@@ -176,6 +176,12 @@ mod tests {
         let Shape::Outline(Outline::Disc { center, radius: found }) = wheel.shape else { panic!("{wheel:?}") };
         assert!((found - radius).abs() < 1e-15 && center.iter().all(|x| *x == 0.0), "{found} m about {center:?}");
         let link = drawn.iter().find(|visual| visual.frame.contains("arm/")).expect("a link");
-        assert!(matches!(link.shape, Shape::Rectangle { centre: [0.5, 0.0], size: [1.0, _] }), "{link:?}");
+        let Shape::Rectangle { centre: [0.5, 0.0], size: [1.0, width] } = link.shape else { panic!("{link:?}") };
+        // 8 % of the mean length of links, of which the wheel is none; along it a line from joint to joint
+        assert!((width - 0.08).abs() < 1e-15 && (link.thickness - width).abs() < 1e-15, "{link:?}");
+        let [outline, axis] = link.shape.lines();
+        let farthest = outline.iter().map(|[x, y]| x.abs().max(2.0 * y.abs())).fold(0.0, f64::max);
+        assert_eq!((outline.len(), axis), (5, vec![[0.0; 2], [1.0, 0.0]]));
+        assert!((farthest - 1.0).abs() < 1e-15, "{outline:?}");
     }
 }

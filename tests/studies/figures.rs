@@ -25,12 +25,15 @@ fn a_build_that_draws_nothing_says_how_to_get_one_that_does() {
 mod drawn {
     use super::*;
     use crate::{run, scenario};
+    use planar_capture::capture::CaptureResult;
     use planar_capture::contact::ContactLaw;
+    use planar_capture::outline::Outline;
     use planar_capture::output::figure_kinds::{FIGURE_KINDS, begins_with, is_kind};
     use planar_capture::output::figures::{
         Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, Width, draw, figures,
     };
     use planar_capture::scenario::FinalRates;
+    use planar_capture::simulate::Sample;
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
     use std::fs;
@@ -157,6 +160,176 @@ mod drawn {
             let (x, y) = line.points[3];
             assert!((x - end_effector[1]).abs() + (y - end_effector[2]).abs() < 1e-12, "{}", arm.name);
         }
+    }
+
+    /// Every curve over time is that of the quantity that its panel and its label name, at every sample.
+    #[test]
+    fn curves_are_what_they_are_called() {
+        let scenario = scenario("stabilised_capture");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let arms = &scenario.layout.arms;
+        let joints: Vec<String> =
+            arms.iter().flat_map(|arm| (1..=arm.links.len()).map(|k| format!("{} joint {k}", arm.name))).collect();
+        let value = |quantity: &str, label: &str, sample: &Sample| {
+            let joint = || joints.iter().position(|joint| joint == label).expect("a joint");
+            let twist = |component: usize| match label.strip_prefix('v') {
+                Some(_) => sample.state.base_twist[component],
+                None => {
+                    sample.end_effector_twists[arms.iter().position(|arm| arm.name == label).expect("an arm")]
+                        [component]
+                }
+            };
+            match (quantity, label) {
+                ("Joint angle [rad]", _) => sample.state.joint_angles[joint()],
+                ("Joint rate [rad/s]", _) => sample.state.joint_rates[joint()],
+                ("Joint torque [N m]", _) => sample.joint_torques[joint()],
+                ("Base yaw [rad]", "yaw") => sample.state.base_pose[0],
+                ("Base position [m]", "x") => sample.state.base_pose[1],
+                ("Base position [m]", "y") => sample.state.base_pose[2],
+                ("Base rate [rad/s]", "ω") => sample.state.base_twist[0],
+                ("Base velocity [m/s]", "vx") | ("Velocity x [m/s]", _) => twist(1),
+                ("Base velocity [m/s]", "vy") | ("Velocity y [m/s]", _) => twist(2),
+                ("Angular velocity [rad/s]", _) => twist(0),
+                other => panic!("{other:?}"),
+            }
+        };
+        let name = &study.cases[0].name;
+        let after = &study.cases[0].capture.as_ref().expect("a capture").post_impact;
+        let mut curves = 0;
+        for (figure, phase) in [
+            ("approach_joint_angles".to_owned(), &study.approach),
+            ("approach_joint_rates".to_owned(), &study.approach),
+            ("approach_base".to_owned(), &study.approach),
+            ("approach_end_effector_velocities".to_owned(), &study.approach),
+            (format!("post_impact_joints_{name}"), after),
+            (format!("post_impact_base_{name}"), after),
+            (format!("post_impact_end_effector_velocities_{name}"), after),
+        ] {
+            let found = all.iter().find(|found| found.name == figure).expect("the figure");
+            for panel in &found.panels {
+                for series in &panel.series {
+                    let label = series.label.as_deref().expect("a label");
+                    if label.ends_with("wanted") {
+                        continue;
+                    }
+                    let of_sample = |sample: &Sample| (sample.time, value(&panel.y.label, label, sample));
+                    let expected: Vec<_> = phase.samples.iter().map(of_sample).collect();
+                    assert_eq!(series.points, expected, "{figure}, {}: {label}", panel.y.label);
+                    curves += 1;
+                }
+            }
+        }
+        // angles, rates and torques of all joints, six of the base and three of each end effector, before and after
+        assert_eq!(curves, 2 * (3 * joints.len() + 6 + 3 * arms.len()));
+    }
+
+    /// Bodies that overlap are outlined while they do, and the pair that begins first has the highest row.
+    #[test]
+    fn overlaps_are_pictured_while_they_last() {
+        let scenario = scenario("raina_shah_2017");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let of = |name: String| all.iter().find(|figure| figure.name == name).expect("the figure");
+        let (mut with, mut without) = (0, 0);
+        for case in &study.cases {
+            let overlaps = &case.clearance.overlaps;
+            let panel = &of(format!("clearance_{}", case.name)).panels[0];
+            let AxisRange::Categories(names) = &panel.y.range else { panic!("names") };
+            let pair = |bodies: &[String; 2]| format!("{}, {}", bodies[0], bodies[1]);
+            let first = overlaps.first().map_or(&case.clearance.least_shown().expect("pairs").bodies, |it| &it.bodies);
+            assert_eq!(names.last(), Some(&pair(first)));
+            let bars: Vec<_> =
+                panel.series.iter().filter(|series| series.label.as_deref() == Some("overlap")).collect();
+            assert_eq!(bars.len(), overlaps.len());
+            for (bar, overlap) in bars.iter().zip(overlaps) {
+                let row = names.iter().position(|name| *name == pair(&overlap.bodies)).expect("a row");
+                #[allow(clippy::cast_precision_loss, reason = "a few rows")]
+                let y = row as f64 + 1.0;
+                assert_eq!(bar.points, overlap.span.map(|time| (time, y)));
+            }
+            let samples = &case.capture.as_ref().expect("a capture").post_impact.samples;
+            for (k, panel) in of(format!("post_impact_motion_{}", case.name)).panels.iter().enumerate() {
+                let time = study.approach.duration + samples[(samples.len() - 1) * k / 5].time;
+                let now = overlaps.iter().filter(|overlap| overlap.span[0] <= time && time <= overlap.span[1]);
+                let bodies: BTreeSet<&String> = now.flat_map(|overlap| &overlap.bodies).collect();
+                let outlines = panel.series.iter().filter(|series| series.label.as_deref() == Some("overlap"));
+                assert_eq!(outlines.count(), bodies.len(), "{} at {time} s", case.name);
+                *(if bodies.is_empty() { &mut without } else { &mut with }) += 1;
+            }
+        }
+        assert!(with > 0 && without > 0, "{with} {without}");
+    }
+
+    /// Pins have their symbol, and bounces and rigid contacts have none; contacts are named by case, target and kind, those after
+    /// the first impact with their times.
+    #[test]
+    fn contacts_are_named_and_marked_by_their_kinds() {
+        let mut pins = 0;
+        for name in ["elastic_rebound", "large_target"] {
+            let scenario = scenario(name);
+            let study = run(&scenario);
+            let all = figures(&scenario, &study);
+            let mut expected = Vec::new();
+            let impacts =
+                || study.cases.iter().filter_map(|case| case.capture.as_ref()).flat_map(CaptureResult::impacts);
+            if !impacts().any(|impact| impact.contacts.iter().any(|made| made.contact.law == ContactLaw::Pin)) {
+                let series = all.iter().flat_map(|figure| &figure.panels).flat_map(|panel| &panel.series);
+                assert!(series.map(|series| series.label.as_deref()).all(|label| label != Some("pin")), "{name}");
+            }
+            for case in &study.cases {
+                let capture = case.capture.as_ref().expect("a capture");
+                let figure = all.iter().find(|it| it.name == format!("post_impact_motion_{}", case.name));
+                let panel = figure.expect("the figure").panels.last().expect("pictures");
+                let contacts = || capture.impacts().flat_map(|impact| &impact.contacts).map(|made| made.contact);
+                let held = contacts().filter(|contact| contact.law == ContactLaw::Pin).count();
+                let marks = panel.series.iter().filter(|series| series.label.as_deref() == Some("pin")).count();
+                assert_eq!(marks, held, "{name} {}", case.name);
+                pins += held;
+                let first = case.approach(&study).duration;
+                let times = std::iter::once(None).chain(capture.later_impacts.iter().map(|it| Some(first + it.time)));
+                for (time, impact) in times.zip(capture.impacts()) {
+                    for contact in impact.contacts.iter().map(|made| made.contact) {
+                        let target = &scenario.targets[contact.target];
+                        let arm = format!(" at {}", scenario.layout.arms[contact.arm].name);
+                        let arm = if target.contacts.len() > 1 { arm } else { String::new() };
+                        let time = time.map_or(String::new(), |time| format!(", {time:.1} s"));
+                        let kind = match contact.law {
+                            ContactLaw::Rigid => "",
+                            ContactLaw::Pin => " (pin)",
+                            ContactLaw::Bounce { .. } => " (bounce)",
+                        };
+                        expected.push(format!("{}, {}{arm}{time}{kind}", case.name, target.name));
+                    }
+                }
+            }
+            let velocities = all.iter().find(|figure| figure.name == "impact_velocities").expect("the figure");
+            let AxisRange::Categories(names) = &velocities.panels[0].y.range else { panic!("names") };
+            expected.reverse();
+            assert_eq!(*names, expected);
+        }
+        assert!(pins > 0);
+    }
+
+    /// Joints have circles and end effectors none; a disc has the spoke that shows its yaw.
+    #[test]
+    fn pictures_show_joints_and_yaws() {
+        let mut scenario = scenario("elastic_rebound");
+        let study = run(&scenario);
+        let disc = |target: &planar_capture::scenario::Target| matches!(target.outline, Outline::Disc { .. });
+        let ball = scenario.targets.iter().position(disc).expect("a disc");
+        scenario.targets[ball].yaw = 0.7;
+        let all = figures(&scenario, &study);
+        let panel = &all.iter().find(|figure| figure.name == "initial_configuration").expect("the figure").panels[0];
+        let circles = panel.series.iter().filter(|series| series.label.is_none());
+        let links: Vec<usize> = scenario.layout.arms.iter().map(|arm| arm.links.len()).collect();
+        assert_eq!(circles.map(|series| series.points.len()).collect::<Vec<_>>(), links);
+        let target = &scenario.targets[ball];
+        let ([x, y], radius) = (target.position.expect("a place"), target.outline.reach());
+        let spoke = points(panel, &target.name);
+        let (from, to) = (spoke[spoke.len() - 2], spoke[spoke.len() - 1]);
+        assert_eq!(from, (x, y));
+        assert!((to.0 - x - radius * f64::cos(0.7)).abs() + (to.1 - y - radius * f64::sin(0.7)).abs() < 1e-12);
     }
 
     /// The velocities that are wanted of each end effector are in the panel of their component.
