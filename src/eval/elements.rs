@@ -142,3 +142,21 @@ impl<R: BufRead> Elements<R> {
         StateError::Text { line: self.line, message: format!("{state}expected {wanted}, but {found}") }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Elements, MAX_BYTES};
+
+    /// An element may have 16 MiB, and not a byte more.
+    #[test]
+    fn elements_are_as_long_as_they_may_be() {
+        for (length, is_fine) in [(MAX_BYTES, true), (MAX_BYTES + 1, false)] {
+            let text = format!("[\"{}\"]", "x".repeat(length - 2));
+            let mut elements = Elements::new(text.as_bytes());
+            match elements.next_element() {
+                Ok(element) => assert!(is_fine && element.is_some_and(|element| element.text.len() == length)),
+                Err(error) => assert!(!is_fine && error.to_string().contains("a state of at most 16 MiB"), "{error}"),
+            }
+        }
+    }
+}

@@ -34,3 +34,27 @@ pub fn to_json(instant: &EvaluationInput) -> Value {
     }
     value
 }
+
+#[cfg(test)]
+mod tests {
+    use super::to_json;
+    use crate::eval::States;
+    use planar_build::prove::sampling::Regime;
+    use planar_proof::layout;
+
+    /// What is written reads back, with and without wrenches and targets.
+    #[test]
+    fn inputs_read_back() {
+        let layout = layout("dual_arm_3r");
+        let inputs: Vec<_> = (0..40).map(|i| Regime::Moving.sample(&layout, 7, i).instant).collect();
+        let (mut wrenches, mut targets) = ([0; 2], [0; 3]);
+        for input in &inputs {
+            wrenches[usize::from(input.end_effector_wrenches.is_some())] += 1;
+            targets[input.targets.iter().flatten().count()] += 1;
+            let text = serde_json::json!([to_json(input)]).to_string();
+            let read = States::new(text.as_bytes(), &layout).next_state().expect("a state").expect("one");
+            assert_eq!(read, *input);
+        }
+        assert!(wrenches.iter().chain(&targets).all(|count| *count > 0), "{wrenches:?} {targets:?}");
+    }
+}

@@ -94,3 +94,64 @@ impl NamedLaws {
         Laws { tracking: self.tracking.as_deref(), post_capture: self.post_capture.as_deref() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LawConstructor, NamedLaws, RegisteredLaw};
+    use crate::laws::{PostCaptureLaw, PostCaptureTask, Run, TrackingLaw, TrackingTask};
+    use crate::scenario::fixture::two_discs;
+    use crate::scenario::{LawFormat, LawNumbers, PostCaptureControl, Tracking};
+    use crate::simulate::{Phase, PhaseError};
+
+    struct Named(&'static str);
+
+    impl TrackingLaw for Named {
+        fn name(&self) -> &'static str {
+            self.0
+        }
+
+        fn track(&self, _: &TrackingTask<'_>, _: Run<'_>) -> Result<Phase, PhaseError> {
+            unreachable!("it only has a name")
+        }
+    }
+
+    impl PostCaptureLaw for Named {
+        fn name(&self) -> &'static str {
+            self.0
+        }
+
+        fn control(&self, _: &PostCaptureTask<'_>, _: Run<'_>) -> Result<Phase, PhaseError> {
+            unreachable!("it only has a name")
+        }
+    }
+
+    /// Of several laws for a phase that is made which the scenario names for it, in whatever order they are.
+    #[test]
+    fn the_law_of_each_phase_is_the_named_one() {
+        let law = |name, make| RegisteredLaw { format: LawFormat { name, doc: "", numbers: &[] }, make };
+        let mut laws = [
+            law("one", LawConstructor::Tracking(|_| Box::new(Named("first")))),
+            law("two", LawConstructor::Tracking(|_| Box::new(Named("second")))),
+            law("one", LawConstructor::PostCapture(|_| Box::new(Named("third")))),
+            law("two", LawConstructor::PostCapture(|_| Box::new(Named("fourth")))),
+        ];
+        let mut scenario = two_discs("duration = 0.5\n");
+        let mut check =
+            |laws: &[RegisteredLaw], [tracking, control]: [&'static str; 2], expected: [Option<&str>; 2]| {
+                let numbers = LawNumbers::default();
+                scenario.approach.tracking = Tracking::Own { name: tracking, numbers: numbers.clone() };
+                scenario.post_impact.as_mut().expect("a phase").control =
+                    PostCaptureControl::Own { name: control, numbers };
+                let named = NamedLaws::of(&scenario, laws);
+                let found = named.laws();
+                let of_phases = [found.tracking.map(TrackingLaw::name), found.post_capture.map(PostCaptureLaw::name)];
+                assert_eq!(of_phases, expected, "{tracking} {control}");
+            };
+        for _ in 0..2 {
+            check(&laws, ["one", "two"], [Some("first"), Some("fourth")]);
+            check(&laws, ["two", "one"], [Some("second"), Some("third")]);
+            check(&laws, ["two", "three"], [Some("second"), None]);
+            laws.reverse();
+        }
+    }
+}

@@ -63,3 +63,37 @@ impl Variant {
         super::ScenarioSource { scenario: source(&self.texts[0], scenario), layout: source(&self.texts[1], layout) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Warning;
+    use crate::registry;
+    use crate::scenario::Scenario;
+
+    const TEXT: &str = "name = \"it\"\nlayout = \"single_arm_2r\"\n[initial]\njoint_angles = [0.4, -0.9]\n[approach]\n\
+                        duration = 1.0\ntrajectory = \"cycloidal\"\nfinal_joint_angles = [0.4, -0.9]\n[[target]]\n\
+                        name = \"disc\"\narm = \"arm1\"\nmass = 1.0\ninertia = 1.0\ncontact = [0.0, 0.5]\nradius = 0.5\n\
+                        [[case]]\nname = \"c\"\nset = { \"approach.duration\" = 2.0 }\n[[case]]\nname = \"a\"\n[[case]]\n\
+                        name = \"b\"\nset = { \"approach.duration\" = 3.0, \"target.disc.mass\" = 4.0 }\n[post_impact]\n\
+                        duration = 1.0\n";
+
+    /// Cases are in the order of the file, those with values of their own too; what is said of a key that a case sets is said at
+    /// its `set`, and what is said of the case itself stays there.
+    #[test]
+    fn cases_with_values_stay_in_their_places() {
+        let scenario =
+            Scenario::parse(TEXT, "it.toml", "".as_ref(), registry::SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(scenario.case_names(), ["c", "a", "b"]);
+        let b = scenario.variant("b").expect("values");
+        assert_eq!((b.index(), b.values().as_str()), (2, "approach.duration = 3.0, target.disc.mass = 4.0"));
+        assert!(scenario.variant("a").is_none());
+        let at = |key: &str| {
+            let warning = Warning { key: key.to_owned(), why: "it is odd".to_owned(), help: "none".to_owned() };
+            let Warning { key, why, .. } = b.at_its_key(warning);
+            (key, why)
+        };
+        let said = "with these values, `approach.duration`: it is odd".to_owned();
+        assert_eq!(at("approach.duration"), ("case[2].set".to_owned(), said));
+        assert_eq!(at("case[2].target_twists"), ("case[2].target_twists".to_owned(), "it is odd".to_owned()));
+    }
+}

@@ -1169,6 +1169,8 @@ fn twists_without_poses_and_before_a_rest_are_refused() {
     );
     let joints = "trajectory = \"quintic\"\nfinal_joint_angles = [0.5, 0.6, 0.5, 0.6]\ntrajectory_duration = 10\n";
     assert_eq!(report(&format!("{joints}final_joint_rates = [0, 0, 0, 0]")), "");
+    let shown = report(&format!("{joints}final_joint_rates = [0, 0.1, 0, 0]"));
+    assert!(shown.contains("the arms may move at its end"), "{shown}");
     let shown = report(&format!("{joints}final_end_effector_twists = [[0, 0, 0], [0, 0]]"));
     assert!(
         shown.contains("the arms may move at its end") && shown.contains("`final_joint_rates` of zeros"),
@@ -1182,6 +1184,59 @@ fn a_phase_may_be_one_step() {
     let text = SCENARIO.replacen("duration = 20.0", "duration = 20.0\nstep = 20.0\ntrajectory_duration = 20.0", 1);
     let approach = scenario(&text).unwrap_or_else(|report| panic!("{report}")).approach;
     assert_eq!((approach.step.to_bits(), approach.trajectory_duration), (20.0_f64.to_bits(), None));
+}
+
+/// Where a number has a bound, it is accepted just within and refused just beyond.
+#[test]
+fn bounds_are_where_they_are_said() {
+    const JOINTS: &str = "\"cycloidal\"\nfinal_joint_angles = [0.5, 0.6]\n";
+    for (key, [from, to], within, beyond) in [
+        ("approach.step", ["20.0\n", "20.0\nstep = V\n"], ["20.0", "2.001e-7"], ["20.001", "1.999e-7"]),
+        ("approach.sample_time", [STEERED, "JOINTSsample_time = V"], ["20.0", "0.005"], ["20.005", "0.004"]),
+        (
+            "approach.trajectory_duration",
+            [STEERED, "JOINTStrajectory_duration = V"],
+            ["20.0", "1.0"],
+            ["20.001", "0.0"],
+        ),
+        (
+            "initial.base_pose",
+            ["0.2]\n", "0.2]\nbase_pose = [9, 0, V]\n"],
+            ["2.49e9", "-2.49e9"],
+            ["2.51e9", "-2.51e9"],
+        ),
+        ("target[0].position", ["0.5]\nr", "0.5]\nposition = [V, 0]\nr"], ["2.49e9", "-2.49e9"], ["2.51e9", "-2.51e9"]),
+        ("target[0].contact", ["[0.0, 0.5]", "[V, 0]"], ["2.49e6", "-2.49e6"], ["2.51e6", "-2.51e6"]),
+        ("target[0].radius", ["radius = 0.5", "radius = V"], ["2.49e6", "1e-6"], ["2.51e6", "0.0"]),
+        (
+            "limits.joint_angles[0]",
+            ["[[target]]", "[limits]\njoint_angles = [[0.1, V], []]\n[[target]]"],
+            ["0.2", "0.1001"],
+            ["0.1", "0.0999"],
+        ),
+        ("initial.joint_rates", ["0.2]\n", "0.2]\njoint_rates = [0.0, V]\n"], ["0.5", "-0.5"], ["0.501", "-0.501"]),
+    ] {
+        let limits = if key.contains("rates") { "[limits]\njoint_rates = 0.5\n" } else { "" };
+        let (base, to) = (format!("{SCENARIO}{limits}"), to.replace("JOINTS", JOINTS));
+        for (values, is_fine) in [(within, true), (beyond, false)] {
+            for value in values {
+                let text = base.replacen(from, &to.replace('V', value), 1);
+                assert_ne!(text, base, "{key}");
+                let said = scenario(&text).err().map(|report| report.to_string()).unwrap_or_default();
+                assert_eq!(said.is_empty(), is_fine, "{key} {value}: {said}");
+                assert!(is_fine || said.contains(&format!("`{key}")), "{key} {value}: {said}");
+            }
+        }
+    }
+    // the COM is within the corners, not on their hull
+    for (low, is_fine) in [("-0.001", true), ("0.0", false), ("0.001", false)] {
+        let polygon = format!("polygon = [[-0.5, {low}], [0.5, {low}], [0.0, 0.8]]");
+        let said = scenario(&SCENARIO.replacen("radius = 0.5", &polygon, 1)).err();
+        assert_eq!(said.is_none(), is_fine, "{low}");
+    }
+    // names of cases are those of files
+    let said = scenario(&SCENARIO.replacen("\"still\"", "\"SPIN\"", 1)).expect_err("one file").to_string();
+    assert!(said.contains("`case[1].name` is \"SPIN\""), "{said}");
 }
 
 /// Smooth motion is integrated adaptively; torques that are held or limited give it kinks.
@@ -1199,6 +1254,8 @@ fn the_integrator_follows_from_the_torques() {
     assert_eq!(of("", ""), [adaptive(1e-10), adaptive(1e-10)]);
     assert_eq!(of("tolerance = 1e-12", "integrator = \"rk4\""), [adaptive(1e-12), fixed]);
     assert_eq!(of("torque_limits = 3.0", "control = \"hold\"\nsample_time = 0.1"), [fixed, fixed]);
+    assert_eq!(of("sample_time = 0.1", "control = \"hold\"\ntorque_limits = 3.0"), [fixed, fixed]);
+    assert_eq!(of("", "control = \"stabilise\"\nbase_torque_limit = 1.0"), [adaptive(1e-10), fixed]);
     assert_eq!(of("sample_time = 0.1", "control = \"stabilise\"\nbase_torque_limit = 1.0"), [fixed, fixed]);
     assert_eq!(of("sample_time = 0.1\nintegrator = \"adaptive\"", ""), [adaptive(1e-10), adaptive(1e-10)]);
 }

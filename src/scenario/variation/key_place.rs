@@ -191,6 +191,29 @@ control = "hold"
 derivative_gain = [1.0, 2.0, 3.0, 4.0]
 "#;
 
+    /// The default of a link's COM is that of this link.
+    #[test]
+    fn centres_of_mass_are_those_of_their_links() {
+        let mut scenario = Scenario::parse(TEXT, "it.toml", "".as_ref(), SHIPPED).unwrap_or_else(|e| panic!("{e}"));
+        for (arm, known) in scenario.layout.arms.iter_mut().enumerate() {
+            for (link, known) in known.links.iter_mut().enumerate() {
+                known.com = [[0.1, 0.2], [0.3, 0.4]][arm].map(|x| x + [0.0, 1.0][link]);
+            }
+        }
+        let layout = scenario.layout.to_toml();
+        for (arm, known) in scenario.layout.arms.iter().enumerate() {
+            for (link, known) in known.links.iter().enumerate() {
+                let lines = layout.lines().filter(|line| !line.starts_with("com"));
+                let mut tree: Table = lines.collect::<Vec<_>>().join("\n").parse().expect("TOML");
+                let path = KeyPath::parse(&format!("layout.arm.arm{}.link[{link}].com[0]", arm + 1)).expect("a path");
+                let place = place(&mut tree, &path, &scenario).expect("a place");
+                set(&mut tree, &place, Value::Float(5.5));
+                let com = tree["arm"][arm]["link"][link]["com"].clone();
+                assert_eq!(com, Value::from(vec![5.5, known.com[1]]), "{arm} {link}");
+            }
+        }
+    }
+
     /// A list that is not given, or one number for all joints, is written out with the scenario's values before one of its
     /// elements is set.
     #[test]
