@@ -143,8 +143,10 @@ fn steps_under_limits_have_the_order_one() {
 /// Adaptive steps: a tenth of the difference from those of a tolerance a hundred times as large.
 #[test]
 fn adaptive_steps_are_compared_with_looser_ones() {
-    let [found, looser] = [1e-7, 1e-5]
-        .map(|tolerance| run(Integrator::Adaptive { tolerance }, &mut ZeroTorque, &initial(), [20.0 * STEP, STEP]));
+    let both = |timing: [f64; 2]| {
+        [1e-7, 1e-5].map(|tolerance| run(Integrator::Adaptive { tolerance }, &mut ZeroTorque, &initial(), timing))
+    };
+    let [found, looser] = both([20.0 * STEP, 20.0 * STEP]);
     check("adaptive", found.path_error, 0.1 * largest(found.samples.iter(), looser.samples.iter()));
     // with their signs, of the robot alone
     let at_end = [&found, &looser].map(|phase| {
@@ -156,6 +158,25 @@ fn adaptive_steps_are_compared_with_looser_ones() {
             at_end[1][i].iter().zip(&at_end[0][i]).map(|(looser, found)| 0.1 * (looser - found)).collect();
         assert_close("at the end", errors, &expected, tolerance::SAME_STEPS);
         assert!(expected.iter().any(|error| error.abs() > 1e-8), "{expected:?}");
+    }
+}
+
+/// Over many steps of a phase they are compared after some, which shows the error as well, and in any case where it ends.
+#[test]
+fn adaptive_steps_are_compared_at_the_end_of_a_phase() {
+    let mut last = [const { Vec::new() }; 2];
+    for steps in [19.0, 20.0, 21.0, 22.0, 23.0] {
+        let [found, exact] = [1e-7, 1e-13].map(|tolerance| {
+            run(Integrator::Adaptive { tolerance }, &mut ZeroTorque, &initial(), [steps * STEP, STEP])
+        });
+        let error = largest(found.samples.iter(), exact.samples.iter());
+        assert!((0.5..30.0).contains(&(found.path_error / error)), "{steps}: {} {error}", found.path_error);
+        let [of_end, exact] = [&found, &exact].map(Phase::end);
+        let at_end = largest([of_end].into_iter(), [exact].into_iter());
+        let estimated = found.end_error[0].iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+        assert!((0.2..30.0).contains(&(estimated / at_end)), "{steps}: {estimated} {at_end}");
+        assert_ne!(found.end_error, last, "{steps}");
+        last = found.end_error;
     }
 }
 
