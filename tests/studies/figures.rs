@@ -321,7 +321,7 @@ mod drawn {
         scenario.targets[ball].yaw = 0.7;
         let all = figures(&scenario, &study);
         let panel = &all.iter().find(|figure| figure.name == "initial_configuration").expect("the figure").panels[0];
-        let circles = panel.series.iter().filter(|series| series.label.is_none());
+        let circles = panel.series.iter().filter(|series| matches!(series.mark, Mark::Points(_)));
         let links: Vec<usize> = scenario.layout.arms.iter().map(|arm| arm.links.len()).collect();
         assert_eq!(circles.map(|series| series.points.len()).collect::<Vec<_>>(), links);
         let target = &scenario.targets[ball];

@@ -77,8 +77,8 @@ fn what_the_page_says() {
     };
     let html = page(&report, "again");
     assert!(html.contains("captured in <b>3</b> of 4 cases with a result, 75.0 %"), "{html}");
-    assert_eq!(cells(&html, "Extremes"), [["impulse", "-2.5", "7", "4.5", "3"]]);
-    assert_eq!(cells(&html, "Rank correlations"), [["impulse", "-0.50", "0.50", "·", "·", "–"]]);
+    assert_eq!(cells(&html, "Extremes"), [["impulse", "−2.5", "7", "4.5", "3"]]);
+    assert_eq!(cells(&html, "Rank correlations"), [["impulse", "−0.50", "0.50", "·", "·", "–"]]);
     assert_eq!(cells(&html, "First-order indices"), [["impulse", "0.25", "·", "–", "0.50", "1.00"]]);
     // twenty kinds of failures, and a note only where there are more
     assert_eq!(cells(&html, "Failures").len(), 20);
