@@ -27,7 +27,8 @@ pub(crate) struct Subdivision {
     weights: Vec<f64>,
     /// Most bisections of an interval; 0 where the interpolant is not compared.
     divisions: u32,
-    middle: Vec<f64>,
+    /// Memory of [`bisect`](Self::bisect).
+    rights: Vec<(f64, Vec<f64>)>,
     /// The ends of the last parts; nothing where the interpolant is not compared.
     continued: ContinuedMotion,
     /// Memory of knots that are gone.
@@ -50,7 +51,7 @@ impl Subdivision {
             knots: Vec::new(),
             weights,
             divisions,
-            middle: Vec::new(),
+            rights: Vec::new(),
             continued: ContinuedMotion::default(),
             spare: Vec::new(),
             found,
@@ -110,10 +111,16 @@ impl Subdivision {
     }
 
     fn push(&mut self, time: f64, state: &[f64]) {
+        let own = self.copy(state);
+        self.knots.push((time, own));
+    }
+
+    /// A copy in memory of knots that are gone.
+    fn copy(&mut self, state: &[f64]) -> Vec<f64> {
         let mut own = self.spare.pop().unwrap_or_default();
         own.clear();
         own.extend_from_slice(state);
-        self.knots.push((time, own));
+        own
     }
 
     /// The intervals of the part, in order.
@@ -129,24 +136,41 @@ impl Subdivision {
 
     fn bisect(&mut self, [from, to]: [f64; 2], end: &[f64], state_at: &mut StateAt<'_>) -> Result<(), Error> {
         let shortest = (to - from) * 0.5_f64.powi(self.divisions.cast_signed());
+        let last = self.copy(end);
         // the states to the right, the nearest last
-        let mut rights = vec![(to, end.to_vec())];
+        let mut rights = std::mem::take(&mut self.rights);
+        rights.clear();
+        rights.push((to, last));
         while let Some(right) = rights.pop() {
-            let (time, state) = self.knots.last().expect("the start");
-            let middle = f64::midpoint(*time, right.0);
-            if right.0 - time > 1.5 * shortest && middle > *time && middle < right.0 {
-                let mut between = std::mem::take(&mut self.middle);
-                state_at(middle, &mut between)?;
-                let (time, state) = (*time, state.clone());
-                if !self.is_reproduced([time, right.0], [&state, &right.1], (middle, &between))? {
-                    rights.extend([right, (middle, between)]);
-                    continue;
-                }
-                self.middle = between;
+            let knot @ (time, _) = self.knots.pop().expect("the start");
+            let middle = f64::midpoint(time, right.0);
+            let divides = right.0 - time > 1.5 * shortest && middle > time && middle < right.0;
+            let divided = if divides { self.middle(&knot, &right, middle, state_at) } else { Ok(None) };
+            self.knots.push(knot);
+            match divided? {
+                Some(between) => rights.extend([right, (middle, between)]),
+                None => self.knots.push(right),
             }
-            self.knots.push(right);
         }
+        self.rights = rights;
         Ok(())
+    }
+
+    /// The state in the middle of an interval, where the interpolant does not pass through it.
+    fn middle(
+        &mut self,
+        (from, start): &(f64, Vec<f64>),
+        (to, end): &(f64, Vec<f64>),
+        middle: f64,
+        state_at: &mut StateAt<'_>,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let mut between = self.spare.pop().unwrap_or_default();
+        state_at(middle, &mut between)?;
+        if self.is_reproduced([*from, *to], [start, end], (middle, &between))? {
+            self.spare.push(between);
+            return Ok(None);
+        }
+        Ok(Some(between))
     }
 
     /// Whether the interpolant between two states passes through one between them.
