@@ -68,7 +68,7 @@ impl PathWorkspace {
 
     /// The states of two frames at a time within the interval whose bounds were computed, with their twists in the frame
     /// that carries both.
-    fn states(
+    pub(super) fn states(
         &mut self,
         motions: &FrameKinematics<'_>,
         part: &impl PathPart,
