@@ -144,8 +144,8 @@ impl Subdivision {
         while let Some(right) = rights.pop() {
             let knot @ (time, _) = self.knots.pop().expect("the start");
             let middle = f64::midpoint(time, right.0);
-            let divides = right.0 - time > 1.5 * shortest && middle > time && middle < right.0;
-            let divided = if divides { self.middle(&knot, &right, middle, state_at) } else { Ok(None) };
+            let is_long = right.0 - time > 1.5 * shortest && middle > time && middle < right.0;
+            let divided = if is_long { self.middle(&knot, &right, middle, state_at) } else { Ok(None) };
             self.knots.push(knot);
             match divided? {
                 Some(between) => rights.extend([right, (middle, between)]),
