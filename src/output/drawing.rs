@@ -8,7 +8,7 @@
 //! let layout = Layout::read("codegen/layouts/dual_arm_3r.toml".as_ref())?;
 //! let svg = drawing(&layout, &[0.7, -1.6, 1.0, 2.4, 1.6, -1.0]);
 //! assert!(svg.starts_with("<svg") && svg.contains(">arm2<"));
-//! assert_eq!(svg.matches("class=\"com\"").count(), 7); // of the base and of six links
+//! assert_eq!(svg.matches("class=\"com\"").count(), 1 + 6 + 1); // of the base, of six links, and in the legend
 //! # Ok::<(), planar_capture::diagnostic::Report>(())
 //! ```
 
