@@ -7,6 +7,9 @@
 
 /// Ends of parts that are kept.
 const KEPT: usize = 3;
+/// Least length of the parts before, in lengths of the part that they continue: differences of nearer ends are rounded, and
+/// divided by their distance three times.
+const LEAST: f64 = 0.125;
 /// Factors of a polynomial of degree 5.
 const FACTORS: usize = 6;
 
@@ -36,10 +39,13 @@ impl ContinuedMotion {
     }
 
     /// Positions and rates at the start of the part by the other ends, into the last argument, and which share of their
-    /// errors is left where the start is known; `None` with too few ends.
+    /// errors is left where the start is known; `None` with too few ends, or too near ones.
     pub(super) fn start_by_others(&mut self, found: [&mut [f64]; 2]) -> Option<f64> {
         let ends = self.ends.first_chunk::<4>()?;
         let [first, second, start, end] = ends.each_ref().map(|(time, _)| *time);
+        if (second - first).min(start - second) < LEAST * (end - start) {
+            return None;
+        }
         self.interpolate([0, 1, 3]);
         self.at(start, found);
         // (t - t₁)(t - t₂)(t₃ - t) is no more than (t₃ - t₁)(t₃ - t₂)²/4 between t₂ and t₃

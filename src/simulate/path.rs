@@ -25,6 +25,9 @@ use std::io;
 
 /// Largest deviation of an omitted state from the interpolant, rad or m, for positions up to 1.
 const TOLERANCE: f64 = 1e-10;
+/// The largest rounding error of a change of positions, relative to these: of a step, of a state within the next one, and of
+/// the frame that is integrated in.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Most states between two knots.
 const MAX_WINDOW: usize = 64;
 
@@ -176,12 +179,21 @@ impl<'a> PathInterval<'a> {
         Ok(Self { span, start: [start.positions, start.rates], end: [end.positions, end.rates] })
     }
 
+    /// The change of a coordinate less that by the mean of the rates at the ends; 0 where it is a rounding error of
+    /// positions, which over a short time would be a fast motion.
+    #[inline]
+    fn bend(&self, i: usize, length: f64) -> f64 {
+        let [start, end] = [self.start[0][i], self.end[0][i]];
+        let bend = end - start - 0.5 * length * (self.start[1][i] + self.end[1][i]);
+        if bend.abs() <= ROUNDING * start.abs().max(end.abs()) { 0.0 } else { bend }
+    }
+
     /// A coordinate less that at the start: u (first + u (second + u third)), over the part u of the interval of this length.
     #[inline]
     fn cubic(&self, i: usize, length: f64) -> [f64; 3] {
-        let change = self.end[0][i] - self.start[0][i];
+        let bend = self.bend(i, length);
         let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
-        [first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change]
+        [first, 0.5 * (last - first) + 3.0 * bend, -2.0 * bend]
     }
 
     /// The times within it, s, at which a coordinate or its rate is largest or smallest.
@@ -213,11 +225,11 @@ impl<'a> PathInterval<'a> {
     /// interpolant's derivatives in Bernstein form.
     fn bounds_of(&self, i: usize, reference: f64) -> [f64; 2] {
         let length = self.span[1] - self.span[0];
-        let slope = (self.end[0][i] - self.start[0][i]) / length - reference;
+        let bend = 3.0 * self.bend(i, length) / length;
         let [v, w] = [self.start[1][i] - reference, self.end[1][i] - reference];
-        let ends = [3.0 * slope - 2.0 * v - w, 3.0 * slope - v - 2.0 * w];
-        let rate = v.abs().max(w.abs()).max((3.0 * slope - v - w).abs());
-        [rate, ends[0].abs().max(ends[1].abs()) * 2.0 / length]
+        let half = 0.5 * (w - v);
+        let rate = v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs());
+        [rate, (half + bend).abs().max((half - bend).abs()) * 2.0 / length]
     }
 }
 
@@ -383,6 +395,26 @@ mod tests {
         }
         let knots = times(&recorder.end()).len();
         assert!((60..400).contains(&knots), "{knots} knots");
+    }
+
+    /// Where a step ends just before a row, the interval between them is as short as a rounding error of the time.
+    #[test]
+    fn an_interval_of_no_time_has_the_rates_of_its_ends() {
+        for (x, length) in [(3.0, 1e-14), (3.0, 1e-11), (-700.0, 1e-13), (1e6, 1e-9), (1e-3, 1e-12)] {
+            for ulps in [-2.0, -1.0, 0.0, 1.0, 2.0] {
+                let (start, rates) = ([x], [0.1, 0.1 + 1e-15]);
+                let end = [x + 0.1 * length + ulps * f64::EPSILON * x];
+                let interval =
+                    PathInterval { span: [0.0, length], start: [&start, &rates[..1]], end: [&end, &rates[1..]] };
+                let times = interval.extremes(0).into_iter().flatten().chain([0.3 * length, 0.8 * length]);
+                for rate in times.map(|time| interval.coordinate_at(0, time)[1]) {
+                    assert!((rate - 0.1).abs() < 1e-12, "{x} {length} {ulps}: {rate}");
+                }
+                let (mut rate, mut acceleration) = ([0.0], [0.0]);
+                interval.bounds(|_| 0.0, &mut rate, &mut acceleration);
+                assert!(rate[0] < 0.1 + 1e-12 && acceleration[0] <= 2e-15 / length, "{x} {length}: {acceleration:?}");
+            }
+        }
     }
 
     #[test]

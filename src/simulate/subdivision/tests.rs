@@ -135,6 +135,21 @@ fn a_motion_is_continued() {
     assert!(states[3] == 0 && states[4] > 0, "{states:?}");
 }
 
+/// Where a part is short beside the next one, as where a step ends just before a row, its ends show nothing of the motion
+/// beyond: their differences are rounded.
+#[test]
+fn parts_that_are_too_short_to_continue() {
+    for k in 0..3000_u32 {
+        let short = 1e-12 * 1.009_f64.powf(f64::from(k));
+        let (rate, phase) = (0.3, 1.7 * f64::from(k));
+        let motion = |t: f64| [f64::sin(rate * t + phase), rate * f64::cos(rate * t + phase)];
+        for before in [&[0.0, 0.25][..], &[0.2, 0.25], &[0.1, 0.2, 0.25]] {
+            let last = before[before.len() - 1];
+            divide(10, 3, &motion, &[before, &[last + short, last + short + 0.005]].concat());
+        }
+    }
+}
+
 /// What no cubic follows is bisected so often and no more, and never into intervals without a length.
 #[test]
 fn bisections_have_an_end() {
