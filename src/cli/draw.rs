@@ -3,6 +3,7 @@
 use super::{CommandError, Force, check_new, layout, write_new};
 use crate::output::drawing::drawing;
 use crate::registry::Robots;
+use std::f64::consts::PI;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -27,10 +28,11 @@ pub struct Arguments {
     force: Force,
 }
 
-/// As of a scenario's joint angles: in rad, at most 1e6 of them, beyond which whole turns take the digits.
+/// As of a scenario's joint angles: in rad, at most two turns, beyond which they are taken for degrees.
 fn angle(text: &str) -> Result<f64, String> {
-    let value = text.trim().parse().ok().filter(|value: &f64| value.abs() <= 1e6);
-    value.ok_or_else(|| "expected numbers with commas between them, joint angles in rad".to_owned())
+    let wanted = "expected numbers with commas between them, joint angles in rad";
+    let value: f64 = text.trim().parse().ok().filter(|value: &f64| value.is_finite()).ok_or(wanted)?;
+    if value.abs() <= 4.0 * PI { Ok(value) } else { Err(format!("{wanted}: this looks like degrees")) }
 }
 
 /// Draws the layout.

@@ -23,6 +23,8 @@ fn angles_that_are_not_one_for_each_joint_are_refused() {
         ("0.1,x", &["'x'", "joint angles in rad"]),
         ("nan", &["'nan'", "joint angles in rad"]),
         ("1e300", &["'1e300'"]),
+        ("0.1,-40", &["'-40'", "joint angles in rad: this looks like degrees"]),
+        ("inf", &["'inf'", "joint angles in rad"]),
     ] {
         let (code, out, err) = said(&["draw", "dual_arm_3r", "--angles", angles]);
         assert_eq!((code, out.as_str()), (2, ""), "{angles}");

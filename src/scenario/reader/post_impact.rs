@@ -35,9 +35,9 @@ fn control(table: &Table<'_>, joints: &Joints<'_>, own: &[LawFormat]) -> Option<
             Some("without control there are no torques, expected `control` `hold`, `damping` or `stabilise` with it")
         }
         PostCaptureControl::Hold { .. } => Some("only `control = \"stabilise\"` acts on the base"),
-        PostCaptureControl::Damping { .. } => {
-            Some("damping has a derivative_gain alone, expected `control = \"hold\"` or `\"stabilise\"` with it")
-        }
+        PostCaptureControl::Damping { .. } => Some(
+            "damping has a derivative_gain alone: `control = \"hold\"` holds angles, `\"stabilise\"` acts on the base",
+        ),
         PostCaptureControl::Stabilise { .. } => {
             Some("stabilisation wants no angles, expected `control = \"hold\"` with it")
         }
