@@ -104,29 +104,44 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
         OnOverlap::Report => overlap.depth > TOLERATED_DEPTH,
         OnOverlap::Fail | OnOverlap::Stop => true,
     };
-    let mut warnings: Vec<Warning> = Vec::new();
+    // the same for several cases once, with their names unless it is all of them
+    let mut found: Vec<(String, Vec<&str>)> = Vec::new();
     for case in &result.cases {
         let overlaps = case.clearance.overlaps.iter().filter(|overlap| !overlap.is_default);
-        let deep = overlaps.filter(is_deep).min_by(|a, b| a.span[0].total_cmp(&b.span[0]));
-        let Some(overlap) = deep else { continue };
-        let [a, b] = &overlap.bodies;
-        let why = format!(
-            "`{a}` and `{b}` are inside each other along the planned path, from {} s and by {} m",
-            short(overlap.span[0]),
-            short(overlap.depth)
-        );
-        // the same for several cases
-        if warnings.iter().all(|warning| warning.why != why) {
-            let help = "choose another approach, or an `outline` that does not go beyond the end effector where it is to touch; \
-                        `clearance.ignore` says what may overlap";
-            warnings.push(warning("approach", why, help));
+        let deep: Vec<_> = overlaps.filter(is_deep).collect();
+        let Some(why) = first_overlap(&deep) else { continue };
+        match found.iter_mut().find(|(other, _)| *other == why) {
+            Some((_, cases)) => cases.push(&case.name),
+            None => found.push((why, vec![&case.name])),
         }
     }
+    let overlapping = found.into_iter().map(|(why, cases)| {
+        let names = if cases.len() < result.cases.len() { format!("in case `{}`: ", cases.join("`, `")) } else { String::new() };
+        let help = "choose another approach, or an `outline` that does not go beyond the end effector where it is to touch; \
+                    `clearance.ignore` says what may overlap";
+        warning("approach", names + &why, help)
+    });
+    let mut warnings: Vec<Warning> = overlapping.collect();
     warnings.extend(beyond_limits(scenario, &result));
     if has_torques {
         warnings.extend(beyond_torques(scenario, &result.approach));
     }
     Ok(warnings)
+}
+
+/// The first of some overlaps in words, and how many more there are.
+fn first_overlap(overlaps: &[&Overlap]) -> Option<String> {
+    let first = overlaps.iter().min_by(|a, b| a.span[0].total_cmp(&b.span[0]))?;
+    let ([a, b], from, depth) = (&first.bodies, short(first.span[0]), short(first.depth));
+    let more = match overlaps.len() - 1 {
+        0 => String::new(),
+        count => {
+            let deepest = overlaps.iter().map(|overlap| overlap.depth).fold(0.0, f64::max);
+            let noun = if count == 1 { "overlap" } else { "overlaps" };
+            format!("; {count} more {noun} of bodies, the deepest of all by {} m", short(deepest))
+        }
+    };
+    Some(format!("`{a}` and `{b}` are inside each other along the planned path, from {from} s and by {depth} m{more}"))
 }
 
 /// The joints whose planned motion takes larger torques than they have: the arms then lag behind it.
