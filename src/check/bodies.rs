@@ -72,16 +72,12 @@ fn gyration(layout: &Layout) -> Option<Warning> {
 
 /// A link far longer than all others, of any arm: a length in another unit.
 fn long_link(layout: &Layout) -> Option<Warning> {
-    let links = layout.arms.iter().enumerate().flat_map(|(i, arm)| {
-        arm.links.iter().enumerate().map(move |(k, link)| (format!("arm[{i}].link[{k}].length"), link.length))
-    });
-    let mut lengths: Vec<_> = links.filter(|(_, length)| *length > 0.0).collect();
-    lengths.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-    let [(key, longest), (_, next), ..] = &lengths[..] else { return None };
-    (*longest > MAX_LENGTH_RATIO * next).then(|| {
-        let why = format!("{} times as long as the next longest link, {} m", short(longest / next), short(*next));
-        let help = format!("lengths are in m; {} mm are {} m", short(*longest), short(longest / 1000.0));
-        warning(key.as_str(), why, help)
+    let ([arm, link], next) = layout.longest_link()?;
+    let longest = layout.arms[arm].links[link].length;
+    (longest > MAX_LENGTH_RATIO * next).then(|| {
+        let why = format!("{} times as long as the next longest link, {} m", short(longest / next), short(next));
+        let help = format!("lengths are in m; {} mm are {} m", short(longest), short(longest / 1000.0));
+        warning(format!("arm[{arm}].link[{link}].length"), why, help)
     })
 }
 

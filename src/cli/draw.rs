@@ -3,7 +3,7 @@
 use super::{CommandError, Force, check_new, layout, write_new};
 use crate::output::drawing::drawing;
 use crate::registry::Robots;
-use std::f64::consts::PI;
+use crate::scenario::LARGEST_ANGLE;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -32,7 +32,7 @@ pub struct Arguments {
 fn angle(text: &str) -> Result<f64, String> {
     let wanted = "expected numbers with commas between them, joint angles in rad";
     let value: f64 = text.trim().parse().ok().filter(|value: &f64| value.is_finite()).ok_or(wanted)?;
-    if value.abs() <= 4.0 * PI { Ok(value) } else { Err(format!("{wanted}: this looks like degrees")) }
+    if value.abs() <= LARGEST_ANGLE { Ok(value) } else { Err(format!("{wanted}: this looks like degrees")) }
 }
 
 /// Draws the layout.

@@ -29,6 +29,8 @@ pub use clearance::{ClearanceRules, OnOverlap};
 pub use contact::{ContactRules, Detection};
 pub use key_path::{KeyFile, find_key};
 pub use keys::FORMAT;
+#[cfg(feature = "cli")]
+pub(crate) use keys::LARGEST_ANGLE;
 pub use known::{Known, LawFormat, LawFormats, LawNumber, LawNumbers};
 pub use post_impact::{PostCaptureControl, PostImpact};
 pub use source::{ScenarioSource, Source};

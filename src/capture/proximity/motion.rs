@@ -75,6 +75,11 @@ pub(super) fn velocity_of_base(part: &impl PathPart) -> [f64; 2] {
     [rates[1], rates[2]]
 }
 
+/// Bounds of the rate and acceleration of a joint, of those of all coordinates; zeros without a joint.
+fn turning(joint: Option<usize>, [rates, accelerations]: &[Vec<f64>; 2]) -> [f64; 2] {
+    joint.map_or([0.0; 2], |joint| [rates[3 + joint], accelerations[3 + joint]])
+}
+
 impl MotionBound {
     /// Of the speed of points up to `reach` from the origin, less the velocity of the base at the start, m/s.
     pub(in crate::capture) fn speed_within(&self, reach: f64) -> f64 {
@@ -252,34 +257,27 @@ impl<'a> FrameKinematics<'a> {
         };
         part.bounds(reference, rates, accelerations);
         bounds.clear();
-        for (index, place) in self.places.iter().enumerate() {
+        for place in &self.places {
             let bound = match *place {
                 Place::Body(i) => MotionBound::of_body(&coordinates[0][i..i + 3], &coordinates[1][i..i + 3]),
                 Place::Free(Body { twist: [omega, vx, vy], .. }) => {
                     let speed = libm::hypot(vx - bx, vy - by);
                     MotionBound { yaw_rate: omega.abs(), speed, ..MotionBound::default() }
                 }
-                Place::Carried { by, .. } => {
+                Place::Carried { by, distance, joint, .. } => {
                     let carrier = by.map_or_else(MotionBound::default, |by| bounds[by]);
-                    self.carried(index, &carrier, coordinates)
+                    carrier.carried(distance, turning(joint, coordinates))
                 }
             };
             bounds.push(bound);
         }
     }
 
-    /// The bound of a frame from that of the frame that carries it.
-    fn carried(&self, frame: usize, carrier: &MotionBound, [rates, accelerations]: &[Vec<f64>; 2]) -> MotionBound {
-        let Place::Carried { distance, joint, .. } = self.places[frame] else { return *carrier };
-        let turning = joint.map_or([0.0; 2], |joint| [rates[3 + joint], accelerations[3 + joint]]);
-        carrier.carried(distance, turning)
-    }
-
     /// The bound of the motion of a frame relative to one that carries it.
     pub(super) fn bound_in(&self, carrier: usize, frame: usize, coordinates: &[Vec<f64>; 2]) -> MotionBound {
         match self.places[frame] {
-            Place::Carried { by: Some(by), .. } if frame != carrier => {
-                self.carried(frame, &self.bound_in(carrier, by, coordinates), coordinates)
+            Place::Carried { by: Some(by), distance, joint, .. } if frame != carrier => {
+                self.bound_in(carrier, by, coordinates).carried(distance, turning(joint, coordinates))
             }
             _ => MotionBound::default(),
         }

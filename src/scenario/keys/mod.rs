@@ -8,6 +8,8 @@ mod rules;
 mod target;
 
 use crate::format::{Count, Default, Key, Shape, TableFormat};
+#[cfg(feature = "cli")]
+pub(crate) use rules::LARGEST_ANGLE;
 use rules::{JOINT_ANGLE, JOINT_RATE, POSE, TWIST};
 
 /// A scenario file.

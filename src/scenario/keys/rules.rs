@@ -4,7 +4,7 @@ use crate::format::{NumberRule, Shape};
 use std::f64::consts::PI;
 
 /// Two turns; a larger angle is taken for one in degrees.
-pub(super) const LARGEST_ANGLE: f64 = 4.0 * PI;
+pub(crate) const LARGEST_ANGLE: f64 = 4.0 * PI;
 /// rad/s; a faster body turns more often in a second than its angle has digits to show.
 const LARGEST_RATE: f64 = 1e9;
 /// That of light, m/s: no body of mechanics is faster.

@@ -244,6 +244,20 @@ impl Layout {
         all
     }
 
+    /// Indices of the arm and of the link of the longest one, and the length of the next longest one, m; `None` where there
+    /// are no two with a length.
+    #[must_use]
+    pub fn longest_link(&self) -> Option<([usize; 2], f64)> {
+        let of_arm = |(i, arm): (usize, &Arm)| {
+            arm.links.iter().enumerate().map(move |(k, link)| (link.length, [i, k])).collect::<Vec<_>>()
+        };
+        let mut lengths: Vec<_> =
+            self.arms.iter().enumerate().flat_map(of_arm).filter(|(length, _)| *length > 0.0).collect();
+        lengths.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        let [(_, longest), (next, _), ..] = lengths[..] else { return None };
+        Some((longest, next))
+    }
+
     /// Largest [reach](Arm::reach_from_base) of an arm, m.
     #[must_use]
     pub fn reach_from_base(&self) -> f64 {
@@ -285,16 +299,12 @@ impl Layout {
 
     /// The link whose length alone is why: of a length near those of the others the motion would be resolved.
     fn long_link(&self) -> Option<Disproportion> {
-        let all = || self.arms.iter().enumerate().flat_map(|(i, arm)| (0..arm.links.len()).map(move |k| (i, k)));
-        let length = |&(i, k): &(usize, usize)| self.arms[i].links[k].length;
-        let longest = all().max_by(|a, b| length(a).total_cmp(&length(b)))?;
-        let next = all().filter(|link| *link != longest).map(|link| length(&link)).fold(0.0, f64::max);
-        let (value, (arm, link)) = (length(&longest), longest);
+        let ([arm, link], next) = self.longest_link()?;
         let mut shorter = self.clone();
         let other = &mut shorter.arms[arm].links[link];
+        let value = std::mem::replace(&mut other.length, next);
         other.com = other.com.map(|part| part * next / value);
-        other.length = next;
-        let is_why = next > 0.0 && value > LONG * next && Weakest::of(&shorter).share >= LEAST_SHARE;
+        let is_why = value > LONG * next && Weakest::of(&shorter).share >= LEAST_SHARE;
         is_why.then(|| {
             let why = format!(
                 "{:.0} times as long as the next longest link, {next} m: 16 digits do not resolve how the joints of such a \
