@@ -1,17 +1,18 @@
-//! Adaptive steps by Verner's pair of orders 9 and 8, with dense output.
+//! Adaptive steps by a pair of formulas, with dense output.
 
 use super::continuation::Continuation;
 use super::motion::Motion;
-use super::pair::{ALL_STAGES, BLOCK, Blocks, ORDER, PAIR, STAGES, combine, largest_error};
+use super::blocks::{BLOCK, Blocks, combine, largest_error};
+use super::pair::{DORMAND_PRINCE, MOST_STAGES, Pair, VERNER};
 use crate::error::Error;
 
 /// The next step over the one that the error estimate allows.
 const SAFETY: f64 = 0.9;
 /// Least and largest ratio of a step to the one before.
 const RATIOS: [f64; 2] = [0.2, 10.0];
-/// Least part of the allowed step that is taken to end at a requested time: the interpolant takes 9 evaluations beside the
-/// 16 of a step.
-const LANDING: f64 = 0.64;
+/// Least part of the allowed step that is taken to end at a requested time where that pair is the better one: between nearer
+/// times, evaluations of the interpolant are fewer.
+const HALF: f64 = 0.5;
 /// Rejected steps without an accepted one between them that are too many.
 const MOST_REJECTED: u32 = 100;
 
@@ -45,6 +46,12 @@ const MOST_REJECTED: u32 = 100;
 /// ```
 #[derive(Debug)]
 pub struct Adaptive {
+    /// For steps that end at a requested time, and for those that continue beyond it.
+    pairs: [&'static Pair; 2],
+    /// Least part of the allowed step that is taken to end at a requested time.
+    landing: f64,
+    /// Of the last step.
+    pair: &'static Pair,
     tolerance: f64,
     /// Number of entries of x.
     size: usize,
@@ -78,7 +85,22 @@ impl Adaptive {
     /// With this tolerance, relative and absolute; to be [started](Self::start).
     #[must_use]
     pub fn new(tolerance: f64) -> Self {
+        Self::by([&VERNER, &VERNER], VERNER.landing(), tolerance)
+    }
+
+    /// The same for a motion with feedback: where it is fast beside the motion that it follows, steps are as long as they are
+    /// stable. Those that end at a requested time, which are half as long as the allowed ones at least, are of Dormand & Prince's
+    /// pair of order 8: its steps are stable for 6.4 of the shortest time constants in place of 4.4, and take 12 evaluations.
+    #[must_use]
+    pub fn with_feedback(tolerance: f64) -> Self {
+        Self::by([&DORMAND_PRINCE, &VERNER], HALF, tolerance)
+    }
+
+    fn by(pairs: [&'static Pair; 2], landing: f64, tolerance: f64) -> Self {
         Self {
+            pairs,
+            landing,
+            pair: pairs[1],
             tolerance,
             size: 0,
             end: 0.0,
@@ -110,7 +132,7 @@ impl Adaptive {
         };
         self.ends.iter_mut().chain([&mut self.working, &mut self.rate]).for_each(|vector| resize(vector, blocks));
         self.continuation.reset(blocks);
-        resize(&mut self.stages, ALL_STAGES * blocks);
+        resize(&mut self.stages, MOST_STAGES * blocks);
         self.ends[1].as_flattened_mut()[..x.len()].copy_from_slice(x);
         self.span = [time, time];
         motion.derivative(time, x, &mut self.rate.as_flattened_mut()[..x.len()])?;
@@ -154,8 +176,8 @@ impl Adaptive {
         }
         self.add_stages_of_interpolant(motion)?;
         let length = now - before;
-        let weights = PAIR.weights_within((time.max(before) - before) / length);
-        combine(&self.ends[0], length, &weights, &self.stages, &mut self.working);
+        let weights = self.pair.weights_within((time.max(before) - before) / length);
+        combine(&self.ends[0], length, &weights[..self.pair.all_stages()], &self.stages, &mut self.working);
         into.copy_from_slice(&self.working.as_flattened()[..self.size]);
         Ok(())
     }
@@ -196,7 +218,7 @@ impl Adaptive {
         }
         changed.iter_mut().zip(rate).for_each(|(changed, rate)| *changed -= rate);
         let most = of_rate.sqrt().max(norm(changed).sqrt() / short);
-        let by_change = if most <= 1e-15 { short * 1e-3 } else { libm::pow(0.01 / most, 1.0 / ORDER) };
+        let by_change = if most <= 1e-15 { short * 1e-3 } else { libm::pow(0.01 / most, 1.0 / self.pair.order) };
         Ok((100.0 * short).min(by_change))
     }
 
@@ -218,14 +240,15 @@ impl Adaptive {
             }
             let steps = ((wanted - start) / self.step).ceil();
             let even = (wanted - start) / steps;
-            let lands = even >= LANDING * self.step;
+            let lands = even >= self.landing * self.step;
             if lands {
                 self.step = self.step.min(even);
             }
+            self.pair = self.pairs[usize::from(!lands)];
             self.attempts += 1;
             self.stages[..blocks].copy_from_slice(&self.rate);
             self.is_dense = false;
-            let stages = (1..STAGES).try_for_each(|stage| self.add_stage(start, self.step, 1, stage, motion));
+            let stages = (1..self.pair.stages).try_for_each(|stage| self.add_stage(start, self.step, 1, stage, motion));
             // a step that is too long can leave what the motion is defined for; whether a shorter one does is seen then
             let error = match stages {
                 Ok(()) => self.error_at_end(),
@@ -235,7 +258,7 @@ impl Adaptive {
                 }
                 Err(error) => return Err(error),
             };
-            let allowed = SAFETY * libm::pow(error, -1.0 / ORDER);
+            let allowed = SAFETY * libm::pow(error, -1.0 / self.pair.order);
             let [least, most] = RATIOS;
             let ratio = if error.is_finite() { allowed.min(most).max(least) } else { least };
             let length = self.step;
@@ -247,19 +270,23 @@ impl Adaptive {
                 self.next_step = if is_cut { self.next_step.max(self.step) } else { self.step };
                 let x = &self.ends[1].as_flattened()[..self.size];
                 motion.derivative(self.span[1], x, &mut self.rate.as_flattened_mut()[..self.size])?;
-                self.continuation.follow(length, &self.stages, &self.rate);
+                self.continuation.follow(self.pair, length, &self.stages, &self.rate);
                 return Ok(());
             }
             rejected += 1;
         }
     }
 
-    /// The end of a step by the formula of order 9, into working space, and its largest error over the one allowed, by that
-    /// of order 8.
+    /// The end of a step, into working space, and its largest error over the one allowed.
     fn error_at_end(&mut self) -> f64 {
-        let Self { tolerance, step, ends: [_, start], stages, working: end, .. } = self;
-        combine(start, *step, &PAIR.weights, stages, end);
-        largest_error([start, end], *step, &PAIR.errors, stages, *tolerance)
+        let Self { pair, tolerance, step, ends: [_, start], stages, working: end, .. } = self;
+        combine(start, *step, &pair.weights, stages, end);
+        let largest = |row| largest_error([start, end], *step, row, stages, *tolerance);
+        let error = largest(&pair.errors);
+        match &pair.correction {
+            Some(row) if error > 0.0 => error / (1.0 + 0.01 * (largest(row) / error).powi(2)).sqrt(),
+            _ => error,
+        }
     }
 
     /// Evaluates a stage of a step of a length, s, from `start`, s, where x is that of an end of the last step.
@@ -271,14 +298,14 @@ impl Adaptive {
         stage: usize,
         motion: &mut dyn Motion,
     ) -> Result<(), Error> {
-        let Self { size, ends, stages, continuation, working: at, .. } = self;
+        let Self { pair, size, ends, stages, continuation, working: at, .. } = self;
         let blocks = at.len();
-        combine(&ends[end], length, &PAIR.rows[stage], stages, at);
-        if let Some((_, defects)) = PAIR.defects.iter().find(|(of, _)| *of == stage) {
+        combine(&ends[end], length, &pair.rows[stage], stages, at);
+        if let Some(defects) = &pair.defects[stage] {
             continuation.correct(length, defects, at);
         }
         let rate = &mut stages[stage * blocks..(stage + 1) * blocks];
-        let time = start + PAIR.nodes[stage] * length;
+        let time = start + pair.nodes[stage] * length;
         motion.derivative(time, &at.as_flattened()[..*size], &mut rate.as_flattened_mut()[..*size])
     }
 
@@ -290,8 +317,9 @@ impl Adaptive {
         let [start, end] = self.span;
         // the first of them is at the end of the step
         let blocks = self.rate.len();
-        self.stages[STAGES * blocks..(STAGES + 1) * blocks].copy_from_slice(&self.rate);
-        for stage in STAGES + 1..ALL_STAGES {
+        let Pair { stages, .. } = *self.pair;
+        self.stages[stages * blocks..(stages + 1) * blocks].copy_from_slice(&self.rate);
+        for stage in stages + 1..self.pair.all_stages() {
             self.add_stage(start, end - start, 0, stage, motion)?;
         }
         self.is_dense = true;

@@ -5,24 +5,21 @@
 //! motion itself does. With x = p + y the method takes the step of y, and p, a polynomial, is exact: the stages get what
 //! their sums miss of p. Any p will do, and the nearer it is to x, the smaller is y.
 
-use super::pair::{BLOCK, Blocks, STAGES};
-use std::sync::LazyLock;
+use super::blocks::{BLOCK, Blocks};
+use super::pair::{CONTINUED, Pair};
 
-/// Stages of a step, by whose ẋ polynomials of degree 5 continue it, and where they are in it.
-const NODES: [(usize, f64); 5] = [(0, 0.0), (10, 0.253), (8, 0.491_625), (11, 0.662_064_179_541_204_6), (STAGES, 1.0)];
-
-/// Weights of the ẋ of these for the second to the fifth power of time from the end of the step, in lengths of it: those
-/// of Lagrange's polynomials, integrated.
-static WEIGHTS: LazyLock<[[f64; 5]; 4]> = LazyLock::new(|| {
-    let lagrange = NODES.map(|(stage, node)| {
+/// Weights of the ẋ at nodes of a step for the second to the fifth power of time from the end of the step, in lengths of it:
+/// those of Lagrange's polynomials, integrated.
+pub(super) fn continuing_weights(nodes: &[f64; CONTINUED]) -> [[f64; CONTINUED]; 4] {
+    let lagrange: [[f64; CONTINUED]; CONTINUED] = std::array::from_fn(|of| {
         // in powers of the time from the end
         let mut factors = [1.0, 0.0, 0.0, 0.0, 0.0];
-        for (_, other) in NODES.iter().filter(|(other, _)| *other != stage) {
-            let mut product = [0.0; 5];
+        for (_, other) in nodes.iter().enumerate().filter(|(i, _)| *i != of) {
+            let mut product = [0.0; CONTINUED];
             for (i, factor) in factors.iter().enumerate() {
-                product[i] += factor * (1.0 - other) / (node - other);
+                product[i] += factor * (1.0 - other) / (nodes[of] - other);
                 if let Some(next) = product.get_mut(i + 1) {
-                    *next += factor / (node - other);
+                    *next += factor / (nodes[of] - other);
                 }
             }
             factors = product;
@@ -31,7 +28,7 @@ static WEIGHTS: LazyLock<[[f64; 5]; 4]> = LazyLock::new(|| {
     });
     [(1, 2.0), (2, 3.0), (3, 4.0), (4, 5.0)]
         .map(|(power, integrated)| lagrange.map(|factors| factors[power] / integrated))
-});
+}
 
 /// The polynomials.
 #[derive(Debug, Default)]
@@ -53,13 +50,13 @@ impl Continuation {
     }
 
     /// Continues a step of a length, s, by the ẋ of its stages and at its end.
-    pub(super) fn follow(&mut self, length: f64, stages: &[[f64; BLOCK]], end: &[[f64; BLOCK]]) {
+    pub(super) fn follow(&mut self, pair: &Pair, length: f64, stages: &[[f64; BLOCK]], end: &[[f64; BLOCK]]) {
         self.length = length;
-        for (coefficients, weights) in self.coefficients.iter_mut().zip(&*WEIGHTS) {
+        for (coefficients, weights) in self.coefficients.iter_mut().zip(&pair.continuing) {
             for (i, block) in coefficients.iter_mut().enumerate() {
                 *block = [0.0; BLOCK];
-                for ((stage, _), weight) in NODES.iter().zip(weights) {
-                    let rate = if *stage == STAGES { &end[i] } else { &stages[stage * end.len() + i] };
+                for (stage, weight) in pair.continued.iter().zip(weights) {
+                    let rate = if *stage == pair.stages { &end[i] } else { &stages[stage * end.len() + i] };
                     block.iter_mut().zip(rate).for_each(|(sum, rate)| *sum += length * weight * rate);
                 }
             }

@@ -22,6 +22,8 @@
 #[cfg(feature = "std")]
 mod adaptive;
 #[cfg(feature = "std")]
+mod blocks;
+#[cfg(feature = "std")]
 mod continuation;
 #[cfg(feature = "std")]
 mod motion;

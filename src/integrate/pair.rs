@@ -1,129 +1,162 @@
-//! Verner's "most efficient" pair of orders 9 and 8 with an interpolant of order 9 (`rkv989e`), from the tables of the
-//! crate `differential-equations`, which are full: here without their zeros.
+//! Pairs of explicit formulas, of which the lower one estimates the error of the other, with interpolants; from the tables
+//! of the crate `differential-equations`, which are full: here without their zeros.
 
-use crate::scalar::Real;
+use super::continuation::continuing_weights;
 use differential_equations::tableau::ButcherTableau;
-use multiversion::multiversion;
 use std::sync::LazyLock;
 
-/// Stages of a step.
-pub(super) const STAGES: usize = 16;
-/// With those of the interpolant.
-pub(super) const ALL_STAGES: usize = 26;
-/// The order.
-pub(super) const ORDER: f64 = 9.0;
-/// The degree of the interpolant.
+/// Most stages of a step and its interpolant.
+pub(super) const MOST_STAGES: usize = 26;
+/// The largest degree of an interpolant.
 const DEGREE: usize = 9;
-/// Entries in a block: sums of stages are of whole blocks, in registers. Entries are added one by one, each product and sum
-/// rounded, so that the bits do not depend on the width of the processor's vectors.
-pub(super) const BLOCK: usize = 8;
+/// Nodes through which the motion over a step is continued.
+pub(super) const CONTINUED: usize = 5;
 
 /// Larger defects of stages are not of rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Entries of an integrated vector, the last block filled up with zeros.
-pub(super) type Blocks = Vec<[f64; BLOCK]>;
-
 /// Factors of stages that are not zero.
 type Row = Vec<(usize, f64)>;
 
-/// The coefficients.
+/// The coefficients. A step has its stages, the rate at its end, which is the first stage of the next one, and further stages
+/// of the interpolant.
+#[derive(Debug)]
 pub(super) struct Pair {
+    /// Stages of a step.
+    pub(super) stages: usize,
+    /// The power of a step that its error follows.
+    pub(super) order: f64,
     /// Where in a step a stage is, from 0 to 1.
-    pub(super) nodes: [f64; ALL_STAGES],
+    pub(super) nodes: Vec<f64>,
     /// What a stage adds to the start of the step.
-    pub(super) rows: [Row; ALL_STAGES],
-    /// The same of its end, by the formula of order 9.
+    pub(super) rows: Vec<Row>,
+    /// The same of its end.
     pub(super) weights: Row,
-    /// Those weights less those of order 8.
+    /// Those weights less those of the lower formula.
     pub(super) errors: Row,
+    /// Those weights less those of a formula of order 3, where the error estimated by the lower formula is that much too
+    /// large.
+    pub(super) correction: Option<Row>,
     /// Of each stage `c^q - q Σ a c^(q-1)`, q from 2 to 5, by which the sums of ẋ miss a motion that is a polynomial of time.
     /// It is zero for all but the first few.
-    pub(super) defects: Vec<(usize, [f64; 4])>,
+    pub(super) defects: Vec<Option<[f64; 4]>>,
+    /// Stages by whose ẋ the motion over a step is continued: spread over it, and of the most exact.
+    pub(super) continued: [usize; CONTINUED],
+    /// Their weights in the second to the fifth power of time.
+    pub(super) continuing: [[f64; CONTINUED]; 4],
     /// Of each stage the polynomial of its weight within the step: the factors of s, s² ….
-    interpolant: [[f64; DEGREE]; ALL_STAGES],
+    interpolant: Vec<[f64; DEGREE]>,
 }
 
-/// The pair.
-pub(super) static PAIR: LazyLock<Pair> = LazyLock::new(Pair::new);
+/// Verner's "most efficient" pair of orders 9 and 8 with an interpolant of order 9: the fewest evaluations for a smooth motion.
+pub(super) static VERNER: LazyLock<Pair> = LazyLock::new(|| {
+    let tableau = ButcherTableau::<f64, 16, 26>::rkv989e();
+    let lower = tableau.bh.expect("the pair has a second formula");
+    let interpolant = tableau.bi.expect("the pair has an interpolant");
+    let of_stage = |stage: usize| std::array::from_fn(|power| interpolant[stage][power]);
+    Pair {
+        order: 9.0,
+        errors: differences(&tableau.b, &lower),
+        interpolant: (0..26).map(of_stage).collect(),
+        ..Pair::formula(&tableau, [0, 10, 8, 11, 16])
+    }
+});
+
+/// Dormand & Prince's pair of order 8 with an interpolant of order 7 by Hairer (`dop853`): its steps are stable up to 6.4 times
+/// the shortest time constant, those of the other pair up to 4.4, with three quarters of the evaluations.
+pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
+    let tableau = ButcherTableau::<f64, 12, 16>::dop853();
+    let [third, errors] = [tableau.bh, tableau.er].map(|row| row.expect("the pair has two estimates"));
+    let further = tableau.bi.expect("the pair has an interpolant");
+    // Hairer, Nørsett & Wanner (1993), section II.6: products of s and 1 - s by turns
+    let bases = [[1, 0], [1, 1], [2, 1], [2, 2], [3, 2], [3, 3], [4, 3]].map(product);
+    let of_stage = |stage: usize| {
+        let weight = tableau.b.get(stage).copied().unwrap_or_default();
+        let [start, end] = [0, 12].map(|of| if stage == of { 1.0 } else { 0.0 });
+        let [fourth, fifth, sixth, seventh] = [4, 5, 6, 7].map(|row: usize| further[row][stage]);
+        let factors = [weight, start - weight, 2.0 * weight - start - end, fourth, fifth, sixth, seventh];
+        std::array::from_fn(|power| factors.iter().zip(&bases).map(|(factor, base)| factor * base[power]).sum())
+    };
+    Pair {
+        order: 8.0,
+        errors: differences(&errors, &[]),
+        correction: Some(differences(&tableau.b, &third)),
+        interpolant: (0..16).map(of_stage).collect(),
+        ..Pair::formula(&tableau, [0, 6, 9, 10, 12])
+    }
+});
 
 impl Pair {
-    fn new() -> Self {
-        let ButcherTableau { c, a, b, bh, bi, .. } = ButcherTableau::<f64, STAGES, ALL_STAGES>::rkv989e();
-        let row = |factors: &[f64]| factors.iter().copied().enumerate().filter(|(_, factor)| *factor != 0.0).collect();
-        let lower = bh.expect("the pair has a second formula");
-        let errors: Vec<f64> = b.iter().zip(lower).map(|(high, low)| high - low).collect();
-        let interpolant = bi.expect("the pair has an interpolant");
+    /// The formula of a step, without estimate and interpolant.
+    fn formula<const S: usize, const I: usize>(
+        tableau: &ButcherTableau<f64, S, I>,
+        continued: [usize; CONTINUED],
+    ) -> Self {
+        let ButcherTableau { a, b, .. } = tableau;
+        let mut c = tableau.c;
+        // after the stages of the step comes the rate at its end; the table of `dop853` has no node for it
+        c[S] = 1.0;
         let defect = |stage: usize, power: i32| {
-            let sum =
-                a[stage].iter().zip(c).take(stage).map(|(factor, node)| factor * node.powi(power - 1)).sum::<f64>();
+            let row = a[stage].iter().zip(c).take(stage);
+            let sum = row.map(|(factor, node)| factor * node.powi(power - 1)).sum::<f64>();
             c[stage].powi(power) - f64::from(power) * sum
         };
-        let defects = (1..ALL_STAGES).map(|stage| (stage, [2, 3, 4, 5].map(|power| defect(stage, power))));
+        let defects = |stage| {
+            let defects = [2, 3, 4, 5].map(|power| defect(stage, power));
+            defects.iter().any(|defect| defect.abs() > ROUNDING).then_some(defects)
+        };
         Self {
-            nodes: c,
-            rows: std::array::from_fn(|stage| row(&a[stage][..stage])),
-            weights: row(&b),
-            errors: row(&errors),
-            defects: defects.filter(|(_, defects)| defects.iter().any(|defect| defect.abs() > ROUNDING)).collect(),
-            interpolant: interpolant.map(|of_stage| std::array::from_fn(|power| of_stage[power])),
+            stages: S,
+            order: 0.0,
+            nodes: c.to_vec(),
+            rows: (0..I).map(|stage| differences(&a[stage][..stage], &[])).collect(),
+            weights: differences(b, &[]),
+            errors: Vec::new(),
+            correction: None,
+            defects: (0..I).map(defects).collect(),
+            continued,
+            continuing: continuing_weights(&continued.map(|stage| c[stage])),
+            interpolant: Vec::new(),
         }
     }
 
-    /// The weights of the stages at s, from 0 to 1, within a step.
-    pub(super) fn weights_within(&self, s: f64) -> [(usize, f64); ALL_STAGES] {
+    /// Stages of a step and its interpolant, with the rate at the end.
+    pub(super) fn all_stages(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Least part of the allowed step that is taken to end at a requested time, where the interpolant takes further evaluations.
+    #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+    pub(super) fn landing(&self) -> f64 {
+        self.stages as f64 / (self.all_stages() - 1) as f64
+    }
+
+    /// The weights of the stages at s, from 0 to 1, within a step; of all of them.
+    pub(super) fn weights_within(&self, s: f64) -> [(usize, f64); MOST_STAGES] {
         let polynomial = |factors: &[f64; DEGREE]| factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s;
-        std::array::from_fn(|stage| (stage, polynomial(&self.interpolant[stage])))
+        std::array::from_fn(|stage| (stage, self.interpolant.get(stage).map_or(0.0, polynomial)))
     }
 }
 
-/// `start + step Σ factor stage`, into the last argument; the stages one after the other.
-#[multiversion(targets("x86_64+avx2"))]
-pub(super) fn combine(
-    start: &[[f64; BLOCK]],
-    step: f64,
-    row: &[(usize, f64)],
-    stages: &[[f64; BLOCK]],
-    into: &mut [[f64; BLOCK]],
-) {
-    let blocks = start.len();
-    for (i, (into, start)) in into.iter_mut().zip(start).enumerate() {
-        let sum = sum(row, stages, blocks, i);
-        for ((into, start), sum) in into.iter_mut().zip(start).zip(sum) {
-            *into = start + step * sum;
-        }
-    }
+/// What is not zero of weights less others.
+fn differences(weights: &[f64], others: &[f64]) -> Row {
+    let others = others.iter().copied().chain(std::iter::repeat(0.0));
+    let differences = weights.iter().zip(others).map(|(weight, other)| weight - other);
+    differences.enumerate().filter(|(_, difference)| *difference != 0.0).collect()
 }
 
-/// The largest error of a step between `ends`, `step Σ factor stage`, over the one that is allowed.
-#[multiversion(targets("x86_64+avx2"))]
-pub(super) fn largest_error(
-    ends: [&[[f64; BLOCK]]; 2],
-    step: f64,
-    row: &[(usize, f64)],
-    stages: &[[f64; BLOCK]],
-    tolerance: f64,
-) -> f64 {
-    let mut most = 0.0;
-    let [starts, ends] = ends;
-    for (i, (start, end)) in starts.iter().zip(ends).enumerate() {
-        let error = sum(row, stages, starts.len(), i);
-        for ((start, end), error) in start.iter().zip(end).zip(error) {
-            let allowed = tolerance * (1.0 + start.abs().max(end.abs()));
-            most = Real::maximum(most, (step * error / allowed).abs());
-        }
+/// s to a power times 1 - s to another: the factors of s, s² ….
+fn product([power, of_rest]: [usize; 2]) -> [f64; DEGREE] {
+    let mut factors = [0.0; DEGREE];
+    let mut binomial = 1.0;
+    for i in 0..=of_rest {
+        factors[power + i - 1] = binomial;
+        #[allow(clippy::cast_precision_loss, reason = "small numbers")]
+        let [left, next] = [of_rest - i, i + 1].map(|count| count as f64);
+        binomial *= -left / next;
     }
-    most
+    factors
 }
 
-/// `Σ factor stage` of a block of so many; inlined for the processor of who calls it.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
-fn sum(row: &[(usize, f64)], stages: &[[f64; BLOCK]], blocks: usize, block: usize) -> [f64; BLOCK] {
-    let mut sum = [0.0; BLOCK];
-    for (stage, factor) in row {
-        let stage = &stages[stage * blocks + block];
-        sum.iter_mut().zip(stage).for_each(|(sum, rate)| *sum += factor * rate);
-    }
-    sum
-}
+#[cfg(test)]
+mod tests;

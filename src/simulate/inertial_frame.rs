@@ -47,6 +47,10 @@ impl Control<f64> for InertialFrame<'_> {
         self.law.begin_step(time, model, &state)
     }
 
+    fn has_feedback(&self) -> bool {
+        self.law.has_feedback()
+    }
+
     fn held_steps(&self) -> Option<u32> {
         self.law.held_steps()
     }

@@ -28,8 +28,9 @@ pub(super) struct AdaptiveSteps {
 }
 
 impl AdaptiveSteps {
-    pub(super) fn new(tolerance: f64, duration: f64) -> Self {
-        Self { solver: Adaptive::new(tolerance), duration, until: None, counted: (0, 0.0) }
+    pub(super) fn new(tolerance: f64, duration: f64, has_feedback: bool) -> Self {
+        let solver = if has_feedback { Adaptive::with_feedback(tolerance) } else { Adaptive::new(tolerance) };
+        Self { solver, duration, until: None, counted: (0, 0.0) }
     }
 
     /// Refuses a phase that would have too many steps; `time` is within one of its own of this length, s.

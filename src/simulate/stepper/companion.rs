@@ -55,7 +55,8 @@ impl Companion {
             Integrator::Adaptive { tolerance } => Integrator::Adaptive { tolerance: LOOSER * tolerance },
             fixed => fixed,
         };
-        let (steps, order) = (integrator.steps(duration, x.len()), integrator.properties().order);
+        let steps = integrator.steps(duration, x.len(), equation.control.has_feedback());
+        let order = integrator.properties().order;
         let share = match order.map(|order| 2.0_f64.powi(order)) {
             None => ADAPTIVE_SHARE,
             Some(growth) if equation.control.held_steps().is_some() => growth / (growth - 1.0),

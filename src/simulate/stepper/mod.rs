@@ -120,13 +120,13 @@ impl Integrator {
         }
     }
 
-    /// Its steps, for a phase of `duration` (s) and vectors of `length`.
-    fn steps(self, duration: f64, length: usize) -> Box<dyn Steps> {
+    /// Its steps, for a phase of `duration` (s) and vectors of `length`, under a law with feedback or without.
+    fn steps(self, duration: f64, length: usize, has_feedback: bool) -> Box<dyn Steps> {
         match self {
             Self::RungeKutta4 => Box::new(runge_kutta4::steps(length)),
             Self::SemiImplicitEuler => Box::new(semi_implicit_euler::steps(length)),
             Self::GaussLegendre => Box::new(gauss_legendre::steps(length)),
-            Self::Adaptive { tolerance } => Box::new(adaptive::AdaptiveSteps::new(tolerance, duration)),
+            Self::Adaptive { tolerance } => Box::new(adaptive::AdaptiveSteps::new(tolerance, duration, has_feedback)),
         }
     }
 }
@@ -212,7 +212,7 @@ impl<'a> Stepper<'a> {
         let law = InertialFrame { law: control, origin: frame.origin, velocity: frame.velocity };
         let kink = timing.kink.filter(|_| !integration.integrator.properties().is_adaptive);
         let equation = Equation::new(system, law, kink, form);
-        let steps = integration.integrator.steps(duration, x.len());
+        let steps = integration.integrator.steps(duration, x.len(), equation.control.has_feedback());
         let companion = Companion::new(integration.integrator, duration, &moving, &equation);
         let part = [moving.clone(), moving];
         Ok(Self { equation, steps, companion, last_part: [Vec::new(), Vec::new()], frame, part })

@@ -64,6 +64,12 @@ pub trait Control<T: Real, M: Model<T> + ?Sized = AnyModel<T>> {
         Ok(())
     }
 
+    /// Whether the torques depend on the state: fast feedback limits the steps of an explicit integrator, which may take other
+    /// formulas then.
+    fn has_feedback(&self) -> bool {
+        true
+    }
+
     /// For how many steps from now the torques are constant, valid after [`Control::begin_step`]; `None` for a continuous
     /// law. An adaptive integrator restarts where they change.
     fn held_steps(&self) -> Option<u32> {
@@ -131,6 +137,10 @@ impl<T: Real, M: Model<T> + ?Sized, C: Control<T, M> + ?Sized> Control<T, M> for
         (**self).begin_step(time, model, state)
     }
 
+    fn has_feedback(&self) -> bool {
+        (**self).has_feedback()
+    }
+
     fn held_steps(&self) -> Option<u32> {
         (**self).held_steps()
     }
@@ -172,6 +182,10 @@ impl<T: Real, M: Model<T> + ?Sized> Control<T, M> for ZeroTorque {
     fn joint_torques(&mut self, _: T, _: &M, _: &State<'_, T>, torques: &mut [T]) -> Result<(), Error> {
         torques.fill(T::ZERO);
         Ok(())
+    }
+
+    fn has_feedback(&self) -> bool {
+        false
     }
 }
 
