@@ -176,8 +176,8 @@ impl Adaptive {
         }
         self.add_stages_of_interpolant(motion)?;
         let length = now - before;
-        let weights = self.pair.weights_within((time.max(before) - before) / length);
-        combine(&self.ends[0], length, &weights[..self.pair.all_stages()], &self.stages, &mut self.working);
+        let (weights, count) = self.pair.weights_within((time.max(before) - before) / length);
+        combine(&self.ends[0], length, &weights[..count], &self.stages, &mut self.working);
         into.copy_from_slice(&self.working.as_flattened()[..self.size]);
         Ok(())
     }

@@ -19,13 +19,11 @@ pub(super) fn combine(
     stages: &[[f64; BLOCK]],
     into: &mut [[f64; BLOCK]],
 ) {
-    let blocks = start.len();
-    for (i, (into, start)) in into.iter_mut().zip(start).enumerate() {
-        let sum = sum(row, stages, blocks, i);
-        for ((into, start), sum) in into.iter_mut().zip(start).zip(sum) {
+    for_each_sum(row, stages, start.len(), |i, sum| {
+        for ((into, start), sum) in into[i].iter_mut().zip(&start[i]).zip(sum) {
             *into = start + step * sum;
         }
-    }
+    });
 }
 
 /// The largest `step Σ factor stage` of a step between `ends`, over the error that is allowed.
@@ -39,24 +37,52 @@ pub(super) fn largest_error(
 ) -> f64 {
     let mut most = 0.0;
     let [starts, ends] = ends;
-    for (i, (start, end)) in starts.iter().zip(ends).enumerate() {
-        let error = sum(row, stages, starts.len(), i);
-        for ((start, end), error) in start.iter().zip(end).zip(error) {
+    for_each_sum(row, stages, starts.len(), |i, errors| {
+        for ((start, end), error) in starts[i].iter().zip(&ends[i]).zip(errors) {
             let allowed = tolerance * (1.0 + start.abs().max(end.abs()));
             most = Real::maximum(most, (step * error / allowed).abs());
         }
-    }
+    });
     most
 }
 
-/// `Σ factor stage` of a block of so many; inlined for the processor of who calls it.
+/// `Σ factor stage` of each of so many blocks; inlined for the processor of who calls it, with as many blocks at once as have
+/// place in its registers.
 #[inline(always)]
 #[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
-fn sum(row: &[(usize, f64)], stages: &[[f64; BLOCK]], blocks: usize, block: usize) -> [f64; BLOCK] {
-    let mut sum = [0.0; BLOCK];
-    for (stage, factor) in row {
-        let stage = &stages[stage * blocks + block];
-        sum.iter_mut().zip(stage).for_each(|(sum, rate)| *sum += factor * rate);
+fn for_each_sum(
+    row: &[(usize, f64)],
+    stages: &[[f64; BLOCK]],
+    blocks: usize,
+    mut each: impl FnMut(usize, [f64; BLOCK]),
+) {
+    let mut first = 0;
+    while blocks - first >= 3 {
+        let sums = sums::<3>(row, stages, blocks, first);
+        sums.into_iter().enumerate().for_each(|(i, sum)| each(first + i, sum));
+        first += 3;
     }
-    sum
+    for i in first..blocks {
+        let [sum] = sums(row, stages, blocks, i);
+        each(i, sum);
+    }
+}
+
+/// `Σ factor stage` of blocks from one on.
+#[inline(always)]
+#[allow(clippy::inline_always, reason = "its vectors are those of the caller")]
+fn sums<const N: usize>(
+    row: &[(usize, f64)],
+    stages: &[[f64; BLOCK]],
+    blocks: usize,
+    first: usize,
+) -> [[f64; BLOCK]; N] {
+    let mut sums = [[0.0; BLOCK]; N];
+    for (stage, factor) in row {
+        let of_stage = stages[stage * blocks + first..].first_chunk::<N>().expect("all blocks of a stage");
+        for (sum, rates) in sums.as_flattened_mut().iter_mut().zip(of_stage.as_flattened()) {
+            *sum += factor * rates;
+        }
+    }
+    sums
 }

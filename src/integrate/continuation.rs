@@ -72,6 +72,9 @@ impl Continuation {
         let mut power = ratio;
         for (coefficients, defect) in self.coefficients.iter().zip(defects) {
             power *= ratio;
+            if *defect == 0.0 {
+                continue;
+            }
             let entries = at.as_flattened_mut().iter_mut().zip(coefficients.as_flattened());
             entries.for_each(|(at, coefficient)| *at += power * defect * coefficient);
         }

@@ -44,8 +44,8 @@ pub(super) struct Pair {
     pub(super) continued: [usize; CONTINUED],
     /// Their weights in the second to the fifth power of time.
     pub(super) continuing: [[f64; CONTINUED]; 4],
-    /// Of each stage the polynomial of its weight within the step: the factors of s, s² ….
-    interpolant: Vec<[f64; DEGREE]>,
+    /// Of stages the polynomials of their weights within the step: the factors of s, s² …; those that are not zero.
+    interpolant: Vec<(usize, [f64; DEGREE])>,
 }
 
 /// Verner's "most efficient" pair of orders 9 and 8 with an interpolant of order 9: the fewest evaluations for a smooth motion.
@@ -57,7 +57,7 @@ pub(super) static VERNER: LazyLock<Pair> = LazyLock::new(|| {
     Pair {
         order: 9.0,
         errors: differences(&tableau.b, &lower),
-        interpolant: (0..26).map(of_stage).collect(),
+        interpolant: weighed::<26>(of_stage),
         ..Pair::formula(&tableau, [0, 10, 8, 11, 16])
     }
 });
@@ -81,7 +81,7 @@ pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
         order: 8.0,
         errors: differences(&errors, &[]),
         correction: Some(differences(&tableau.b, &third)),
-        interpolant: (0..16).map(of_stage).collect(),
+        interpolant: weighed::<16>(of_stage),
         ..Pair::formula(&tableau, [0, 6, 9, 10, 12])
     }
 });
@@ -103,7 +103,8 @@ impl Pair {
         };
         let defects = |stage| {
             let defects = [2, 3, 4, 5].map(|power| defect(stage, power));
-            defects.iter().any(|defect| defect.abs() > ROUNDING).then_some(defects)
+            let defects = defects.map(|defect| if defect.abs() > ROUNDING { defect } else { 0.0 });
+            (defects != [0.0; 4]).then_some(defects)
         };
         Self {
             stages: S,
@@ -131,11 +132,19 @@ impl Pair {
         self.stages as f64 / (self.all_stages() - 1) as f64
     }
 
-    /// The weights of the stages at s, from 0 to 1, within a step; of all of them.
-    pub(super) fn weights_within(&self, s: f64) -> [(usize, f64); MOST_STAGES] {
-        let polynomial = |factors: &[f64; DEGREE]| factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s;
-        std::array::from_fn(|stage| (stage, self.interpolant.get(stage).map_or(0.0, polynomial)))
+    /// The weights of the stages at s, from 0 to 1, within a step, and how many these are.
+    pub(super) fn weights_within(&self, s: f64) -> ([(usize, f64); MOST_STAGES], usize) {
+        let mut weights = [(0, 0.0); MOST_STAGES];
+        for (weight, (stage, factors)) in weights.iter_mut().zip(&self.interpolant) {
+            *weight = (*stage, factors.iter().rev().fold(0.0, |sum, factor| sum * s + factor) * s);
+        }
+        (weights, self.interpolant.len())
     }
+}
+
+/// The stages that an interpolant has a weight for.
+fn weighed<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> Vec<(usize, [f64; DEGREE])> {
+    (0..STAGES).map(|stage| (stage, of_stage(stage))).filter(|(_, factors)| *factors != [0.0; DEGREE]).collect()
 }
 
 /// What is not zero of weights less others.
