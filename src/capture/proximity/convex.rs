@@ -3,6 +3,7 @@
 use crate::capture::assembly::turned;
 use crate::outline::{Outline, edges, farthest};
 use earcut::Earcut;
+use multiversion::multiversion;
 
 /// All points within a radius of a convex polygon, a segment or a point, in the frame of its body.
 #[derive(Clone, Debug, PartialEq)]
@@ -155,6 +156,7 @@ const TOUCHING: f64 = 1e-9;
 /// distance of a corner from an edge beside it or from a corner.
 ///
 /// A library (parry2d 0.31) was tried: it finds no depth for overlapping polygons with a common corner or edge line.
+#[multiversion(targets("x86_64+avx2"))]
 pub(in crate::capture) fn separation(a: &ConvexPart, b: &PlacedPart) -> Separation {
     let mut deepest = Separation { distance: f64::NEG_INFINITY, normal: [1.0, 0.0], edge_of: None };
     let mut beside = Separation { distance: f64::INFINITY, ..deepest };

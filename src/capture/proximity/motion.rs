@@ -6,6 +6,7 @@ use crate::frames::{Frame, FrameMotion};
 use crate::scalar::Scalar;
 use crate::simulate::path::PathPart;
 use crate::simulate::system::Body;
+use multiversion::multiversion;
 
 /// Where a frame is during a phase.
 #[derive(Clone, Copy)]
@@ -138,10 +139,11 @@ impl FrameState {
         (sin, cos)
     }
 
-    /// Moves with another frame: the origin is where it was in that one, and the yaw rate is known.
-    fn carry(&mut self, by: &Self) {
-        let ([_, x, y], [_, ox, oy], [omega, vx, vy]) = (self.pose, by.pose, by.twist);
-        let [dx, dy] = by.rotated([x, y]);
+    /// Moves with another frame, in which the origin is at [x, y]; the yaw rate is known.
+    #[inline]
+    fn carry(&mut self, origin: [f64; 2], by: &Self) {
+        let ([_, ox, oy], [omega, vx, vy]) = (by.pose, by.twist);
+        let [dx, dy] = by.rotated(origin);
         (self.pose[1], self.pose[2]) = (ox + dx, oy + dy);
         (self.twist[1], self.twist[2]) = (vx - omega * dy, vy + omega * dx);
     }
@@ -199,44 +201,8 @@ impl<'a> FrameKinematics<'a> {
     }
 
     /// The states of all frames where the coordinates and their rates are these.
-    pub(super) fn states(&self, time: f64, [positions, rates]: &[Vec<f64>; 2], states: &mut Vec<FrameState>) {
-        let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
-        states.clear();
-        for place in &self.places {
-            let (pose, twist) = match *place {
-                Place::Body(first) => (three(positions, first), three(rates, first)),
-                Place::Free(body) => {
-                    let Body { pose, twist, .. } = body.after(time);
-                    (pose, twist)
-                }
-                Place::Carried { by, pose: [angle, x, y], joint, .. } => {
-                    let FrameState { pose: [yaw, ..], twist: [omega, ..], .. } =
-                        by.map_or(FrameState::INERTIAL, |by| states[by]);
-                    let [angle, rate] =
-                        joint.map_or([angle, 0.0], |joint| [angle + positions[3 + joint], rates[3 + joint]]);
-                    ([yaw + angle, x, y], [omega + rate, 0.0, 0.0])
-                }
-            };
-            states.push(FrameState { pose, twist, direction: (0.0, 1.0) });
-        }
-        for four in self.turning.chunks(4) {
-            let mut yaws = [0.0; 4];
-            yaws.iter_mut().zip(four).for_each(|(yaw, index)| *yaw = states[*index].pose[0]);
-            let directions = Scalar::sin_cos_all(yaws);
-            four.iter().zip(directions).for_each(|(index, direction)| states[*index].direction = direction);
-        }
-        for (index, place) in self.places.iter().enumerate() {
-            if let Place::Carried { by, joint, turn, .. } = *place {
-                let carrier = by.map_or(FrameState::INERTIAL, |by| states[by]);
-                let state = &mut states[index];
-                state.carry(&carrier);
-                if joint.is_none() {
-                    let (sin, cos) = turn;
-                    let [cos, sin] = carrier.rotated([cos, sin]);
-                    state.direction = (sin, cos);
-                }
-            }
-        }
+    pub(super) fn states(&self, time: f64, coordinates: &[Vec<f64>; 2], states: &mut Vec<FrameState>) {
+        states_of(&self.places, &self.turning, time, coordinates, states);
     }
 
     /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start; `coordinates`
@@ -280,6 +246,50 @@ impl<'a> FrameKinematics<'a> {
                 self.bound_in(carrier, by, coordinates).carried(distance, turning(joint, coordinates))
             }
             _ => MotionBound::default(),
+        }
+    }
+}
+
+/// The states of frames at these places, of which some have a yaw of their own.
+#[multiversion(targets("x86_64+avx2"))]
+fn states_of(
+    places: &[Place<'_>],
+    turning: &[usize],
+    time: f64,
+    [positions, rates]: &[Vec<f64>; 2],
+    states: &mut Vec<FrameState>,
+) {
+    let three = |values: &[f64], i: usize| values[i..].first_chunk::<3>().copied().expect("three coordinates");
+    states.resize(places.len(), FrameState::INERTIAL);
+    for (index, place) in places.iter().enumerate() {
+        let (before, rest) = states.split_at_mut(index);
+        let state = &mut rest[0];
+        match *place {
+            Place::Body(first) => (state.pose, state.twist) = (three(positions, first), three(rates, first)),
+            Place::Free(body) => Body { pose: state.pose, twist: state.twist, .. } = body.after(time),
+            Place::Carried { by, pose: [angle, ..], joint, .. } => {
+                let carrier = by.map_or(&FrameState::INERTIAL, |by| &before[by]);
+                let [angle, rate] =
+                    joint.map_or([angle, 0.0], |joint| [angle + positions[3 + joint], rates[3 + joint]]);
+                (state.pose[0], state.twist[0]) = (carrier.pose[0] + angle, carrier.twist[0] + rate);
+            }
+        }
+    }
+    for four in turning.chunks(4) {
+        let mut yaws = [0.0; 4];
+        yaws.iter_mut().zip(four).for_each(|(yaw, index)| *yaw = states[*index].pose[0]);
+        let directions = Scalar::sin_cos_all(yaws);
+        four.iter().zip(directions).for_each(|(index, direction)| states[*index].direction = direction);
+    }
+    for (index, place) in places.iter().enumerate() {
+        if let Place::Carried { by, pose: [_, x, y], joint, turn: (sin, cos), .. } = *place {
+            let (before, rest) = states.split_at_mut(index);
+            let (carrier, state) = (by.map_or(&FrameState::INERTIAL, |by| &before[by]), &mut rest[0]);
+            state.carry([x, y], carrier);
+            if joint.is_none() {
+                let [cos, sin] = carrier.rotated([cos, sin]);
+                state.direction = (sin, cos);
+            }
         }
     }
 }
