@@ -14,13 +14,14 @@
 //! interval.at(0.5, &mut position, &mut rate);
 //! assert_eq!((position, rate), ([0.125], [0.75]));
 //! // the bounds are those of 3 t² and 6 t
-//! interval.bounds(|_| 0.0, &mut rate, &mut acceleration);
+//! interval.bounds(&[0.0], &mut rate, &mut acceleration);
 //! assert_eq!((rate, acceleration), ([3.0], [6.0]));
 //! ```
 
 use crate::error::Error;
 use crate::simulate::knots::Knots;
 use crate::state::split;
+use multiversion::multiversion;
 use std::io;
 
 /// Largest deviation of an omitted state from the interpolant, rad or m, for positions up to 1.
@@ -73,7 +74,7 @@ pub trait PathPart {
     fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]);
 
     /// Bounds of the magnitudes of the rates, less those of a `reference`, and of their derivatives.
-    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]);
+    fn bounds(&self, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]);
 }
 
 /// Consecutive intervals of a path.
@@ -118,15 +119,11 @@ impl PathPart for PathWindow<'_> {
         self.interval(index).at(time, positions, rates);
     }
 
-    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
-        for half in [&mut *rates, &mut *accelerations] {
-            half.fill(0.0);
-        }
+    fn bounds(&self, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]) {
+        rates.fill(0.0);
+        accelerations.fill(0.0);
         for interval in self.intervals() {
-            for (i, (rate, acceleration)) in rates.iter_mut().zip(&mut *accelerations).enumerate() {
-                let [own_rate, own_acceleration] = interval.bounds_of(i, reference(i));
-                (*rate, *acceleration) = (rate.max(own_rate), acceleration.max(own_acceleration));
-            }
+            widen(interval, reference, rates, accelerations);
         }
     }
 }
@@ -179,26 +176,15 @@ impl<'a> PathInterval<'a> {
         Ok(Self { span, start: [start.positions, start.rates], end: [end.positions, end.rates] })
     }
 
-    /// The change of a coordinate less that by the mean of the rates at the ends; 0 where it is a rounding error of
-    /// positions, which over a short time would be a fast motion.
-    #[inline]
-    fn bend(&self, i: usize, length: f64) -> f64 {
-        let [start, end] = [self.start[0][i], self.end[0][i]];
-        let bend = end - start - 0.5 * length * (self.start[1][i] + self.end[1][i]);
-        if bend.abs() <= ROUNDING * start.abs().max(end.abs()) { 0.0 } else { bend }
-    }
-
-    /// A coordinate less that at the start: u (first + u (second + u third)), over the part u of the interval of this length.
-    #[inline]
-    fn cubic(&self, i: usize, length: f64) -> [f64; 3] {
-        let bend = self.bend(i, length);
-        let [first, last] = [length * self.start[1][i], length * self.end[1][i]];
-        [first, 0.5 * (last - first) + 3.0 * bend, -2.0 * bend]
+    /// A coordinate over this interval.
+    fn cubic(&self, i: usize) -> Cubic {
+        let length = self.span[1] - self.span[0];
+        Cubic::new(length, [self.start, self.end].map(|[positions, rates]| [positions[i], rates[i]]))
     }
 
     /// The times within it, s, at which a coordinate or its rate is largest or smallest.
     pub(crate) fn extremes(&self, i: usize) -> [Option<f64>; 3] {
-        let [first, second, third] = self.cubic(i, self.span[1] - self.span[0]);
+        let Cubic { first, second, third, .. } = self.cubic(i);
         // of the rate 3 third u² + 2 second u + first, without a difference of near numbers
         let root = (second * second - 3.0 * third * first).sqrt();
         let sum = -(second + root.copysign(second));
@@ -210,26 +196,69 @@ impl<'a> PathInterval<'a> {
     /// A coordinate and its rate at a time within it, s.
     pub(crate) fn coordinate_at(&self, i: usize, time: f64) -> [f64; 2] {
         let length = self.span[1] - self.span[0];
-        self.coordinate(i, (time - self.span[0]) / length, length)
+        self.cubic(i).at((time - self.span[0]) / length, length)
+    }
+}
+
+/// A coordinate over an interval: start + u (first + u (second + u third)) over the part u of it.
+struct Cubic {
+    start: f64,
+    first: f64,
+    second: f64,
+    third: f64,
+}
+
+impl Cubic {
+    /// From the coordinate and its rate at the ends of an interval of a length, s.
+    #[inline]
+    fn new(length: f64, ends @ [[start, v], [_, w]]: [[f64; 2]; 2]) -> Self {
+        let bend = bend(length, ends);
+        let [first, last] = [length * v, length * w];
+        Self { start, first, second: 0.5 * (last - first) + 3.0 * bend, third: -2.0 * bend }
     }
 
-    /// A coordinate and its rate over the part u of the interval.
+    /// The coordinate and its rate.
     #[inline]
-    fn coordinate(&self, i: usize, u: f64, length: f64) -> [f64; 2] {
-        let [first, second, third] = self.cubic(i, length);
-        let position = self.start[0][i] + u * (first + u * (second + u * third));
+    fn at(&self, u: f64, length: f64) -> [f64; 2] {
+        let Self { start, first, second, third } = self;
+        let position = start + u * (first + u * (second + u * third));
         [position, (first + u * (2.0 * second + u * 3.0 * third)) / length]
     }
+}
 
-    /// Bounds of the magnitudes of a rate, less a reference, and of its derivative, by the control points of the
-    /// interpolant's derivatives in Bernstein form.
-    fn bounds_of(&self, i: usize, reference: f64) -> [f64; 2] {
-        let length = self.span[1] - self.span[0];
-        let bend = 3.0 * self.bend(i, length) / length;
-        let [v, w] = [self.start[1][i] - reference, self.end[1][i] - reference];
+/// The change of a coordinate less that by the mean of the rates at the ends; 0 where it is a rounding error of
+/// positions, which over a short time would be a fast motion.
+#[inline]
+fn bend(length: f64, [[start, v], [end, w]]: [[f64; 2]; 2]) -> f64 {
+    let bend = end - start - 0.5 * length * (v + w);
+    if bend.abs() <= ROUNDING * start.abs().max(end.abs()) { 0.0 } else { bend }
+}
+
+/// The coordinates over the part u of an interval, and their rates; all at once in the processor's vectors.
+#[multiversion(targets("x86_64+avx2"))]
+fn fill(interval: PathInterval<'_>, u: f64, positions: &mut [f64], rates: &mut [f64]) {
+    let PathInterval { span: [from, to], start: [x, v], end: [y, w] } = interval;
+    let (length, size) = (to - from, positions.len());
+    let ([x, v, y, w], rates) = ([x, v, y, w].map(|values| &values[..size]), &mut rates[..size]);
+    for i in 0..size {
+        [positions[i], rates[i]] = Cubic::new(length, [[x[i], v[i]], [y[i], w[i]]]).at(u, length);
+    }
+}
+
+/// Widens bounds of the magnitudes of rates, less those of a reference, and of their derivatives, to those over an interval:
+/// the control points of the interpolant's derivatives in Bernstein form.
+#[multiversion(targets("x86_64+avx2"))]
+fn widen(interval: PathInterval<'_>, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]) {
+    let PathInterval { span: [from, to], start: [x, v], end: [y, w] } = interval;
+    let (length, size) = (to - from, rates.len());
+    let [x, v, y, w, reference] = [x, v, y, w, reference].map(|values| &values[..size]);
+    let accelerations = &mut accelerations[..size];
+    for i in 0..size {
+        let bend = 3.0 * bend(length, [[x[i], v[i]], [y[i], w[i]]]) / length;
+        let [v, w] = [v[i] - reference[i], w[i] - reference[i]];
         let half = 0.5 * (w - v);
-        let rate = v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs());
-        [rate, (half + bend).abs().max((half - bend).abs()) * 2.0 / length]
+        rates[i] = rates[i].max(v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs()));
+        accelerations[i] = accelerations[i].max((half + bend).abs().max((half - bend).abs()) * 2.0 / length);
     }
 }
 
@@ -244,16 +273,13 @@ impl PathPart for PathInterval<'_> {
 
     fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
         let length = self.span[1] - self.span[0];
-        let u = (time - self.span[0]) / length;
-        for (i, (position, rate)) in positions.iter_mut().zip(rates).enumerate() {
-            [*position, *rate] = self.coordinate(i, u, length);
-        }
+        fill(*self, (time - self.span[0]) / length, positions, rates);
     }
 
-    fn bounds(&self, reference: impl Fn(usize) -> f64, rates: &mut [f64], accelerations: &mut [f64]) {
-        for (i, (rate, acceleration)) in rates.iter_mut().zip(accelerations).enumerate() {
-            [*rate, *acceleration] = self.bounds_of(i, reference(i));
-        }
+    fn bounds(&self, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]) {
+        rates.fill(0.0);
+        accelerations.fill(0.0);
+        widen(*self, reference, rates, accelerations);
     }
 }
 
@@ -376,7 +402,7 @@ mod tests {
                 assert!((position[0] - exact).abs() < 2.0 * TOLERANCE, "{time}: {}", position[0] - exact);
                 assert!((rate[0] - exact_rate).abs() < 1e-6, "{time}: {}", rate[0] - exact_rate);
                 let (mut largest, mut acceleration) = ([0.0], [0.0]);
-                interval.bounds(|_| 0.0, &mut largest, &mut acceleration);
+                interval.bounds(&[0.0], &mut largest, &mut acceleration);
                 assert!(rate[0].abs() <= largest[0] + 1e-9, "{time}: {} > {}", rate[0], largest[0]);
                 assert!(acceleration[0] >= 9.0 * exact.abs() - 0.02, "{time}: {}", acceleration[0]);
             }
@@ -411,7 +437,7 @@ mod tests {
                     assert!((rate - 0.1).abs() < 1e-12, "{x} {length} {ulps}: {rate}");
                 }
                 let (mut rate, mut acceleration) = ([0.0], [0.0]);
-                interval.bounds(|_| 0.0, &mut rate, &mut acceleration);
+                interval.bounds(&[0.0], &mut rate, &mut acceleration);
                 assert!(rate[0] < 0.1 + 1e-12 && acceleration[0] <= 2e-15 / length, "{x} {length}: {acceleration:?}");
             }
         }

@@ -206,21 +206,24 @@ impl<'a> FrameKinematics<'a> {
     }
 
     /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start; `coordinates`
-    /// holds those of the rates and their derivatives afterwards.
+    /// holds those of the rates and their derivatives afterwards, `reference` the rates of this motion of all.
     pub(in crate::capture) fn bounds(
         &self,
         part: &impl PathPart,
+        reference: &mut Vec<f64>,
         coordinates: &mut [Vec<f64>; 2],
         bounds: &mut Vec<MotionBound>,
     ) {
         let [rates, accelerations] = &mut *coordinates;
         // all bodies move together in an orbit
         let [bx, by] = velocity_of_base(part);
-        let reference = |i: usize| {
-            // of a pose: that of the base before the joints, or that of a body after them
-            let component = i.checked_sub(3 + self.joints).map_or(i, |of_bodies| of_bodies % 3);
-            [0.0, bx, by].get(component).copied().unwrap_or(0.0)
-        };
+        reference.clear();
+        reference.resize(rates.len(), 0.0);
+        // before the joints is the pose of the base, after them are those of bodies
+        let (base, others) = reference.split_at_mut(3);
+        for pose in std::iter::once(base).chain(others[self.joints..].chunks_exact_mut(3)) {
+            pose.copy_from_slice(&[0.0, bx, by]);
+        }
         part.bounds(reference, rates, accelerations);
         bounds.clear();
         for place in &self.places {

@@ -65,7 +65,7 @@ impl Motion<'_> {
 
     fn bounds(&self) -> Vec<MotionBound> {
         let mut bounds = Vec::new();
-        self.kinematics.bounds(&self.interval(), &mut self.buffers(), &mut bounds);
+        self.kinematics.bounds(&self.interval(), &mut Vec::new(), &mut self.buffers(), &mut bounds);
         bounds
     }
 
@@ -186,7 +186,7 @@ proptest! {
         let [start, end] = ends.each_ref().map(|[x, v]| [std::slice::from_ref(x), std::slice::from_ref(v)]);
         let interval = PathInterval { span: [1.0, 1.0 + span], start, end };
         let (mut rate, mut acceleration) = ([0.0], [0.0]);
-        interval.bounds(|_| 0.0, &mut rate, &mut acceleration);
+        interval.bounds(&[0.0], &mut rate, &mut acceleration);
         let rate_at = |part: f64| {
             let (mut x, mut v) = ([0.0], [0.0]);
             interval.at(1.0 + part * span, &mut x, &mut v);

@@ -38,7 +38,9 @@ impl RelativeBound {
 /// Bounds over one interval, and states at instants within it.
 #[derive(Default)]
 pub(in crate::capture) struct PathWorkspace {
-    /// Bounds of the rates and of their derivatives.
+    /// Rates of the motion that all bodies have in common.
+    reference: Vec<f64>,
+    /// Bounds of the rates less these, and of their derivatives.
     coordinates: [Vec<f64>; 2],
     bounds: Vec<MotionBound>,
     /// Positions and rates at an instant.
@@ -62,7 +64,7 @@ impl PathWorkspace {
         for half in self.coordinates.iter_mut().chain(&mut self.at) {
             half.resize(part.first_rates().len(), 0.0);
         }
-        motions.bounds(part, &mut self.coordinates, &mut self.bounds);
+        motions.bounds(part, &mut self.reference, &mut self.coordinates, &mut self.bounds);
         self.interval += 1;
     }
 
