@@ -123,7 +123,8 @@ impl PathPart for PathWindow<'_> {
         rates.fill(0.0);
         accelerations.fill(0.0);
         for interval in self.intervals() {
-            widen(interval, reference, rates, accelerations);
+            let PathInterval { span: [from, to], start, end } = interval;
+            widen(to - from, start.into(), end.into(), reference, rates, accelerations);
         }
     }
 }
@@ -234,31 +235,40 @@ fn bend(length: f64, [[start, v], [end, w]]: [[f64; 2]; 2]) -> f64 {
     if bend.abs() <= ROUNDING * start.abs().max(end.abs()) { 0.0 } else { bend }
 }
 
-/// The coordinates over the part u of an interval, and their rates; all at once in the processor's vectors.
+/// The coordinates over the part u of an interval of a length, s, and their rates, from these at its ends. The slices are
+/// arguments each, so that the compiler knows them apart and takes several coordinates at once.
 #[multiversion(targets("x86_64+avx2"))]
-fn fill(interval: PathInterval<'_>, u: f64, positions: &mut [f64], rates: &mut [f64]) {
-    let PathInterval { span: [from, to], start: [x, v], end: [y, w] } = interval;
-    let (length, size) = (to - from, positions.len());
-    let ([x, v, y, w], rates) = ([x, v, y, w].map(|values| &values[..size]), &mut rates[..size]);
-    for i in 0..size {
-        [positions[i], rates[i]] = Cubic::new(length, [[x[i], v[i]], [y[i], w[i]]]).at(u, length);
+fn fill(
+    [u, length]: [f64; 2],
+    (x, v): (&[f64], &[f64]),
+    (y, w): (&[f64], &[f64]),
+    positions: &mut [f64],
+    rates: &mut [f64],
+) {
+    let ends = x.iter().zip(v).zip(y.iter().zip(w));
+    for (((x, v), (y, w)), (position, rate)) in ends.zip(positions.iter_mut().zip(rates)) {
+        [*position, *rate] = Cubic::new(length, [[*x, *v], [*y, *w]]).at(u, length);
     }
 }
 
 /// Widens bounds of the magnitudes of rates, less those of a reference, and of their derivatives, to those over an interval:
 /// the control points of the interpolant's derivatives in Bernstein form.
 #[multiversion(targets("x86_64+avx2"))]
-fn widen(interval: PathInterval<'_>, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]) {
-    let PathInterval { span: [from, to], start: [x, v], end: [y, w] } = interval;
-    let (length, size) = (to - from, rates.len());
-    let [x, v, y, w, reference] = [x, v, y, w, reference].map(|values| &values[..size]);
-    let accelerations = &mut accelerations[..size];
-    for i in 0..size {
-        let bend = 3.0 * bend(length, [[x[i], v[i]], [y[i], w[i]]]) / length;
-        let [v, w] = [v[i] - reference[i], w[i] - reference[i]];
+fn widen(
+    length: f64,
+    (x, v): (&[f64], &[f64]),
+    (y, w): (&[f64], &[f64]),
+    reference: &[f64],
+    rates: &mut [f64],
+    accelerations: &mut [f64],
+) {
+    let ends = x.iter().zip(v).zip(y.iter().zip(w)).zip(reference);
+    for ((((x, v), (y, w)), reference), (rate, acceleration)) in ends.zip(rates.iter_mut().zip(accelerations)) {
+        let bend = 3.0 * bend(length, [[*x, *v], [*y, *w]]) / length;
+        let [v, w] = [v - reference, w - reference];
         let half = 0.5 * (w - v);
-        rates[i] = rates[i].max(v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs()));
-        accelerations[i] = accelerations[i].max((half + bend).abs().max((half - bend).abs()) * 2.0 / length);
+        *rate = rate.max(v.abs().max(w.abs()).max((0.5 * (v + w) + bend).abs()));
+        *acceleration = acceleration.max((half + bend).abs().max((half - bend).abs()) * 2.0 / length);
     }
 }
 
@@ -273,13 +283,13 @@ impl PathPart for PathInterval<'_> {
 
     fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
         let length = self.span[1] - self.span[0];
-        fill(*self, (time - self.span[0]) / length, positions, rates);
+        fill([(time - self.span[0]) / length, length], self.start.into(), self.end.into(), positions, rates);
     }
 
     fn bounds(&self, reference: &[f64], rates: &mut [f64], accelerations: &mut [f64]) {
         rates.fill(0.0);
         accelerations.fill(0.0);
-        widen(*self, reference, rates, accelerations);
+        widen(self.span[1] - self.span[0], self.start.into(), self.end.into(), reference, rates, accelerations);
     }
 }
 
