@@ -34,9 +34,11 @@ pub(super) struct Pair {
     pub(super) weights: Row,
     /// Those weights less those of the lower formula.
     pub(super) errors: Row,
-    /// Those weights less those of a formula of order 3, where the error estimated by the lower formula is that much too
-    /// large.
+    /// Those weights less those of a formula of order 3, by which the error that the lower formula gives is reduced to that of
+    /// the order.
     pub(super) correction: Option<Row>,
+    /// The error that a step may have over that which is estimated.
+    pub(super) caution: f64,
     /// Of each stage `c^q - q Σ a c^(q-1)`, q from 2 to 5, by which the sums of ẋ miss a motion that is a polynomial of time.
     /// It is zero for all but the first few.
     pub(super) defects: Vec<Option<[f64; 4]>>,
@@ -81,6 +83,7 @@ pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
         order: 8.0,
         errors: differences(&errors, &[]),
         correction: Some(differences(&tableau.b, &third)),
+        caution: 10.0,
         interpolant: weighed::<16>(of_stage),
         ..Pair::formula(&tableau, [0, 6, 9, 10, 12])
     }
@@ -93,13 +96,14 @@ impl Pair {
         continued: [usize; CONTINUED],
     ) -> Self {
         let ButcherTableau { a, b, .. } = tableau;
-        let mut c = tableau.c;
-        // after the stages of the step comes the rate at its end; the table of `dop853` has no node for it
-        c[S] = 1.0;
+        let weights = differences(b, &[]);
+        let mut nodes = tableau.c.to_vec();
+        let mut rows: Vec<_> = (0..I).map(|stage| differences(&a[stage][..stage], &[])).collect();
+        // after the stages of the step comes the rate at its end, which the table of `dop853` leaves out
+        (nodes[S], rows[S]) = (1.0, weights.clone());
         let defect = |stage: usize, power: i32| {
-            let row = a[stage].iter().zip(c).take(stage);
-            let sum = row.map(|(factor, node)| factor * node.powi(power - 1)).sum::<f64>();
-            c[stage].powi(power) - f64::from(power) * sum
+            let sum = rows[stage].iter().map(|(of, factor)| factor * nodes[*of].powi(power - 1)).sum::<f64>();
+            nodes[stage].powi(power) - f64::from(power) * sum
         };
         let defects = |stage| {
             let defects = [2, 3, 4, 5].map(|power| defect(stage, power));
@@ -109,15 +113,16 @@ impl Pair {
         Self {
             stages: S,
             order: 0.0,
-            nodes: c.to_vec(),
-            rows: (0..I).map(|stage| differences(&a[stage][..stage], &[])).collect(),
-            weights: differences(b, &[]),
             errors: Vec::new(),
             correction: None,
+            caution: 1.0,
             defects: (0..I).map(defects).collect(),
             continued,
-            continuing: continuing_weights(&continued.map(|stage| c[stage])),
+            continuing: continuing_weights(&continued.map(|stage| nodes[stage])),
             interpolant: Vec::new(),
+            nodes,
+            rows,
+            weights,
         }
     }
 

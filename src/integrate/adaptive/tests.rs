@@ -52,6 +52,23 @@ impl ODE<f64, [f64; 1]> for Feedback {
     }
 }
 
+/// There is no step before it to continue; it ends, as the time that is asked for is as far as it is long.
+#[test]
+fn the_first_step_with_feedback_is_that_of_the_crate() {
+    let mut ours = Adaptive::with_feedback(1e-9);
+    ours.start(0.0, 5.0, &PERIAPSIS, &mut orbit).expect("a start");
+    let mut x = [0.0; 4];
+    ours.advance([0.0, 5.0], &mut x, &mut orbit).expect("a step");
+    let [_, reached] = ours.span;
+    let mut theirs = ExplicitRungeKutta::dop853().rtol(1e-6).atol(1e-6).h0(reached);
+    theirs.init(&Orbit, 0.0, 5.0, &PERIAPSIS).expect("a start");
+    theirs.step(&Orbit).expect("a step");
+    assert!((reached - theirs.t()).abs() < 1e-15 && reached > 1e-4, "{reached} {}", theirs.t());
+    // its interpolant is another one, of lower order
+    let largest = ours.x().iter().zip(theirs.y()).fold(0.0, |most: f64, (x, expected)| most.max((x - expected).abs()));
+    assert!(largest < 1e-14, "{largest:e}");
+}
+
 /// There is no step before it to continue.
 #[test]
 fn the_first_step_is_that_of_the_crate() {
@@ -152,6 +169,32 @@ fn fast_feedback_takes_few_steps() {
             steps += 1;
         }
         assert!(2 * solver.attempts() < steps, "{} of {steps}", solver.attempts());
+    }
+}
+
+/// Between times that are as far apart as the steps, the pair for feedback takes fewer evaluations of feedback that is fast, to
+/// the same accuracy; between near ones it is the other.
+#[test]
+fn feedback_takes_fewer_evaluations_by_its_pair() {
+    for (gain, spacing, [least, most]) in [(20.0, 0.5, [0.4, 0.75]), (50.0, 0.25, [0.4, 0.75]), (20.0, 0.02, [1.0, 1.0])] {
+        let evaluations = [Adaptive::new(1e-10), Adaptive::with_feedback(1e-10)].map(|mut solver| {
+            let mut count = 0.0;
+            let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
+                count += 1.0;
+                feedback(gain)(time, x, rate)
+            };
+            let (mut x, mut time, mut row) = ([1.0], 0.0, 1.0_f64);
+            solver.start(0.0, 40.0, &x, &mut motion).expect("a start");
+            while time < 40.0 {
+                let wanted = (row * spacing).min(40.0);
+                time = solver.advance([time, wanted], &mut x, &mut motion).expect("a step");
+                assert!((x[0] - libm::cos(time)).abs() < 1e-10, "{gain} {time}: {:e}", x[0] - libm::cos(time));
+                row += if time >= wanted { 1.0 } else { 0.0 };
+            }
+            count
+        });
+        let ratio = evaluations[1] / evaluations[0];
+        assert!((least..=most).contains(&ratio), "{gain} {spacing}: {evaluations:?}");
     }
 }
 

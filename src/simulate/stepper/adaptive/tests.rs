@@ -15,7 +15,7 @@ use planar_proof::layout;
 #[test]
 fn steps_to_come_are_counted_by_the_last_ones() {
     const DURATION: f64 = 1e4;
-    let mut steps = AdaptiveSteps::new(1e-9, DURATION);
+    let mut steps = AdaptiveSteps::new(1e-9, DURATION, false);
     let (mut x, mut time, mut before) = ([1.0], 0.0, (0, 0.0));
     for gain in [1e5, 4e5] {
         let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
@@ -46,7 +46,7 @@ fn steps_to_come_are_counted_by_the_last_ones() {
 /// How many there may be follows from the length of a step of the phase.
 #[test]
 fn the_most_steps_are_of_the_steps_of_the_phase() {
-    let mut steps = AdaptiveSteps::new(1e-9, 1e6);
+    let mut steps = AdaptiveSteps::new(1e-9, 1e6, false);
     let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
         rate[0] = 1e6 * (libm::cos(time) - x[0]) - libm::sin(time);
         Ok(())

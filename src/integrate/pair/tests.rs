@@ -1,0 +1,75 @@
+//! Coefficients against the conditions that they have to meet: orders, interpolants, stages on polynomials, stability.
+
+use super::{DORMAND_PRINCE, Pair, VERNER};
+
+fn pairs() -> [(&'static str, &'static Pair); 2] {
+    [("Verner", &*VERNER), ("Dormand & Prince", &*DORMAND_PRINCE)]
+}
+
+/// `Σ factor c^(q-1)` and, of a formula that integrates polynomials up to s, `s^q / q`.
+fn powers(pair: &Pair, row: &[(usize, f64)], s: f64) -> impl Iterator<Item = [f64; 2]> {
+    (1..=9).map(move |q| {
+        let sum = row.iter().map(|(stage, factor)| factor * pair.nodes[*stage].powi(q - 1)).sum::<f64>();
+        [sum, s.powi(q) / f64::from(q)]
+    })
+}
+
+/// How many powers are integrated.
+fn exact(pair: &Pair, row: &[(usize, f64)], s: f64) -> usize {
+    powers(pair, row, s).take_while(|[found, expected]| (found - expected).abs() < 1e-11).count()
+}
+
+/// The end of a step integrates powers of time up to its order, its estimate of the error none of them, and the interpolant
+/// those up to its own, at the end as at the other times.
+#[test]
+fn powers_of_time_are_integrated() {
+    for ((name, pair), [order, lower, dense]) in pairs().into_iter().zip([[9, 8, 9], [8, 5, 7]]) {
+        assert!(exact(pair, &pair.weights, 1.0) >= order, "{name}");
+        let vanishing = powers(pair, &pair.errors, 0.0).take_while(|[found, _]| found.abs() < 1e-13).count();
+        assert!(vanishing >= lower, "{name}: {vanishing}");
+        for s in [0.0, 0.1, 0.5, 0.9, 1.0] {
+            let (weights, count) = pair.weights_within(s);
+            assert!(exact(pair, &weights[..count], s) >= dense, "{name} {s}");
+            // so much and no more between the ends
+            assert!(s.fract() == 0.0 || exact(pair, &weights[..count], s) < 9 || dense == 9, "{name} {s}");
+        }
+    }
+    let correction = DORMAND_PRINCE.correction.as_ref().expect("a formula of order 3");
+    assert_eq!(powers(&DORMAND_PRINCE, correction, 0.0).take_while(|[found, _]| found.abs() < 1e-13).count(), 3);
+    assert!(VERNER.correction.is_none());
+}
+
+/// Stages are on polynomials of degree 5 but for the first few, whose defects are known: those are corrected, and the
+/// others continue the motion.
+#[test]
+fn stages_after_the_first_few_are_on_polynomials() {
+    for (name, pair) in pairs() {
+        let defects: Vec<usize> = (0..pair.all_stages()).filter(|stage| pair.defects[*stage].is_some()).collect();
+        assert!((4..8).contains(&defects.len()) && defects.iter().all(|stage| *stage < 8), "{name}: {defects:?}");
+        assert!(pair.continued.iter().all(|stage| pair.defects[*stage].is_none()), "{name}");
+        let nodes = pair.continued.map(|stage| pair.nodes[stage]);
+        assert!(nodes.is_sorted() && nodes[0] == 0.0 && (nodes[4] - 1.0).abs() < 1e-15, "{name}: {nodes:?}");
+    }
+}
+
+/// Of ẋ = z x a step of length 1 multiplies by a polynomial of z, which is no more than 1 up to here on the negative axis.
+fn stable_up_to(pair: &Pair) -> f64 {
+    let growth = |z: f64| {
+        let mut rates: Vec<f64> = Vec::new();
+        let sum = |rates: &[f64], row: &[(usize, f64)]| row.iter().map(|(stage, a)| a * rates[*stage]).sum::<f64>();
+        for row in &pair.rows[..pair.stages] {
+            rates.push(z * (1.0 + sum(&rates, row)));
+        }
+        1.0 + sum(&rates, &pair.weights)
+    };
+    (1..1000).map(|i| 0.01 * f64::from(i)).take_while(|z| growth(-z).abs() <= 1.0).last().expect("a stable step")
+}
+
+/// Why feedback takes the one, and nothing else does.
+#[test]
+fn stable_steps_are_longer_by_the_pair_for_feedback() {
+    let [verner, dormand_prince] = pairs().map(|(_, pair)| stable_up_to(pair));
+    assert!((verner - 4.44).abs() < 0.02 && (dormand_prince - 6.4).abs() < 0.02, "{verner} {dormand_prince}");
+    assert_eq!(pairs().map(|(_, pair)| pair.stages), [16, 12]);
+    assert!((VERNER.landing() - 0.64).abs() < 1e-15);
+}
