@@ -1,5 +1,6 @@
 //! The integrators of the core ([`planar_dynamics::integrate`]), and with the feature `std` one with adaptive steps of
-//! order 9: 16 evaluations per step, and 9 where dense output is asked for; its error is the tolerance.
+//! order 9: 16 evaluations per step, and 9 where dense output is asked for; its error is the tolerance. Under feedback it takes
+//! steps of order 8 with 12 evaluations, which are stable for longer.
 //!
 //! # Example
 //! ```

@@ -45,6 +45,10 @@ impl Control<f64> for Counted<'_> {
         self.law.joint_torques(time, model, state, torques)
     }
 
+    fn has_feedback(&self) -> bool {
+        self.law.has_feedback()
+    }
+
     fn base_torque(&self) -> Option<BaseTorque<f64>> {
         self.law.base_torque()
     }

@@ -82,7 +82,9 @@ pub(super) const COORDINATES: Key = Key::optional(
 
 fn integrators() -> Vec<Choice> {
     let doc = |integrator: Integrator| match integrator {
-        Integrator::Adaptive { .. } => "Verner's pair of orders 9 and 8 with variable steps",
+        Integrator::Adaptive { .. } => {
+            "pairs of orders 9(8) (Verner) and, under control, 8(5,3) (Dormand and Prince), with variable steps"
+        }
         Integrator::RungeKutta4 => "classical Runge–Kutta steps of order 4",
         Integrator::GaussLegendre => "implicit, order 6, conserves both momenta",
         Integrator::SemiImplicitEuler => "rates, then positions by the new rates: order 1",
