@@ -63,7 +63,7 @@ include!(concat!(env!("OUT_DIR"), "/graphs.rs"));
 pub enum NoGraph {
     /// None has its structure.
     #[error(
-        "no graph has the structure of layout `{layout}` ({structure}): `planar-capture derive LAYOUT` derives one"
+        "no graph has the structure of layout `{layout}` ({structure}): `planar-capture derive` with its file derives one"
     )]
     Missing {
         /// The layout's name.
@@ -72,7 +72,7 @@ pub enum NoGraph {
         structure: String,
     },
     /// The one in the cache folder cannot be used.
-    #[error("{path}: {problem}; `planar-capture derive LAYOUT` derives it again", path = path.display())]
+    #[error("{path}: {problem}; `planar-capture derive` with the layout's file derives it again", path = path.display())]
     Unusable {
         /// Its file.
         path: PathBuf,

@@ -1,10 +1,12 @@
 //! `planar-capture animate SCENARIO --out FILE.svg`: a moving picture of a case.
 
 use super::dynamics::Dynamics;
+use super::out_file::{Force, check_new, svg, write_new};
 use super::progress::{Display, Progress};
 use super::run::study_error;
 use super::seconds::{positive_seconds, seconds};
-use super::{CommandError, Force, cases, check_new, write_new};
+use super::terminal::note;
+use super::{CommandError, cases};
 use crate::capture::study_registered;
 use crate::output::animation::{Excerpt, RATE, animation};
 use crate::program::Program;
@@ -25,7 +27,7 @@ pub struct Arguments {
     #[arg(value_name = "SCENARIO")]
     scenario: PathBuf,
     /// The SVG file [default: the standard output].
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", value_parser = svg)]
     out: Option<PathBuf>,
     #[command(flatten)]
     force: Force,
@@ -63,12 +65,16 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     }
     let choice = arguments.dynamics.choose(&scenario.layout, &source.scenario.file, program.robots)?;
     if !arguments.display.quiet {
-        arguments.dynamics.announce(&choice, "");
+        arguments.dynamics.announce(&choice, &source.layout.file, "");
     }
     let after = scenario.post_impact.as_ref().map_or(0.0, |phase| phase.duration);
-    let until = arguments
-        .until
-        .map_or(scenario.approach.duration + after, |until| until.min(scenario.approach.duration + after));
+    let end = scenario.approach.duration + after;
+    if let Some(until) = arguments.until.filter(|until| *until > end) {
+        note(format_args!(
+            "warning: --until {until:?} s is beyond the end of the motion, {end:?} s: it is shown to there"
+        ));
+    }
+    let until = arguments.until.map_or(end, |until| until.min(end));
     let sample = until / (arguments.seconds * RATE);
     let model = choice.model(&scenario.layout);
     let mut progress = Progress::new(arguments.display);

@@ -1,6 +1,7 @@
 //! `planar-capture draw LAYOUT --out FILE.svg`: a drawing of a robot.
 
-use super::{CommandError, Force, check_new, layout, write_new};
+use super::out_file::{Force, check_new, svg, write_new};
+use super::{CommandError, layout};
 use crate::output::drawing::drawing;
 use crate::registry::Robots;
 use crate::scenario::LARGEST_ANGLE;
@@ -22,7 +23,7 @@ pub struct Arguments {
     #[arg(long, value_name = "RAD,RAD,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = angle)]
     angles: Option<Vec<f64>>,
     /// The SVG file [default: the standard output].
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", value_parser = svg)]
     out: Option<PathBuf>,
     #[command(flatten)]
     force: Force,

@@ -2,6 +2,7 @@
 
 use super::terminal::note;
 use super::{CommandError, file_error};
+use crate::build::quoted;
 use crate::engine::{Choice, Engine};
 use crate::layout::Layout;
 use crate::registry::Robots;
@@ -47,22 +48,24 @@ impl Dynamics {
         }
     }
 
-    /// A line about what was chosen, where the option does not say it; it begins with `of`.
-    pub fn announce(self, choice: &Choice, of: &str) {
+    /// A line about what was chosen for the layout of this file, where the option does not say it; it begins with `of`.
+    pub fn announce(self, choice: &Choice, layout: &str, of: &str) {
         if self == Self::Auto {
-            let (engine, origin, faster) = (choice.engine.name(), &choice.origin, faster(choice.engine));
+            let (engine, origin, faster) = (choice.engine.name(), &choice.origin, faster(choice.engine, layout));
             note(format_args!("{of}dynamics: {engine}, {origin}{faster}"));
         }
     }
 }
 
-/// How to get a faster implementation.
-fn faster(engine: Engine) -> &'static str {
+/// How to get a faster implementation of the layout of this file.
+fn faster(engine: Engine, layout: &str) -> String {
+    // a shipped one is known by its name
+    let layout = quoted(layout.strip_suffix(".toml (shipped)").unwrap_or(layout));
     match engine {
-        Engine::Generated => "",
-        Engine::Graph => {
-            "; compiled code of it in a program of your own is faster: planar-capture new DIR --layout LAYOUT"
-        }
-        Engine::Generic => "; a graph is several times as fast: planar-capture derive LAYOUT",
+        Engine::Generated => String::new(),
+        Engine::Graph => format!(
+            "; compiled code of it in a program of your own is faster: planar-capture new DIR --layout {layout}"
+        ),
+        Engine::Generic => format!("; a graph is several times as fast: planar-capture derive {layout}"),
     }
 }

@@ -37,7 +37,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments, robots: Robots<'_>) -> Result<ExitCode, CommandError> {
     let layout = layout::read(&arguments.layout, robots)?;
     let choice = arguments.dynamics.choose(&layout, &arguments.layout, robots)?;
-    arguments.dynamics.announce(&choice, "");
+    arguments.dynamics.announce(&choice, &arguments.layout, "");
     let model = choice.model(&layout);
     let (input, name): (Box<dyn BufRead>, _) = if arguments.states == "-" {
         (Box::new(BufReader::new(io::stdin())), "standard input")

@@ -1,7 +1,8 @@
 //! `planar-capture export LAYOUT.toml`: writes a layout as a URDF.
 
+use super::out_file::{Force, write_new};
 use super::terminal::note;
-use super::{CommandError, Force, layout, write_new};
+use super::{CommandError, layout};
 use crate::registry::Robots;
 use crate::urdf;
 use std::path::PathBuf;

@@ -1,7 +1,8 @@
 //! `planar-capture import ROBOT.urdf`: writes the layout of a URDF.
 
+use super::out_file::{Force, write_new};
 use super::terminal::note;
-use super::{CommandError, Force, file_error, write_new};
+use super::{CommandError, file_error};
 use crate::diagnostic::read_text;
 use crate::urdf::{self, HeldJoint, ImportOptions};
 use std::path::PathBuf;

@@ -36,6 +36,7 @@ mod layout;
 mod list;
 mod new;
 mod optional_outputs;
+mod out_file;
 mod progress;
 mod reproduce;
 mod run;
@@ -50,7 +51,6 @@ mod terminal;
 use crate::campaign::report::ReportError;
 use crate::diagnostic::Report;
 use crate::laws::RegisteredLaw;
-use crate::output::atomic_file::write_text;
 use crate::output::finite::NotFinite;
 use crate::output::output_error::OutputError;
 use crate::output::result_folder::ClaimError;
@@ -59,7 +59,6 @@ use crate::registry::{CompiledRobot, Robots};
 use clap::{Parser, Subcommand};
 use std::error::Error;
 use std::io::{ErrorKind, IsTerminal, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
 /// Planar dynamics of free-floating multi-arm space robots: approach, impact, post-impact.
@@ -149,35 +148,6 @@ impl CommandError {
 /// Whether messages on the standard error are coloured.
 fn color() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-}
-
-/// Where a command writes its text.
-#[derive(Debug, clap::Args)]
-struct Force {
-    /// Replace the file, whatever it is.
-    #[arg(long, requires = "out")]
-    force: bool,
-}
-
-/// Refuses a file that exists, and is not to be replaced.
-fn check_new(path: Option<&Path>, Force { force }: &Force) -> Result<(), CommandError> {
-    match path.filter(|path| !force && path.exists()) {
-        Some(path) => {
-            let file = path.display();
-            let message = format!("{file} already exists: choose another file, or replace it with --force");
-            Err(CommandError::Usage(message))
-        }
-        None => Ok(()),
-    }
-}
-
-/// Writes a text to a file, a new one without `--force`, or to the standard output without a path.
-fn write_new(path: Option<&Path>, force: &Force, text: &str) -> Result<(), CommandError> {
-    check_new(path, force)?;
-    match path {
-        Some(path) => Ok(write_text(path, text)?),
-        None => print_product(text),
-    }
 }
 
 /// Writes a text, which is the product of the command, to the standard output.

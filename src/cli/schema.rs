@@ -1,6 +1,7 @@
 //! `planar-capture schema layout|scenario|sweep`: prints a JSON Schema.
 
-use super::{CommandError, Force, write_new};
+use super::CommandError;
+use super::out_file::{Force, write_new};
 use crate::file_format::FileFormat;
 use crate::program::Program;
 use serde_json::Value;

@@ -1,6 +1,7 @@
 //! `planar-capture template layout|scenario|sweep`: prints a file to start from.
 
-use super::{CommandError, Force, write_new};
+use super::CommandError;
+use super::out_file::{Force, write_new};
 use crate::file_format::FileFormat;
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -59,7 +59,7 @@ pub enum ClaimError {
         found: String,
     },
     /// It has what `--force` is not to delete.
-    #[error("--force would delete {kept} with {path}: choose another folder", path = path.display(), kept = kept.display())]
+    #[error("{}: choose another folder", protection(path, kept))]
     Protected {
         /// The folder.
         path: PathBuf,
@@ -261,6 +261,16 @@ pub fn existing_folder(path: &Path) -> Result<&Path, ClaimError> {
 fn existing(path: &Path) -> &Path {
     let found = path.ancestors().find(|folder| folder.symlink_metadata().is_ok());
     found.unwrap_or(Path::new("."))
+}
+
+/// Why `--force` does not empty a folder, for what it would delete.
+fn protection(path: &Path, kept: &Path) -> String {
+    let (shown, inner) = (path.display(), kept.display());
+    if path.canonicalize().is_ok_and(|path| path == kept) {
+        format!("--force would delete all in {shown}, the working folder or your home folder")
+    } else {
+        format!("--force would delete {inner}, which is in {shown}")
+    }
 }
 
 /// Refuses a folder that is more than one of results: that contains the working folder, the user's own folder, one of the

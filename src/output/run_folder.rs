@@ -61,6 +61,14 @@ pub fn scenario_in(folder: &Path) -> Option<String> {
     Some(read(&folder.join(SUMMARY))?["scenario"].as_str()?.to_owned())
 }
 
+/// The command that has made the results in a folder, and the hash of its scenario's text.
+#[must_use]
+pub fn origin_in(folder: &Path) -> Option<[String; 2]> {
+    let summary = read(&folder.join(SUMMARY))?;
+    let text = |key: &str| summary["run"][key].as_str().map(str::to_owned);
+    Some([text("command")?, text("scenario_sha256")?])
+}
+
 /// Removes the results in a folder: the summary, without which they are none, and the files that it lists.
 ///
 /// # Errors

@@ -27,7 +27,7 @@ pub(super) fn file_in(folder: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
     loop {
-        let file = builder.tempfile_in(folder)?;
+        let file = builder.tempfile_in(folder).map_err(without_name)?;
         if hold(file.as_file(), file.path()) {
             return Ok(file);
         }
@@ -41,7 +41,7 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
     loop {
-        let folder = builder.tempdir_in(folder)?;
+        let folder = builder.tempdir_in(folder).map_err(without_name)?;
         #[cfg(unix)]
         check_mask(folder.path())?;
         let lock = match File::open(folder.path()) {
@@ -53,6 +53,14 @@ pub(super) fn folder_in(folder: &Path) -> io::Result<TemporaryFolder> {
         if lock.as_ref().is_none_or(|lock| hold(lock, folder.path())) {
             return Ok(TemporaryFolder { folder, _lock: lock });
         }
+    }
+}
+
+/// The error without the temporary name, which no user has chosen: who reports it names the file that was to be written.
+fn without_name(error: io::Error) -> io::Error {
+    match error.to_string().rsplit_once(" at path ") {
+        Some((reason, _)) => io::Error::new(error.kind(), reason),
+        None => error,
     }
 }
 

@@ -25,6 +25,7 @@ pub enum KeyFile {
 ///
 /// let wrong = find_key("approach.proportional_gian[2]").unwrap_err();
 /// assert_eq!(wrong.nearest.as_deref(), Some("approach.proportional_gain[2]"));
+/// assert_eq!(find_key("base.mass").unwrap_err().nearest.as_deref(), Some("layout.base.mass"));
 /// # Ok::<(), planar_capture::format::NoKey>(())
 /// ```
 ///
@@ -33,6 +34,18 @@ pub enum KeyFile {
 pub fn find_key(path: &str) -> Result<(KeyFile, Place), NoKey> {
     match find_below("layout", &layout::FORMAT, path) {
         Some(place) => Ok((KeyFile::Layout, place?)),
-        None => Ok((KeyFile::Scenario, find(&FORMAT, path)?)),
+        None => find(&FORMAT, path).map(|place| (KeyFile::Scenario, place)).map_err(|wrong| below_layout(path, wrong)),
+    }
+}
+
+/// What is wrong with a path, with the layout's key where the path would lead to one after `layout.`.
+fn below_layout(path: &str, wrong: NoKey) -> NoKey {
+    let meant = format!("layout.{path}");
+    match find_below("layout", &layout::FORMAT, &meant) {
+        Some(Ok(_)) => {
+            let why = format!("it is a key of the layout; did you mean `{meant}`?");
+            NoKey { why, nearest: Some(meant), ..wrong }
+        }
+        _ => wrong,
     }
 }

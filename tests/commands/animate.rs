@@ -145,3 +145,15 @@ fn what_cannot_be_shown_is_refused() {
         assert!(code == 2 && out.is_empty() && message.contains(wanted), "{message}");
     }
 }
+
+/// An end beyond that of the motion is said, and what is written is the whole motion.
+#[test]
+fn an_end_beyond_the_motion_is_said() {
+    let scenario = file("scenarios/redysim_single_arm_3r.toml").display().to_string();
+    let animate = |until: &[&str]| said(&[&["animate", &scenario, "-q", "--seconds", "1"], until].concat());
+    let (code, whole, err) = animate(&[]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let (code, until, err) = animate(&["--until", "1e4"]);
+    assert_eq!((code, until), (0, whole));
+    assert!(err.contains("--until 10000.0 s is beyond the end of the motion, ") && err.lines().count() == 1, "{err}");
+}

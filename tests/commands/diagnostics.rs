@@ -790,9 +790,9 @@ fn unreadable_files() -> Outcome {
     let shown = report(&file("dual_arm"));
     assert!(shown.contains("dual_arm.toml`?"), "{shown}");
     let shown = report(&file("no/such.toml"));
-    assert!(shown.contains("there is no directory"), "{shown}");
+    assert!(shown.contains("there is no folder"), "{shown}");
     let shown = report(folder.path());
-    assert!(shown.contains("is a directory") && shown.contains("dual_arm.toml"), "{shown}");
+    assert!(shown.contains("is a folder") && shown.contains("dual_arm.toml"), "{shown}");
     let shown = report(&file("latin.toml"));
     assert!(shown.contains("latin.toml:2:12: byte 0xe9 is not UTF-8"), "{shown}");
     let shown = report(&file("huge.toml"));

@@ -60,3 +60,28 @@ fn a_file_that_exists_is_replaced_by_force_alone() {
     let (code, _, err) = said(&["draw", "single_arm_2r", "--force", "--out", &folder.path().display().to_string()]);
     assert!(code == 2 && folder.path().is_dir(), "a folder is none: {err}");
 }
+
+/// A picture is SVG, whatever its file is called.
+#[test]
+fn files_of_other_pictures_are_refused() {
+    let folder = TempDir::new().expect("a folder");
+    let scenario = file("scenarios/redysim_single_arm_3r.toml").display().to_string();
+    for command in [&["draw", "single_arm_2r"][..], &["animate", &scenario, "-q"]] {
+        let out = folder.path().join("it.png").display().to_string();
+        let (code, _, err) = said(&[command, &["--out", &out]].concat());
+        assert!(code == 2 && err.contains("expected a file that ends in `.svg`"), "{command:?}: {err}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
+}
+
+/// A folder that is not there is named before anything is computed: this scenario would be refused.
+#[test]
+fn a_folder_that_is_not_there_is_named_first() {
+    let folder = TempDir::new().expect("a folder");
+    let [out, scenario] = ["none/it.svg", "none.toml"].map(|name| folder.path().join(name).display().to_string());
+    for command in [&["animate", &scenario][..], &["draw", "single_arm_2r"], &["template", "layout"]] {
+        let (code, stdout, err) = said(&[command, &["--out", &out]].concat());
+        assert_eq!((code, stdout.as_str(), err.lines().count()), (2, "", 1), "{command:?}: {err}");
+        assert!(err.contains("it.svg: there is no folder ") && !err.contains(".planar-capture-"), "{command:?}: {err}");
+    }
+}

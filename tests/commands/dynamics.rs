@@ -79,7 +79,8 @@ fn a_structure_without_a_graph_runs_by_the_generic_implementation() {
     let scenario = robot(folder.path(), &[3, 2]);
     let (code, err, summary) = run(&scenario, folder.path(), &[]);
     assert_eq!((code, &summary["dynamics"]), (0, &Value::from("generic")), "{err}");
-    assert!(err.starts_with("dynamics: generic") && err.contains("planar-capture derive LAYOUT"), "{err}");
+    let derive = format!("planar-capture derive {}", folder.path().join("robot.toml").display());
+    assert!(err.starts_with("dynamics: generic") && err.contains(&derive), "{err}");
     let (code, err, _) = run(&scenario, folder.path(), &["--dynamics", "graph"]);
     assert_eq!(code, 2);
     assert!(err.contains("no graph has the structure of layout `robot` (2 arms of 3 + 2 links"), "{err}");

@@ -56,6 +56,24 @@ fn a_run_replaces_an_earlier_one_of_its_scenario_whole() {
     assert_eq!(names(&results), ["b.csv", "c.csv", "summary.json"], "nothing of the earlier run is left");
 }
 
+/// Another file of the same scenario's name is said to replace the one before; one that was edited is the same file.
+#[test]
+fn results_of_another_file_are_replaced_with_a_word() {
+    let folder = TempDir::new().expect("a folder");
+    let [results, other] = ["results", "other"].map(|name| folder.path().join(name));
+    fs::create_dir(&other).expect("made");
+    let [first, second] = [folder.path(), &other].map(|place| scenario("one", &["a"], place));
+    assert_eq!(run(&first, &results, &[]), (0, String::new()));
+    // equal texts are the same study
+    assert_eq!(run(&second, &results, &[]), (0, String::new()));
+    scenario("one", &["b"], folder.path());
+    let (code, err) = run(&first, &results, &[]);
+    assert!(code == 0 && err.lines().count() == 1, "{err}");
+    assert!(err.contains("the results of another file were in ") && err.contains(&second), "{err}");
+    scenario("one", &["c"], folder.path());
+    assert_eq!(run(&first, &results, &[]), (0, String::new()));
+}
+
 /// The folder of several runs holds none itself: `--force`, which would delete them, is no advice.
 #[test]
 fn a_folder_of_several_runs_is_not_one_for_a_run() {
@@ -154,7 +172,7 @@ fn what_force_does_not_delete() {
     let output = command().args(["run", &one, "--out", ".", "--force"]).current_dir(&inner).output().expect("it runs");
     let (code, _, err) = planar_proof::said(output);
     assert_eq!(code, 2, "{err}");
-    assert!(err.contains("would delete"), "{err}");
+    assert!(err.contains("--force would delete all in ., the working folder or your home folder"), "{err}");
     assert_eq!(names(&inner), ["notes.txt"]);
 }
 

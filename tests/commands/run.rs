@@ -239,6 +239,9 @@ fn files_that_cannot_be_read_or_written() {
     assert_eq!(code, 2);
     assert!(err.contains("raina_shah_2071.toml") && err.contains("raina_shah_2017.toml"), "{err}");
 
+    let (code, _, err) = run_file(folder.path(), &folder.path().join("results"));
+    assert!(code == 2 && err.contains("is a folder, expected a TOML file"), "{err}");
+
     let occupied = folder.path().join("occupied");
     fs::write(&occupied, "a file, not a folder").expect("written");
     let (code, _, err) = run_file(&file("scenarios/raina_shah_2017.toml"), &occupied);

@@ -644,6 +644,12 @@ fn a_case_that_fails_its_audit_is_a_row_with_numbers() {
 #[test]
 fn shards_and_numbers_of_cases_that_there_are_not_are_refused() {
     let place = Workplace::sampled("random");
+    let (code, out, err) = place.sweep("out", &["--threads", "0"]);
+    assert!(code == 2 && out.is_empty() && err.contains("expected a whole number of threads, at least 1"), "{err}");
+    let twice = "[[vary]]\nkey = 'target.target1.mass'\ndistribution = { choice = [1.0] }\n".repeat(2);
+    let text = format!("name = 'a'\nscenario = 'scenario.toml'\ncases = 2\nseed = 1\n{twice}");
+    let report = Campaign::parse(&text, "sweep.toml", place.0.path(), SHIPPED).expect_err("a key that varies twice");
+    assert!(report.to_string().contains("it varies already, there is one `vary` for a key"), "{report}");
     for shard in ["0/3", "4/3", "1/0", "1"] {
         let (code, out, err) = place.sweep("out", &["--shard", shard]);
         assert!(code == 2 && out.is_empty() && err.contains("--shard"), "{shard}: {code} {out}{err}");
@@ -693,6 +699,7 @@ fn keys_and_distributions_that_are_wrong_are_shown_with_their_lines() {
     let wrong_keys = [
         ("target.target1.mas", "did you mean `target.target1.mass`?"),
         ("target.tarjet1.mass", "did you mean `target1`?"),
+        ("base.mass", "did you mean `layout.base.mass`?"),
         ("target.target1", "it is a table"),
         ("target.target1.name", "a `name` cannot vary"),
         ("target[0].mass", "these tables have names"),

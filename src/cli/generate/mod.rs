@@ -2,6 +2,7 @@
 
 mod fmu;
 
+use super::out_file::check_folder;
 use super::progress::spinner;
 use super::terminal::{note, print};
 use super::{CommandError, derive, file_error, layout};
@@ -261,12 +262,7 @@ fn check(paths: &[PathBuf], product: &Product, arguments: &Arguments) -> ExitCod
 
 /// Refuses to overwrite a file that was not generated.
 fn check_overwrite(path: &Path) -> Result<(), CommandError> {
-    let file = path.display();
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
-        let folder = folder.display();
-        let message = format!("cannot write {file}: there is no folder {folder}; make it first");
-        return Err(CommandError::Usage(message));
-    }
+    check_folder(path)?;
     let Ok(found) = fs::metadata(path) else { return Ok(()) };
     let mut start = Vec::new();
     if found.is_file() {
@@ -279,6 +275,7 @@ fn check_overwrite(path: &Path) -> Result<(), CommandError> {
     if generated || (found.is_file() && found.len() == 0) {
         return Ok(());
     }
+    let file = path.display();
     let message = format!("{file} already exists and was not generated: choose another file, or move it first");
     Err(CommandError::Usage(message))
 }

@@ -13,7 +13,7 @@ use crate::laws::RegisteredLaw;
 use crate::output::console::table_of_parts;
 use crate::output::html_report::write_report;
 use crate::output::result_folder::ResultFolder;
-use crate::output::run_folder::SUMMARY;
+use crate::output::run_folder::{SUMMARY, origin_in, scenario_in};
 use crate::output::run_manifest::RunManifest;
 use crate::output::study_part::StudyPart;
 use crate::output::summary::summary_of_parts;
@@ -24,7 +24,7 @@ use std::borrow::Cow;
 use std::env::consts::EXE_SUFFIX;
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// A scenario that can be computed.
@@ -62,9 +62,10 @@ impl Task<'_> {
             ));
         }
         if !arguments.display.quiet {
-            arguments.dynamics.announce(choice, named);
+            arguments.dynamics.announce(choice, &source.layout.file, named);
             for (variant, own) in scenario.variants.iter().zip(own).filter(|(_, own)| own.origin != choice.origin) {
-                arguments.dynamics.announce(own, &format!("{named}case `{}`: ", variant.name()));
+                let of = format!("{named}case `{}`: ", variant.name());
+                arguments.dynamics.announce(own, &source.layout.file, &of);
             }
         }
         let manifest = RunManifest::new(scenario, (*source).clone(), command());
@@ -163,8 +164,26 @@ impl Task<'_> {
             serde_json::to_writer_pretty(&mut *to, &summary)?;
             writeln!(to)
         })?;
+        let other = self.other_file(summary["run"]["scenario_sha256"].as_str().unwrap_or_default());
         folder.commit(staged, SUMMARY)?;
+        if let Some(command) = other {
+            let (named, folder) = (&self.named, folder.path().display());
+            note(format_args!("{named}the results of another file were in {folder} and are replaced: {command}"));
+        }
         Ok(summary)
+    }
+
+    /// The command whose results are in the folder, where it had another file of the same scenario's name: one that was
+    /// edited since has the same path.
+    fn other_file(&self, sha256: &str) -> Option<String> {
+        let folder = self.folder.path();
+        // of another scenario, the user has asked for it by --force
+        scenario_in(folder).filter(|name| *name == self.scenario.name)?;
+        let [command, before] = origin_in(folder)?;
+        let plain = |path: &Path| path.components().collect::<PathBuf>();
+        let is_this = |word: &String| plain(Path::new(word)) == plain(self.path);
+        let is_other = before != sha256 && !shlex::split(&command)?.iter().any(is_this);
+        is_other.then_some(command)
     }
 }
 

@@ -69,7 +69,7 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = Dynamics::Auto, help_heading = "Computation")]
     dynamics: Dynamics,
     /// Threads that compute cases [default: one for each processor].
-    #[arg(long, value_name = "NUMBER", help_heading = "Computation")]
+    #[arg(long, value_name = "NUMBER", value_parser = threads, help_heading = "Computation")]
     threads: Option<NonZero<usize>>,
     #[command(flatten)]
     display: Display,
@@ -80,6 +80,10 @@ fn shard(text: &str) -> Result<Shard, String> {
     let (number, of) = text.split_once('/').ok_or_else(wrong)?;
     let [number, of]: [u64; 2] = [number.parse().map_err(|_| wrong())?, of.parse().map_err(|_| wrong())?];
     Shard::new(number, of).ok_or_else(wrong)
+}
+
+fn threads(text: &str) -> Result<NonZero<usize>, String> {
+    text.parse().map_err(|_| "expected a whole number of threads, at least 1".to_owned())
 }
 
 /// Computes the files that are missing; exit code 0 whatever became of single cases.
@@ -148,7 +152,7 @@ fn choose(campaign: &Campaign, dynamics: Dynamics, robots: Robots<'_>, quiet: bo
     let layout = campaign.general_layout();
     let choice = dynamics.choose(&layout, &campaign.scenario_source.scenario.file, robots)?;
     if !quiet {
-        dynamics.announce(&choice, "");
+        dynamics.announce(&choice, &campaign.scenario_source.layout.file, "");
     }
     Ok(choice)
 }

@@ -92,6 +92,8 @@ mod tests {
         for (path, why) in [
             ("", "expected a key"),
             ("approach.dration", "did you mean `approach.duration`?"),
+            ("base.mass", "did you mean `layout.base.mass`?"),
+            ("name.mass", "which has no keys"),
             ("approach", "it is a table"),
             ("target.t", "it is a table"),
             ("case.c.target_twists", "it is a table"),

@@ -103,7 +103,13 @@ impl Variation {
                 *file == path.file && (other.starts_with(&place) || place.starts_with(other))
             };
             if let Some(other) = places.iter().position(overlaps) {
-                return Err(refused(format!("it is part of `{}`, which varies, too", keys[other].0)));
+                let (whole, is_same) = (&keys[other].0, places[other].1 == place);
+                let why = if is_same {
+                    "it varies already, there is one `vary` for a key".to_owned()
+                } else {
+                    format!("it is part of `{whole}`, which varies, too")
+                };
+                return Err(refused(why));
             }
             set(tree, &place, value.to_toml());
             places.push((path.file, place));

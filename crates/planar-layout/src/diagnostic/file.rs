@@ -57,7 +57,7 @@ fn unreadable(path: &Path, kind: &str, error: &io::Error) -> Report {
     match error.kind() {
         ErrorKind::NotFound => Diagnostic::with_file(format!("there is no file `{name}`"), missing_file_hint(path)),
         ErrorKind::IsADirectory => Diagnostic::with_file(
-            format!("`{name}` is a directory, expected a {kind} file"),
+            format!("`{name}` is a folder, expected a {kind} file"),
             names_in(path)
                 .into_iter()
                 .find(|entry| has_extension(entry, kind))
@@ -73,7 +73,7 @@ fn missing_file_hint(path: &Path) -> Option<String> {
     let parent = path.parent()?;
     let folder = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
     if !folder.is_dir() {
-        return Some(format!("there is no directory `{}` either", shown(folder)));
+        return Some(format!("there is no folder `{}` either", shown(folder)));
     }
     let names = names_in(folder);
     let name = nearest(path.file_name()?.to_str()?, names.iter().map(String::as_str))?;
