@@ -25,11 +25,10 @@ pub(super) fn warnings(layout: &Layout) -> Vec<Warning> {
     let of_all = [
         light_base(layout),
         gyration(layout),
-        long_link(layout),
         ratio(layout, "mass", "kg", MAX_MASS_RATIO, layout.base.mass, |link| link.mass),
         ratio(layout, "inertia", "kg m²", MAX_INERTIA_RATIO, layout.base.inertia, |link| link.inertia),
     ];
-    links.chain(of_all.into_iter().flatten()).collect()
+    links.chain(long_links(layout)).chain(of_all.into_iter().flatten()).collect()
 }
 
 fn light_base(layout: &Layout) -> Option<Warning> {
@@ -70,15 +69,19 @@ fn gyration(layout: &Layout) -> Option<Warning> {
     })
 }
 
-/// A link far longer than all others, of any arm: a length in another unit.
-fn long_link(layout: &Layout) -> Option<Warning> {
-    let ([arm, link], next) = layout.longest_link()?;
-    let longest = layout.arms[arm].links[link].length;
-    (longest > MAX_LENGTH_RATIO * next).then(|| {
-        let why = format!("{} times as long as the next longest link, {} m", short(longest / next), short(next));
-        let help = format!("lengths are in m; {} mm are {} m", short(longest), short(longest / 1000.0));
-        warning(format!("arm[{arm}].link[{link}].length"), why, help)
-    })
+/// Links far longer than all others, of any arm: lengths in another unit.
+fn long_links(layout: &Layout) -> Vec<Warning> {
+    let Some((long, next)) = layout.longest_links() else { return Vec::new() };
+    let others = if long.len() > 1 { "longest link with another length" } else { "next longest link" };
+    let far = long.into_iter().filter_map(|[arm, link]| {
+        let length = layout.arms[arm].links[link].length;
+        (length > MAX_LENGTH_RATIO * next).then(|| {
+            let why = format!("{} times as long as the {others}, {} m", short(length / next), short(next));
+            let help = format!("lengths are in m; {} mm are {} m", short(length), short(length / 1000.0));
+            warning(format!("arm[{arm}].link[{link}].length"), why, help)
+        })
+    });
+    far.collect()
 }
 
 /// Bodies too different in size for one robot.

@@ -26,9 +26,11 @@ const MAX_TURNED: f64 = 1000.0;
 const MAX_DISTANCES: u64 = 200_000;
 /// Depth of a reported overlap without a warning, m: end effectors may reach their targets a little from within.
 const TOLERATED_DEPTH: f64 = 1e-3;
+/// The same where an outline is a default, m, which is a coarse one.
+const TOLERATED_DEFAULT: f64 = 1e-2;
 
-/// One warning for each case in which bodies of given outlines overlap before the contact, and for pairs in `ignore`
-/// that are not compared anyway.
+/// One warning for each case in which bodies overlap before the contact, of given outlines and of default ones, and for
+/// pairs in `ignore` that are not compared anyway.
 ///
 /// # Errors
 /// That of every run: goals that are not reached, or a start inside a target.
@@ -50,7 +52,6 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
     let by_end_effectors = matches!(scenario.approach.tracking, Tracking::ResolvedMotionRate { .. });
     planned.post_impact = None;
     planned.clearance.max_distances = MAX_DISTANCES;
-    planned.clearance.only_given = true;
     // a case that stops has no depth
     planned.clearance.on_overlap = OnOverlap::Report;
     // the approaches of cases differ by the targets' motions, and by which contacts end them
@@ -100,33 +101,45 @@ fn overlaps(scenario: &Scenario, robots: Robots<'_>) -> Result<Vec<Warning>, Stu
         // what else stops a run is reported by the run
         Err(_) => return Ok(Vec::new()),
     };
-    let is_deep = |overlap: &&Overlap| match scenario.clearance.on_overlap {
-        OnOverlap::Report => overlap.depth > TOLERATED_DEPTH,
-        OnOverlap::Fail | OnOverlap::Stop => true,
-    };
-    // the same for several cases once, with their names unless it is all of them
-    let mut found: Vec<(String, Vec<&str>)> = Vec::new();
-    for case in &result.cases {
-        let overlaps = case.clearance.overlaps.iter().filter(|overlap| !overlap.is_default);
-        let deep: Vec<_> = overlaps.filter(is_deep).collect();
-        let Some(why) = first_overlap(&deep) else { continue };
-        match found.iter_mut().find(|(other, _)| *other == why) {
-            Some((_, cases)) => cases.push(&case.name),
-            None => found.push((why, vec![&case.name])),
-        }
-    }
-    let overlapping = found.into_iter().map(|(why, cases)| {
-        let names = if cases.len() < result.cases.len() { format!("in case `{}`: ", cases.join("`, `")) } else { String::new() };
-        let help = "choose another approach, or an `outline` that does not go beyond the end effector where it is to touch; \
-                    `clearance.ignore` says what may overlap";
-        warning("approach", names + &why, help)
-    });
-    let mut warnings: Vec<Warning> = overlapping.collect();
+    let mut warnings = bodies_inside(&result, scenario.clearance.on_overlap);
     warnings.extend(beyond_limits(scenario, &result));
     if has_torques {
         warnings.extend(beyond_torques(scenario, &result.approach));
     }
     Ok(warnings)
+}
+
+/// The overlaps of given outlines, and then those of default ones, of which no run fails.
+fn bodies_inside(planned: &Study, on_overlap: OnOverlap) -> Vec<Warning> {
+    let is_deep = |overlap: &Overlap| match on_overlap {
+        _ if overlap.is_default => overlap.depth > TOLERATED_DEFAULT,
+        OnOverlap::Report => overlap.depth > TOLERATED_DEPTH,
+        OnOverlap::Fail | OnOverlap::Stop => true,
+    };
+    let given = "choose another approach, or an `outline` that does not go beyond the end effector where it is to touch; \
+                 `clearance.ignore` says what may overlap";
+    let default = "these outlines are defaults, the base a box and links segments, and no run fails by them; an `outline` of \
+                   base and links in the layout is what they are";
+    let of = |is_default: bool, help: &str| {
+        // the same for several cases once, with their names unless it is all of them
+        let mut found: Vec<(String, Vec<&str>)> = Vec::new();
+        for case in &planned.cases {
+            let overlaps = case.clearance.overlaps.iter().filter(|overlap| overlap.is_default == is_default);
+            let deep: Vec<_> = overlaps.filter(|overlap| is_deep(overlap)).collect();
+            let Some(why) = first_overlap(&deep) else { continue };
+            match found.iter_mut().find(|(other, _)| *other == why) {
+                Some((_, cases)) => cases.push(&case.name),
+                None => found.push((why, vec![&case.name])),
+            }
+        }
+        let in_words = |(why, cases): (String, Vec<&str>)| {
+            let is_some = cases.len() < planned.cases.len();
+            let names = if is_some { format!("in case `{}`: ", cases.join("`, `")) } else { String::new() };
+            warning("approach", names + &why, help)
+        };
+        found.into_iter().map(in_words).collect::<Vec<_>>()
+    };
+    [of(false, given), of(true, default)].concat()
 }
 
 /// The first of some overlaps in words, and how many more there are.

@@ -27,6 +27,7 @@ mod kind;
 mod link;
 mod names;
 mod number;
+mod outlines;
 mod pose;
 mod robot;
 mod stiffness;
@@ -168,7 +169,7 @@ fn variant_findings(variant: &Variant, common: &Scenario, robots: Robots<'_>) ->
 }
 
 fn of_layout(layout: &Layout) -> Vec<Warning> {
-    [bodies::warnings(layout), arms::warnings(layout)].concat()
+    [bodies::warnings(layout), arms::warnings(layout), outlines::warnings(layout)].concat()
 }
 
 /// The report of warnings about a scenario, and of those about its layout; the texts are theirs, with their files.

@@ -18,48 +18,63 @@ const SINGULAR: f64 = 0.01;
 pub(super) struct FinalPose<'a> {
     /// The arms of its rows.
     pub(super) arms: Vec<&'a Arm>,
+    /// Whether its rows are the twists that the approach is designed for alone.
+    pub(super) is_designed: bool,
     /// Smallest singular value over the largest; translations in units of each arm's reach.
     pub(super) margin: f64,
+    /// The same with translations in m, as a run has it.
+    pub(super) si_margin: f64,
 }
 
 pub(super) fn warnings(scenario: &Scenario) -> Vec<Warning> {
     [too_few_joints(scenario), singular(scenario)].into_iter().flatten().collect()
 }
 
-/// The final pose of the arms that capture or have a goal, and have the three joints that any twist of the end effector
-/// needs. `None` where there are none, or their Jacobian cannot be computed.
+/// The final pose of the end effectors for the twists that they are to have; else of the arms that capture and have the
+/// three joints that any twist needs. `None` where there are none, or their Jacobian cannot be computed.
 ///
 /// The singular values do not depend on the base pose, which only rotates the twists.
 pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     if scenario.approach.final_end_effector_poses.is_some() {
         return None; // the run computes the final pose and reports its margin
     }
-    let designed = matches!(scenario.approach.end, FinalRates::EndEffectorTwists(_));
-    let captures =
-        |i| designed || scenario.targets.iter().flat_map(|target| &target.contacts).any(|touch| touch.arm == i);
-    let arms = scenario.layout.arms.iter().enumerate();
-    let arms: Vec<_> = arms.filter(|(i, arm)| captures(*i) && arm.links.len() >= 3 && arm.reach() > 0.0).collect();
-    let (_, jacobian) = reduced(&scenario.layout, &scenario.approach.final_joint_angles)?;
-    let rows: Vec<_> = arms.iter().flat_map(|(i, arm)| (0..3).map(move |row| (3 * i + row, row, arm))).collect();
+    let goals = match &scenario.approach.end {
+        FinalRates::EndEffectorTwists(goals) => Some(goals),
+        FinalRates::Rest | FinalRates::JointRates(_) => None,
+    };
+    let captures = |i| scenario.targets.iter().flat_map(|target| &target.contacts).any(|touch| touch.arm == i);
+    let is_row = |i: usize, arm: &Arm, component: usize| match goals {
+        Some(goals) => goals[i][component].is_some(),
+        None => captures(i) && arm.links.len() >= 3,
+    };
+    let arms = scenario.layout.arms.iter().enumerate().filter(|(_, arm)| arm.reach() > 0.0);
+    let all = arms.flat_map(|(i, arm)| (0..3).map(move |component| (i, arm, component)));
+    let rows: Vec<_> = all.filter(|(i, arm, component)| is_row(*i, arm, *component)).collect();
     if rows.is_empty() {
         return None;
     }
-    let scaled = DMatrix::from_fn(rows.len(), jacobian.ncols(), |i, column| {
-        let (row, component, arm) = rows[i];
-        jacobian[(row, column)] / if component == 0 { 1.0 } else { arm.reach() }
-    });
-    let values = scaled.try_svd(false, false, f64::EPSILON, 1000)?.singular_values;
-    let margin = if values.max() > 0.0 { values.min() / values.max() } else { 0.0 };
-    Some(FinalPose { arms: arms.into_iter().map(|(_, arm)| arm).collect(), margin })
+    let (_, jacobian) = reduced(&scenario.layout, &scenario.approach.final_joint_angles)?;
+    let margin = |unit: fn(&Arm) -> f64| {
+        let scaled = DMatrix::from_fn(rows.len(), jacobian.ncols(), |row, column| {
+            let (i, arm, component) = rows[row];
+            jacobian[(3 * i + component, column)] / if component == 0 { 1.0 } else { unit(arm) }
+        });
+        let values = scaled.try_svd(false, false, f64::EPSILON, 1000)?.singular_values;
+        Some(if values.max() > 0.0 { values.min() / values.max() } else { 0.0 })
+    };
+    let (margin, si_margin) = (margin(Arm::reach)?, margin(|_| 1.0)?);
+    let mut arms: Vec<_> = rows.iter().map(|(_, arm, _)| *arm).collect();
+    arms.dedup_by(|a, b| a.name == b.name);
+    Some(FinalPose { arms, is_designed: goals.is_some(), margin, si_margin })
 }
 
 fn singular(scenario: &Scenario) -> Option<Warning> {
-    let FinalPose { arms, margin } = final_pose(scenario)?;
+    let FinalPose { arms, margin, .. } = final_pose(scenario)?;
     let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
     (margin < SINGULAR).then(|| {
         let why = format!(
             "close to a singular pose of {}, where some end effector motions need very high joint rates: the smallest singular \
-             value of the generalized Jacobian is {} of the largest",
+             value of the generalized Jacobian is {} of the largest, lengths in units of the reach",
             names.join(" and "),
             short(margin)
         );

@@ -33,11 +33,13 @@ pub(super) fn description(scenario: &Scenario, robots: Robots<'_>) -> String {
         None => entry("largest turn", &turn(scenario)),
     };
     out += &entry("tracking", &tracking(scenario));
-    if let Some(FinalPose { arms, margin }) = final_pose(scenario) {
+    if let Some(FinalPose { arms, is_designed, margin, si_margin }) = final_pose(scenario) {
         let names: Vec<_> = arms.iter().map(|arm| arm.name.as_str()).collect();
-        let (names, margin) = (names.join(", "), short(margin));
+        let (names, margin, si_margin) = (names.join(", "), short(margin), short(si_margin));
+        let which = if is_designed { "the given" } else { "all" };
         let what = format!(
-            "generalized Jacobian of all twists of {names}: smallest/largest singular value {margin}, lengths in units of the reach"
+            "generalized Jacobian of {which} twists of {names}: smallest/largest singular value {si_margin} in SI units, {margin} \
+             with lengths in units of the reach"
         );
         out += &entry("final pose", &what);
     }

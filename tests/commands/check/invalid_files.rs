@@ -222,3 +222,28 @@ fn a_sample_time_is_at_most_the_duration() {
     let refusal = read("20.005").expect_err("longer than 20 s");
     assert!(refusal.contains("`approach.sample_time`") && refusal.contains("it.toml:6:"), "{refusal}");
 }
+
+/// Two lengths in mm are both named, and no mass.
+#[test]
+fn all_lengths_in_mm_are_named() {
+    let text = std::fs::read_to_string(planar_proof::file("codegen/layouts/dual_arm_3r.toml")).expect("a layout");
+    let mut lengths = text.split("length = 1.0").enumerate();
+    let first = lengths.next().expect("a text").1.to_owned();
+    let wrong =
+        |(i, rest): (usize, &str)| format!("length = {}{rest}", if i == 2 || i == 4 { "1000.0" } else { "1.0" });
+    let text = first + &lengths.map(wrong).collect::<String>();
+    let report = inspect(&text, "robot.toml", Path::new(""), planar_capture::registry::SHIPPED).expect_err("refused");
+    let shown = report.to_string();
+    assert_eq!(report.count(), 2, "{shown}");
+    for key in ["`arm[0].link[1].length` is 1000.0", "`arm[1].link[0].length` is 1000.0", "lengths are in m"] {
+        assert!(shown.contains(key), "{key}: {shown}");
+    }
+}
+
+/// An outline of a misspelt kind is that problem alone.
+#[test]
+fn a_misspelt_outline_is_one_problem() {
+    let text = LAYOUT.replace("inertia = 80.0", "inertia = 80.0\noutline = { Box = [1.0, 1.0] }");
+    let report = inspect(&text, "robot.toml", Path::new(""), planar_capture::registry::SHIPPED).expect_err("refused");
+    assert!(report.count() == 1 && report.to_string().contains("did you mean `box`?"), "{report}");
+}

@@ -75,6 +75,14 @@ name = "still"
 target_twists = { ball = [0.0, 0.0, 0.0] }
 [post_impact]
 duration = 50.0
+[clearance] # the outlines are defaults: other tests look at overlaps
+ignore = [
+  ["base", "arms/left/link2"], ["base", "arms/left/link3"], ["base", "targets/ball"],
+  ["arms/left/link1", "arms/left/link3"], ["arms/left/link1", "arms/right/link1"], ["arms/left/link1", "targets/ball"],
+  ["arms/left/link2", "arms/right/link1"], ["arms/left/link2", "arms/wheel/link1"], ["arms/left/link2", "targets/ball"],
+  ["arms/left/link3", "arms/right/link1"], ["arms/left/link3", "arms/wheel/link1"], ["arms/left/link3", "targets/ball"],
+  ["arms/right/link1", "arms/wheel/link1"], ["arms/right/link1", "targets/ball"], ["arms/wheel/link1", "targets/ball"],
+]
 "#;
 
 fn inspect_text(text: &str) -> CheckReport {
@@ -97,6 +105,14 @@ fn shipped_files_have_no_warnings() {
     assert!(all.len() >= 2 * SHIPPED.len() + 5);
     for each in all {
         let (code, out, err) = check(&[&each], Path::new("."));
+        // its arm folds over the base, of which the layout gives no outline
+        if each.ends_with("spinning_target.toml") {
+            assert!(
+                code == 0 && err.contains("these outlines are defaults") && err.ends_with("\n1 warning\n"),
+                "{err}"
+            );
+            continue;
+        }
         assert_eq!((code, err.as_str()), (0, ""), "{each}");
         assert!(out.ends_with("\nno warnings\n"), "{each}:\n{out}");
     }

@@ -84,6 +84,19 @@ const LAYOUT_EDITS: &[Edit] = &[
         &["`arm[2].link[0].mass` is 4e-6", "1.25e8 times smaller", "`base.mass`, 500 kg"],
     ),
     ("inertia = 0.5", "inertia = 5e-9", 34, &["`arm[2].link[0].inertia` is 5e-9", "`base.inertia`, 80 kg m²"]),
+    // outlines in mm
+    (
+        "inertia = 80.0",
+        "inertia = 80.0\noutline = { box = [1000, 800] }",
+        5,
+        &["`base.outline` is", "up to 640.3 m from the base COM", "213.4 times what the arms reach", "3 m", "0.6403 m"],
+    ),
+    (
+        "inertia = 3.0",
+        "inertia = 3.0\noutline = { capsule = 50.0 }",
+        28,
+        &["`arm[1].link[0].outline` is", "m from its joint"],
+    ),
     // mounts and lengths
     (
         "[-0.5, 0.0]",
@@ -388,6 +401,39 @@ fn warnings_are_in_the_order_of_the_files() {
     let at =
         ["it.toml:9:", "it.toml:15:", "robot.toml (shipped):3:", "robot.toml (shipped):27:"].map(|p| shown.find(p));
     assert!(at.iter().all(Option::is_some) && at.is_sorted() && warnings.count() == 4, "{shown}");
+}
+
+/// Several lengths in another unit are named, each at its own key.
+#[test]
+fn all_lengths_in_another_unit_are_named() {
+    let text = LAYOUT.replacen("length = 1.0", "length = 120.0", 1).replace("length = 2.0", "length = 150.0");
+    let text = text.replacen("inertia = 1.0", "inertia = 3000.0", 1).replace("inertia = 3.0", "inertia = 3000.0");
+    let shown = inspect_text(&text).warnings.to_string();
+    for key in ["arm[0].link[0]", "arm[1].link[0]"] {
+        assert!(shown.contains(&format!("`{key}.length` is")), "{key}: {shown}");
+    }
+    assert!(shown.contains("120 times as long as the longest link with another length, 1 m"), "{shown}");
+}
+
+/// Default outlines fail no run, and `check` names them as `run` does.
+#[test]
+fn overlaps_of_default_outlines_are_named() {
+    let (approach, _) = SCENARIO.split_once("[[target]]").expect("an approach");
+    let folded = approach.replace("final_joint_angles = [-0.5, -1.4,", "final_joint_angles = [0.0, 2.9,");
+    let of = |layout: &str| {
+        let report = inspect(&folded, "it.toml", Path::new(""), &[("robot", layout)]).expect("valid");
+        assert!(report.refusal.is_none());
+        report.warnings.to_string()
+    };
+    let inside = "`base` and `arms/left/link3` are inside each other along the planned path";
+    let shown = of(LAYOUT);
+    assert!(shown.contains(inside) && shown.contains("these outlines are defaults"), "{shown}");
+    let given = LAYOUT.replace("inertia = 80.0", "inertia = 80.0\noutline = { box = [1.0, 1.0] }");
+    let given = given.replace("inertia = 0.1", "inertia = 0.1\noutline = { capsule = 0.01 }");
+    let shown = of(&given);
+    assert!(shown.contains(inside) && shown.contains("choose another approach"), "{shown}");
+    let away = LAYOUT.replace("length = 0.5", "length = 0.05").replace("inertia = 0.1", "inertia = 1e-3");
+    assert!(!of(&away).contains("`base`"), "{}", of(&away));
 }
 
 /// What makes `run` exit with 1 for overlaps is a warning of `check`, or `check` says what it has not looked at.

@@ -119,11 +119,12 @@ impl Layout {
             });
             Some(Self { name: name?, base: base?, arms: arms? })
         })?;
-        match layout.disproportion() {
+        let report = |Disproportion { kind, arm, link, value, why }| {
+            report_error(text, file, (&parameter_key(kind, arm, link), &value.to_string()), &why, None)
+        };
+        match layout.disproportions().into_iter().map(report).reduce(Report::and) {
             None => Ok(layout),
-            Some(Disproportion { kind, arm, link, value, why }) => {
-                Err(report_error(text, file, (&parameter_key(kind, arm, link), &value.to_string()), &why, None))
-            }
+            Some(report) => Err(report),
         }
     }
 
@@ -244,18 +245,21 @@ impl Layout {
         all
     }
 
-    /// Indices of the arm and of the link of the longest one, and the length of the next longest one, m; `None` where there
-    /// are no two with a length.
+    /// The links on the long side of the largest gap between the lengths of all, indices of arm and link, and the longest of
+    /// the others, m; `None` where these are not most of those with a length.
     #[must_use]
-    pub fn longest_link(&self) -> Option<([usize; 2], f64)> {
+    pub fn longest_links(&self) -> Option<(Vec<[usize; 2]>, f64)> {
         let of_arm = |(i, arm): (usize, &Arm)| {
             arm.links.iter().enumerate().map(move |(k, link)| (link.length, [i, k])).collect::<Vec<_>>()
         };
         let mut lengths: Vec<_> =
             self.arms.iter().enumerate().flat_map(of_arm).filter(|(length, _)| *length > 0.0).collect();
         lengths.sort_by(|(a, _), (b, _)| b.total_cmp(a));
-        let [(_, longest), (next, _), ..] = lengths[..] else { return None };
-        Some((longest, next))
+        let most = lengths.len() / 2;
+        let gap = |count: &usize| lengths[count - 1].0 / lengths[*count].0;
+        // of equal ones the first
+        let count = (1..=most).rev().max_by(|a, b| gap(a).total_cmp(&gap(b)))?;
+        Some((lengths[..count].iter().map(|(_, place)| *place).collect(), lengths[count].0))
     }
 
     /// Largest [reach](Arm::reach_from_base) of an arm, m.
@@ -264,55 +268,63 @@ impl Layout {
         self.arms.iter().map(Arm::reach_from_base).fold(0.0, f64::max)
     }
 
-    /// A body beside which others are lost in rounding, or that is lost beside them.
-    fn disproportion(&self) -> Option<Disproportion> {
+    /// A body beside which others are lost in rounding, or that is lost beside them; or the lengths that are why.
+    fn disproportions(&self) -> Vec<Disproportion> {
         let base = Inertia { mass: self.base.mass, inertia: self.base.inertia };
         let of_link = |link: &Link| Inertia { mass: link.mass, inertia: link.inertia };
         let arms: Vec<Vec<_>> = self.arms.iter().map(|arm| arm.links.iter().map(of_link).collect()).collect();
-        disproportion(base, &arms, self.reach_from_base()).or_else(|| self.unresolved_motion())
+        let body = disproportion(base, &arms, self.reach_from_base());
+        body.map_or_else(|| self.unresolved_motion(), |body| vec![body])
     }
 
     /// A joint, or the base, whose motion with the joints beyond it free is lost beside that with them locked.
-    fn unresolved_motion(&self) -> Option<Disproportion> {
+    fn unresolved_motion(&self) -> Vec<Disproportion> {
         let Weakest { link, share } = Weakest::of(self);
-        (share < LEAST_SHARE).then(|| {
-            if let Some(long) = self.long_link() {
-                return long;
+        if share >= LEAST_SHARE {
+            return Vec::new();
+        }
+        if let Some(long) = self.long_links() {
+            return long;
+        }
+        let ((kind, value), what, beyond) = match link {
+            Some((i, k)) => {
+                let arm = &self.arms[i];
+                let what = format!("joint {} of {}", k + 1, arm.name);
+                ((ParameterKind::LinkMass, arm.links[k].mass), what, "the joints beyond it")
             }
-            let ((kind, value), what, beyond) = match link {
-                Some((i, k)) => {
-                    let arm = &self.arms[i];
-                    let what = format!("joint {} of {}", k + 1, arm.name);
-                    ((ParameterKind::LinkMass, arm.links[k].mass), what, "the joints beyond it")
-                }
-                None => ((ParameterKind::BaseMass, self.base.mass), "the base".to_owned(), "all joints"),
-            };
-            let why = format!(
-                "16 digits do not resolve how {what} moves with {beyond} free: its inertia is then {share:.1e} of that with \
-                 them locked, expected at least {LEAST_SHARE:e}; light bodies between heavy ones fold like this, and \
-                 short links without inertia, but not longer links and bodies whose masses and inertias differ less"
-            );
-            let (arm, link) = link.unwrap_or_default();
-            Disproportion { kind, arm, link, value, why }
-        })
+            None => ((ParameterKind::BaseMass, self.base.mass), "the base".to_owned(), "all joints"),
+        };
+        let why = format!(
+            "16 digits do not resolve how {what} moves with {beyond} free: its inertia is then {share:.1e} of that with \
+             them locked, expected at least {LEAST_SHARE:e}; light bodies between heavy ones fold like this, and \
+             short links without inertia, but not longer links and bodies whose masses and inertias differ less"
+        );
+        let (arm, link) = link.unwrap_or_default();
+        vec![Disproportion { kind, arm, link, value, why }]
     }
 
-    /// The link whose length alone is why: of a length near those of the others the motion would be resolved.
-    fn long_link(&self) -> Option<Disproportion> {
-        let ([arm, link], next) = self.longest_link()?;
+    /// The links whose lengths alone are why: of lengths near those of the others the motion would be resolved.
+    fn long_links(&self) -> Option<Vec<Disproportion>> {
+        let (long, next) = self.longest_links()?;
         let mut shorter = self.clone();
-        let other = &mut shorter.arms[arm].links[link];
-        let value = std::mem::replace(&mut other.length, next);
-        other.com = other.com.map(|part| part * next / value);
-        let is_why = value > LONG * next && Weakest::of(&shorter).share >= LEAST_SHARE;
-        is_why.then(|| {
+        for &[arm, link] in &long {
+            let link = &mut shorter.arms[arm].links[link];
+            link.com = link.com.map(|part| part * next / link.length);
+            link.length = next;
+        }
+        let length = |[arm, link]: [usize; 2]| self.arms[arm].links[link].length;
+        let is_why = long.iter().all(|link| length(*link) > LONG * next) && Weakest::of(&shorter).share >= LEAST_SHARE;
+        let blame = |[arm, link]: [usize; 2]| {
+            let value = length([arm, link]);
+            let others = if long.len() > 1 { "longest link with another length" } else { "next longest link" };
             let why = format!(
-                "{:.0} times as long as the next longest link, {next} m: 16 digits do not resolve how the joints of such a \
-                 robot move; lengths are in m",
+                "{:.0} times as long as the {others}, {next} m: 16 digits do not resolve how the joints of such a robot \
+                 move; lengths are in m",
                 value / next
             );
             Disproportion { kind: ParameterKind::LinkLength, arm, link, value, why }
-        })
+        };
+        is_why.then(|| long.iter().copied().map(blame).collect())
     }
 
     fn canonical_text(&self) -> String {

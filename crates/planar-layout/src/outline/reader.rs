@@ -15,6 +15,10 @@ const EXPECTED: &str = "one of `disc` (a radius in m), `box` (two sides in m), `
 pub fn outline(value: &Value<'_>, length: Option<f64>) -> Option<Outline> {
     let table = value.table()?;
     let given: Vec<&str> = FORMAT.one_of.iter().copied().filter(|kind| table.get(kind).is_some()).collect();
+    // that was said of the misspelling
+    if given.is_empty() && FORMAT.one_of.iter().any(|kind| table.is_misspelt(kind)) {
+        return None;
+    }
     let [kind] = given[..] else {
         value.reject(&format!("found {} of them, expected {EXPECTED}", given.len()));
         return None;
