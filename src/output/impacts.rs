@@ -70,3 +70,27 @@ pub fn impacts<'a>(study: &'a Study, case: &'a CaseResult) -> Vec<ImpactEvent<'a
     });
     std::iter::once(first).chain(later).collect()
 }
+
+/// How many digits after the point tell times in s apart, which are in their order; three at least.
+#[must_use]
+pub fn time_digits(times: &[f64]) -> usize {
+    const MOST: usize = 9;
+    let gaps = times.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.0);
+    let least = gaps.fold(f64::INFINITY, f64::min);
+    let is_seen =
+        |digits: &usize| [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].get(digits - 3).is_some_and(|unit| least * unit >= 2.0);
+    (3..MOST).find(is_seen).unwrap_or(MOST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::time_digits;
+
+    #[test]
+    fn times_have_the_digits_that_tell_them_apart() {
+        assert_eq!(time_digits(&[1.0]), 3);
+        assert_eq!(time_digits(&[1.0, 1.5, 1.5]), 3);
+        assert_eq!(time_digits(&[5.0682, 5.0685]), 4);
+        assert_eq!(time_digits(&[5.0, 5.0 + 1e-12]), 9);
+    }
+}

@@ -228,7 +228,16 @@ mod drawn {
     #[test]
     fn overlaps_are_pictured_while_they_last() {
         let scenario = scenario("raina_shah_2017");
-        let study = run(&scenario);
+        let mut study = run(&scenario);
+        // a contact ends an overlap: from then on the two are held
+        let contact = study.approach.duration;
+        for case in &mut study.cases {
+            let overlaps = &mut case.clearance.overlaps;
+            let mut until = overlaps[0].clone();
+            until.bodies = ["base", "targets/target1"].map(str::to_owned);
+            until.span = [contact - 1e-3, contact];
+            overlaps.push(until);
+        }
         let all = figures(&scenario, &study);
         let of = |name: String| all.iter().find(|figure| figure.name == name).expect("the figure");
         let (mut with, mut without) = (0, 0);
@@ -251,7 +260,9 @@ mod drawn {
             let samples = &case.capture.as_ref().expect("a capture").post_impact.samples;
             for (k, panel) in of(format!("post_impact_motion_{}", case.name)).panels.iter().enumerate() {
                 let time = study.approach.duration + samples[(samples.len() - 1) * k / 5].time;
-                let now = overlaps.iter().filter(|overlap| overlap.span[0] <= time && time <= overlap.span[1]);
+                let end = study.approach.duration + samples[samples.len() - 1].time;
+                let lasts = |[from, to]: [f64; 2]| from <= time && (time < to || to > end - 1e-9);
+                let now = overlaps.iter().filter(|overlap| lasts(overlap.span));
                 let bodies: BTreeSet<&String> = now.flat_map(|overlap| &overlap.bodies).collect();
                 let outlines = panel.series.iter().filter(|series| series.label.as_deref() == Some("overlap"));
                 assert_eq!(outlines.count(), bodies.len(), "{} at {time} s", case.name);
@@ -429,10 +440,13 @@ mod drawn {
             let impacts = std::iter::once((first.duration, first.end(), &captured.impact)).chain(later);
             assert_eq!(figure.panels.len(), 1 + captured.later_impacts.len());
             for (panel, (time, now, impact)) in figure.panels.iter().zip(impacts) {
-                assert_eq!(panel.title, Some(format!("Impact at {time:.3} s")));
+                let title = panel.title.as_deref().unwrap_or_default();
+                assert!(title.starts_with(&format!("Impact at {time:.3} s, ")) && title.ends_with(" N s"), "{title}");
                 let result = &impact.contacts[0];
                 let [_, x, y] = now.end_effector_poses[result.contact.arm];
-                let arrow = points(panel, "impulse on the robot");
+                let several = captured.later_impacts.len() > 0;
+                let arrow =
+                    points(panel, if several { "impulse on the robot (own scale)" } else { "impulse on the robot" });
                 assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the end effector");
                 let (along, [_, fx, fy]) = ((arrow[1].0 - x, arrow[1].1 - y), result.impulse);
                 assert!((along.0 * fy - along.1 * fx).abs() < 1e-12 && along.0 * fx + along.1 * fy > 0.0, "{name}");
@@ -463,8 +477,12 @@ mod drawn {
         let panels: Vec<_> = pages.iter().flat_map(|page| &page.panels).collect();
         for (i, panel) in panels.iter().enumerate() {
             let title = panel.title.as_deref().unwrap_or_default();
-            assert!(title.starts_with(&format!("Impact {} of 30, at ", i + 1)), "{title}");
-            assert_eq!((&panel.x.range, &panel.y.range), (&panels[0].x.range, &panels[0].y.range));
+            assert!(title.starts_with(&format!("Impact {} of 30: ", i + 1)), "{title}");
+            let side = |panel: &Panel| match panel.x.range {
+                AxisRange::Fixed(low, high) => high - low,
+                _ => panic!("a frame"),
+            };
+            assert!((side(panel) - side(panels[0])).abs() < 1e-9 && side(panel) < 4.0, "a close-up of one scale");
         }
         let twice = of("impact_configuration_half");
         assert_eq!(twice.columns, 2, "few of them are larger");

@@ -20,6 +20,7 @@
 
 mod bodies;
 pub(super) mod clip;
+mod labels;
 pub(super) mod view;
 
 use crate::capture::{CaseResult, Study};
@@ -32,6 +33,7 @@ use crate::scenario::Scenario;
 use bodies::{Hold, Motion};
 pub(super) use bodies::{colour, path};
 use clip::{Clip, short};
+use labels::Labels;
 use std::fmt::Write as _;
 use view::{View, WIDTH, round_number};
 
@@ -194,8 +196,9 @@ fn impulses(view: &View, clip: &Clip, events: &[ImpactEvent<'_>]) -> String {
         event.solution.contacts.iter().map(of).collect::<Vec<_>>()
     };
     let most = events.iter().flat_map(contacts).fold(0.0, |most: f64, (.., size)| most.max(size));
-    let mut drawn = String::new();
+    let (mut drawn, mut labels) = (String::new(), Labels::default());
     for event in events {
+        let seen = [event.time, event.time + IMPULSE_SHOWN * clip.speed()];
         let mut arrows = String::new();
         for (from, force, size) in contacts(event).into_iter().filter(|(.., size)| *size > 1e-9) {
             let [x, y] = view.pixel(from);
@@ -209,27 +212,28 @@ fn impulses(view: &View, clip: &Clip, events: &[ImpactEvent<'_>]) -> String {
             let [x, y, ends_x, ends_y] =
                 [x, y, tip_x - 8.0 * way[0], tip_y - 8.0 * way[1]].map(|value| short(value, 1));
             let (anchor, beside) = if way[0] < 0.0 { ("end", -8.0) } else { ("start", 8.0) };
+            let text = format!("{} N s", significant(size));
+            let [label_x, label_y] = labels.place([tip_x + beside, tip_y + 4.0], &text, anchor == "end", seen);
             let _ = write!(
                 arrows,
                 "<path class=\"head\" d=\"M{} {}L{}L{}Z\"/><path class=\"impulse\" d=\"M{x} {y}L{ends_x} {ends_y}\"/>\
-                 <text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{} N s</text>",
+                 <text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{text}</text>",
                 short(tip_x, 1),
                 short(tip_y, 1),
                 corner(5.0),
                 corner(-5.0),
-                short(tip_x + beside, 1),
-                short(tip_y + 4.0, 1),
-                significant(size),
+                short(label_x, 1),
+                short(label_y, 1),
             );
         }
-        drawn += &clip.seen(event.time, Some(event.time + IMPULSE_SHOWN * clip.speed()), &arrows);
+        drawn += &clip.seen(seen[0], Some(seen[1]), &arrows);
         drawn.push('\n');
     }
     drawn
 }
 
 /// Three digits.
-fn significant(value: f64) -> String {
+pub(super) fn significant(value: f64) -> String {
     let before = libm::log10(value.abs()).floor();
     let digits = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0].iter().position(|count| count + before >= 2.0).unwrap_or(9);
     format!("{value:.digits$}")

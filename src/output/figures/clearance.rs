@@ -35,21 +35,31 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Option<Figure> {
     let LeastDistance { distance, time, bodies } = least;
     let label = format!("least distance, {distance:.4} m");
     series.push(Series::symbols(&label, Colour::BLACK, Symbol::Cross, vec![(*time, row(bodies))]));
-    let end = case.approach(study).duration + case.capture.as_ref().map_or(0.0, |c| c.post_impact.duration);
+    let end = end(study, case);
     let names = pairs.iter().map(|[a, b]| format!("{a}, {b}")).collect();
     let y = Axis { label: String::new(), range: AxisRange::Categories(names) };
     Some(Figure::column(&format!("clearance_{}", case.name), vec![Panel::new(Axis::time("Time [s]", end), y, series)]))
 }
 
-/// The outlines of the bodies that overlap at a time, s since the start of the approach.
+/// Of a case, s since the start of the approach.
+fn end(study: &Study, case: &CaseResult) -> f64 {
+    case.approach(study).duration + case.capture.as_ref().map_or(0.0, |capture| capture.post_impact.duration)
+}
+
+/// How near to its end an overlap is over, s: a contact, from which on the two are held, is located to 1e-9 s.
+const ENDED: f64 = 1e-8;
+
+/// The outlines of the bodies that overlap from a time on, s since the start of the approach.
 pub(super) fn overlapping(
     scenario: &Scenario,
-    case: &CaseResult,
+    (study, case): (&Study, &CaseResult),
     time: f64,
     state: &RobotState,
     targets: &[Body],
 ) -> Vec<Series> {
-    let now = case.clearance.overlaps.iter().filter(|overlap| overlap.span[0] <= time && time <= overlap.span[1]);
+    let end = end(study, case);
+    let lasts = |[from, to]: [f64; 2]| from <= time && (time < to - ENDED || to > end - ENDED);
+    let now = case.clearance.overlaps.iter().filter(|overlap| lasts(overlap.span));
     let bodies: BTreeSet<&String> = now.flat_map(|overlap| &overlap.bodies).collect();
     let frames = scenario.frames();
     let poses = poses(&frames, state, &targets.iter().map(|target| target.pose).collect::<Vec<_>>());

@@ -3,12 +3,13 @@
 use super::clearance::overlapping;
 use super::figure::{Figure, Series};
 use super::robot::{arrow, expected_target, pin, robot, target};
-use super::snapshot::{FreeTarget, Snapshot, panels};
+use super::snapshot::{FreeTarget, Snapshot, close_ups, panels};
 use super::style::Colour;
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::layout::Arm;
-use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::animation::significant;
+use crate::output::impacts::{ImpactEvent, impacts, time_digits};
 use crate::output::scene::target_colour_index;
 use crate::scenario::{Detection, Scenario};
 use crate::simulate::Sample;
@@ -25,6 +26,9 @@ const LARGE: usize = 6;
 
 /// Length of the arrow of the largest impulse over the length of the longest arm.
 const ARROW: f64 = 0.3;
+
+/// The same in a close-up, over the length of the arm's last link.
+const CLOSE_ARROW: f64 = 0.6;
 
 /// The configuration at the start and at the end of the approach; with contact detection instead of the latter, at each
 /// impact of each case.
@@ -52,47 +56,24 @@ pub(super) fn figures(scenario: &Scenario, study: &Study) -> Vec<Figure> {
     vec![single("initial_configuration", [expected(), at_start].concat()), single(end_name, at_end)]
 }
 
-/// The impacts of a case that were found by detection, or the end of an approach without contact.
+/// The impacts of a case that were found by detection, several as close-ups; or the end of an approach without contact.
 fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Vec<Figure> {
-    let snapshot = |title: String, now: &Sample, bodies: &[Body], contacts: &[ImpactContact]| {
-        let mut series = expected_targets(scenario, "targets at the start");
-        series.extend(robot(&scenario.layout, &now.state));
-        series.extend(targets(scenario, bodies, now, contacts).concat());
-        Snapshot { title: Some(title), series, ..Snapshot::default() }
-    };
     let events = impacts(study, case);
-    let magnitudes =
-        events.iter().flat_map(|event| &event.solution.contacts).map(|c| libm::hypot(c.impulse[1], c.impulse[2]));
-    let largest = magnitudes.fold(0.0, f64::max);
-    let reach = scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max);
-    let length_per_impulse = if largest > 0.0 { ARROW * reach / largest } else { 0.0 };
-    let count = events.len();
-    let at_impact = |(i, event): (usize, &ImpactEvent<'_>)| {
-        let results = &event.solution.contacts;
-        let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
-        let title = if count > LARGE {
-            format!("Impact {} of {count}, at {:.3} s", i + 1, event.time)
-        } else {
-            format!("Impact at {:.3} s", event.time)
-        };
-        let mut snapshot = snapshot(title, event.before, event.targets, &contacts);
-        snapshot.series.extend(results.iter().filter_map(|result| {
-            let [_, x, y] = event.before.end_effector_poses[result.contact.arm];
-            let [_, fx, fy] = result.impulse.map(|part| part * length_per_impulse);
-            arrow("impulse on the robot", [x, y], [fx, fy])
-        }));
-        snapshot
-    };
-    let mut snapshots: Vec<Snapshot> = events.iter().enumerate().map(at_impact).collect();
-    if snapshots.is_empty() {
+    let panels = if events.is_empty() {
         let approach = case.approach(study);
         let title = format!("No contact by {} s", approach.duration);
-        snapshots.push(snapshot(title, approach.end(), &case.targets, &[]));
-    }
-    // all figures of one scale
-    let all = panels(snapshots);
-    let columns = if all.len() > LARGE { 3 } else { 2 };
-    let pages = all.chunks(PAGE).enumerate();
+        panels(vec![detected(scenario, title, approach.end(), &case.targets, &[])])
+    } else {
+        let times: Vec<_> = events.iter().map(|event| event.time).collect();
+        let (digits, count) = (time_digits(&times), events.len());
+        let of = |(i, event): (usize, &ImpactEvent<'_>)| {
+            let which = if count > LARGE { format!("Impact {} of {count}:", i + 1) } else { "Impact at".to_owned() };
+            at_impact(scenario, event, &format!("{which} {:.digits$} s", event.time), count > 1)
+        };
+        close_ups(events.iter().enumerate().map(of).collect())
+    };
+    let columns = if panels.len() > LARGE { 3 } else { 2 };
+    let pages = panels.chunks(PAGE).enumerate();
     pages
         .map(|(page, panels)| {
             // no name of a case has a plus sign
@@ -100,6 +81,46 @@ fn impacts_of_case(scenario: &Scenario, study: &Study, case: &CaseResult) -> Vec
             Figure { name: format!("impact_configuration_{}{number}", case.name), columns, panels: panels.to_vec() }
         })
         .collect()
+}
+
+/// Robot and targets where a contact is detected, or is not.
+fn detected(scenario: &Scenario, title: String, now: &Sample, bodies: &[Body], contacts: &[ImpactContact]) -> Snapshot {
+    let mut series = expected_targets(scenario, "targets at the start");
+    series.extend(robot(&scenario.layout, &now.state));
+    series.extend(targets(scenario, bodies, now, contacts).concat());
+    Snapshot { title: Some(title), series, ..Snapshot::default() }
+}
+
+/// An impact with its impulses, the greatest of them in its title: arrows of several impacts have a scale each, as each may
+/// be a small part of the one before.
+fn at_impact(scenario: &Scenario, event: &ImpactEvent<'_>, title: &str, is_one_of_several: bool) -> Snapshot {
+    let results = &event.solution.contacts;
+    let largest = results.iter().map(|result| libm::hypot(result.impulse[1], result.impulse[2])).fold(0.0, f64::max);
+    let up_to = if results.len() > 1 { "up to " } else { "" };
+    let contacts: Vec<_> = results.iter().map(|result| result.contact).collect();
+    let title = format!("{title}, {up_to}{} N s", significant(largest));
+    let mut snapshot = detected(scenario, title, event.before, event.targets, &contacts);
+    let last_link = |arm: usize| scenario.layout.arms[arm].links.last().map_or(0.0, |link| link.length);
+    // in a close-up there is the last link to compare it with
+    let (length, label) = if is_one_of_several {
+        let longest = contacts.iter().map(|contact| last_link(contact.arm)).fold(0.0, f64::max);
+        (CLOSE_ARROW * longest, "impulse on the robot (own scale)")
+    } else {
+        (ARROW * scenario.layout.arms.iter().map(Arm::reach).fold(0.0, f64::max), "impulse on the robot")
+    };
+    for result in results.iter().filter(|_| largest > 0.0) {
+        let [yaw, x, y] = event.before.end_effector_poses[result.contact.arm];
+        let [_, fx, fy] = result.impulse.map(|part| part * length / largest);
+        snapshot.series.extend(arrow(label, [x, y], [fx, fy]));
+        // the last link, and the target that it meets
+        let back = last_link(result.contact.arm);
+        snapshot.focus.extend([(x, y), (x - back * libm::cos(yaw), y - back * libm::sin(yaw))]);
+        let target = result.contact.target;
+        let [_, x, y] = event.targets[target].pose;
+        let reach = scenario.targets[target].outline.reach();
+        snapshot.focus.extend([(x - reach, y - reach), (x + reach, y + reach)]);
+    }
+    snapshot
 }
 
 /// The post-impact motion at equal intervals.
@@ -139,7 +160,7 @@ pub(super) fn post_impact_motion(
                 in_contact: i == 0 && contacts_until(0).any(|contact| contact.target == target),
             });
         }
-        snapshot.series.extend(overlapping(scenario, case, time, &sample.state, bodies));
+        snapshot.series.extend(overlapping(scenario, (study, case), time, &sample.state, bodies));
         snapshot
     });
     Figure { name: format!("post_impact_motion_{}", case.name), columns: 3, panels: panels(snapshots.collect()) }

@@ -50,6 +50,8 @@ pub enum AxisRange {
     PowersOfTen(i16, i16),
     /// One position for each name, at 1, 2, … from the lower or left end.
     Categories(Vec<String>),
+    /// The same, of bars along the other axis that have their names above them, within the panel.
+    NamedBars(Vec<String>),
 }
 
 /// A line, points, or bars.

@@ -23,6 +23,7 @@ mod approach;
 mod clearance;
 mod configuration;
 mod contact_velocities;
+mod cut;
 mod dash;
 pub mod draw;
 mod energy;

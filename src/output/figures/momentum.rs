@@ -55,7 +55,7 @@ pub(super) fn figure(scenario: &Scenario, study: &Study, case: &CaseResult) -> F
     let linear = [("px", 1, Colour::BLACK, Dash::Solid), ("py", 2, Colour::BLACK, Dash::Dashed)];
     let angular = [("l", 0, Colour::BLACK, Dash::Solid)];
     // a part of the momentum if all kinetic energy were in one motion
-    let energy = study.approach.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.momentum.kinetic_energy));
+    let energy = rows(study, case).fold(0.0, |most: f64, row| most.max(row.total_momentum().kinetic_energy));
     let span = |inertia: f64| MINIMUM_SPAN * (2.0 * energy * inertia).sqrt();
     Figure::column(
         &format!("momentum_{}", case.name),

@@ -7,6 +7,7 @@ use super::style::{Dash, Symbol};
 use super::width::Width;
 use kuva::plot::line::LineStyle;
 use kuva::plot::{Histogram, LegendEntry, LegendPosition, LegendShape, LinePlot, MarkerShape, ScatterPlot};
+use kuva::render::annotations::TextAnnotation;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use std::sync::Arc;
@@ -27,6 +28,9 @@ const LEAST_FRAME: f64 = 130.0;
 
 /// Width of a character, points.
 const CHARACTER: f64 = 7.2;
+
+/// Of a bar's name above the middle of its place, in places; the library puts it somewhat higher.
+const NAME: f64 = -0.07;
 
 /// Height of an entry of a legend, points.
 const LEGEND_LINE: f64 = 18.0;
@@ -87,7 +91,7 @@ impl Size {
                 [frame, if equal_scale { frame } else { lines.max(0.45 * frame).max(LEAST_FRAME) }]
             }
         };
-        let legend = legend_below.map_or(0.0, |entries| lines_height(entries + 1));
+        let legend = legend_below.filter(|entries| *entries > 0).map_or(0.0, |entries| lines_height(entries + 1));
         Self {
             frame,
             left,
@@ -110,7 +114,11 @@ impl Size {
 
 /// Height of the categories, or of a legend beside them if that has more lines.
 fn height_of_lines(panel: &Panel, legend_beside: bool) -> f64 {
-    let names = if let AxisRange::Categories(names) = &panel.y.range { names.len() } else { 0 };
+    let names = match &panel.y.range {
+        AxisRange::Categories(names) => names.len(),
+        AxisRange::NamedBars(names) => 2 * names.len(),
+        _ => 0,
+    };
     let legend = if legend_beside { legend_entries(&panel.series, Backend::Vector).len() } else { 0 };
     lines_height(names.max(legend))
 }
@@ -155,7 +163,13 @@ pub(super) fn layout(panel: &Panel, size: &Size, backend: Backend) -> Layout {
     if let Some(title) = &panel.title {
         layout = layout.with_title(title.as_str());
     }
-    if !size.shared_legend {
+    if let AxisRange::NamedBars(names) = &panel.y.range {
+        let middle = f64::midpoint(x.low, x.high);
+        let name = |(i, name): (u32, &String)| TextAnnotation::new(name, middle, f64::from(i) + NAME);
+        layout = (1_u32..).zip(names).map(name).fold(layout, Layout::with_annotation);
+    }
+    // without entries, the library puts the axis's label over its ticks
+    if !size.shared_legend && size.legend_below != Some(0) {
         let mut entries = legend_entries(&panel.series, backend);
         let blank = || LegendEntry {
             label: "\u{2002}".to_owned(),
@@ -184,6 +198,7 @@ fn scales(panel: &Panel) -> [Scale; 2] {
 fn ticks(axis: &Axis, scale: Scale) -> TickFormat {
     let names = match &axis.range {
         AxisRange::Categories(names) => names.clone(),
+        AxisRange::NamedBars(_) => Vec::new(),
         AxisRange::PowersOfTen(..) => return TickFormat::Custom(Arc::new(|exponent| power_of_ten(exponent.round()))),
         _ => return TickFormat::Custom(Arc::new(move |value| scale.label(value))),
     };

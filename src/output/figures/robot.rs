@@ -12,6 +12,7 @@ use crate::scenario::Target;
 const LINK_WIDTH: f64 = 3.0;
 const OUTLINE_WIDTH: f64 = 1.6;
 const LINK_OUTLINE_WIDTH: f64 = 0.9;
+const ARROW_WIDTH: f64 = 2.2;
 
 /// Length of an arrow's head over that of the arrow.
 const HEAD: f64 = 0.35;
@@ -70,7 +71,7 @@ pub(super) fn arrow(label: &str, from: [f64; 2], along: [f64; 2]) -> Option<Seri
     let angle = libm::atan2(along[1], along[0]);
     let barb = |turn: f64| point([angle + turn, to[0], to[1]], [-HEAD * length, 0.0]).into();
     let points = vec![from.into(), to.into(), barb(0.5), to.into(), barb(-0.5)];
-    Some(Series::line(label, Colour::BLACK, Dash::Solid, OUTLINE_WIDTH, points))
+    Some(Series::line(label, Colour::VIOLET, Dash::Solid, ARROW_WIDTH, points))
 }
 
 /// The outline of a target at its expected position.

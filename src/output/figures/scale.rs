@@ -48,7 +48,7 @@ pub(super) fn scale(range: &AxisRange, values: impl Iterator<Item = f64>) -> Sca
             let step = if high - low > 7 { 2.0 } else { 1.0 };
             Scale { low: f64::from(*low), high: f64::from(*high), step }
         }
-        AxisRange::Categories(names) => {
+        AxisRange::Categories(names) | AxisRange::NamedBars(names) => {
             let count = u32::try_from(names.len()).map_or(1.0, f64::from);
             Scale { low: 0.5, high: count + 0.5, step: 1.0 }
         }

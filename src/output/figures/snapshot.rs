@@ -1,11 +1,18 @@
-//! Snapshots of robot and targets in the plane, as panels of one scale.
+//! Snapshots of robot and targets in the plane, as panels of one scale: of all of them, or close-ups.
 
+use super::cut::cut;
 use super::figure::{Axis, AxisRange, Panel, Series};
 use super::robot::arrow;
 
 /// Largest distance of a free target from the bounding box of everything else, over the side of that box, at which it
 /// still extends the panels.
 const MAX_DISTANCE: f64 = 0.25;
+
+/// Side of a close-up over that of what it shows whole.
+const ROOM: f64 = 1.25;
+
+/// Largest side of a close-up over that of all.
+const CLOSE: f64 = 0.7;
 
 /// Robot and targets at one instant.
 #[derive(Default)]
@@ -15,6 +22,8 @@ pub(super) struct Snapshot {
     pub(super) series: Vec<Series>,
     /// Inside the panel if they are near.
     pub(super) free: Vec<FreeTarget>,
+    /// Points of what a close-up shows whole.
+    pub(super) focus: Vec<(f64, f64)>,
 }
 
 /// A target that nothing holds.
@@ -40,7 +49,12 @@ impl BoundingBox {
 
     /// Extended to contain the series.
     fn with<'a>(self, series: impl Iterator<Item = &'a Series>) -> Self {
-        series.flat_map(|series| &series.points).fold(self, |Self { low, high }, (x, y)| Self {
+        self.around(series.flat_map(|series| &series.points))
+    }
+
+    /// Extended to contain the points.
+    fn around<'a>(self, points: impl Iterator<Item = &'a (f64, f64)>) -> Self {
+        points.fold(self, |Self { low, high }, (x, y)| Self {
             low: [low[0].min(*x), low[1].min(*y)],
             high: [high[0].max(*x), high[1].max(*y)],
         })
@@ -66,7 +80,12 @@ impl BoundingBox {
 
     /// The smallest square about the same centre that contains it.
     fn square(self) -> Self {
-        let half = self.side() / 2.0;
+        self.square_of(self.side())
+    }
+
+    /// The square of a side about the same centre.
+    fn square_of(self, side: f64) -> Self {
+        let half = side / 2.0;
         Self { low: self.centre().map(|c| c - half), high: self.centre().map(|c| c + half) }
     }
 
@@ -88,8 +107,25 @@ pub(super) fn panels(snapshots: Vec<Snapshot>) -> Vec<Panel> {
     snapshots.into_iter().map(|snapshot| panel(snapshot, &frame)).collect()
 }
 
+/// Square panels of one scale, each about what it is to show, where that takes far less than to show all; the rest is cut
+/// off at its edges.
+pub(super) fn close_ups(snapshots: Vec<Snapshot>) -> Vec<Panel> {
+    let whole = BoundingBox::EMPTY.with(snapshots.iter().flat_map(|snapshot| &snapshot.series)).side();
+    let each: Vec<_> = snapshots.iter().map(|snapshot| BoundingBox::EMPTY.around(snapshot.focus.iter())).collect();
+    let side = ROOM * each.iter().map(BoundingBox::side).fold(0.0, f64::max);
+    if snapshots.len() < 2 || side <= 0.0 || side > CLOSE * whole {
+        return panels(snapshots);
+    }
+    let close = |(mut snapshot, focus): (Snapshot, BoundingBox)| {
+        let frame = focus.square_of(side);
+        snapshot.series = snapshot.series.iter().flat_map(|series| cut(series, frame.low, frame.high)).collect();
+        panel(snapshot, &frame)
+    };
+    snapshots.into_iter().zip(each).map(close).collect()
+}
+
 fn panel(snapshot: Snapshot, frame: &BoundingBox) -> Panel {
-    let Snapshot { title, mut series, free } = snapshot;
+    let Snapshot { title, mut series, free, focus: _ } = snapshot;
     for target in free {
         if frame.contains(&target) {
             series.extend(target.series);

@@ -45,6 +45,8 @@ impl Colour {
     pub const BLACK: Self = Self([0; 3]);
     /// Of overlaps.
     pub const RED: Self = Self([0xd0, 0x00, 0x00]);
+    /// Of impulses: neither in the palette nor that of the base.
+    pub const VIOLET: Self = Self([0x5e, 0x2c, 0xa5]);
     /// Of the background.
     pub const GREY: Self = Self([0x8c; 3]);
 
