@@ -56,6 +56,12 @@ const ROWS = [
   ["impulse ellipse, semi-axes [N s per m/s]", (c) => all(c.impulse_ellipse.semi_axes)],
 ];
 
+/** How many digits after the point tell times apart, three at least. */
+function timeDigits(times) {
+  const gaps = times.slice(1).map((time, i) => time - times[i]).filter((gap) => gap > 0);
+  return Math.min(9, Math.max(3, Math.ceil(-Math.log10(Math.min(...gaps, 1) / 2))));
+}
+
 /** A column for each contact, under its impact. */
 function contactsTable(place, chosen) {
   const one = study.cases[chosen], line = state.lines[chosen], table = place.querySelector(".impact");
@@ -65,11 +71,12 @@ function contactsTable(place, chosen) {
   place.querySelector(".contacts").hidden = !one.targets.length;
   if (!contacts.length) return;
   table.style.setProperty("--contacts", contacts.length);
+  const places = timeDigits(line.impacts.map((impact) => impact.time));
   const row = (cells) => table.append(rowOf(cells));
   const perImpact = (name, text) =>
     row([heading(name), ...line.impacts.map((impact, i) => cell("td", text(impact, i), impact.contacts.length))]);
   row([cell("th", "impact at"), ...line.impacts.map((impact) => {
-    const head = cell("th", "", impact.contacts.length), go = cell("button", `${impact.time.toFixed(3)} s`);
+    const head = cell("th", "", impact.contacts.length), go = cell("button", `${impact.time.toFixed(places)} s`);
     go.type = "button";
     go.addEventListener("click", () => { setPlaying(false); setTime(impact.time); });
     head.append(go);

@@ -111,6 +111,12 @@ fn phase(phase: &Phase) -> Value {
     let (joints, arms) = (samples[0].state.joint_angles.len(), samples[0].end_effector_poses.len());
     let column =
         |value: &dyn Fn(&Sample) -> f64| samples.iter().map(|sample| digits(value(sample))).collect::<Vec<_>>();
+    // with so many digits that what is constant is seen to be: the page adds the targets' part before the impact
+    let conserved = |value: &dyn Fn(&Sample) -> f64| {
+        let rounded = |sample| format!("{:.10e}", value(sample)).parse().unwrap_or_else(|_| value(sample));
+        samples.iter().map(rounded).collect::<Vec<f64>>()
+    };
+    let linear_momentum = [0, 1].map(|i| conserved(&|sample| sample.momentum.linear_momentum[i]));
     let columns = |count: usize, value: &dyn Fn(&Sample, usize) -> f64| {
         (0..count).map(|i| column(&|sample| value(sample, i))).collect::<Vec<_>>()
     };
@@ -125,8 +131,8 @@ fn phase(phase: &Phase) -> Value {
         "joint_rates": columns(joints, &|sample, i| sample.state.joint_rates[i]),
         "joint_torques": columns(joints, &|sample, i| sample.joint_torques[i]),
         "end_effectors": end_effectors.collect::<Vec<_>>(),
-        "linear_momentum": columns(2, &|sample, i| sample.momentum.linear_momentum[i]),
-        "angular_momentum": column(&|sample| sample.momentum.angular_momentum),
+        "linear_momentum": linear_momentum,
+        "angular_momentum": conserved(&|sample| sample.momentum.angular_momentum),
         "kinetic_energy": column(&|sample| sample.momentum.kinetic_energy),
         "work": column(&|sample| sample.work.total()),
         "momentum_drift": phase.drift.momentum_drift,

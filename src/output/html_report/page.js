@@ -11,7 +11,7 @@ function setTime(time) {
   scrub.value = state.time;
   scrub.setAttribute("aria-valuetext", `${state.time.toFixed(2)} seconds of ${end.toFixed(0)}, ${phase}`);
   element("clock").replaceChildren(cell("span", `${state.time.toFixed(2)} s of ${end.toFixed(0)} s`), cell("span", phase));
-  const overlaps = overlapsAt(one, state.time).map(({ bodies }) => bodies.join(" and "));
+  const overlaps = overlapsAt(one, line, state.time).map(({ bodies }) => bodies.join(" and "));
   canvas.setAttribute("aria-label", `${study.layout.name} and its targets, ${one.name}, at ${state.time.toFixed(2)} s` +
     (overlaps.length ? `; overlapping: ${overlaps.join(", ")}` : ""));
   draw();

@@ -44,6 +44,14 @@ function textStart(text, left, width, edge = 4) {
   return Math.max(edge, Math.min(left, width - edge - pen.measureText(text).width));
 }
 
+/** A place for text of this width, below the labels there are at the one that is wanted. */
+function below(labels, [x, y], width) {
+  const line = 15, near = labels.filter(([left, , right]) => left < x + width && x < right).sort(([, a], [, b]) => a - b);
+  for (const [, other] of near) if (Math.abs(y - other) < line) y = other + line;
+  labels.push([x, y, x + width]);
+  return [x, y];
+}
+
 function arrowHead([x, y], angle, colour, size = 9) {
   area([0, 2.6, -2.6].map((turn) => [x + size * Math.cos(angle + turn), y + size * Math.sin(angle + turn)]), colour, null);
 }

@@ -29,7 +29,7 @@ function drawScene(chosen, width, height) {
   const screen = ([x, y]) => [width / 2 + scale * (x - centre[0]), height / 2 - scale * (y - centre[1])];
   const held = line.holds.filter((hold) => hold.time <= time);
   const poses = targetPoses(one, line, time);
-  const overlapping = new Set(overlapsAt(one, time).flatMap(({ bodies }) => bodies));
+  const overlapping = new Set(overlapsAt(one, line, time).flatMap(({ bodies }) => bodies));
   const on = (id) => element(id)?.checked;
 
   // as any other picture, whatever was drawn before
@@ -45,7 +45,8 @@ function drawScene(chosen, width, height) {
   drawBase(now, screen, overlapping);
   now.arms.forEach((arm, i) => drawArm(study.layout.arms[i], arm, armColour(i), screen, scale, overlapping));
   held.forEach((hold) => drawAttachment(hold, screen(now.arms[hold.arm].end_effector), scale));
-  line.impacts.forEach((impact) => drawImpact(impact, screen, width));
+  const labels = [];
+  line.impacts.forEach((impact) => drawImpact(impact, screen, width, labels));
   const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
   poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i)));
@@ -62,8 +63,8 @@ function traces(line, screen) {
   });
 }
 
-/** The overlaps of a case that last at a time. */
-const overlapsAt = (one, time) => one.overlaps.filter(({ from, to }) => from <= time && time <= to);
+/** The overlaps of a case that last at a time; one that a contact ends, which is known to 1e-9 s, is over then. */
+const overlapsAt = (one, line, time) => one.overlaps.filter(({ from, to }) => from <= time && (time < to - 1e-8 || to > line.end - 1e-8));
 
 function drawBase(now, screen, overlapping) {
   const box = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => [a * base[0], b * base[1]]);
@@ -163,7 +164,7 @@ function impulseScale() {
 const ellipse = ({ impulse_ellipse: { semi_axes }, relative_twist }) => semi_axes.map((axis) => axis * force(relative_twist));
 
 /** For four seconds after an impact: the impulse on the robot at each contact, and the impulse ellipse. */
-function drawImpact(impact, screen, width) {
+function drawImpact(impact, screen, width, labels) {
   if (!isFresh(impact)) return;
   const scale = impulseScale();
   pen.globalAlpha = Math.min(1, impact.time + SHOWN_FOR - state.time);
@@ -172,7 +173,8 @@ function drawImpact(impact, screen, width) {
     // rounding error
     if (f < 1e-9) {
       circle(from, 9, null, theme.impulse);
-      label("no impulse", plus(from, [12, 4]), theme.impulse);
+      pen.font = TEXT;
+      label("no impulse", below(labels, plus(from, [12, 4]), pen.measureText("no impulse").width), theme.impulse);
       continue;
     }
     if (element("ellipse")?.checked) {
@@ -194,7 +196,7 @@ function drawImpact(impact, screen, width) {
     pen.font = TEXT;
     const left = way[0] < 0 ? to[0] - 10 - pen.measureText(text).width : to[0] + 10, x = textStart(text, left, width);
     // above or below the tip, where there is no room beside it
-    label(text, [x, to[1] + (x === left ? 4 : way[1] < 0 ? -8 : 18)], theme.impulse);
+    label(text, below(labels, [x, to[1] + (x === left ? 4 : way[1] < 0 ? -8 : 18)], pen.measureText(text).width), theme.impulse);
   }
   pen.globalAlpha = 1;
 }
