@@ -66,6 +66,17 @@ fn words(message: &str) -> Vec<Word> {
     message.split_whitespace().map(Word::new).collect()
 }
 
+/// Which of several numbers are negative: an angle and the limit that it is beyond have a sign together, which is lost in
+/// ranges of both.
+fn signs(words: &[Word]) -> Vec<bool> {
+    let number = |word: &Word| match word {
+        Word::Number { least: (value, _), .. } => Some(*value < 0.0),
+        Word::Text(_) => None,
+    };
+    let signs: Vec<_> = words.iter().filter_map(number).collect();
+    if signs.len() > 1 { signs } else { Vec::new() }
+}
+
 /// Failures by their messages without numbers, the most frequent kind first.
 pub(super) fn kinds_of(failures: impl Iterator<Item = FailureKind>) -> Vec<FailureKind> {
     let mut places = HashMap::new();
@@ -73,8 +84,9 @@ pub(super) fn kinds_of(failures: impl Iterator<Item = FailureKind>) -> Vec<Failu
     for failure in failures {
         let without: Vec<_> =
             failure.message.split_whitespace().filter(|word| !word.contains(|c: char| c.is_ascii_digit())).collect();
-        let place = *places.entry((failure.status.clone(), without.join(" "))).or_insert(kinds.len());
         let own = words(&failure.message);
+        let kind = (failure.status.clone(), without.join(" "), signs(&own));
+        let place = *places.entry(kind).or_insert(kinds.len());
         match kinds.get_mut(place) {
             Some((kind, all)) => {
                 kind.count += 1;

@@ -6,21 +6,7 @@ use crate::output::markup;
 use crate::plain_text::count;
 use std::fmt::Write;
 
-const STYLE: &str = ":root{color-scheme:light dark;--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}\
-    @media(prefers-color-scheme:dark){:root{--text:#ddd;--page:#16181c;--line:#3a3f47;--quiet:#a0a6ae;--code:#262a30}}\
-    body{font:15px/1.5 system-ui,sans-serif;margin:2em auto;max-width:80em;padding:0 1em;color:var(--text);background:var(--page)}\
-    table{border-collapse:collapse;margin:1em 0;display:block;overflow-x:auto}\
-    th,td{padding:.25em .5em;border-bottom:1px solid var(--line);text-align:right;white-space:nowrap}\
-    th:first-child,td:first-child,.words th,.words td{text-align:left}.words td{white-space:normal}\
-    .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(22em,100%),1fr));gap:1em;align-items:start}\
-    figure{margin:0;break-inside:avoid}figure img{width:100%;background:#fff}figcaption{color:var(--quiet);font-size:.85em}\
-    @media screen and (prefers-color-scheme:dark){figure img{filter:invert(.9) hue-rotate(180deg)}}\
-    @media screen and (max-width:45em){body{margin:1em auto}table{font-size:.85em}th,td{padding:.25em .3em}\
-    th:first-child,td:first-child{position:sticky;left:0;background:var(--page);white-space:normal;overflow-wrap:anywhere;min-width:7.5em;max-width:9em}}\
-    h3{margin:1.5em 0 .3em;overflow-wrap:anywhere}td small{font-size:.75em}small,.note{color:var(--quiet)}.note{font-size:.9em;max-width:55em}\
-    @media print{:root{--text:#222;--page:#fff;--line:#ddd;--quiet:#666;--code:#f4f4f4}body{font-size:9pt;margin:0;max-width:none}\
-    table{font-size:7.5pt;display:table;overflow:visible}th,td{padding:.15em .3em}td,.words th{white-space:normal;overflow-wrap:anywhere}tr{break-inside:avoid}\
-    .pictures{grid-template-columns:repeat(3,1fr)}}code{background:var(--code);padding:0 .3em}";
+const STYLE: &str = include_str!("page.css");
 
 /// Below this a sensitivity is not shown: it is what chance leaves.
 const SHOWN: f64 = 0.005;
@@ -33,7 +19,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let mut add = |text: &str| html.push_str(text);
     add(&format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
-         <title>{name}</title><style>{STYLE}</style>\n<h1>{name}</h1>\n<p>{}: ",
+         <title>{name}</title><style>\n{STYLE}</style>\n<h1>{name}</h1>\n<p>{}: ",
         count(report.cases, "case")
     ));
     let counts: Vec<_> =
@@ -45,14 +31,14 @@ pub fn page(report: &SweepReport, command: &str) -> String {
         #[allow(clippy::cast_precision_loss, reason = "a share")]
         let share = 100.0 * captured as f64 / known as f64;
         add(&format!(
-            " All that is to be held was captured in <b>{captured}</b> of {known} cases with a result, {share:.1} %."
+            " All that is to be held was captured in <b>{captured}</b> of {known} cases with a result, {share:.1}\u{a0}%."
         ));
     }
     let about: Vec<_> =
         report.about.iter().map(|(what, value)| format!("{what} <b>{}</b>", markup::attribute(value))).collect();
     add(&format!(" Of {}</p>\n", about.join(", ")));
     if !report.varied.is_empty() {
-        let rows = report.varied.iter().map(|(key, values)| [key, values].map(|text| markup::attribute(text)).to_vec());
+        let rows = report.varied.iter().map(|(key, values)| vec![breakable(key), markup::attribute(values)]);
         add(&in_words(&table(&["varies", "distribution"].map(str::to_owned), rows)));
     }
     for ([one, other], rank) in &report.correlated {
@@ -68,7 +54,7 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     head.extend(PERCENTILES.iter().map(|p| format!("{p} %")));
     add(&table(&head, report.outputs.iter().map(percentiles)));
     let keys: Vec<String> =
-        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|(key, _)| markup::attribute(key))).collect();
+        std::iter::once("output".to_owned()).chain(report.keys.iter().map(|(key, _)| breakable(key))).collect();
     if !report.keys.is_empty() {
         add(
             "<h2>Rank correlations</h2>\n<p class=\"note\">From −1 to 1: how far an output only falls or only rises with a key; \
@@ -109,7 +95,10 @@ pub fn page(report: &SweepReport, command: &str) -> String {
             all.join(", ")
         ));
     }
-    add(&format!("<p>A case with all it has: <code>{} INDEX --report</code></p>\n", markup::attribute(command)));
+    add(&format!(
+        "<p>To compute one case again, and see its motion: <code>{} INDEX --report</code></p>\n",
+        markup::attribute(command)
+    ));
     #[cfg(feature = "figures")]
     add(&super::gallery::gallery(report));
     #[cfg(not(feature = "figures"))]
@@ -140,13 +129,18 @@ fn in_words(html: &str) -> String {
     html.replace("<table>", "<table class=\"words\">")
 }
 
+/// A name that may go on in the next line after its points and underscores, not within its words.
+fn breakable(name: &str) -> String {
+    markup::attribute(name).replace('.', ".<wbr>").replace('_', "_<wbr>")
+}
+
 fn named(output: &OutputReport) -> String {
     let unit = if output.unit.is_empty() {
         String::new()
     } else {
         format!(" <small>{}</small>", markup::attribute(&output.unit))
     };
-    format!("{}{unit}", markup::attribute(&output.name))
+    format!("{}{unit}", breakable(&output.name))
 }
 
 fn percentiles(output: &OutputReport) -> Vec<String> {

@@ -10,6 +10,12 @@ use crate::output::figures::{Axis, AxisRange, Colour, Dash, Figure, Mark, Panel,
 /// Most keys of a tornado.
 const KEYS: usize = 12;
 
+/// Of a bar below the middle of its place, in places: its name is above it.
+const BELOW_NAME: f64 = 0.22;
+
+/// Height of the marks across a bar, in places.
+const MARK: f64 = 0.44;
+
 /// A picture and what to say below it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Picture {
@@ -31,6 +37,11 @@ pub(super) fn pictures(report: &SweepReport, output: &OutputReport) -> Vec<Pictu
     of_histogram.into_iter().chain(tornado(report, output)).chain(of_scatter).collect()
 }
 
+/// With the output's name above: along an axis there is no room for a long one.
+fn titled(output: &OutputReport, panel: Panel) -> Panel {
+    Panel { title: Some(output.name.clone()), ..panel }
+}
+
 fn picture(kind: &str, output: &OutputReport, panel: Panel, caption: String) -> Picture {
     Picture { figure: Figure::column(&format!("{kind}_{}", output.name), vec![panel]), caption }
 }
@@ -47,7 +58,7 @@ fn histogram(report: &SweepReport, output: &OutputReport, found: &Histogram) -> 
     let points = edges.iter().map(|edge| unit.of(*edge)).zip(heights).collect();
     let bars = Series { label: None, colour: Colour::of(0), mark: Mark::Bars, points };
     let caption = format!("{} of {} cases in {} classes", output.count, report.cases, counts.len());
-    picture("histogram", output, Panel::new(unit.axis(&output.name, &output.unit), y, vec![bars]), caption)
+    picture("histogram", output, titled(output, Panel::new(unit.axis("", &output.unit), y, vec![bars])), caption)
 }
 
 /// `None` without a correlation.
@@ -66,22 +77,24 @@ fn tornado(report: &SweepReport, output: &OutputReport) -> Option<Picture> {
         label: None,
         colour: Colour::of(usize::from(*correlation < 0.0)),
         mark: Mark::Line(Dash::Solid, 10.0),
-        points: [0.0, *correlation].map(|x| (x, place as f64 + 1.0)).to_vec(),
+        points: [0.0, *correlation].map(|x| (x, place as f64 + 1.0 - BELOW_NAME)).to_vec(),
     };
-    let line = |x: f64, colour: Colour, dash: Dash| Series {
+    // across the bars alone: their names stay free
+    let mark = |place: usize, x: f64, dash: Dash| Series {
         label: None,
-        colour,
+        colour: Colour::BLACK,
         mark: Mark::Line(dash, 1.0),
-        points: vec![(x, 0.5), (x, bars.len() as f64 + 0.5)],
+        points: [-0.5, 0.5].map(|side| (x, place as f64 + 1.0 - BELOW_NAME + side * MARK)).to_vec(),
     };
     // the normal distribution that rank correlations of independent values are near to
     let chance = 1.96 / libm::sqrt((output.count as f64 - 1.0).max(1.0));
     let bounds = [-chance, chance].into_iter().filter(|bound| bound.abs() < 1.0);
-    let lines = bounds.map(|x| line(x, Colour::BLACK, Dash::Dotted)).chain([line(0.0, Colour::BLACK, Dash::Solid)]);
-    let series = bars.iter().enumerate().map(bar).chain(lines).collect();
+    let lines: Vec<_> = bounds.map(|x| (x, Dash::Dotted)).chain([(0.0, Dash::Solid)]).collect();
+    let marks = lines.into_iter().flat_map(|(x, dash)| (0..bars.len()).map(move |place| mark(place, x, dash)));
+    let series = bars.iter().enumerate().map(bar).chain(marks).collect();
     let x = Axis { label: "rank correlation".to_owned(), range: AxisRange::Fixed(-1.0, 1.0) };
-    let y = Axis { label: String::new(), range: AxisRange::Categories(names) };
-    let panel = Panel { title: Some(output.name.clone()), ..Panel::new(x, y, series) };
+    let y = Axis { label: String::new(), range: AxisRange::NamedBars(names) };
+    let panel = titled(output, Panel::new(x, y, series));
     let caption = match all - bars.len() {
         0 => "all keys".to_owned(),
         others => format!("the {KEYS} strongest keys; {others} others are in the table"),
@@ -101,9 +114,7 @@ fn scatter(report: &SweepReport, output: &OutputReport, found: &Scatter) -> Pict
     let y = between(&mut points.iter().map(|point| point.1));
     let shown = points.iter().map(|point| (x.of(point.0), y.of(point.1))).collect();
     let symbols = Series { label: None, colour: Colour::of(0), mark: Mark::Points(Symbol::Dot), points: shown };
-    // the name is above: along the axis there is no room for a long one
-    let panel = Panel::new(x.axis(key, unit_of_key), y.axis("", &output.unit), vec![symbols]);
-    let panel = Panel { title: Some(output.name.clone()), ..panel };
+    let panel = titled(output, Panel::new(x.axis(key, unit_of_key), y.axis("", &output.unit), vec![symbols]));
     let caption = match stride {
         1 => format!("all {} cases, over the key with the strongest rank correlation", points.len()),
         _ => format!(
@@ -152,12 +163,12 @@ pub(super) mod tests {
         let bars = &histogram.figure.panels[0].series[0];
         assert_eq!(bars.mark, Mark::Bars);
         assert_eq!(bars.points.iter().map(|point| point.1).sum::<f64>(), 100.0);
-        assert_eq!(histogram.figure.panels[0].x.label, "impulse [10⁻⁶ N s]");
+        assert_eq!(histogram.figure.panels[0].x.label, "[10⁻⁶ N s]");
         assert_eq!(histogram.caption, "100 of 120 cases in 8 classes");
 
         let panel = &tornado.figure.panels[0];
         // from below: the strongest one is the highest
-        let AxisRange::Categories(names) = &panel.y.range else { panic!("{:?}", panel.y) };
+        let AxisRange::NamedBars(names) = &panel.y.range else { panic!("{:?}", panel.y) };
         assert_eq!(names[..], ["a.b", "d", "target.<t>.mass"]);
         let ends: Vec<f64> = panel.series[..3].iter().map(|series| series.points[1].0).collect();
         assert_eq!(ends, [0.1, 0.5, -0.9]);
@@ -165,7 +176,7 @@ pub(super) mod tests {
         let colours: Vec<_> = panel.series[..3].iter().map(|series| series.colour).collect();
         assert!(colours[0] == colours[1] && colours[1] != colours[2], "{colours:?}");
         // what chance leaves of the correlations of the hundred cases with a result
-        let chance: Vec<f64> = panel.series[3..5].iter().map(|series| series.points[0].0).collect();
+        let chance: Vec<f64> = [3, 6].map(|first| panel.series[first].points[0].0).to_vec();
         planar_proof::assert_close("chance", &chance, &[-1.96 / 99_f64.sqrt(), 1.96 / 99_f64.sqrt()], 1e-12);
 
         let panel = &scatter.figure.panels[0];

@@ -76,7 +76,7 @@ fn what_the_page_says() {
         ..SweepReport::default()
     };
     let html = page(&report, "again");
-    assert!(html.contains("captured in <b>3</b> of 4 cases with a result, 75.0 %"), "{html}");
+    assert!(html.contains("captured in <b>3</b> of 4 cases with a result, 75.0\u{a0}%"), "{html}");
     assert_eq!(cells(&html, "Extremes"), [["impulse", "−2.5", "7", "4.5", "3"]]);
     assert_eq!(cells(&html, "Rank correlations"), [["impulse", "−0.50", "0.50", "·", "·", "–"]]);
     assert_eq!(cells(&html, "First-order indices"), [["impulse", "0.25", "·", "–", "0.50", "1.00"]]);

@@ -29,6 +29,19 @@ fn names_are_no_numbers() {
     assert_eq!(found[1].message, messages[2]);
 }
 
+/// An angle and the limit beyond which it is are of one sign.
+#[test]
+fn limits_of_two_signs_are_two_kinds() {
+    let messages = [
+        "joint 2 goes to -2.1 rad, beyond -2.0 rad",
+        "joint 2 goes to 2.3 rad, beyond 2.0 rad",
+        "joint 2 goes to -2.4 rad, beyond -2.0 rad",
+    ];
+    let found = kinds_of((0..).zip(messages).map(|(case, message)| failure(case, message)));
+    let below = FailureKind { count: 2, ..failure(0, "joint 2 goes to -2.4 to -2.1 rad, beyond -2.0 rad") };
+    assert_eq!(found, [below, failure(1, messages[1])]);
+}
+
 /// A sign is part of its number, and failures that are alike have one status.
 #[test]
 fn signs_and_statuses() {
