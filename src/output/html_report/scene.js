@@ -49,7 +49,7 @@ function drawScene(chosen, width, height) {
   line.impacts.forEach((impact) => drawImpact(impact, screen, width, labels));
   const moving = on("velocities") ? drawVelocities(chosen, now, poses, screen) : null;
   const torques = on("forces") ? drawTorques(chosen, now, screen, scale) : null;
-  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i)));
+  poses.forEach((pose, i) => nameTarget(study.targets[i], pose, now, screen, scale, width, height, targetColour(i), labels));
   const arrows = line.impacts.filter(isFresh).flatMap((impact) => impact.contacts);
   return { targets: poses, arms: now.arms, overlapping: [...overlapping], arrows, moving, torques };
 }
@@ -136,10 +136,11 @@ function drawTarget(target, pose, screen, scale, overlapping, paint) {
 }
 
 /** Next to the target; at the edge for one outside, with its distance from the base. */
-function nameTarget(target, pose, now, screen, scale, width, height, paint) {
+function nameTarget(target, pose, now, screen, scale, width, height, paint, labels) {
   const [x, y] = screen(pose.point), size = target.radius * scale, edge = 16;
   if (x > -size && x < width + size && y > -size && y < height + size) {
-    label(target.name, [textStart(target.name, x + 6, width), y - 6], theme.ink);
+    const left = textStart(target.name, x + 6, width);
+    label(target.name, below(labels, [left, y - 6], pen.measureText(target.name).width), theme.ink);
     return;
   }
   const at = [Math.min(Math.max(x, edge), width - edge), Math.min(Math.max(y, edge), height - edge)];
