@@ -50,7 +50,8 @@ pub(super) fn final_pose(scenario: &Scenario) -> Option<FinalPose<'_>> {
     let arms = scenario.layout.arms.iter().enumerate().filter(|(_, arm)| arm.reach() > 0.0);
     let all = arms.flat_map(|(i, arm)| (0..3).map(move |component| (i, arm, component)));
     let rows: Vec<_> = all.filter(|(i, arm, component)| is_row(*i, arm, *component)).collect();
-    if rows.is_empty() {
+    // more than there are joints have a warning of their own
+    if rows.is_empty() || rows.len() > scenario.layout.joints() {
         return None;
     }
     let (_, jacobian) = reduced(&scenario.layout, &scenario.approach.final_joint_angles)?;
