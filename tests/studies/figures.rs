@@ -444,7 +444,7 @@ mod drawn {
                 assert!(title.starts_with(&format!("Impact at {time:.3} s, ")) && title.ends_with(" N s"), "{title}");
                 let result = &impact.contacts[0];
                 let [_, x, y] = now.end_effector_poses[result.contact.arm];
-                let several = captured.later_impacts.len() > 0;
+                let several = !captured.later_impacts.is_empty();
                 let arrow =
                     points(panel, if several { "impulse on the robot (own scale)" } else { "impulse on the robot" });
                 assert_eq!(arrow[0], (x, y), "{name}: the arrow starts at the end effector");
