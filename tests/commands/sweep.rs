@@ -6,7 +6,7 @@ use crate::{make_pipe, within_a_minute};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use planar_capture::campaign::Campaign;
-use planar_capture::campaign::outputs::OutputGroup;
+use planar_capture::campaign::outputs::{OutputGroup, outputs};
 use planar_capture::campaign::run::{Plan, Shard, Tally, run};
 use planar_capture::engine::Choice;
 use planar_capture::registry::{Robots, SHIPPED};
@@ -350,6 +350,7 @@ fn cases_grow_where_the_sampling_permits_and_nothing_else_changes() {
         let (code, _, err) = place.sweep("out", &[]);
         if can_grow {
             assert_eq!(code, 0, "{err}");
+            assert!(!err.contains("damaged"), "a file of fewer cases is as it was written: {err}");
             assert_eq!(place.cases("out"), place.computed("at_once", &[]), "{sampling}");
         } else {
             assert_eq!(code, 2);
@@ -775,4 +776,158 @@ fn a_sweep_of_fewer_cases_that_ends_later_takes_none_away() {
     assert_ne!(place.cases("out"), whole);
     compute(&more, &plan(&more));
     assert_eq!(place.cases("out"), whole);
+}
+
+/// A robot at rest that a disc comes to, as far aside of the end effector as `position[0]` says, if it comes at all.
+fn coming_disc(place: &Workplace) {
+    let text = "name = 'disc'\nlayout = 'single_arm_2r'\n[initial]\njoint_angles = [0.4, -0.8]\n[approach]\nduration = 4.0\n\
+        trajectory = 'cycloidal'\ntracking = 'exact'\nfinal_joint_angles = [0.4, -0.8]\n[contact]\ndetection = 'event'\n\
+        duration = 0.25\n[[target]]\nname = 'disc'\narm = 'arm1'\nmass = 5.0\ninertia = 0.1\nradius = 0.2\n\
+        position = [2.5, -3.0]\ntwist = [0.0, 0.0, 1.0]\n[post_impact]\nduration = 1.0\n";
+    fs::write(place.path("scenario.toml"), text).expect("written");
+}
+
+/// Of discs that come by, those that the end effector meets are captured: in the rows, and their share on the page. Cases without
+/// a result are no part of it.
+#[test]
+fn the_captured_share_is_that_of_the_cases_that_capture() {
+    let place = Workplace::grid(
+        "[[vary]]\nkey = \"target.disc.position[0]\"\ndistribution = { choice = [TIP, 9.0, NEAR, 7.0, 8.0] }\n\
+         [[vary]]\nkey = \"target.disc.mass\"\ndistribution = { choice = [5.0, 6.0, -5.0] }\n",
+    );
+    coming_disc(&place);
+    let layout = planar_proof::layout("single_arm_2r");
+    let mut tip = [[0.0; 3]];
+    planar_capture::registry::generic(&layout).end_effector_poses(&[0.0; 3], &[0.4, -0.8], &mut tip).expect("a pose");
+    let text = fs::read_to_string(place.path("sweep.toml")).expect("a sweep");
+    let [x, near] = [tip[0][1], tip[0][1] + 0.1].map(|x| format!("{x:?}"));
+    place.write(&text.replace("TIP", &x).replace("NEAR", &near));
+    let (code, _, err) = place.sweep("out", &["--report"]);
+    assert_eq!(code, 0, "{err}");
+    let rows = place.rows("out", 0);
+    let captured: Vec<&Field> = rows.iter().map(|row| &row["captured"]).collect();
+    let [yes, no, none] = [&Field::Bool(true), &Field::Bool(false), &Field::Null];
+    assert_eq!(captured, [yes, yes, none, no, no, none, yes, yes, none, no, no, none, no, no, none]);
+    let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
+    assert!(page.contains("captured in <b>4</b> of 10 cases with a result, 40.0 %"), "{page}");
+}
+
+/// A design that fails and a simulation that stops are rows of their own status, with what the command would say.
+#[test]
+fn designs_that_fail_are_rows_with_their_messages() {
+    let place = Workplace::grid(
+        "[[vary]]\nkey = \"approach.final_end_effector_poses[0][0]\"\ndistribution = { choice = [1.9, 30.0] }\n",
+    );
+    fs::copy(file("scenarios/spinning_target.toml"), place.path("scenario.toml")).expect("copied");
+    let text = fs::read_to_string(place.path("scenario.toml")).expect("a scenario");
+    let one = text.replace("[[case]]\nname = \"pin\"\nkinds = { disc = \"pin\" }\n", "");
+    assert_ne!(one, text);
+    fs::write(place.path("scenario.toml"), &one).expect("written");
+    let (code, out, err) = place.sweep("out", &[]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("2 of 2 cases computed: 1 done, 1 stopped"), "{out}");
+    let rows = place.rows("out", 0);
+    assert_eq!([&rows[0]["status"], &rows[1]["status"]].map(ToString::to_string), [r#""done""#, r#""stopped""#]);
+    fs::write(place.path("far.toml"), one.replace("[[1.9, -0.9]]", "[[30.0, -0.9]]")).expect("written");
+    let mut run = command();
+    run.arg("run").arg(place.path("far.toml")).arg("--out").arg(place.path("run"));
+    let (code, _, said) = said(run.output().expect("it runs"));
+    let Field::Str(message) = &rows[1]["message"] else { panic!("{:?}", rows[1]["message"]) };
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(code != 0 && words(&said).contains(&words(message)), "{message}\n{said}");
+}
+
+/// A file of a shard has the cases of its block, by the numbers that they have in the whole sweep.
+#[test]
+fn cases_of_a_shard_have_the_numbers_of_the_whole_sweep() {
+    let place = Workplace::sampled("sobol");
+    place.computed("out", &["--shard", "3/3"]);
+    let file = fs::File::open(place.path("out/cases").join(FILES[2])).expect("a file");
+    let reader = SerializedFileReader::new(file).expect("Parquet");
+    let rows = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row"));
+    let cases: Vec<Field> = rows.map(|row| row.get_column_iter().next().expect("a column").1.clone()).collect();
+    assert_eq!(cases, [8, 9, 10, 11].map(Field::Long));
+}
+
+/// Results of another version of the program may have other bits: they are refused, and both versions are said.
+#[test]
+fn results_of_another_version_are_refused() {
+    let place = Workplace::sampled("random");
+    place.computed("out", &["--shard", "1/3"]);
+    let path = place.path("out/manifest.json");
+    let text = fs::read_to_string(&path).expect("a manifest");
+    let own = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(text.contains(&own), "{text}");
+    fs::write(&path, text.replace(&own, "\"version\": \"0.0.1\"")).expect("written");
+    let (code, _, err) = place.sweep("out", &[]);
+    let change = format!("version: was \"0.0.1\", is \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(code == 2 && err.contains(&change), "{err}");
+    assert_eq!(place.cases("out").len(), 1, "nothing was computed");
+}
+
+/// The unit of a column by its name, as in the summary; `None` for what has none.
+fn unit_of(name: &str) -> Option<&'static str> {
+    let of_end = [
+        ("_impulse_n", "N m s"),
+        ("_impulse_fx", "N s"),
+        ("_impulse_fy", "N s"),
+        ("_impulse_magnitude", "N s"),
+        ("_mean_force_n", "N m"),
+        ("_mean_force_fx", "N"),
+        ("_mean_force_fy", "N"),
+        ("momentum_jump_l", "N m s"),
+        ("momentum_jump_px", "N s"),
+        ("momentum_jump_py", "N s"),
+        ("kinetic_energy_before", "J"),
+        ("kinetic_energy_after", "J"),
+        ("_path_error", "rad or m"),
+        ("_angle", "rad"),
+        ("_yaw", "rad"),
+        ("_rate", "rad/s"),
+        ("_rate_after", "rad/s"),
+        ("_omega", "rad/s"),
+        ("_vx", "m/s"),
+        ("_vy", "m/s"),
+        ("_x", "m"),
+        ("_y", "m"),
+        ("_miss", "m"),
+        ("penetration", "m"),
+        ("least_distance", "m"),
+        ("_time", "s"),
+        ("first_overlap", "s"),
+    ];
+    of_end.into_iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| unit)
+}
+
+/// Every column of outputs has the unit of its quantity, in the file and on the page.
+#[test]
+fn columns_have_the_units_of_their_quantities() {
+    let groups: Vec<&str> = OutputGroup::ALL.iter().map(|(name, _)| *name).collect();
+    let place = Workplace::new(&format!(
+        "name = 'units'\nscenario = 'scenario.toml'\ncases = 12\nseed = 1\n[[vary]]\nkey = 'target.target1.mass'\n\
+         distribution = {{ uniform = {{ min = 8.0, max = 12.0 }} }}\n[collect]\noutputs = {groups:?}\n"
+    ));
+    let scenario =
+        fs::read_to_string(place.path("scenario.toml")).expect("a scenario") + "\n[contact]\nduration = 0.25\n";
+    fs::write(place.path("scenario.toml"), scenario).expect("written");
+    place.computed("out", &["--report"]);
+    let text = fs::read_to_string(place.path("sweep.toml")).expect("a sweep");
+    let campaign = Campaign::parse(&text, "sweep.toml", place.0.path(), SHIPPED).expect("a sweep");
+    let all = outputs(&campaign.scenario, &OutputGroup::ALL.map(|(_, group)| group));
+    let without = ["_drift", "_energy_error", "later_impacts"];
+    for output in &all {
+        let none = without.iter().any(|end| output.name.ends_with(end));
+        assert_eq!(
+            (unit_of(&output.name).is_none(), output.unit),
+            (none, unit_of(&output.name).unwrap_or_default()),
+            "{output:?}"
+        );
+    }
+    let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
+    let shown = |name: &str| page.split(&format!("<td>{name} <small>")).nth(1).and_then(|rest| rest.split('<').next());
+    for name in
+        ["arm1_mean_force_fx", "arm2_mean_force_n", "kinetic_energy_after", "arm1_impulse_n", "target1_after_vx"]
+    {
+        assert_eq!(shown(name), unit_of(name), "{name}");
+    }
 }
