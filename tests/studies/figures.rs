@@ -32,7 +32,7 @@ mod drawn {
     use planar_capture::output::figures::{
         Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, Width, draw, figures,
     };
-    use planar_capture::scenario::FinalRates;
+    use planar_capture::scenario::{Actuation, FinalRates, PostCaptureControl};
     use planar_capture::simulate::Sample;
     use planar_proof::tolerance::FIGURE_VALUES;
     use std::collections::BTreeSet;
@@ -555,6 +555,66 @@ mod drawn {
             assert!(x.abs() < FIGURE_VALUES && y.abs() < FIGURE_VALUES, "{name}: the points stay together");
             assert_eq!(turn.abs() > 1e-3, name.ends_with("(pin)"), "{name}: {turn} rad/s");
         }
+    }
+
+    /// A contact is in the pictures from the very sample of its impact on.
+    #[test]
+    fn contacts_are_pictured_from_their_impact_on() {
+        let scenario = scenario("large_target");
+        let study = run(&scenario);
+        let all = figures(&scenario, &study);
+        let mut pins = 0;
+        for case in &study.cases {
+            let contacts = &case.capture.as_ref().expect("a capture").impact.contacts;
+            let name = format!("post_impact_motion_{}", case.name);
+            let panel = &all.iter().find(|figure| figure.name == name).expect("the figure").panels[0];
+            assert_eq!(panel.title.as_deref(), Some("0 s after the impact"));
+            let made = contacts.iter().filter(|made| made.contact.law == ContactLaw::Pin).count();
+            assert_eq!(points(panel, "pin").len(), made, "{name}");
+            pins += made;
+        }
+        assert!(pins > 0);
+    }
+
+    /// Beside a rigid contact, one of another kind: end effector and target have velocities of their own after the impact.
+    #[test]
+    fn contacts_of_mixed_kinds_show_both_bodies_after_the_impact() {
+        let scenario = scenario("spinning_target");
+        let mut study = run(&scenario);
+        let labels = |study: &planar_capture::capture::Study| -> BTreeSet<String> {
+            let all = figures(&scenario, study);
+            let figure = all.iter().find(|figure| figure.name == "impact_velocities").expect("the figure");
+            figure.panels.iter().flat_map(|panel| &panel.series).filter_map(|series| series.label.clone()).collect()
+        };
+        let apart = labels(&study);
+        assert!(apart.contains("target, after") && apart.contains("end effector, after"), "{apart:?}");
+        assert!(!apart.contains("both, after"), "{apart:?}");
+        study.cases.retain(|case| case.name == "rigid");
+        let together = labels(&study);
+        assert!(together.contains("both, after") && !together.contains("target, after"), "{together:?}");
+    }
+
+    /// Torques that begin at zero have their panel all the same.
+    #[test]
+    fn torques_that_begin_at_zero_are_shown() {
+        let mut scenario = scenario("stabilised_capture");
+        let joints = scenario.layout.joints();
+        let panels = |scenario: &planar_capture::scenario::Scenario| -> Vec<String> {
+            let study = run(scenario);
+            let name = format!("post_impact_joints_{}", study.cases[0].name);
+            let all = figures(scenario, &study);
+            let figure = all.iter().find(|figure| figure.name == name).expect("the figure");
+            figure.panels.iter().map(|panel| panel.y.label.clone()).collect()
+        };
+        let after = scenario.post_impact.as_mut().expect("a phase");
+        // no spring is stretched yet
+        after.control =
+            PostCaptureControl::Hold { proportional_gain: vec![5.0; joints], derivative_gain: vec![0.0; joints] };
+        after.actuation = Actuation::default();
+        let shown = panels(&scenario);
+        assert_eq!(shown.last().map(String::as_str), Some("Joint torque [N m]"));
+        scenario.post_impact.as_mut().expect("a phase").control = PostCaptureControl::None;
+        assert_eq!(panels(&scenario), shown[..2]);
     }
 
     /// A distant target is an arrow at the edge, and does not scale down the robot.
