@@ -85,4 +85,21 @@ mod tests {
         let limit = Reach::new(&scenario, 0, [9.0, 9.0]).expect("a reach").limit;
         assert_close("limit", &[limit], &[mount + length + share * (mount + 0.5)], 1e-12);
     }
+
+    /// Of several arms each has its own limit, and the others' links only move the base.
+    #[test]
+    fn each_arm_has_its_own_limit() {
+        let text = TEXT.replace("single_arm_2r", "triple_arm_3r");
+        let angles = "[0.3, -0.9, 0.4, 0.3, -0.9, 0.4, 0.3, -0.9, 0.4]";
+        let mut scenario =
+            Scenario::parse(&text.replace("[0.4, -0.9]", angles), "it.toml", "".as_ref(), registry::SHIPPED)
+                .expect("a scenario");
+        let limits =
+            |scenario: &Scenario| [0, 1, 2].map(|arm| Reach::new(scenario, arm, [9.0, 9.0]).expect("a reach").limit);
+        let before = limits(&scenario);
+        // a longer last link has its COM where it was
+        scenario.layout.arms[2].links[2].length += 1.0;
+        let after = limits(&scenario);
+        assert_close("limits", &after, &[before[0], before[1], before[2] + 1.0], 1e-12);
+    }
 }

@@ -5,9 +5,12 @@ use planar_capture::capture::{Silent, Study, StudyError, study_with};
 use planar_capture::control::{EstimatedState, Estimator, ProportionalDerivative, ZeroTorque};
 use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
+use planar_capture::format::NumberRule;
 use planar_capture::laws::{Laws, PostCaptureLaw, PostCaptureTask, Run, TrackingLaw, TrackingTask};
 use planar_capture::registry;
-use planar_capture::scenario::{LawNumbers, PostCaptureControl, Scenario, Tracking};
+use planar_capture::scenario::{
+    Known, LawFormat, LawFormats, LawNumber, LawNumbers, PostCaptureControl, Scenario, Tracking,
+};
 use planar_capture::simulate::{Phase, PhaseError};
 use planar_capture::state::State;
 use std::cell::RefCell;
@@ -206,4 +209,59 @@ fn residual_motion_is_reported_under_the_name_of_the_law() {
     // the scenario's law has no torques, and no residual motion
     let own = run(&scenario);
     assert_eq!(own.cases[0].capture.as_ref().expect("a capture").residual_motion, None);
+}
+
+/// A number that the scenario leaves out has the default of the law's format, in either phase; one that it gives is its own.
+#[test]
+fn numbers_of_a_law_that_are_left_out_have_its_defaults() {
+    const BRAKE: LawFormat = LawFormat {
+        name: "brake",
+        doc: "of a test",
+        numbers: &[
+            LawNumber { key: "gain", rule: NumberRule::positive("a gain", "N m s/rad"), default: Some(14.0) },
+            LawNumber { key: "delay", rule: NumberRule::non_negative("a delay", "s"), default: Some(0.5) },
+        ],
+    };
+    let text = std::fs::read_to_string(planar_proof::file("scenarios/spinning_target.toml")).expect("a scenario");
+    let own = text
+        .replace("tracking = \"computed_torque\"", "tracking = \"brake\"")
+        .replace("control = \"damping\"\nderivative_gain = 7.0", "control = \"brake\"")
+        .replace("[contact]", "[approach.law]\ndelay = 0.25\n[contact]")
+        + "[post_impact.law]\ngain = 3.0\n";
+    let laws = LawFormats { tracking: vec![BRAKE], post_capture: vec![BRAKE] };
+    let known = Known { laws, ..Known::from(registry::SHIPPED) };
+    let scenario = Scenario::parse(&own, "it.toml", "".as_ref(), known).unwrap_or_else(|report| panic!("{report}"));
+    let [before, after] = scenario.own_laws().map(|law| law.expect("a law of its own"));
+    assert_eq!((before.1["gain"], before.1["delay"]), (14.0, 0.25));
+    assert_eq!((after.1["gain"], after.1["delay"]), (3.0, 0.5));
+}
+
+/// A law of no torques that keeps when its parts of the motion begin, and with which joint angles to hold.
+#[derive(Default)]
+struct Told(RefCell<Vec<(f64, Vec<f64>)>>);
+
+impl PostCaptureLaw for Told {
+    fn name(&self) -> &'static str {
+        "told"
+    }
+
+    fn control(&self, task: &PostCaptureTask<'_>, run: Run<'_>) -> Result<Phase, PhaseError> {
+        self.0.borrow_mut().push((task.since_impact, task.angles.to_vec()));
+        run(&mut ZeroTorque)
+    }
+}
+
+/// A law is told the time since the first impact at the start of each part of the motion, and the joint angles of that impact.
+#[test]
+fn a_law_is_told_the_time_since_the_first_impact() {
+    let mut scenario = scenario("elastic_rebound");
+    scenario.cases.retain(|case| case.name == "elastic");
+    let told = Told::default();
+    let study = run_with(&scenario, Laws { tracking: None, post_capture: Some(&told) }).expect("a study");
+    let capture = study.cases[0].capture.as_ref().expect("a capture");
+    let first = study.cases[0].approach.as_ref().expect("an approach").end().state.joint_angles.clone();
+    let times = std::iter::once(0.0).chain(capture.later_impacts.iter().map(|later| later.time));
+    let expected: Vec<_> = times.map(|time| (time, first.clone())).collect();
+    assert!(expected.len() > 1, "impacts follow the first");
+    assert_eq!(*told.0.borrow(), expected);
 }

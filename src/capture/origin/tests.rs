@@ -40,3 +40,27 @@ fn angular_momentum_is_about_the_inertial_origin() {
     Origin([10.0, 20.0]).impact(&mut impact);
     assert_close("jump", &impact.momentum_jump, &[0.5 - 40.0 - 60.0, 3.0, -4.0], tolerance::POLYNOMIAL);
 }
+
+/// The momentum of later impacts, and of the paper's equations, is about the inertial origin too.
+#[test]
+fn all_impacts_are_about_the_inertial_origin() {
+    let scenario = crate::scenario::fixture::two_discs("duration = 0.5\n");
+    let model = registry::generic(&scenario.layout);
+    let mut study =
+        crate::capture::study(&scenario, &|| model.clone_box(), 1.0, &mut crate::capture::Silent).expect("a study");
+    let capture = study.cases[0].capture.as_mut().expect("a capture");
+    for impact in [&mut capture.impact.exact, capture.impact.paper.as_mut().expect("the paper's")] {
+        impact.momentum_jump = [0.5, 3.0, -4.0];
+    }
+    let later = crate::capture::LaterImpact { time: 0.25, impact: capture.impact.clone() };
+    capture.later_impacts = vec![later.clone(), later];
+    let moved = Origin([10.0, 20.0]).absolute(study);
+    let capture = moved.cases[0].capture.as_ref().expect("a capture");
+    assert_eq!(capture.impacts().count(), 3);
+    for impact in capture.impacts() {
+        for result in [Some(&impact.exact), impact.paper.as_ref()] {
+            let jump = result.expect("both").momentum_jump;
+            assert_close("jump", &jump, &[0.5 - 40.0 - 60.0, 3.0, -4.0], tolerance::POLYNOMIAL);
+        }
+    }
+}
