@@ -330,3 +330,40 @@ fn captures_keep_their_digits_whatever_the_ratios_of_inertias() {
         }
     }
 }
+
+/// A target's moment of inertia is compared with that of the robot, whether this is large by its reach or by its base.
+#[test]
+fn a_wide_base_may_capture_what_has_as_much_inertia() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let path = folder.path().join("wide.toml");
+    // 100 kg with a radius of gyration of 10 m, and 1.5 m of reach
+    let text = "name = \"wide\"\n[base]\nmass = 100.0\ninertia = 10000.0\n[[arm]]\nname = \"arm1\"\nmount = [0.5, 0.0]\n\
+                [[arm.link]]\nlength = 1.0\nmass = 1.0\ninertia = 0.1\n";
+    std::fs::write(&path, text).expect("written");
+    let said = |inertia: f64| {
+        let target = json!({"mass": 10.0, "inertia": inertia, "contact": [0.0, 0.5], "twist": [0.1, 0.0, 0.0]});
+        let state = json!([{
+            "base_pose": [0.0, 0.0, 0.0], "joint_angles": [0.3], "base_twist": [0.0, 0.0, 0.0], "joint_rates": [0.0],
+            "targets": [target],
+        }]);
+        eval(path.to_str().expect("UTF-8"), &state.to_string(), "generic")
+    };
+    let (code, _, problem) = said(0.9 * 101.0 * 100.0 * 1e6);
+    assert_eq!(code, 0, "{problem}");
+    let (code, _, problem) = said(1.1 * 101.0 * 100.0 * 1e6);
+    assert!(code == 2 && problem.contains("`targets[0].inertia` is"), "{problem}");
+}
+
+/// A force, or a list of targets, that is `null` is one that is not given.
+#[test]
+fn what_is_null_is_not_given() {
+    let state = reference().0[0].clone();
+    let [mut without, mut with] = [state.clone(), state];
+    for key in ["joint_torques", "base_wrench", "end_effector_wrenches", "targets"] {
+        without.as_object_mut().expect("a state").shift_remove(key);
+        with[key] = Value::Null;
+    }
+    let results = [without, with].map(|state| eval("dual_arm_3r", &json!([state]).to_string(), "generated"));
+    assert_eq!(results[1], results[0]);
+    assert_eq!((results[0].0, results[0].1.len()), (0, 1), "{}", results[0].2);
+}

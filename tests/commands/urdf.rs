@@ -223,6 +223,32 @@ fn rotated_frames_are_offsets_and_mount_angles() {
 }
 
 /// 2 kg at 0.5 m and 1 kg at 1 m: COM at 2/3 m. The tool lies on its side: its iyy is about the normal.
+/// Of a joint whose frame is turned about x, and whose axis is its y: what comes after it has its place in that frame, (1, 0, −0.2),
+/// which is (1, 0.2) in the plane.
+#[test]
+fn places_are_in_the_frame_of_the_joint_before() {
+    let parts = [
+        joint(
+            "continuous",
+            "a",
+            ["base", "one"],
+            &format!("xyz=\"0.5 0 0\" rpy=\"{FRAC_PI_2} 0 0\""),
+            "<axis xyz=\"0 1 0\"/>",
+        ),
+        link("one", 3.0, "0.5 0 -0.1", [0.1, 0.2, 0.3]),
+        joint("continuous", "b", ["one", "two"], &format!("xyz=\"1 0 -0.2\" rpy=\"{} 0 0\"", -FRAC_PI_2), UP),
+        link("two", 2.0, "0.25 0 0", [0.4, 0.5, 0.6]),
+        joint("fixed", "c", ["two", "tip"], "xyz=\"0.5 0 0\"", ""),
+        "<link name=\"tip\"/>".to_owned(),
+    ];
+    let import = imported(&robot(&parts.concat()));
+    assert_close("mount", &import.layout.arms[0].mount, &[0.5, 0.0], tolerance::URDF);
+    let lengths: Vec<f64> = import.layout.arms[0].links.iter().map(|link| link.length).collect();
+    assert_close("lengths", &lengths, &[1.04_f64.sqrt(), 0.5], tolerance::URDF);
+    // the first link's COM is half way to the second joint
+    assert_close("com", &import.layout.arms[0].links[0].com, &[0.5 * 1.04_f64.sqrt(), 0.0], tolerance::URDF);
+}
+
 #[test]
 fn what_is_fixed_is_lumped() {
     let tool = "<link name=\"tool\"><inertial><mass value=\"1\"/><inertia ixx=\"0.06\" iyy=\"0.05\" izz=\"0.07\" \
@@ -499,6 +525,8 @@ fn names_become_valid_names() {
     {
         assert_eq!(named(robot).expect(robot).layout.name, layout);
     }
+    // a name of 64 letters is the longest one
+    assert_eq!(named(&"x".repeat(70)).expect("a long name").layout.name, "x".repeat(64));
     let problem = named("腕").expect_err("no letters").to_string();
     assert!(problem.contains("腕") && problem.contains("--name"), "{problem}");
     // line breaks end no comment and no name
@@ -586,7 +614,12 @@ fn refused_bodies() -> Vec<Refused> {
         (
             "massless link",
             changed(&link("upper", 10.0, "0.5 0 0", [1.0; 3]), "<link name=\"upper\"/>"),
-            &["link `upper`", "0.0 kg", "<inertial>"],
+            &["link `upper`", "it moves and its mass is 0.0 kg", "<inertial>"],
+        ),
+        (
+            "massless link, and a tip fixed to it",
+            changed(&link("lower", 10.0, "0.5 0 0", [1.0; 3]), "<link name=\"lower\"/>"),
+            &["link `lower`", "it moves, with the 1 fixed to it, and its mass is 0.0 kg"],
         ),
         (
             "massless base",
@@ -712,7 +745,12 @@ fn what_a_layout_cannot_hold_is_refused_by_name() {
 /// Through a URDF and back: the same to the bit but for the mount angles, which pass sine, cosine and arctangent.
 #[track_caller]
 fn assert_round_trip(layout: &Layout) {
-    let mut back = imported(&export(layout)).layout;
+    let import = imported(&export(layout));
+    // in the URDF's configuration of zeros the joints of the layout are at zero, too
+    for joint in &import.joints {
+        assert!(joint.sign > 0.0 && joint.offset.abs() <= tolerance::URDF, "{joint}");
+    }
+    let mut back = import.layout;
     for (arm, back) in layout.arms.iter().zip(&mut back.arms) {
         let turns = ((arm.mount_angle - back.mount_angle) / TAU).round();
         assert_close("mount angle", &[back.mount_angle + TAU * turns], &[arm.mount_angle], tolerance::URDF);
