@@ -108,6 +108,12 @@ def large_target(page, folder, summary, _scenario):
         open_by = [v for curve in curves(page, "Openings of constraints")[1] for v in curve if v is not None]
         assert open_by and max(open_by) < 10 * held + 1e-14, f"{max(open_by)} against {held}"
         table = page.inner_text("#own .impact")
+        # a pin passes no moment
+        moments = page.evaluate("""[...document.querySelectorAll("#own .impact tr")]
+            .filter((row) => row.cells[0]?.textContent.startsWith("– moment n"))
+            .flatMap((row) => [...row.cells].slice(1).map((cell) => cell.textContent !== "–"))""")
+        kinds = [contact["kind"] == "rigid" for contact in contacts]
+        assert moments == (kinds if any(kinds) else []), f"moments of {kinds}: {moments}"
         for contact in contacts:
             wanted = f"{math.hypot(*contact['impulse'][1:]):.4g}"
             assert wanted in table and f"{contact['impulse_index']:.4g}" in table, (wanted, table)
