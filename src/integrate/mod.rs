@@ -27,6 +27,8 @@ mod blocks;
 #[cfg(feature = "std")]
 mod continuation;
 #[cfg(feature = "std")]
+mod lagrange;
+#[cfg(feature = "std")]
 mod motion;
 #[cfg(feature = "std")]
 mod pair;

@@ -1,7 +1,7 @@
 //! Pairs of explicit formulas, of which the lower one estimates the error of the other, with interpolants; from the tables
 //! of the crate `differential-equations`, which are full: here without their zeros.
 
-use super::continuation::continuing_weights;
+use super::lagrange::{NODES, integrated_weights};
 use differential_equations::tableau::ButcherTableau;
 use std::sync::LazyLock;
 
@@ -9,8 +9,6 @@ use std::sync::LazyLock;
 pub(super) const MOST_STAGES: usize = 26;
 /// The largest degree of an interpolant.
 const DEGREE: usize = 9;
-/// Nodes through which the motion over a step is continued.
-pub(super) const CONTINUED: usize = 5;
 
 /// Larger defects of stages are not of rounding.
 const ROUNDING: f64 = 1e-12;
@@ -43,9 +41,9 @@ pub(super) struct Pair {
     /// It is zero for all but the first few.
     pub(super) defects: Vec<Option<[f64; 4]>>,
     /// Stages by whose ẋ the motion over a step is continued: spread over it, and of the most exact.
-    pub(super) continued: [usize; CONTINUED],
+    pub(super) continued: [usize; NODES],
     /// Their weights in the second to the fifth power of time.
-    pub(super) continuing: [[f64; CONTINUED]; 4],
+    pub(super) continuing: [[f64; NODES]; 4],
     /// Of stages the polynomials of their weights within the step: the factors of s, s² …; those that are not zero.
     interpolant: Vec<(usize, [f64; DEGREE])>,
 }
@@ -91,10 +89,7 @@ pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
 
 impl Pair {
     /// The formula of a step, without estimate and interpolant.
-    fn formula<const S: usize, const I: usize>(
-        tableau: &ButcherTableau<f64, S, I>,
-        continued: [usize; CONTINUED],
-    ) -> Self {
+    fn formula<const S: usize, const I: usize>(tableau: &ButcherTableau<f64, S, I>, continued: [usize; NODES]) -> Self {
         let ButcherTableau { a, b, .. } = tableau;
         let weights = differences(b, &[]);
         let mut nodes = tableau.c.to_vec();
@@ -108,7 +103,7 @@ impl Pair {
         let defects = |stage| {
             let defects = [2, 3, 4, 5].map(|power| defect(stage, power));
             let defects = defects.map(|defect| if defect.abs() > ROUNDING { defect } else { 0.0 });
-            (defects != [0.0; 4]).then_some(defects)
+            defects.iter().any(|defect| *defect != 0.0).then_some(defects)
         };
         Self {
             stages: S,
@@ -118,7 +113,7 @@ impl Pair {
             caution: 1.0,
             defects: (0..I).map(defects).collect(),
             continued,
-            continuing: continuing_weights(&continued.map(|stage| nodes[stage])),
+            continuing: integrated_weights(&continued.map(|stage| nodes[stage])),
             interpolant: Vec::new(),
             nodes,
             rows,
@@ -149,7 +144,10 @@ impl Pair {
 
 /// The stages that an interpolant has a weight for.
 fn weighed<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> Vec<(usize, [f64; DEGREE])> {
-    (0..STAGES).map(|stage| (stage, of_stage(stage))).filter(|(_, factors)| *factors != [0.0; DEGREE]).collect()
+    (0..STAGES)
+        .map(|stage| (stage, of_stage(stage)))
+        .filter(|(_, factors)| factors.iter().any(|factor| *factor != 0.0))
+        .collect()
 }
 
 /// What is not zero of weights less others.
