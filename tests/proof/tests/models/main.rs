@@ -16,6 +16,7 @@ mod integrators;
 mod light_last_link;
 mod not_a_number;
 mod references;
+mod refusals;
 mod scalars;
 mod short_links;
 mod single_precision;
