@@ -521,26 +521,3 @@ fn an_approach_begins_with_the_rates_of_the_scenario() {
         assert_eq!(study.approach.samples[0].state, scenario.initial, "{tracking}");
     }
 }
-
-/// An impact at the very end of the motion is made, and nothing is computed after it.
-#[test]
-fn an_impact_at_the_end_of_the_motion() {
-    let coming =
-        [Coming { arm: 0, speed: 4.0, time: 5.5, aside: 0.0 }, Coming { arm: 1, speed: 3.0, time: 8.75, aside: 0.0 }];
-    let mut at_the_end = 0;
-    let mut scenario = meeting(&coming, 0.5);
-    scenario.post_impact.as_mut().expect("a phase").integration.integrator = Integrator::RungeKutta4;
-    let found = run(&scenario).expect("a study").cases[0].capture.as_ref().expect("a capture").later_impacts[0].time;
-    for duration in (0..40_u32).map(|k| found + 1e-13 * (f64::from(k) - 20.0)) {
-        scenario.post_impact.as_mut().expect("a phase").duration = duration;
-        let study = run(&scenario).expect("a study");
-        let capture = study.cases[0].capture.as_ref().expect("a capture");
-        assert!((capture.post_impact.duration - duration).abs() < 1e-15, "{duration}");
-        let end = capture.post_impact.samples.iter().filter(|sample| sample.time >= duration).count();
-        let [later] = capture.later_impacts.as_slice() else { continue };
-        at_the_end += usize::from(later.time >= duration);
-        assert!(later.time <= duration && end == 1, "{}, {end} samples at the end {duration}", later.time);
-        assert_eq!(later.impact.contacts[0].contact.arm, 1);
-    }
-    assert!(at_the_end > 0, "one of the durations ends with the impact");
-}
