@@ -315,3 +315,6 @@ impl<'a> Table<'a> {
 pub fn every<T>(results: impl IntoIterator<Item = Option<T>>) -> Option<Vec<T>> {
     results.into_iter().collect::<Vec<_>>().into_iter().collect()
 }
+
+#[cfg(test)]
+mod tests;

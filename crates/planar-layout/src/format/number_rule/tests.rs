@@ -1,6 +1,6 @@
 //! The ends of the ranges of numbers: what a rule says of itself is what it accepts.
 
-use super::{NumberRule, SMALLEST};
+use super::{NumberRule, SMALLEST, form, units};
 
 /// A number just on one side of another; beside zero the first one that has a place in 64 bits.
 fn beside(value: f64, up: bool) -> f64 {
@@ -42,4 +42,12 @@ fn ranges_end_where_they_are_said_to() {
     for (value, accepted) in [(0.0, false), (1.0, true), (1.5, false), (10.0, true), (11.0, false)] {
         assert_eq!(whole.check(value).is_ok(), accepted, "{value}");
     }
+}
+
+/// One unit for all components that have it, each of its own where they differ.
+#[test]
+fn a_unit_that_all_components_have_is_said_once() {
+    let [x, y, yaw] = [NumberRule::any("x", "m"), NumberRule::any("y", "m"), NumberRule::any("yaw", "rad")];
+    assert_eq!((units(&[x, y]), form(&[x, y])), ("m".to_owned(), "[x, y] in m".to_owned()));
+    assert_eq!(form(&[yaw, x, y]), "[yaw, x, y] in rad, m, m");
 }
