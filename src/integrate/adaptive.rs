@@ -211,6 +211,7 @@ impl Adaptive {
         let norm = |of: &[f64]| of.iter().zip(x).map(|(value, x)| (value / scale(*x)).powi(2)).sum::<f64>();
         let (of_x, of_rate) = (norm(x), norm(rate));
         let short = if of_rate <= 1e-10 || of_x <= 1e-10 { 1e-6 } else { 0.01 * (of_x / of_rate).sqrt() };
+        let short = short.min(self.end - time);
         probe.iter_mut().zip(x.iter().zip(rate)).for_each(|(probe, (x, rate))| *probe = x + short * rate);
         let changed = &mut self.stages.as_flattened_mut()[..size];
         match motion.derivative(time + short, probe, changed) {

@@ -275,7 +275,7 @@ fn a_step_that_leaves_what_the_motion_is_defined_for_is_rejected() {
 /// f may be another one after the end and before the start: it is asked for between them.
 #[test]
 fn the_motion_is_asked_for_between_start_and_end() {
-    for length in [0.3, 1.0, 5.3, 10.0, 20.0] {
+    for length in [1e-7, 1e-3, 0.3, 1.0, 5.3, 10.0, 20.0] {
         let (start, end) = (3.0, 3.0 + length);
         let (mut earliest, mut latest, mut follow) = (f64::INFINITY, f64::NEG_INFINITY, feedback(2.0));
         let mut motion = |time: f64, x: &[f64], rate: &mut [f64]| {
