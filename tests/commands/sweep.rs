@@ -809,7 +809,7 @@ fn the_captured_share_is_that_of_the_cases_that_capture() {
     let [yes, no, none] = [&Field::Bool(true), &Field::Bool(false), &Field::Null];
     assert_eq!(captured, [yes, yes, none, no, no, none, yes, yes, none, no, no, none, no, no, none]);
     let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
-    assert!(page.contains("captured in <b>4</b> of 10 cases with a result, 40.0 %"), "{page}");
+    assert!(page.contains("captured in <b>4</b> of 10 cases with a result, 40.0\u{a0}%"), "{page}");
 }
 
 /// A design that fails and a simulation that stops are rows of their own status, with what the command would say.
@@ -924,6 +924,7 @@ fn columns_have_the_units_of_their_quantities() {
         );
     }
     let page = fs::read_to_string(place.path("out/report.html")).expect("a report");
+    let page = page.replace("<wbr>", "");
     let shown = |name: &str| page.split(&format!("<td>{name} <small>")).nth(1).and_then(|rest| rest.split('<').next());
     for name in
         ["arm1_mean_force_fx", "arm2_mean_force_n", "kinetic_energy_after", "arm1_impulse_n", "target1_after_vx"]
