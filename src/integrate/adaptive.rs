@@ -283,14 +283,7 @@ impl Adaptive {
     fn error_at_end(&mut self) -> f64 {
         let Self { pair, tolerance, step, ends: [_, start], stages, working: end, .. } = self;
         combine(start, *step, &pair.weights, stages, end);
-        let largest = |row| largest_error([start, end], *step, row, stages, *tolerance);
-        let error = largest(&pair.errors);
-        let correction = match &pair.correction {
-            // Hairer, Nørsett & Wanner (1993), section II.10
-            Some(row) if error > 0.0 => (1.0 + 0.01 * (largest(row) / error).powi(2)).sqrt(),
-            _ => 1.0,
-        };
-        pair.caution * error / correction
+        largest_error([start, end], *step, &pair.errors, stages, *tolerance)
     }
 
     /// Evaluates a stage of a step of a length, s, from `start`, s, where x is that of an end of the last step.

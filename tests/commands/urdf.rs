@@ -852,7 +852,7 @@ fn bad_input_is_exit_code_2_and_leaves_nothing() {
         (&["import", &urdf, "--out", &toml][..], &["robot.urdf: line 8, joint `end`", "prismatic"][..]),
         (&["import", &urdf, "--name", "Fn", "--out", &toml], &["robot.urdf", "`Fn`", "lower-case"]),
         (&["import", &urdf.replace("robot.", "robto."), "--out", &toml], &["no file", "robot.urdf"]),
-        (&["import", &folder.path().display().to_string()], &["directory", "URDF", "robot.urdf"]),
+        (&["import", &folder.path().display().to_string()], &["is a folder", "URDF", "robot.urdf"]),
         (&["export", "src", "--out", &toml], &["`src` is a folder, expected a TOML file"]),
         (&["check", "LICENSE"], &["`LICENSE` is not the name of a shipped layout", "`./LICENSE`"]),
         (&["export", "dual_arm", "--out", &toml], &["no shipped layout `dual_arm`"]),

@@ -25,9 +25,8 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
     add(&format!("{}.", counts.join(", ")));
-    if let [captured, known] = report.captured
-        && known > 0
-    {
+    let [captured, known] = report.captured;
+    if known > 0 {
         #[allow(clippy::cast_precision_loss, reason = "a share")]
         let share = 100.0 * captured as f64 / known as f64;
         add(&format!(

@@ -1,6 +1,6 @@
 //! Coefficients against the conditions that they have to meet: orders, interpolants, stages on polynomials, stability.
 
-use super::{DORMAND_PRINCE, Pair, VERNER};
+use super::{DORMAND_PRINCE, Pair, SHARE, VERNER};
 
 fn pairs() -> [(&'static str, &'static Pair); 2] {
     [("Verner", &*VERNER), ("Dormand & Prince", &*DORMAND_PRINCE)]
@@ -23,9 +23,9 @@ fn exact(pair: &Pair, row: &[(usize, f64)], s: f64) -> usize {
 /// those up to its own, at the end as at the other times.
 #[test]
 fn powers_of_time_are_integrated() {
-    for ((name, pair), [order, lower, dense]) in pairs().into_iter().zip([[9, 8, 9], [8, 5, 7]]) {
+    for ((name, pair), [order, lower, dense]) in pairs().into_iter().zip([[9, 8, 9], [8, 7, 7]]) {
         assert!(exact(pair, &pair.weights, 1.0) >= order, "{name}");
-        let vanishing = powers(pair, &pair.errors, 0.0).take_while(|[found, _]| found.abs() < 1e-13).count();
+        let vanishing = powers(pair, &pair.errors, 0.0).take_while(|[found, _]| found.abs() < 1e-12).count();
         assert!(vanishing >= lower, "{name}: {vanishing}");
         for s in [0.0, 0.1, 0.5, 0.9, 1.0] {
             let (weights, count) = pair.weights_within(s);
@@ -34,9 +34,9 @@ fn powers_of_time_are_integrated() {
             assert!(s.fract() == 0.0 || exact(pair, &weights[..count], s) < 9 || dense == 9, "{name} {s}");
         }
     }
-    let correction = DORMAND_PRINCE.correction.as_ref().expect("a formula of order 3");
-    assert_eq!(powers(&DORMAND_PRINCE, correction, 0.0).take_while(|[found, _]| found.abs() < 1e-13).count(), 3);
-    assert!(VERNER.correction.is_none());
+    // the first power that is not left out is estimated with its share
+    let share = powers(&DORMAND_PRINCE, &DORMAND_PRINCE.errors, 0.0).nth(7).expect("a power")[0];
+    assert!((share / SHARE - 1.0).abs() < 1e-9, "{share}");
 }
 
 /// Stages are on polynomials of degree 5 but for the first few, whose defects are known: those are corrected, and the
