@@ -89,9 +89,10 @@ impl Adaptive {
     }
 
     /// The same for a motion with feedback. Where that is fast beside the motion, steps are as long as they are stable: those of
-    /// Dormand & Prince's pair of order 8 up to 6.4 times the shortest time constant with 12 evaluations, those of the other pair
+    /// Dormand & Prince's formula of order 8 up to 6.4 times the shortest time constant with 12 evaluations, those of the other
     /// up to 4.4 times. It takes the steps that end at a requested time, half as long as the allowed ones or more; between
-    /// nearer times x is from the other's interpolant, which is of a higher order.
+    /// nearer times x is from the other's interpolant, which is of a higher order. Under fast feedback errors are up to some ten
+    /// tolerances.
     #[must_use]
     pub fn with_feedback(tolerance: f64) -> Self {
         Self::by([&DORMAND_PRINCE, &VERNER], HALF, tolerance)

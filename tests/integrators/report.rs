@@ -46,8 +46,8 @@ variables |
 | `adaptive` | 9 | 16 per accepted step, 15 per rejected one, 9 more where x is asked for within a step: \
 steps end where rows are, unless these are much nearer | Verner's pair 9(8) with an interpolant of order 9; each step begins on a polynomial through the last one; `tolerance` per step, relative \
 and per unit |
-| `adaptive` under a control law | 8 | 12 per accepted step, 11 per rejected one | Dormand and Prince's pair 8(5,3) for steps that end at a row, half \
-as long as the allowed ones or more; between nearer rows as above |
+| `adaptive` under a control law | 8 | 12 per accepted step, 11 per rejected one | Dormand and Prince's formula for steps that end at a row, half \
+as long as the allowed ones or more, its error estimated by a divided difference of the rates; between nearer rows as above |
 
 Gauss methods conserve invariants that are at most quadratic in the integrated variables. In positions and rates the momenta
 are not quadratic, because the mass matrix depends on the positions. In positions q and canonical momenta p = M v they are:
@@ -57,7 +57,8 @@ joint k it is −v_k × P_k, with the velocity of the joint and the linear momen
 
 Under fast feedback it is stability that limits the steps of an explicit integrator, and not the accuracy of the motion. On the
 negative real axis Verner's pair is stable up to 4.4 times the shortest time constant with 16 evaluations, Dormand and Prince's
-up to 6.4 times with 12: for each evaluation 1.9 times as far. Its interpolant has order 7 only, so that rows within long steps are not taken from it.
+formula up to 6.4 times with 12: for each evaluation 1.9 times as far. Its interpolant has order 7 only, so that rows within long
+steps are not taken from it.
 
 The adaptive integrator chooses its steps; `step` is then the interval of sampling a discrete law, of the audit and of the
 search for events, by dense output. With held torques it restarts at every sample. Events are located by steps of the

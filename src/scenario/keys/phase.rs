@@ -83,7 +83,7 @@ pub(super) const COORDINATES: Key = Key::optional(
 fn integrators() -> Vec<Choice> {
     let doc = |integrator: Integrator| match integrator {
         Integrator::Adaptive { .. } => {
-            "pairs of orders 9(8) (Verner) and, under control, 8(5,3) (Dormand and Prince), with variable steps"
+            "formulas of order 9 (Verner) and, under control, of order 8 (Dormand and Prince), with variable steps"
         }
         Integrator::RungeKutta4 => "classical Runge–Kutta steps of order 4",
         Integrator::GaussLegendre => "implicit, order 6, conserves both momenta",

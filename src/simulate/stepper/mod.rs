@@ -90,7 +90,7 @@ pub enum Integrator {
     SemiImplicitEuler,
     /// Gauss–Legendre steps of order 6 in canonical variables: symplectic, conserves both momenta.
     GaussLegendre,
-    /// Adaptive steps by Verner's pair of orders 9 and 8, under a control law also by Dormand and Prince's of order 8.
+    /// Adaptive steps by Verner's pair of orders 9 and 8, under a control law also by Dormand and Prince's formula of order 8.
     Adaptive {
         /// Relative and absolute, of each step.
         tolerance: f64,
