@@ -55,7 +55,7 @@ pub(super) static VERNER: LazyLock<Pair> = LazyLock::new(|| {
     let of_stage = |stage: usize| std::array::from_fn(|power| interpolant[stage][power]);
     Pair {
         order: 9.0,
-        errors: differences(&tableau.b, &lower),
+        errors: row(tableau.b.iter().zip(lower).map(|(high, low)| high - low)),
         interpolant: weighed::<26>(of_stage),
         ..Pair::formula(&tableau, [0, 10, 8, 11, 16])
     }
@@ -81,7 +81,7 @@ pub(super) static DORMAND_PRINCE: LazyLock<Pair> = LazyLock::new(|| {
     };
     Pair {
         order: 8.0,
-        errors: divided_difference(&tableau.b, &tableau.c),
+        errors: divided_difference(&row(tableau.b), &tableau.c),
         interpolant: weighed::<16>(of_stage),
         ..Pair::formula(&tableau, [0, 6, 9, 10, 12])
     }
@@ -91,9 +91,9 @@ impl Pair {
     /// The formula of a step, without estimate and interpolant.
     fn formula<const S: usize, const I: usize>(tableau: &ButcherTableau<f64, S, I>, continued: [usize; NODES]) -> Self {
         let ButcherTableau { a, b, .. } = tableau;
-        let weights = differences(b, &[]);
+        let weights = row(*b);
         let mut nodes = tableau.c.to_vec();
-        let mut rows: Vec<_> = (0..I).map(|stage| differences(&a[stage][..stage], &[])).collect();
+        let mut rows: Vec<_> = (0..I).map(|stage| row(a[stage][..stage].iter().copied())).collect();
         // after the stages of the step comes the rate at its end, which the table of `dop853` leaves out
         (nodes[S], rows[S]) = (1.0, weights.clone());
         let defect = |stage: usize, power: i32| {
@@ -148,22 +148,20 @@ fn weighed<const STAGES: usize>(of_stage: impl Fn(usize) -> [f64; DEGREE]) -> Ve
         .collect()
 }
 
-/// What is not zero of weights less others.
-fn differences(weights: &[f64], others: &[f64]) -> Row {
-    let others = others.iter().copied().chain(std::iter::repeat(0.0));
-    let differences = weights.iter().zip(others).map(|(weight, other)| weight - other);
-    differences.enumerate().filter(|(_, difference)| *difference != 0.0).collect()
+/// What is not zero of the factors of stages.
+fn row(factors: impl IntoIterator<Item = f64>) -> Row {
+    factors.into_iter().enumerate().filter(|(_, factor)| *factor != 0.0).collect()
 }
 
 /// [`SHARE`] times the divided difference of the rates at the stages that a formula has a weight for: of n stages what is left of
 /// powers of time from the (n - 1)th on.
-fn divided_difference(weights: &[f64], nodes: &[f64]) -> Row {
-    let weighted: Vec<usize> = (0..weights.len()).filter(|stage| weights[*stage] != 0.0).collect();
+fn divided_difference(weights: &Row, nodes: &[f64]) -> Row {
+    let stages = || weights.iter().map(|(stage, _)| *stage);
     let of_stage = |stage: usize| {
-        let others = weighted.iter().filter(|other| **other != stage);
-        (stage, SHARE / others.map(|other| nodes[stage] - nodes[*other]).product::<f64>())
+        let others = stages().filter(|other| *other != stage);
+        (stage, SHARE / others.map(|other| nodes[stage] - nodes[other]).product::<f64>())
     };
-    weighted.iter().map(|stage| of_stage(*stage)).collect()
+    stages().map(of_stage).collect()
 }
 
 /// s to a power times 1 - s to another: the factors of s, s² ….

@@ -262,7 +262,7 @@ fn states_of(
     [positions, rates]: &[Vec<f64>; 2],
     states: &mut Vec<FrameState>,
 ) {
-    let three = |values: &[f64], i: usize| values[i..].first_chunk::<3>().copied().expect("three coordinates");
+    let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
     states.resize(places.len(), FrameState::INERTIAL);
     for (index, place) in places.iter().enumerate() {
         let (before, rest) = states.split_at_mut(index);
