@@ -170,7 +170,7 @@ impl StepSearch<'_> {
     fn crossing(&mut self, detected: &mut DetectedPair, end_effector: &ConvexPart) -> Result<Option<[f64; 2]>, Error> {
         let [start, end] = self.step.span;
         let reaches = [0.0, detected.parts.iter().map(|part| part.reach).fold(0.0, f64::max)];
-        let bound = self.workspace.relative_bound(self.motions, detected.frames);
+        let bound = self.workspace.relative_bound(self.motions, &detected.frames);
         let speed = bound.speed(reaches);
         let approach = speed * (end - start);
         if detected.armed && detected.lower - approach > 0.0 {
@@ -180,7 +180,7 @@ impl StepSearch<'_> {
         let acceleration = bound.acceleration(reaches);
         let pairs: Vec<_> =
             detected.parts.iter().map(|part| PartPair { parts: [end_effector, part], speed, acceleration }).collect();
-        let frames = detected.frames;
+        let frames = &detected.frames;
         let mut instant_at = |pair: &PartPair<'_>, time: f64| self.at(pair, frames, time);
         let mut distance_at = |time: f64| {
             let distances = pairs.iter().map(|pair| instant_at(pair, time).distance);
@@ -209,7 +209,7 @@ impl StepSearch<'_> {
         Ok(first.map(|below| [from, below]))
     }
 
-    fn at(&mut self, pair: &PartPair<'_>, frames: FramePair, time: f64) -> Instant {
+    fn at(&mut self, pair: &PartPair<'_>, frames: &FramePair, time: f64) -> Instant {
         *self.evaluations += 1;
         self.workspace.instant(self.motions, self.step, (frames, pair), time)
     }

@@ -5,6 +5,8 @@
 //! through t₁, t₂ and t₃ by less between t₂ and t₃, for parts of equal length by a twenty-seventh. So a smooth motion needs
 //! no state within the part.
 
+use std::array::from_fn;
+
 /// Ends of parts that are kept.
 const KEPT: usize = 3;
 /// Least length of the parts before, in lengths of the part that they continue: differences of nearer ends are rounded, and
@@ -64,15 +66,21 @@ impl ContinuedMotion {
         let [from, middle, to] = ends.map(|(time, _)| *time);
         self.nodes = [from, from, middle, middle, to, to];
         let size = ends[0].1.len() / 2;
+        let nodes = self.nodes;
+        let by = |k: usize, order: usize| 1.0 / (nodes[k] - nodes[k - order]);
+        let [first, second] = [by(2, 1), by(4, 1)];
+        // of each order, at those indices that have differences of it; divisions take longer than all else
+        let factors: [[f64; FACTORS]; FACTORS] =
+            from_fn(|order| from_fn(|k| if order > 1 && k >= order { by(k, order) } else { 0.0 }));
         self.differences.clear();
         self.differences.extend((0..size).map(|i| {
             let [x, rates] = [i, size + i].map(|i| ends.map(|(_, state)| state[i]));
-            let slopes = [(x[1] - x[0]) / (middle - from), (x[2] - x[1]) / (to - middle)];
+            let slopes = [(x[1] - x[0]) * first, (x[2] - x[1]) * second];
             // of two equal nodes it is the rate
             let mut differences = [x[0], rates[0], slopes[0], rates[1], slopes[1], rates[2]];
             for order in 2..FACTORS {
                 for k in (order..FACTORS).rev() {
-                    differences[k] = (differences[k] - differences[k - 1]) / (self.nodes[k] - self.nodes[k - order]);
+                    differences[k] = (differences[k] - differences[k - 1]) * factors[order][k];
                 }
             }
             differences

@@ -113,9 +113,12 @@ impl PathPart for PathWindow<'_> {
     }
 
     fn at(&self, time: f64, positions: &mut [f64], rates: &mut [f64]) {
-        let inner = self.knots.chunks_exact(self.record()).skip(1).map(|knot| knot[0]);
-        let last = self.knots.len() / self.record() - 2;
-        let index = inner.take_while(|end| *end < time).count().min(last);
+        // the last interval that starts before the time, or the first one
+        let (mut index, mut end) = (0, self.knots.len() / self.record() - 1);
+        while end - index > 1 {
+            let middle = usize::midpoint(index, end);
+            if self.knots[middle * self.record()] < time { index = middle } else { end = middle }
+        }
         self.interval(index).at(time, positions, rates);
     }
 

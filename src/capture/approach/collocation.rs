@@ -16,7 +16,7 @@ pub(crate) struct Collocation {
     pub(crate) points: [f64; POINTS],
     /// ∫₀¹ of the polynomial through values at the points is their sum with these; exact up to degree 15.
     pub(crate) weights: [f64; POINTS],
-    /// Up to each point; exact up to degree 7.
+    /// Of each point, in the integrals up to all points; exact up to degree 7.
     pub(crate) partial_weights: [[f64; POINTS]; POINTS],
 }
 
@@ -36,13 +36,23 @@ impl Collocation {
             let below = if k == 0 { -1.0 } else { polynomials[i][k - 1] };
             polynomials[i][k + 1] - below
         };
-        let partial_weights = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
+        let partial_weights = std::array::from_fn(|j| {
+            std::array::from_fn(|i| {
                 let sum: f64 = (0..POINTS).map(|k| integral(i, k) * polynomials[j][k]).sum();
                 0.5 * weights[j] * sum
             })
         });
         Self { points: zeros.map(|x| 0.5 * (1.0 + x)), weights, partial_weights }
+    }
+
+    /// The integrals of a function from its values at the points, up to all points and over the interval, whose length is 1.
+    pub(crate) fn integrals(&self, values: &[f64; POINTS]) -> ([f64; POINTS], f64) {
+        let (mut partial, mut whole) = ([0.0; POINTS], 0.0);
+        for ((value, weight), weights) in values.iter().zip(self.weights).zip(&self.partial_weights) {
+            partial.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight * value);
+            whole += weight * value;
+        }
+        (partial, whole)
     }
 }
 
@@ -59,27 +69,26 @@ fn legendre(x: f64) -> [f64; POINTS + 1] {
 
 #[cfg(test)]
 mod tests {
-    use super::Collocation;
+    use super::{Collocation, POINTS};
 
     /// Powers of time up to the degree that is exact, from 0 to 1 and to each point; the next ones are not.
     #[test]
     fn powers_are_integrated() {
-        let Collocation { points, weights, partial_weights } = Collocation::new();
+        let collocation = Collocation::new();
+        let points = collocation.points;
         assert!(points.is_sorted() && points[0] > 0.0 && points[7] < 1.0);
-        let sum = |weights: &[f64], power: i32| -> f64 {
-            weights.iter().zip(points).map(|(weight, point)| weight * point.powi(power)).sum()
-        };
-        let error = |weights: &[f64], power: i32, to: f64| {
-            let exact = to.powi(power + 1) / f64::from(power + 1);
-            (sum(weights, power) - exact).abs()
+        let errors = |power: i32| {
+            let (partial, whole) = collocation.integrals(&points.map(|point| point.powi(power)));
+            let error = |sum: f64, to: f64| (sum - to.powi(power + 1) / f64::from(power + 1)).abs();
+            (std::array::from_fn::<_, POINTS, _>(|i| error(partial[i], points[i])), error(whole, 1.0))
         };
         for power in 0..16 {
-            assert!(error(&weights, power, 1.0) < 1e-15, "{power}");
+            assert!(errors(power).1 < 1e-15, "{power}");
         }
-        assert!(error(&weights, 16, 1.0) > 1e-11);
-        for (weights, to) in partial_weights.iter().zip(points) {
-            assert!((0..8).all(|power| error(weights, power, to) < 1e-15), "{to}");
-            assert!(error(weights, 8, to) > 1e-9, "{to}");
+        assert!(errors(16).1 > 1e-11);
+        for power in 0..8 {
+            assert!(errors(power).0.iter().all(|error| *error < 1e-15), "{power}");
         }
+        assert!(errors(8).0.iter().all(|error| *error > 1e-9));
     }
 }

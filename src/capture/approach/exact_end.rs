@@ -52,7 +52,8 @@ pub(crate) fn exact_end(
     let [yaw, x, y] = initial.base_pose;
     let start = [x + mx / mass, y + my / mass];
     let spin = momentum.angular_momentum - (start[0] * py - start[1] * px);
-    let mut motion = JointMotion { model, trajectory, prescribed, spin, collocation: Collocation::new() };
+    let inner = std::array::from_fn(|_| (vec![0.0; joints], vec![0.0; joints]));
+    let mut motion = JointMotion { model, trajectory, prescribed, spin, collocation: Collocation::new(), inner };
 
     let mut panels = 1;
     let mut found = motion.integrate(initial, knots, panels)?;
@@ -91,6 +92,8 @@ struct JointMotion<'a, R> {
     /// Angular momentum about the center of mass, N m s.
     spin: f64,
     collocation: Collocation,
+    /// Joint angles and rates at the points of a panel.
+    inner: [(Vec<f64>, Vec<f64>); POINTS],
 }
 
 impl<R: Trajectory<f64>> JointMotion<'_, R> {
@@ -115,36 +118,33 @@ impl<R: Trajectory<f64>> JointMotion<'_, R> {
 
     /// Adds the motion of a panel to joint angles and rates; the result is the turn of the base.
     fn add_panel(&mut self, start: f64, length: f64, angles: &mut [f64], rates: &mut [f64]) -> Result<f64, Error> {
-        let Collocation { points, weights, partial_weights } = &self.collocation;
         let joints = angles.len();
-        let sum = |weights: &[f64; POINTS], values: &[f64; POINTS]| -> f64 {
-            length * weights.iter().zip(values).map(|(weight, value)| weight * value).sum::<f64>()
-        };
-        let mut inner = vec![[[0.0; POINTS]; 2]; joints];
         for (joint, (angle, rate)) in angles.iter_mut().zip(rates).enumerate() {
             let mut accelerations = [0.0; POINTS];
-            for (acceleration, point) in accelerations.iter_mut().zip(points) {
+            for (acceleration, point) in accelerations.iter_mut().zip(&self.collocation.points) {
                 let wanted = self.trajectory.joint(joint, start + point * length);
                 let none = Error::Index { what: "joint of the trajectory", index: joint, count: joints };
                 *acceleration = wanted.ok_or(none)?.acceleration;
             }
-            let inner_rates = partial_weights.each_ref().map(|weights| *rate + sum(weights, &accelerations));
-            inner[joint] = [partial_weights.each_ref().map(|weights| *angle + sum(weights, &inner_rates)), inner_rates];
-            *angle += sum(weights, &inner_rates);
-            *rate += sum(weights, &accelerations);
+            let integrals = |values: &[f64; POINTS], start: f64| {
+                let (partial, whole) = self.collocation.integrals(values);
+                (partial.map(|sum| start + length * sum), start + length * whole)
+            };
+            let (inner_rates, last_rate) = integrals(&accelerations, *rate);
+            let (inner_angles, last_angle) = integrals(&inner_rates, *angle);
+            for (i, (angles, rates)) in self.inner.iter_mut().enumerate() {
+                (angles[joint], rates[joint]) = (inner_angles[i], inner_rates[i]);
+            }
+            (*angle, *rate) = (last_angle, last_rate);
         }
         let mut yaw_rates = [0.0; POINTS];
-        let mut at_point = [vec![0.0; joints], vec![0.0; joints]];
-        for (i, yaw_rate) in yaw_rates.iter_mut().enumerate() {
-            for (k, values) in at_point.iter_mut().enumerate() {
-                values.iter_mut().zip(&inner).for_each(|(value, joint)| *value = joint[k][i]);
-            }
-            let [angles, rates] = &at_point;
+        for (yaw_rate, (angles, rates)) in yaw_rates.iter_mut().zip(&self.inner) {
             // from the center of mass there is no linear momentum, and no yaw is another one's
             let twist = self.prescribed.base_twist(self.model, [self.spin, 0.0, 0.0], (&[0.0; 3], angles, rates))?;
             *yaw_rate = twist[0];
         }
-        Ok(sum(weights, &yaw_rates))
+        let (_, turned) = self.collocation.integrals(&yaw_rates);
+        Ok(length * turned)
     }
 }
 

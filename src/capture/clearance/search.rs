@@ -96,7 +96,7 @@ impl Findings {
 pub(super) struct WindowSearch<'a> {
     pub(super) shapes: PartPair<'a>,
     /// Of their bodies.
-    pub(super) frames: FramePair,
+    pub(super) frames: &'a FramePair,
     pub(super) motions: &'a FrameKinematics<'a>,
     pub(super) window: PathWindow<'a>,
     /// Of the phase, s.

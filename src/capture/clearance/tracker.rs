@@ -86,7 +86,7 @@ impl DistanceTracker {
             let length = last - first;
             end = start + last;
             workspace.set_bounds(motions, &window);
-            for ((pair, frames), known) in pairs.iter().zip(of_frames.iter().copied()).zip(distances.iter_mut()) {
+            for ((pair, frames), known) in pairs.iter().zip(&of_frames).zip(distances.iter_mut()) {
                 if holds(pair) {
                     known.parts.iter_mut().for_each(|part| part.open = None);
                     continue;

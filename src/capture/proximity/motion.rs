@@ -31,19 +31,28 @@ enum Place<'a> {
 /// The motion of all frames during a phase.
 pub(in crate::capture) struct FrameKinematics<'a> {
     places: Vec<Place<'a>>,
-    /// Indices of those whose yaw is not that of another one but for a constant.
-    turning: Vec<usize>,
+    all: FrameSet,
     /// Number of joints.
     joints: usize,
 }
 
+/// Some frames, each after the one that carries it.
+#[derive(Clone)]
+struct FrameSet {
+    indices: Vec<usize>,
+    /// Those whose yaw is not that of another one but for a constant.
+    turning: Vec<usize>,
+}
+
 /// Two frames.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(in crate::capture) struct FramePair {
     pub(in crate::capture) frames: [usize; 2],
     /// The last frame that carries both, or is one of them; `None` for the inertial one. How it moves is nothing to the
     /// distance of the two.
     pub(in crate::capture) carrier: Option<usize>,
+    /// The two, and those that carry them, up to that which carries both.
+    between: FrameSet,
 }
 
 /// Pose and twist of the origin of a frame.
@@ -79,6 +88,14 @@ pub(super) fn velocity_of_base(part: &impl PathPart) -> [f64; 2] {
 /// Bounds of the rate and acceleration of a joint, of those of all coordinates; zeros without a joint.
 fn turning(joint: Option<usize>, [rates, accelerations]: &[Vec<f64>; 2]) -> [f64; 2] {
     joint.map_or([0.0; 2], |joint| [rates[3 + joint], accelerations[3 + joint]])
+}
+
+impl FrameSet {
+    fn new(places: &[Place<'_>], indices: Vec<usize>) -> Self {
+        let is_turning = |index: &usize| !matches!(places[*index], Place::Carried { joint: None, .. });
+        let turning = indices.iter().copied().filter(is_turning).collect();
+        Self { indices, turning }
+    }
 }
 
 impl MotionBound {
@@ -181,9 +198,8 @@ impl<'a> FrameKinematics<'a> {
             },
         };
         let places: Vec<_> = frames.iter().map(place).collect();
-        let is_turning = |index: &usize| !matches!(places[*index], Place::Carried { joint: None, .. });
-        let turning = (0..places.len()).filter(is_turning).collect();
-        Self { places, turning, joints }
+        let all = FrameSet::new(&places, (0..places.len()).collect());
+        Self { places, all, joints }
     }
 
     /// Two frames, by their indices.
@@ -193,16 +209,30 @@ impl<'a> FrameKinematics<'a> {
             Place::Body(_) | Place::Free(_) => None,
         };
         let [mut a, mut b] = frames.map(Some);
+        let mut indices = Vec::new();
         while a != b {
             let later = if a > b { &mut a } else { &mut b };
+            indices.extend(*later);
             *later = later.and_then(carrier_of);
         }
-        FramePair { frames, carrier: a }
+        indices.reverse();
+        FramePair { frames, carrier: a, between: FrameSet::new(&self.places, indices) }
     }
 
-    /// The states of all frames where the coordinates and their rates are these.
-    pub(super) fn states(&self, time: f64, coordinates: &[Vec<f64>; 2], states: &mut Vec<FrameState>) {
-        states_of(&self.places, &self.turning, time, coordinates, states);
+    /// The states of all frames where the coordinates and their rates are these; of a pair those of its frames alone, in the
+    /// frame that carries both.
+    pub(super) fn states(
+        &self,
+        time: f64,
+        coordinates: &[Vec<f64>; 2],
+        pair: Option<&FramePair>,
+        states: &mut Vec<FrameState>,
+    ) {
+        states.resize(self.places.len(), FrameState::INERTIAL);
+        if let Some(carrier) = pair.and_then(|pair| pair.carrier) {
+            states[carrier] = FrameState::INERTIAL;
+        }
+        states_of(&self.places, pair.map_or(&self.all, |pair| &pair.between), time, coordinates, states);
     }
 
     /// Bounds of the motion of all frames over the interval, relative to the base's velocity at its start; `coordinates`
@@ -253,21 +283,20 @@ impl<'a> FrameKinematics<'a> {
     }
 }
 
-/// The states of frames at these places, of which some have a yaw of their own.
+/// The states of some of the frames at these places.
 #[multiversion(targets("x86_64+avx2"))]
 fn states_of(
     places: &[Place<'_>],
-    turning: &[usize],
+    FrameSet { indices, turning }: &FrameSet,
     time: f64,
     [positions, rates]: &[Vec<f64>; 2],
-    states: &mut Vec<FrameState>,
+    states: &mut [FrameState],
 ) {
     let three = |values: &[f64], i: usize| [values[i], values[i + 1], values[i + 2]];
-    states.resize(places.len(), FrameState::INERTIAL);
-    for (index, place) in places.iter().enumerate() {
-        let (before, rest) = states.split_at_mut(index);
+    for index in indices {
+        let (before, rest) = states.split_at_mut(*index);
         let state = &mut rest[0];
-        match *place {
+        match places[*index] {
             Place::Body(first) => (state.pose, state.twist) = (three(positions, first), three(rates, first)),
             Place::Free(body) => Body { pose: state.pose, twist: state.twist, .. } = body.after(time),
             Place::Carried { by, pose: [angle, ..], joint, .. } => {
@@ -284,9 +313,9 @@ fn states_of(
         let directions = Scalar::sin_cos_all(yaws);
         four.iter().zip(directions).for_each(|(index, direction)| states[*index].direction = direction);
     }
-    for (index, place) in places.iter().enumerate() {
-        if let Place::Carried { by, pose: [_, x, y], joint, turn: (sin, cos), .. } = *place {
-            let (before, rest) = states.split_at_mut(index);
+    for index in indices {
+        if let Place::Carried { by, pose: [_, x, y], joint, turn: (sin, cos), .. } = places[*index] {
+            let (before, rest) = states.split_at_mut(*index);
             let (carrier, state) = (by.map_or(&FrameState::INERTIAL, |by| &before[by]), &mut rest[0]);
             state.carry([x, y], carrier);
             if joint.is_none() {

@@ -2,6 +2,7 @@
 
 use super::convex::{ConvexPart, PlacedPart, Separation, separation};
 use super::motion::FrameState;
+use crate::capture::assembly::turned;
 use crate::error::Error;
 
 /// Longest interval that need not be divided, s.
@@ -13,16 +14,22 @@ const NEAREST: f64 = 1e-9;
 /// Most divisions of one step.
 const MAX_DIVISIONS: u32 = 1_000_000;
 
-/// Two parts at one instant.
+/// Two parts at one instant, and how the gap of their projections on the normal changes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::capture) struct Instant {
     pub(in crate::capture) time: f64,
     /// Signed distance, m.
     pub(in crate::capture) distance: f64,
-    normal: [f64; 2],
-    /// The part with whose body the normal turns.
-    edge_of: Option<usize>,
-    states: [FrameState; 2],
+    /// The normal from the first part to the second one, in the frame of each.
+    normals: [[f64; 2]; 2],
+    /// Of the origins of the frames along the normal, m, and its rate, m/s.
+    gap: [f64; 2],
+    /// How fast the parts turn against the normal, rad/s.
+    turns: [f64; 2],
+    /// How fast the normal turns, rad/s: with the body of the edge to which it belongs.
+    turn: f64,
+    /// More than the distance of a corner of the one from a corner of the other, m.
+    apart: f64,
 }
 
 /// Two convex parts of two bodies.
@@ -39,24 +46,23 @@ impl PartPair<'_> {
     pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2], placed: &mut PlacedPart) -> Instant {
         let [first, second] = &states;
         let ([_, x, y], [_, ox, oy]) = (first.pose, second.pose);
-        placed.place(self.parts[1], first.seen([ox - x, oy - y]), first.turn_to(second));
+        let ([omega, vx, vy], [other_omega, ox_rate, oy_rate]) = (first.twist, second.twist);
+        let (between, turned_by) = (first.seen([ox - x, oy - y]), first.turn_to(second));
+        placed.place(self.parts[1], between, turned_by);
         let Separation { distance, normal, edge_of } = separation(self.parts[0], placed);
-        Instant { time, distance, normal: first.rotated(normal), edge_of, states }
-    }
-
-    /// The corners of a part in inertial axes from the position of a frame.
-    fn corners<'a>(
-        &'a self,
-        part: usize,
-        state: &'a FrameState,
-        [_, x, y]: [f64; 3],
-    ) -> impl Iterator<Item = [f64; 2]> + 'a {
-        let [_, ox, oy] = state.pose;
-        let at = move |corner: &[f64; 2]| {
-            let [dx, dy] = state.rotated(*corner);
-            [ox - x + dx, oy - y + dy]
-        };
-        self.parts[part].corners.iter().map(at)
+        let turn = edge_of.map_or(0.0, |part| [omega, other_omega][part]);
+        let ([nx, ny], [bx, by]) = (normal, between);
+        let [rate_x, rate_y] = first.seen([ox_rate - vx, oy_rate - vy]);
+        let (sin, cos) = turned_by;
+        Instant {
+            time,
+            distance,
+            normals: [normal, turned(normal, (-sin, cos))],
+            gap: [nx * bx + ny * by, nx * rate_x + ny * rate_y + turn * (nx * by - ny * bx)],
+            turns: [omega - turn, other_omega - turn],
+            turn,
+            apart: bx.abs() + by.abs() + self.parts[0].reach + self.parts[1].reach,
+        }
     }
 
     /// Whether an interval between two times is too short to be divided: for the motion, or for digits of the time.
@@ -73,42 +79,31 @@ impl PartPair<'_> {
     /// with the bounds a, v of acceleration and speed the gap changes by ½ (a + 2 |ω| v + ω² (|d| + v |t|)) t² at most beside
     /// its rate. So the bound is concave in the time, and between two times it is at least the smaller of its values there.
     pub(in crate::capture) fn bound(&self, instant: &Instant, after: f64) -> f64 {
-        let [nx, ny] = instant.normal;
-        let origin = instant.states[0].pose;
-        let turn = instant.edge_of.map_or(0.0, |part| instant.states[part].twist[0]);
-        let mut apart = 0.0;
-        let mut ends = [0.0; 2];
-        for (part, end) in ends.iter_mut().enumerate() {
-            let state = &instant.states[part];
-            let ([_, ox, oy], [omega, vx, vy]) = (state.pose, state.twist);
-            let (ox, oy) = (ox - origin[1], oy - origin[2]);
-            // of the first part the end along the normal, of the second one the start
-            let sign = if part == 0 { 1.0 } else { -1.0 };
-            let (mut farthest, mut largest) = (0.0_f64, f64::NEG_INFINITY);
-            for [x, y] in self.corners(part, state, origin) {
-                let rate = nx * (vx - omega * (y - oy)) + ny * (vy + omega * (x - ox)) + turn * (nx * y - ny * x);
-                largest = largest.max(sign * (nx * x + ny * y + after * rate));
-                farthest = farthest.max(x.abs() + y.abs());
-            }
-            *end = largest + self.parts[part].radius;
-            apart += farthest;
-        }
+        let Instant { normals, gap: [gap, rate], turns, turn, apart, .. } = instant;
+        let [first, second] = self.parts;
+        // what n · d and its rate have of a corner, by its product with this vector in its own frame
+        let [toward, from] = [0, 1].map(|part| {
+            let ([nx, ny], turned) = (normals[part], after * turns[part]);
+            [nx + turned * ny, ny - turned * nx]
+        });
+        let along = |[nx, ny]: [f64; 2], [x, y]: [f64; 2]| nx * x + ny * y;
+        let end = first.corners.iter().fold(f64::NEG_INFINITY, |end, corner| end.max(along(toward, *corner)));
+        let start = second.corners.iter().fold(f64::INFINITY, |start, corner| start.min(along(from, *corner)));
         let turn = turn.abs();
         let turning = turn * (2.0 * self.speed + turn * (apart + self.speed * after.abs()));
-        -ends[0] - ends[1] - 0.5 * (self.acceleration + turning) * after * after
-    }
-
-    /// A lower bound of the distance between two instants, at which it may be lower.
-    fn lowest(&self, left: &Instant, right: &Instant) -> f64 {
-        let half = 0.5 * (right.time - left.time);
-        self.bound(left, half).min(self.bound(right, -half))
+        gap + after * rate + start
+            - end
+            - first.radius
+            - second.radius
+            - 0.5 * (self.acceleration + turning) * after * after
     }
 
     /// Whether the distance is at least so large between two instants, as far as the bounds of the motion show.
     pub(in crate::capture) fn is_above(&self, left: &Instant, right: &Instant, level: f64) -> bool {
         // it falls from both by the speed at most
         let by_speed = 0.5 * (left.distance + right.distance - self.speed * (right.time - left.time));
-        by_speed >= level || self.lowest(left, right) >= level
+        let half = 0.5 * (right.time - left.time);
+        by_speed >= level || (self.bound(left, half) >= level && self.bound(right, -half) >= level)
     }
 
     /// Times in the interval between which the distance falls from above `-depth` to below it, for the first time;

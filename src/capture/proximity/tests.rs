@@ -49,7 +49,7 @@ impl Motion<'_> {
         let [positions, rates] = &mut coordinates;
         self.interval().at(time, positions, rates);
         let mut states = Vec::new();
-        self.kinematics.states(time, &coordinates, &mut states);
+        self.kinematics.states(time, &coordinates, None, &mut states);
         states
     }
 
@@ -159,7 +159,7 @@ proptest! {
         for a in 0..frames.len() {
             for b in 0..a {
                 let pair = kinematics.pair([a, b]);
-                let bound = workspace.relative_bound(kinematics, pair);
+                let bound = workspace.relative_bound(kinematics, &pair);
                 let point_a = [reach * cos, reach * sin];
                 let [before, after] = [-HALF, HALF].map(|step| motion.seen_from(pair.carrier, a, point_a, time + step));
                 let [of_b_before, of_b_after] = [-HALF, HALF].map(|step| motion.seen_from(pair.carrier, b, [0.0; 2], time + step));
@@ -168,7 +168,7 @@ proptest! {
                 let speed = length([rate_a[0] - rate_b[0], rate_a[1] - rate_b[1]]);
                 prop_assert!(speed <= bound.speed([reach, 0.0]) + DIFFERENCE * 1e3, "{} {}", frames[a].name, frames[b].name);
                 // the states of a pair have these rates, in inertial axes
-                let relative = workspace.states(kinematics, &motion.interval(), pair, time);
+                let relative = workspace.states(kinematics, &motion.interval(), &pair, time);
                 let exact = |state: &FrameState, at: [f64; 2]| {
                     let ([dx, dy], [omega, vx, vy]) = (state.rotated(at), state.twist);
                     length([vx - omega * dy, vy + omega * dx])
@@ -237,7 +237,7 @@ fn bounds_are_attained_by_a_stretched_arm() {
     // seen from the base, which turns with them, only the joints turn
     let mut workspace = PathWorkspace::default();
     workspace.set_bounds(kinematics, &turning.interval());
-    let bound = workspace.relative_bound(kinematics, kinematics.pair([0, 3]));
+    let bound = workspace.relative_bound(kinematics, &kinematics.pair([0, 3]));
     let ([first, second], reach) = ([0.4, 0.4 + 0.9], 0.7 + 0.3);
     assert!((bound.speed([0.4, 0.3]) - (first + second * reach)).abs() < 1e-12);
     assert!((bound.acceleration([0.4, 0.3]) - (first * first + second * second * reach)).abs() < 1e-12);
@@ -446,7 +446,7 @@ fn states_are_those_of_their_time() {
         for time in times {
             let states = motion.states(time);
             let [[_, ax, ay], [_, bx, by]] = [0, 3].map(|frame: usize| states[frame].pose);
-            let found = workspace.origin_distance(kinematics, &motion.interval(), kinematics.pair([0, 3]), time);
+            let found = workspace.origin_distance(kinematics, &motion.interval(), &kinematics.pair([0, 3]), time);
             assert!((found - (ax - bx).hypot(ay - by)).abs() < 1e-15, "{time}");
         }
     }

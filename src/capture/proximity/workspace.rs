@@ -5,16 +5,14 @@ use super::motion::{FrameKinematics, FramePair, FrameState, MotionBound};
 use super::part_pair::{Instant, PartPair};
 use crate::simulate::path::PathPart;
 
-/// Places for instants whose states are kept: pairs of bodies are looked at one after the other, at the same times. A power
-/// of two.
-const PLACES: usize = 64;
-
-/// The states of all frames at a time, s.
+/// The states of frames at a time, s.
 #[derive(Default)]
 struct KnownInstant {
     time: f64,
     /// The interval that it is of.
     interval: u64,
+    /// Between which two frames they are known, in that which carries both; `None` for all frames.
+    between: Option<[usize; 2]>,
     states: Vec<FrameState>,
 }
 
@@ -45,17 +43,11 @@ pub(in crate::capture) struct PathWorkspace {
     bounds: Vec<MotionBound>,
     /// Positions and rates at an instant.
     at: [Vec<f64>; 2],
-    /// Each where its time has its place.
-    instants: Vec<KnownInstant>,
+    /// At the start and the end of the interval, where all pairs are looked at, and the last one between them.
+    instants: [KnownInstant; 3],
     /// Counts the intervals.
     interval: u64,
     placed: PlacedPart,
-}
-
-/// The place of a time, by the highest bits of a product (Fibonacci hashing, Knuth 1998, section 6.4).
-fn place(time: f64) -> usize {
-    let product = time.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    usize::try_from(product >> (u64::BITS - PLACES.ilog2())).unwrap_or_default()
 }
 
 impl PathWorkspace {
@@ -69,30 +61,30 @@ impl PathWorkspace {
     }
 
     /// The states of two frames at a time within the interval whose bounds were computed, with their twists in the frame
-    /// that carries both.
+    /// that carries both; between its ends their poses, too.
     pub(super) fn states(
         &mut self,
         motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        pair: FramePair,
+        pair: &FramePair,
         time: f64,
     ) -> [FrameState; 2] {
-        if self.instants.is_empty() {
-            self.instants.resize_with(PLACES, KnownInstant::default);
-        }
-        let known = &mut self.instants[place(time)];
-        if known.interval != self.interval || known.time.to_bits() != time.to_bits() {
-            (known.time, known.interval) = (time, self.interval);
+        let end = part.span().iter().position(|end| end.to_bits() == time.to_bits());
+        let between = if end.is_none() { Some(pair.frames) } else { None };
+        let known = &mut self.instants[end.unwrap_or(2)];
+        if (known.interval, known.time.to_bits(), known.between) != (self.interval, time.to_bits(), between) {
+            (known.interval, known.time, known.between) = (self.interval, time, between);
             let [positions, rates] = &mut self.at;
             part.at(time, positions, rates);
-            motions.states(time, &self.at, &mut known.states);
+            motions.states(time, &self.at, between.and(Some(pair)), &mut known.states);
         }
         let states = &known.states;
-        pair.frames.map(|frame| pair.carrier.map_or(states[frame], |by| states[frame].relative_to(&states[by])))
+        let carrier = pair.carrier.filter(|_| between.is_none());
+        pair.frames.map(|frame| carrier.map_or(states[frame], |by| states[frame].relative_to(&states[by])))
     }
 
     /// The bound of the motion of two frames over the interval.
-    pub(in crate::capture) fn relative_bound(&self, motions: &FrameKinematics<'_>, pair: FramePair) -> RelativeBound {
+    pub(in crate::capture) fn relative_bound(&self, motions: &FrameKinematics<'_>, pair: &FramePair) -> RelativeBound {
         let bound = |frame| {
             pair.carrier.map_or_else(|| self.bounds[frame], |by| motions.bound_in(by, frame, &self.coordinates))
         };
@@ -104,7 +96,7 @@ impl PathWorkspace {
         &mut self,
         motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        pair: FramePair,
+        pair: &FramePair,
         time: f64,
     ) -> f64 {
         let [[_, ax, ay], [_, bx, by]] = self.states(motions, part, pair, time).map(|state| state.pose);
@@ -116,7 +108,7 @@ impl PathWorkspace {
         &mut self,
         motions: &FrameKinematics<'_>,
         part: &impl PathPart,
-        (frames, pair): (FramePair, &PartPair<'_>),
+        (frames, pair): (&FramePair, &PartPair<'_>),
         time: f64,
     ) -> Instant {
         let states = self.states(motions, part, frames, time);
