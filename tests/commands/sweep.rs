@@ -816,7 +816,7 @@ fn the_captured_share_is_that_of_the_cases_that_capture() {
 #[test]
 fn designs_that_fail_are_rows_with_their_messages() {
     let place = Workplace::grid(
-        "[[vary]]\nkey = \"approach.final_end_effector_poses[0][0]\"\ndistribution = { choice = [1.9, 30.0] }\n",
+        "[[vary]]\nkey = \"approach.final_end_effector_poses[0][0]\"\ndistribution = { choice = [2.2, 30.0] }\n",
     );
     fs::copy(file("scenarios/spinning_target.toml"), place.path("scenario.toml")).expect("copied");
     let text = fs::read_to_string(place.path("scenario.toml")).expect("a scenario");
@@ -828,7 +828,7 @@ fn designs_that_fail_are_rows_with_their_messages() {
     assert!(out.contains("2 of 2 cases computed: 1 done, 1 stopped"), "{out}");
     let rows = place.rows("out", 0);
     assert_eq!([&rows[0]["status"], &rows[1]["status"]].map(ToString::to_string), [r#""done""#, r#""stopped""#]);
-    fs::write(place.path("far.toml"), one.replace("[[1.9, -0.9]]", "[[30.0, -0.9]]")).expect("written");
+    fs::write(place.path("far.toml"), one.replace("[[2.2, -0.9]]", "[[30.0, -0.9]]")).expect("written");
     let mut run = command();
     run.arg("run").arg(place.path("far.toml")).arg("--out").arg(place.path("run"));
     let (code, _, said) = said(run.output().expect("it runs"));

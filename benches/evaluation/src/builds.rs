@@ -1,7 +1,7 @@
 //! The same program built with several sets of compiler flags, which measure in turns.
 
-use crate::Problem;
-use crate::engines::{self, ENGINES};
+use crate::engines::{self, ENGINES, PACKAGE};
+use crate::{Interpreters, Problem};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -16,7 +16,7 @@ pub const BUILDS: [(&str, &str, bool); 4] = [
 
 /// What one build has measured, round by round: names and nanoseconds.
 pub struct Measured {
-    /// As in [`BUILDS`] or [`ENGINES`].
+    /// As in [`BUILDS`] or [`ENGINES`], or [`PACKAGE`].
     pub build: &'static str,
     /// Name of a measurement, and its times of all rounds, ns, sorted.
     pub times: Vec<(String, Vec<f64>)>,
@@ -37,27 +37,32 @@ impl Measured {
     }
 }
 
-/// Builds all, with the engines of an interpreter's packages, then lets each measure once per round.
-pub fn run(rounds: usize, python: Option<&str>) -> Result<Vec<Measured>, Problem> {
+/// Builds all, with what interpreters have, then lets each measure once per round.
+pub fn run(rounds: usize, interpreters: Interpreters<'_>) -> Result<Vec<Measured>, Problem> {
     let mut programs = Vec::new();
     for (name, flags, fused) in BUILDS {
-        programs.push((name, build(name, flags, fused)?, "measure".to_owned()));
+        programs.push((name, build(name, flags, fused)?, vec!["measure".to_owned()]));
     }
-    if let Some(python) = python {
-        let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/engines");
+    let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/engines");
+    let input = target.join("input.txt").display().to_string();
+    if let Some((_, program, _)) = programs.first() {
+        std::fs::create_dir_all(&target)?;
+        engines::output(Command::new(program).args(["input", &input]))?;
+    }
+    if let Some(python) = interpreters.reference {
         let compiled = engines::compile(python, &target)?;
-        let input = target.join("input.txt").display().to_string();
-        if let Some((_, program, _)) = programs.first() {
-            engines::output(Command::new(program).args(["input", &input]))?;
-        }
-        programs.extend(ENGINES.into_iter().zip(compiled).map(|(name, program)| (name, program, input.clone())));
+        programs.extend(ENGINES.into_iter().zip(compiled).map(|(name, program)| (name, program, vec![input.clone()])));
     }
-    let of = |(build, ..): &(&'static str, PathBuf, String)| Measured { build, times: Vec::new() };
+    if let Some(python) = interpreters.package {
+        let script = engines::folder().join("arrays.py").display().to_string();
+        programs.push((PACKAGE, python.into(), vec![script, input]));
+    }
+    let of = |(build, ..): &(&'static str, PathBuf, Vec<String>)| Measured { build, times: Vec::new() };
     let mut measured: Vec<Measured> = programs.iter().map(of).collect();
     for round in 1..=rounds {
         eprintln!("round {round} of {rounds}");
-        for ((_, program, argument), measured) in programs.iter().zip(&mut measured) {
-            let found = engines::output(Command::new(program).arg(argument))?;
+        for ((_, program, arguments), measured) in programs.iter().zip(&mut measured) {
+            let found = engines::output(Command::new(program).args(arguments))?;
             let found: serde_json::Map<String, Value> = serde_json::from_str(&found)?;
             for (name, time) in found {
                 let time = time.as_f64().ok_or("a time that is no number")?;

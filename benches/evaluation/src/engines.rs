@@ -1,4 +1,5 @@
-//! Pinocchio and MuJoCo, compiled as C++ against the headers and the library of their Python packages.
+//! Pinocchio and MuJoCo, compiled as C++ against the headers and the library of their Python packages, and this project's own
+//! package of Python.
 
 use crate::Problem;
 use std::path::{Path, PathBuf};
@@ -7,13 +8,16 @@ use std::process::Command;
 /// Names of their columns.
 pub const ENGINES: [&str; 2] = ["Pinocchio", "MuJoCo"];
 
+/// The name of what is measured of the Python package.
+pub const PACKAGE: &str = "Python package";
+
 /// Boost's lists are as long as Pinocchio's choice of joints.
 const OF_PINOCCHIO: [&str; 3] =
     ["-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", "-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30"];
 
 /// Programs that measure, one for each of [`ENGINES`], with the packages of a Python interpreter.
 pub fn compile(python: &str, target: &Path) -> Result<Vec<PathBuf>, Problem> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("engines");
+    let folder = folder();
     let packages = output(Command::new(python).args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]))?;
     let packages = Path::new(packages.trim());
     let mujoco = packages.join("mujoco");
@@ -23,7 +27,6 @@ pub fn compile(python: &str, target: &Path) -> Result<Vec<PathBuf>, Problem> {
             files.flatten().map(|file| file.path()).find(|path| path.to_string_lossy().contains("libmujoco.so"))
         })
         .ok_or(format!("{python} has no MuJoCo: python3 -m codegen.environment --reference makes one that has"))?;
-    std::fs::create_dir_all(target)?;
     // clang's code of Pinocchio is the faster one
     let compiler = if Command::new("clang++").arg("--version").output().is_ok() { "clang++" } else { "c++" };
     let program = |name: &str| target.join(name);
@@ -43,6 +46,11 @@ pub fn compile(python: &str, target: &Path) -> Result<Vec<PathBuf>, Problem> {
     other.arg("-isystem").arg(mujoco.join("include")).arg(&library).arg(format!("-Wl,-rpath,{}", mujoco.display()));
     output(&mut other)?;
     Ok(vec![program("pinocchio"), program("mujoco")])
+}
+
+/// Of the sources of the programs that measure.
+pub fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("engines")
 }
 
 /// What a command prints.

@@ -1,5 +1,5 @@
 //! Time of one evaluation of the paper's robot: generated code against CasADi's C, the generic implementation and, with
-//! `--reference PYTHON`, Pinocchio and MuJoCo.
+//! `--reference PYTHON`, Pinocchio and MuJoCo. With `--package PYTHON` that interpreter's package `planar_capture` is measured, too.
 //!
 //! The program builds itself for several sets of compiler flags, lets the builds and the engines measure in turns, and writes
 //! medians and ratios to `docs/performance.md` and `target/performance.json`. With `measure` it is one of these builds; with
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "measure")]
         ["input", file] => measure::layout().and_then(|layout| input::write(&layout, file.as_ref())),
         arguments => options(arguments)
-            .and_then(|(rounds, python)| builds::run(rounds, python))
+            .and_then(|(rounds, interpreters)| builds::run(rounds, interpreters))
             .and_then(|measured| report::write(&measured)),
     };
     match done {
@@ -49,20 +49,29 @@ fn main() -> ExitCode {
     }
 }
 
-/// Rounds, and the interpreter whose packages have the other engines.
-fn options<'a>(mut arguments: &[&'a str]) -> Result<(usize, Option<&'a str>), Problem> {
-    let (mut rounds, mut python) = (9, None);
+/// Interpreters of Python.
+#[derive(Clone, Copy, Default)]
+struct Interpreters<'a> {
+    /// Whose packages have the other engines.
+    reference: Option<&'a str>,
+    /// That has the package `planar_capture`.
+    package: Option<&'a str>,
+}
+
+fn options<'a>(mut arguments: &[&'a str]) -> Result<(usize, Interpreters<'a>), Problem> {
+    let (mut rounds, mut interpreters) = (9, Interpreters::default());
     while let [option, value, rest @ ..] = arguments {
         match *option {
             "--rounds" => rounds = value.parse()?,
-            "--reference" => python = Some(*value),
+            "--reference" => interpreters.reference = Some(*value),
+            "--package" => interpreters.package = Some(*value),
             _ => break,
         }
         arguments = rest;
     }
     if arguments.is_empty() {
-        Ok((rounds, python))
+        Ok((rounds, interpreters))
     } else {
-        Err("expected --rounds NUMBER, --reference PYTHON or nothing".into())
+        Err("expected --rounds NUMBER, --reference PYTHON, --package PYTHON or nothing".into())
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::Problem;
 use crate::builds::{BUILDS, Measured};
-use crate::engines::ENGINES;
+use crate::engines::{ENGINES, PACKAGE};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
@@ -69,6 +69,20 @@ const BATCHED: [(&str, &str, &str); 10] = [
     ("impact, exact, 16,384 states", "full impact, many states", "full impact, many states"),
     ("Runge–Kutta step, 64 states", "step", "step"),
     ("Runge–Kutta step, 16,384 states", "step, many states", "step"),
+];
+
+const ARRAYS: &str = "
+## From Python
+
+The functions of `planar_capture.Robot` on numpy arrays, in one thread, with all that a call takes: ns per state, and the ratio to the
+compiled batch of the default build in the same run";
+
+/// Measurements from Python: title and name, those of batches.
+const FROM_PYTHON: [(&str, &str); 4] = [
+    (BATCHED[0].0, BATCHED[0].1),
+    (BATCHED[1].0, BATCHED[1].1),
+    (BATCHED[2].0, BATCHED[2].1),
+    (BATCHED[3].0, BATCHED[3].1),
 ];
 
 const OTHERS: &str = "
@@ -172,6 +186,7 @@ fn markdown(all: &[Measured]) -> Result<String, Problem> {
         let spread = measured.iter().filter_map(|build| build.spread(&key)).fold(0.0, f64::max);
         writeln!(text, " {:.0} % |", 100.0 * spread)?;
     }
+    text += &from_python(measured, others)?;
     text += "\n## The generic implementation\n\nDense matrices of nalgebra, what one would write by hand: ratio to generated code of the same build.\n\n| |";
     for (build, ..) in BUILDS {
         write!(text, " {build} |")?;
@@ -193,18 +208,43 @@ fn markdown(all: &[Measured]) -> Result<String, Problem> {
 
 /// What other engines need, where they were measured.
 fn of_engines(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
-    let Some(generated) = measured.last().filter(|_| !others.is_empty()) else { return Ok(String::new()) };
+    let engines: Vec<_> = ENGINES.iter().filter_map(|name| others.iter().find(|other| other.build == *name)).collect();
+    let Some(generated) = measured.last().filter(|_| !engines.is_empty()) else { return Ok(String::new()) };
     let mut text = format!("{OTHERS} generated | {} |\n|---|---|---|---|\n", ENGINES.join(" | "));
     for (title, name) in OF_OTHERS {
         let base = generated.median(&format!("f64, {name}")).ok_or(format!("no time of {name}"))?;
         write!(text, "| {title} | {base:.0} |")?;
-        for engine in others {
+        for engine in &engines {
             match engine.median(name) {
                 Some(time) => write!(text, " {time:.0} (**{:.1}**) |", time / base)?,
                 None => text += " – |",
             }
         }
         text += "\n";
+    }
+    Ok(text)
+}
+
+/// What the Python package needs, where it was measured, beside compiled batches and Pinocchio's evaluations one by one.
+fn from_python(measured: &[Measured], others: &[Measured]) -> Result<String, Problem> {
+    let of = |name: &str| others.iter().find(|other| other.build == name);
+    let (Some(package), Some(compiled)) = (of(PACKAGE), measured.first()) else { return Ok(String::new()) };
+    let pinocchio = of(ENGINES[0]);
+    let mut text = ARRAYS.to_owned();
+    if pinocchio.is_some() {
+        text += "; how many times as long Pinocchio's C++ takes for one of them";
+    }
+    text += ".\n\n| | compiled batch | numpy arrays | Pinocchio |\n|---|---|---|---|\n";
+    for (title, name) in FROM_PYTHON {
+        let key = format!("batch, {name}");
+        let base = compiled.median(&key).ok_or(format!("no time of {key}"))?;
+        let time = package.median(name).ok_or(format!("no time of {name} from Python"))?;
+        write!(text, "| {title} | {base:.1} | {time:.1} (**{:.2}**) |", time / base)?;
+        // one after the other, however many there are
+        match pinocchio.and_then(|engine| engine.median(name.trim_end_matches(", many states"))) {
+            Some(other) => writeln!(text, " {other:.0} (**{:.1}**) |", other / time)?,
+            None => text += " – |\n",
+        }
     }
     Ok(text)
 }
