@@ -37,10 +37,19 @@ pub struct Manual {
 
 /// Prints the completions.
 pub fn completions(arguments: &Completions) -> Result<ExitCode, CommandError> {
-    let mut text = Vec::new();
-    clap_complete::generate(arguments.shell, &mut command_line(), program(), &mut text);
-    print_product(&String::from_utf8_lossy(&text))?;
+    let (name, mut text) = (program(), Vec::new());
+    clap_complete::generate(arguments.shell, &mut command_line(), &name, &mut text);
+    let text = String::from_utf8_lossy(&text);
+    let text = if arguments.shell == Shell::Bash { matched(&text, &name) } else { text.into_owned() };
+    print_product(&text)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// A script of Bash whose cases have the words that it looks for: those of a program with a hyphen in its name have others
+/// (clap issue 6421), so that nothing after a command would be completed.
+fn matched(script: &str, program: &str) -> String {
+    let [found, wanted] = ["__subcmd__", "__"].map(|by| program.replace('-', by));
+    script.replace(&format!("{found}__subcmd__"), &format!("{wanted}__subcmd__"))
 }
 
 /// Prints the page.

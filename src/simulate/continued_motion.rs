@@ -69,18 +69,18 @@ impl ContinuedMotion {
         let nodes = self.nodes;
         let by = |k: usize, order: usize| 1.0 / (nodes[k] - nodes[k - order]);
         let [first, second] = [by(2, 1), by(4, 1)];
-        // of each order, at those indices that have differences of it; divisions take longer than all else
-        let factors: [[f64; FACTORS]; FACTORS] =
-            from_fn(|order| from_fn(|k| if order > 1 && k >= order { by(k, order) } else { 0.0 }));
+        // of orders from 2, at those indices that have differences of them; divisions take longer than all else
+        let factors: [[f64; FACTORS]; FACTORS - 2] =
+            from_fn(|i| from_fn(|k| if k >= i + 2 { by(k, i + 2) } else { 0.0 }));
         self.differences.clear();
         self.differences.extend((0..size).map(|i| {
             let [x, rates] = [i, size + i].map(|i| ends.map(|(_, state)| state[i]));
             let slopes = [(x[1] - x[0]) * first, (x[2] - x[1]) * second];
             // of two equal nodes it is the rate
             let mut differences = [x[0], rates[0], slopes[0], rates[1], slopes[1], rates[2]];
-            for order in 2..FACTORS {
+            for (order, factors) in (2..).zip(&factors) {
                 for k in (order..FACTORS).rev() {
-                    differences[k] = (differences[k] - differences[k - 1]) * factors[order][k];
+                    differences[k] = (differences[k] - differences[k - 1]) * factors[k];
                 }
             }
             differences

@@ -483,6 +483,13 @@ fn completions_and_manual_name_every_command() {
             "{shell}: {err}"
         );
     }
+    let (_, script, _) = said(&["completions", "bash"]);
+    // what it looks for after a command is what it has cases of
+    let looked_for: Vec<_> = script.lines().filter_map(|line| line.trim().strip_prefix("cmd=\"")).collect();
+    assert!(looked_for.len() > 15, "{script}");
+    for case in looked_for.iter().map(|name| name.replace('"', ")")).filter(|case| *case != ")") {
+        assert!(script.lines().any(|line| line.trim() == case), "{case}");
+    }
     let (code, out, err) = said(&["man"]);
     assert!(
         code == 0 && err.is_empty() && out.contains(".TH planar-capture 1") && out.contains("planar\\-capture\\-run"),

@@ -46,13 +46,13 @@ impl PartPair<'_> {
     pub(in crate::capture) fn at(&self, time: f64, states: [FrameState; 2], placed: &mut PlacedPart) -> Instant {
         let [first, second] = &states;
         let ([_, x, y], [_, ox, oy]) = (first.pose, second.pose);
-        let ([omega, vx, vy], [other_omega, ox_rate, oy_rate]) = (first.twist, second.twist);
+        let ([omega, vx, vy], [other_omega, ux, uy]) = (first.twist, second.twist);
         let (between, turned_by) = (first.seen([ox - x, oy - y]), first.turn_to(second));
         placed.place(self.parts[1], between, turned_by);
         let Separation { distance, normal, edge_of } = separation(self.parts[0], placed);
         let turn = edge_of.map_or(0.0, |part| [omega, other_omega][part]);
         let ([nx, ny], [bx, by]) = (normal, between);
-        let [rate_x, rate_y] = first.seen([ox_rate - vx, oy_rate - vy]);
+        let [rate_x, rate_y] = first.seen([ux - vx, uy - vy]);
         let (sin, cos) = turned_by;
         Instant {
             time,
