@@ -32,6 +32,7 @@ mod drawn {
     use planar_capture::output::figures::{
         Axis, AxisRange, Colour, Dash, Figure, Mark, Panel, Series, Width, draw, figures,
     };
+    use planar_capture::output::impacts::time_digits;
     use planar_capture::scenario::{Actuation, FinalRates, PostCaptureControl};
     use planar_capture::simulate::Sample;
     use planar_proof::tolerance::FIGURE_VALUES;
@@ -299,12 +300,13 @@ mod drawn {
                 pins += held;
                 let first = case.approach(&study).duration;
                 let times = std::iter::once(None).chain(capture.later_impacts.iter().map(|it| Some(first + it.time)));
+                let digits = time_digits(&times.clone().map(|time| time.unwrap_or(first)).collect::<Vec<_>>());
                 for (time, impact) in times.zip(capture.impacts()) {
                     for contact in impact.contacts.iter().map(|made| made.contact) {
                         let target = &scenario.targets[contact.target];
                         let arm = format!(" at {}", scenario.layout.arms[contact.arm].name);
                         let arm = if target.contacts.len() > 1 { arm } else { String::new() };
-                        let time = time.map_or(String::new(), |time| format!(", {time:.1} s"));
+                        let time = time.map_or(String::new(), |time| format!(", {time:.digits$} s"));
                         let kind = match contact.law {
                             ContactLaw::Rigid => "",
                             ContactLaw::Pin => " (pin)",

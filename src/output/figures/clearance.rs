@@ -33,7 +33,7 @@ pub(super) fn figure(study: &Study, case: &CaseResult) -> Option<Figure> {
     };
     let mut series: Vec<_> = clearance.overlaps.iter().map(|overlap| bar((&overlap.bodies, overlap.span))).collect();
     let LeastDistance { distance, time, bodies } = least;
-    let label = format!("least distance, {distance:.4} m");
+    let label = format!("least distance, {distance:.4} m").replace('-', "−");
     series.push(Series::symbols(&label, Colour::BLACK, Symbol::Cross, vec![(*time, row(bodies))]));
     let end = end(study, case);
     let names = pairs.iter().map(|[a, b]| format!("{a}, {b}")).collect();

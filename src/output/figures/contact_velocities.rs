@@ -6,11 +6,12 @@ use super::time_curves::{MINIMUM_SPAN, TWIST_COMPONENTS};
 use crate::capture::contact_at_time::ImpactContact;
 use crate::capture::{CaptureResult, CaseResult, Study};
 use crate::contact::ContactKind;
-use crate::output::impacts::{ImpactEvent, impacts};
+use crate::output::impacts::{ImpactEvent, impacts, time_digits};
 use crate::scenario::Scenario;
 
-/// Of a symbol from the line of its contact, in parts of the distance of these lines.
-const ASIDE: f64 = 0.12;
+/// Of a symbol from the line of its contact, in parts of the distance of these lines: four of them have equal distances, half
+/// of that between contacts.
+const ASIDE: f64 = 0.1;
 
 /// The twists of one contact, at the contact point.
 struct ContactTwists {
@@ -25,8 +26,12 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
     let mut contacts = Vec::new();
     for case in &study.cases {
         let Some(capture) = &case.capture else { continue };
-        let events = impacts(study, case).into_iter().enumerate();
-        contacts.extend(events.flat_map(|(i, event)| contact_twists(scenario, case, capture, i, &event)));
+        let events = impacts(study, case);
+        let digits = time_digits(&events.iter().map(|event| event.time).collect::<Vec<_>>());
+        for (i, event) in events.iter().enumerate() {
+            let time = (i > 0).then(|| format!(", {:.digits$} s", event.time));
+            contacts.extend(contact_twists(scenario, case, capture, time.as_deref(), event));
+        }
     }
     if contacts.is_empty() {
         return None;
@@ -59,12 +64,12 @@ pub(super) fn figure(scenario: &Scenario, study: &Study) -> Option<Figure> {
     Some(Figure::column("impact_velocities", TWIST_COMPONENTS.map(panel).to_vec()))
 }
 
-/// The contacts of the impact of index `i` of a case.
+/// The contacts of an impact of a case, with what tells its time where it is not the first one.
 fn contact_twists(
     scenario: &Scenario,
     case: &CaseResult,
     capture: &CaptureResult,
-    i: usize,
+    time: Option<&str>,
     event: &ImpactEvent<'_>,
 ) -> Vec<ContactTwists> {
     let after = &capture.post_impact.samples[event.after];
@@ -74,9 +79,8 @@ fn contact_twists(
         // v + ω × r
         let at_contact = |[omega, vx, vy]: [f64; 3]| [omega, vx - ry * omega, vy + rx * omega];
         let arm_name = (body.contacts.len() > 1).then(|| format!(" at {}", scenario.layout.arms[arm].name));
-        let time = (i > 0).then(|| format!(", {:.1} s", event.time));
         let kind_name = (kind != ContactKind::Rigid).then(|| format!(" ({})", kind.name()));
-        let additions: String = [arm_name, time, kind_name].into_iter().flatten().collect();
+        let additions: String = [arm_name, time.map(str::to_owned), kind_name].into_iter().flatten().collect();
         ContactTwists {
             name: format!("{}, {}{additions}", case.name, body.name),
             twists: [

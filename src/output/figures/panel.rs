@@ -115,7 +115,11 @@ impl Size {
 /// Height of the categories, or of a legend beside them if that has more lines.
 fn height_of_lines(panel: &Panel, legend_beside: bool) -> f64 {
     let names = match &panel.y.range {
-        AxisRange::Categories(names) => names.len(),
+        AxisRange::Categories(names) => {
+            let symbols = panel.series.iter().filter(|series| matches!(series.mark, Mark::Points(_))).count();
+            // two symbols to a line
+            names.len() * symbols.div_ceil(2).max(1)
+        }
         AxisRange::NamedBars(names) => 2 * names.len(),
         _ => 0,
     };
