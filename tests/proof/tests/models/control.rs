@@ -5,7 +5,7 @@ use planar_capture::control::{
     BaseTorque, Control, EndEffectorWorkspace, ResolvedMotionRate, SampledControl, Stabilisation, TorqueLimiter,
     ZeroTorque,
 };
-use planar_capture::dynamics::Model;
+use planar_capture::dynamics::{Kinematics, Model};
 use planar_capture::error::Error;
 use planar_capture::generated::dual_arm_3r::{ARMS, JOINTS, Model as DualArm};
 use planar_capture::state::State;
@@ -116,41 +116,86 @@ fn stabilisation_of_a_robot_at_rest_saturates_nothing() {
     assert_eq!(Control::<f64>::base_torque(&law), Some(BaseTorque { torque: 0.0, saturated: false }));
 }
 
-/// With no component controlled there is no Jacobian to be singular.
+/// The torques of end effector feedback in a state, with all components of paths that stay at these poses controlled or none:
+/// the torques, the singularity margin, and whether a limit acted.
+struct Feedback {
+    law_limited: bool,
+    torques: [f64; JOINTS],
+    margin: Option<f64>,
+}
+
+fn feedback(states: &[(State<'_, f64>, [[f64; 3]; ARMS])], controlled: bool) -> Vec<Feedback> {
+    let poses: Vec<_> = states.iter().map(|(_, poses)| *poses).collect();
+    let still = [[0.0; 3]; ARMS];
+    let mut found = Vec::new();
+    let mut before = None;
+    for ((state, _), poses) in states.iter().zip(&poses) {
+        let path = EndEffectorPath {
+            initial_poses: poses,
+            initial_twists: &still,
+            final_poses: poses,
+            final_twists: &still,
+            duration: 1.0,
+        };
+        let mut law = ResolvedMotionRate {
+            path,
+            controlled: &[[controlled; 3]; ARMS],
+            locked: &[false; JOINTS],
+            reach: &[3.0; ARMS],
+            pose_gain: 2.0,
+            rate_gain: 10.0,
+            error_limit: 0.05,
+            singularity_threshold: 0.04,
+            singularity_margin: None,
+            // as the law was left
+            is_limited: before.unwrap_or(false),
+            workspace: EndEffectorWorkspace {
+                generalized_inertia: &mut [f64::NAN; JOINTS * JOINTS],
+                generalized_bias: &mut [f64::NAN; JOINTS],
+                generalized_jacobian: &mut [f64::NAN; 3 * ARMS * JOINTS],
+                end_effector_jacobian: &mut [f64::NAN; 3 * ARMS * (3 + JOINTS)],
+                end_effector_poses: &mut [[f64::NAN; 3]; ARMS],
+                end_effector_twists: &mut [[f64::NAN; 3]; ARMS],
+                rows: &mut [f64::NAN; 3 * ARMS * JOINTS],
+                right_hand_side: &mut [f64::NAN; 3 * ARMS],
+                joint_accelerations: &mut [f64::NAN; JOINTS],
+            },
+        };
+        let mut torques = [f64::NAN; JOINTS];
+        law.joint_torques(0.0, &DualArm::<f64>::default(), state, &mut torques).expect("torques");
+        before = Some(law.is_limited);
+        let law: &dyn Control<f64> = &law;
+        found.push(Feedback { law_limited: law.is_limited(), torques, margin: law.singularity_margin() });
+    }
+    found
+}
+
+/// With no component controlled there is no Jacobian to be singular, and no limit.
 #[test]
 fn nothing_controlled_has_no_singularity_margin() {
-    let poses = [[0.0; 3]; ARMS];
-    let path = EndEffectorPath {
-        initial_poses: &poses,
-        initial_twists: &poses,
-        final_poses: &poses,
-        final_twists: &poses,
-        duration: 1.0,
+    for Feedback { law_limited, torques, margin } in feedback(&[(AT_REST, [[0.0; 3]; ARMS])], false) {
+        assert_eq!((torques, margin, law_limited), ([0.0; JOINTS], None, false));
+    }
+}
+
+/// A limit acts where an error is reduced and where a singular direction is damped, and only as long.
+#[test]
+fn limits_of_end_effector_feedback_are_those_of_the_state() {
+    let straight = State { joint_angles: &[0.4, 0.0, 0.0, 2.4, 0.0, 0.0], ..AT_REST };
+    let poses = |state: &State<'_, f64>| {
+        let mut poses = [[0.0; 3]; ARMS];
+        let model = DualArm::<f64>::default();
+        Kinematics::end_effector_poses(&model, &state.base_pose, state.joint_angles, &mut poses).expect("poses");
+        poses
     };
-    let mut law = ResolvedMotionRate {
-        path,
-        controlled: &[[false; 3]; ARMS],
-        locked: &[false; JOINTS],
-        reach: &[3.0; ARMS],
-        pose_gain: 2.0,
-        rate_gain: 10.0,
-        error_limit: 0.05,
-        singularity_threshold: 0.04,
-        singularity_margin: None,
-        is_limited: false,
-        workspace: EndEffectorWorkspace {
-            generalized_inertia: &mut [f64::NAN; JOINTS * JOINTS],
-            generalized_bias: &mut [f64::NAN; JOINTS],
-            generalized_jacobian: &mut [f64::NAN; 3 * ARMS * JOINTS],
-            end_effector_jacobian: &mut [f64::NAN; 3 * ARMS * (3 + JOINTS)],
-            end_effector_poses: &mut [[f64::NAN; 3]; ARMS],
-            end_effector_twists: &mut [[f64::NAN; 3]; ARMS],
-            rows: &mut [f64::NAN; 3 * ARMS * JOINTS],
-            right_hand_side: &mut [f64::NAN; 3 * ARMS],
-            joint_accelerations: &mut [f64::NAN; JOINTS],
-        },
-    };
-    let mut torques = [f64::NAN; JOINTS];
-    law.joint_torques(0.0, &DualArm::<f64>::default(), &AT_REST, &mut torques).expect("torques");
-    assert_eq!((torques, law.singularity_margin), ([0.0; JOINTS], None));
+    let (here, at_singularity) = (poses(&AT_REST), poses(&straight));
+    // 0.05 rad, and 0.05 m per m of the reach of 3 m
+    let [near, far] = [0.149, 0.151].map(|error| here.map(|[yaw, x, y]| [yaw + 0.049, x - error, y]));
+    let found = feedback(
+        &[(AT_REST, here), (AT_REST, far), (AT_REST, near), (straight, at_singularity), (AT_REST, near)],
+        true,
+    );
+    assert_eq!(found.iter().map(|found| found.law_limited).collect::<Vec<_>>(), [false, true, false, true, false]);
+    let margins: Vec<_> = found.iter().map(|found| found.margin.expect("rows")).collect();
+    assert!(margins[0] > 0.04 && margins[3] < 0.04, "{margins:?}");
 }

@@ -1,6 +1,6 @@
 //! Momenta for rates and back, the gradient of the energy, and rates from the momentum, for every shipped layout.
 
-use planar_capture::control::{Control, ZeroTorque};
+use planar_capture::control::{BaseTorque, Control, ZeroTorque};
 use planar_capture::dynamics::AnyModel;
 use planar_capture::error::Error;
 use planar_capture::formulation::{CanonicalVariables, ReducedCoordinates, derivative};
@@ -92,8 +92,8 @@ fn with_canonical(
     work(&mut canonical).unwrap_or_else(|e| panic!("{e} at {s:?}"));
 }
 
-/// Torques of a table.
-struct Given<'a>(&'a [f64]);
+/// Torques of a table, and one on the base, N m.
+struct Given<'a>(&'a [f64], f64);
 
 impl Control<f64> for Given<'_> {
     fn joint_torques(
@@ -106,24 +106,30 @@ impl Control<f64> for Given<'_> {
         torques.copy_from_slice(self.0);
         Ok(())
     }
+
+    fn base_torque(&self) -> Option<BaseTorque<f64>> {
+        Some(BaseTorque { torque: self.1, saturated: false })
+    }
 }
 
-/// Eq. (2) at the twist recovered from the momentum has the joint accelerations of eq. (1) with that momentum, for
-/// any previous twist.
+/// Eq. (2) at the twist recovered from the momentum, which the base torque has changed since the start, has the joint
+/// accelerations of eq. (1) with that momentum, for any previous twist.
 #[test]
 fn reduced_coordinates_accelerate_as_full_ones() {
     for_every_layout(|model, s| {
         let (joints, state) = (model.joints(), s.state());
         let mut x = vec![0.0; vector_length(joints)];
         state.write(&mut x).expect("room");
+        let impulse = 0.9; // of the base torque so far, N m s
+        *x.last_mut().expect("an entry") = impulse;
         let (mut full, mut reduced) = (x.clone(), x.clone());
         let mut torques = vec![0.0; joints];
-        let mut law = Given(&s.joint_torques);
+        let mut law = Given(&s.joint_torques, 1.7);
         derivative(model, &mut law, 0.0, &x, &mut full, &mut torques).expect("full coordinates");
         let momentum = model.momentum(&state).expect("a momentum");
         let [px, py] = momentum.linear_momentum;
         let mut equation = ReducedCoordinates {
-            momentum: [momentum.angular_momentum, px, py],
+            momentum: [momentum.angular_momentum - impulse, px, py],
             mass_matrix: &mut vec![0.0; (3 + joints) * (3 + joints)],
             generalized_inertia: &mut vec![0.0; joints * joints],
             generalized_bias: &mut vec![0.0; joints],
