@@ -96,3 +96,17 @@ fn has_extension(name: &str, kind: &str) -> bool {
 fn shown(path: &Path) -> String {
     printable(&path.display().to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_may_have_the_size_that_is_permitted_and_no_byte_more() {
+        let read = |size: u64| read_text_from(io::repeat(b' ').take(size), "it.toml", "TOML");
+        let text = read(MAXIMUM_SIZE).expect("a text of 16 MiB");
+        assert_eq!(text.len() as u64, MAXIMUM_SIZE);
+        let report = read(MAXIMUM_SIZE + 1).expect_err("a byte more").to_string();
+        assert!(report.contains("`it.toml` is larger than 16 MiB"), "{report}");
+    }
+}

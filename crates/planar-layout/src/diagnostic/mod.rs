@@ -239,3 +239,16 @@ pub fn excerpt(text: &str) -> String {
         None => line,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::first_line;
+
+    #[test]
+    fn a_mark_ends_with_its_line_whatever_ends_that() {
+        for text in ["a = [1,\n2]", "a = [1,\r\n2]", "a = [1,\r2]"] {
+            assert_eq!(first_line(text, &(4..text.len())), 4..7, "{text:?}");
+        }
+        assert_eq!(first_line("a = [1, 2]", &(4..10)), 4..10);
+    }
+}
