@@ -467,4 +467,17 @@ mod tests {
         let outside = size([[0.5, 1.75], [-1.5, 0.0]]);
         assert!(close(outside, [3.0, 3.5]), "{outside:?}");
     }
+
+    #[test]
+    fn the_name_of_a_module_has_64_letters_at_most() {
+        let parse = |letters: usize| {
+            let arm =
+                "[[arm]]\nname = \"a\"\nmount = [0.5, 0.0]\nlink = [{ length = 1.0, mass = 1.0, inertia = 0.1 }]\n";
+            let name = "n".repeat(letters);
+            Layout::parse(&format!("name = \"{name}\"\nbase = {{ mass = 6.0, inertia = 4.0 }}\n{arm}"), "it.toml")
+        };
+        assert_eq!(parse(64).expect("a name").name.len(), 64);
+        let report = parse(65).expect_err("a name that is too long").to_string();
+        assert!(report.contains("at most 64 of them"), "{report}");
+    }
 }
