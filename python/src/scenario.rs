@@ -4,7 +4,7 @@ use crate::control::Callable;
 use crate::failure::{Failure, of_report};
 use crate::study::{Part, Study};
 use planar_capture::capture::{Silent, StudyError, study_with};
-use planar_capture::check::study_report;
+use planar_capture::check::{law_report, study_report};
 use planar_capture::engine::Choice;
 use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
@@ -93,9 +93,10 @@ impl Scenario {
         Ok(scenario)
     }
 
-    /// A study without a result, at its key in the scenario.
-    fn without_result(&self, error: &StudyError, scenario: &Read, variant: Option<&Variant>) -> PyErr {
-        let report = study_report(error, scenario, variant, &self.source.scenario);
+    /// A study without a result: where one of the laws broke it down, as the law's; else at its key in the scenario.
+    fn without_result(&self, error: &StudyError, scenario: &Read, variant: Option<&Variant>, laws: Laws<'_>) -> PyErr {
+        let report = law_report(error, scenario, laws)
+            .unwrap_or_else(|| study_report(error, scenario, variant, &self.source.scenario));
         let failure = if error.is_breakdown() { Failure::Computation } else { Failure::Input };
         failure.with(report.render(false))
     }
@@ -215,18 +216,18 @@ impl Scenario {
         for (scenario, variant, choice) in chosen {
             let study = py.detach(|| {
                 let model = choice.model(&scenario.layout);
-                let laws = Laws {
-                    tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
-                    post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
-                };
-                study_with(&scenario, &|| model.clone_box(), laws, sample, &mut Silent)
+                study_with(&scenario, &|| model.clone_box(), laws(), sample, &mut Silent)
             });
             // a law may end a study that has a result all the same, where a search takes another way around it
             if let Some(raised) = [&control, &post_capture].into_iter().flatten().find_map(Callable::raised) {
                 return Err(raised);
             }
-            let computed = study.map_err(|error| self.without_result(&error, &scenario, variant))?;
+            let computed = study.map_err(|error| self.without_result(&error, &scenario, variant, laws()))?;
             parts.push(Part { scenario, computed, engine: choice.engine });
+        let laws = || Laws {
+            tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
+            post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
+        };
         }
         let scenario = self.scenario.clone();
         let manifest = RunManifest::new(&scenario, self.source.clone(), command);

@@ -1,5 +1,7 @@
 """Controllers of one's own: sampled, held, with a memory, with mistakes."""
 
+import re
+
 import numpy as np
 import planar_capture as pc
 import pytest
@@ -137,6 +139,22 @@ def test_a_sample_time_is_needed_and_whole_steps():
             pc.run(PAPER, proportional_derivative, sample_time=wrong)
     with pytest.raises(pc.InputError, match="expected a callable"):
         pc.run(PAPER, 5, sample_time=0.05)
+
+
+@pytest.mark.parametrize(("name", "before"), [("redysim_single_arm_3r", True), ("raina_shah_2017", False)])
+def test_a_gain_that_is_too_high_is_said_of_the_controller(name, before):
+    text = (SCENARIOS / f"{name}.toml").read_text().replace('integrator = "rk4"', "")
+
+    def control(time, state, desired):
+        return 49.0 * (desired.joint_angles - state.joint_angles) - 1e6 * state.joint_rates
+
+    laws = {"control": control} if before else {"post_capture_control": control}
+    with pytest.raises(pc.ComputationError) as raised:
+        pc.run(text, **laws, sample_time=0.01)
+    message = str(raised.value)
+    assert re.search(r"stopped at t = [\d.e-]+ s", message) and "the law's torques change too fast" in message
+    assert "sample time, 0.01 s" in message
+    assert "-->" not in message and "_gain" not in message
 
 
 def test_states_are_of_the_inertial_frame_and_belong_to_the_controller():

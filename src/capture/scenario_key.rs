@@ -133,26 +133,32 @@ fn terminal_rates(scenario: &Scenario, error: &TerminalRatesError) -> ScenarioKe
 fn of_approach(scenario: &Scenario, stopped: &PhaseError) -> ScenarioKey {
     let Approach { step, integration, .. } = scenario.approach;
     let gain = match &scenario.approach.tracking {
-        Tracking::InverseDynamics | Tracking::Own { .. } => None,
+        Tracking::InverseDynamics => None,
+        // only the law knows its gains
+        Tracking::Own { name, .. } => Some(("tracking", (*name).to_owned())),
         Tracking::ProportionalDerivative { proportional_gain, derivative_gain }
         | Tracking::ComputedTorque { proportional_gain, derivative_gain } => {
-            stiffer(proportional_gain, derivative_gain)
+            stiffer(proportional_gain, derivative_gain).map(shown)
         }
         Tracking::ResolvedMotionRate { pose_gain, rate_gain, .. } if rate_gain > pose_gain => {
-            Some(("rate_gain", *rate_gain))
+            Some(shown(("rate_gain", *rate_gain)))
         }
-        Tracking::ResolvedMotionRate { pose_gain, .. } => Some(("pose_gain", *pose_gain)),
+        Tracking::ResolvedMotionRate { pose_gain, .. } => Some(shown(("pose_gain", *pose_gain))),
     };
     of_phase("approach", step, integration, gain, stopped)
 }
 
 fn of_post_impact(after: &PostImpact, stopped: &PhaseError) -> ScenarioKey {
     let gain = match &after.control {
-        PostCaptureControl::None | PostCaptureControl::Own { .. } => None,
-        PostCaptureControl::Hold { proportional_gain, derivative_gain } => stiffer(proportional_gain, derivative_gain),
-        PostCaptureControl::Damping { derivative_gain } => stiffer(&[], derivative_gain),
+        PostCaptureControl::None => None,
+        PostCaptureControl::Own { name, .. } => Some(("control", (*name).to_owned())),
+        PostCaptureControl::Hold { proportional_gain, derivative_gain } => {
+            stiffer(proportional_gain, derivative_gain).map(shown)
+        }
+        PostCaptureControl::Damping { derivative_gain } => stiffer(&[], derivative_gain).map(shown),
         PostCaptureControl::Stabilise { derivative_gain, base_gain, .. } => {
-            stiffer(&[], derivative_gain).filter(|(_, gain)| gain >= base_gain).or(Some(("base_gain", *base_gain)))
+            let damping = stiffer(&[], derivative_gain).filter(|(_, gain)| gain >= base_gain);
+            Some(shown(damping.unwrap_or(("base_gain", *base_gain))))
         }
     };
     of_phase("post_impact", after.step, after.integration, gain, stopped)
@@ -168,13 +174,17 @@ fn stiffer(proportional: &[f64], derivative: &[f64]) -> Option<(&'static str, f6
     }
 }
 
+fn shown((name, gain): (&'static str, f64)) -> (&'static str, String) {
+    (name, format!("{gain:?}"))
+}
+
 /// What the hint of a phase that stopped names. The steps of an adaptive integrator are not those of the phase: what makes
-/// them short is the gain of a control.
+/// them short is the gain of a control, or a law of the program's own, at the key that names it.
 fn of_phase(
     table: &str,
     step: f64,
     integration: Integration,
-    gain: Option<(&'static str, f64)>,
+    gain: Option<(&'static str, String)>,
     stopped: &PhaseError,
 ) -> ScenarioKey {
     match (stopped.source, integration.integrator) {
@@ -184,7 +194,7 @@ fn of_phase(
             key(format!("{table}.tolerance"), format!("{tolerance:e}"))
         }
         (_, Integrator::Adaptive { tolerance }) => match gain {
-            Some((name, gain)) => key(format!("{table}.{name}"), format!("{gain:?}")),
+            Some((name, gain)) => key(format!("{table}.{name}"), gain),
             None => key(format!("{table}.tolerance"), format!("{tolerance:e}")),
         },
         _ => key(format!("{table}.step"), format!("{step:?}")),

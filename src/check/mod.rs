@@ -44,7 +44,7 @@ use crate::file_format::FileFormat;
 use crate::layout::Layout;
 use crate::registry::Robots;
 use crate::scenario::{Known, Scenario, Variant};
-pub use breakdown::study_report;
+pub use breakdown::{law_report, study_report};
 use kind::kind;
 use std::path::Path;
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::registry;
+use crate::scenario::LawNumbers;
 use planar_proof::file;
 
 fn scenario() -> Scenario {
@@ -80,6 +81,14 @@ fn gains_that_make_adaptive_steps_short() {
         let error = StudyError::PostImpact { case: "it".to_owned(), source };
         assert_eq!(error.key(&scenario).path, expected);
     }
+    // the gains of a law of the program's own have no keys: it is what is named
+    let numbers = LawNumbers::default();
+    scenario.approach.tracking = Tracking::Own { name: "late", numbers: numbers.clone() };
+    scenario.post_impact.as_mut().expect("a phase").control = PostCaptureControl::Own { name: "soft", numbers };
+    let found = [StudyError::Approach(source), StudyError::PostImpact { case: "it".to_owned(), source }];
+    let found = found.map(|error| error.key(&scenario)).map(|key| (key.path, key.value));
+    let expected = [("approach.tracking", "late"), ("post_impact.control", "soft")];
+    assert_eq!(found, expected.map(|(path, value)| (path.to_owned(), value.to_owned())));
 }
 
 /// A rough path has the step of its own phase.
