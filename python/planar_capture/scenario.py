@@ -61,7 +61,7 @@ class Scenario:
 
         Keys are those of sweeps (``docs/sweep.md``): TOML paths into the scenario, or after ``layout.`` into its
         layout, also those that are left at their default. Raises :class:`InputError` where there is no such key, or a
-        value is not valid there.
+        value is not valid there. :attr:`text` has the values; what shows only when it runs is said of that text.
         """
         return Scenario(self._native.with_values(list(values.items()), case))
 

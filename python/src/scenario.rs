@@ -10,8 +10,8 @@ use planar_capture::laws::{Laws, PostCaptureLaw, TrackingLaw};
 use planar_capture::layout::Layout;
 use planar_capture::output::run_manifest::RunManifest;
 use planar_capture::registry::{Robots, SHIPPED};
-use planar_capture::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
-use planar_capture::scenario::{Actuation, Scenario as Read, ScenarioSource, Source, Variant};
+use planar_capture::scenario::variation::{KeyPath, Refused, Variation, VariedValue};
+use planar_capture::scenario::{Actuation, LawFormats, Scenario as Read, ScenarioSource, Source, Variant};
 use planar_capture::simulate::Timing;
 use pyo3::prelude::{FromPyObject, Py, PyAny, PyErr, PyResult, Python, pyclass, pymethods};
 use std::path::PathBuf;
@@ -58,6 +58,24 @@ pub fn choose(dynamics: &str, layout: &Layout) -> PyResult<(Choice, Option<Strin
         }
     };
     Ok((choice?, None))
+}
+
+/// After the name of a file, of which a text with other values was made.
+const WITH: &str = ", with other values";
+
+/// Why values are refused, by their keys: a user has not seen the text that has them.
+fn of_values(refused: Refused, keys: &[(KeyPath, VariedValue)]) -> String {
+    let shown = |(path, value): &(KeyPath, VariedValue)| format!("`{path}` = {value}");
+    match refused {
+        Refused::Keys(unusable) => {
+            let lines = unusable.into_iter().map(|of| format!("key {}: {}", shown(&keys[of.key]), of.why));
+            lines.collect::<Vec<_>>().join("\n")
+        }
+        Refused::Together(why) => {
+            format!("keys {}: together, {why}", keys.iter().map(shown).collect::<Vec<_>>().join(", "))
+        }
+        Refused::Without(why) => format!("the case alone has no scenario: {why}"),
+    }
 }
 
 impl Scenario {
@@ -139,12 +157,10 @@ impl Scenario {
             Ok((path, value.into()))
         });
         let keys: Vec<(KeyPath, VariedValue)> = keys.collect::<PyResult<_>>()?;
-        let variation = Variation::new(scenario, source, case, &keys)
-            .map_err(|Unusable { key, why }| Failure::Input.with(format!("key `{}`: {why}", keys[key].0)))?;
-        let values: Vec<VariedValue> = keys.into_iter().map(|(_, value)| value).collect();
-        let scenario = variation.scenario(&values).map_err(of_report)?;
-        let texts = variation.texts(&values);
-        let with = |text, of: &Source| Source { text, file: of.file.clone() };
+        let (scenario, texts) = Variation::apply(scenario, source, case, &LawFormats::default(), &keys)
+            .map_err(|refused| Failure::Input.with(of_values(refused, &keys)))?;
+        // what is wrong later is shown in this text, which is not that of the file
+        let with = |text, of: &Source| Source { text, file: format!("{}{WITH}", of.file.trim_end_matches(WITH)) };
         let source = ScenarioSource {
             scenario: with(texts.scenario, &source.scenario),
             layout: with(texts.layout, &source.layout),

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 
 import numpy as np
 import planar_capture as pc
@@ -204,5 +205,24 @@ def test_other_values_are_those_of_another_file():
     ]:
         with pytest.raises(pc.InputError, match=message):
             scenario.with_values(wrong)
+    # no line of a text that the user has not seen
+    for wrong, message in [
+        ({"layout.base.mass": "x"}, 'key `layout.base.mass` = "x": `base.mass` is "x", expected a mass in kg'),
+        ({"layout.base.mass": "480.0"}, "write the number without quotes"),
+        ({"approach.duration": -3}, "key `approach.duration` = -3.0: `approach.duration` is -3.0, expected"),
+        ({"approach.duration": -3, "layout.base.mass": -1}, "key `layout.base.mass` = -1.0: `base.mass` is -1.0"),
+        ({"approach.final_joint_rates[0]": 1.0}, "key `approach.final_joint_rates[0]` = 1.0: "),
+    ]:
+        with pytest.raises(pc.InputError) as raised:
+            changed.with_values(wrong)
+        assert message in str(raised.value) and "-->" not in str(raised.value)
+        assert ("quotes" in str(raised.value)) == ("quotes" in message)
+    # what shows in a run is shown in the text that has the values
+    gains = {"approach.derivative_gain": 1e7, "layout.base.mass": 450.0}
+    for stiff in (scenario.with_values(gains), changed.with_values(gains)):
+        with pytest.raises(pc.ComputationError) as raised:
+            stiff.run(sample=1.0)
+        line = re.search(r"--> \S+redysim_single_arm_3r\.toml, with other values:(\d+):", str(raised.value))[1]
+        assert stiff.text.splitlines()[int(line) - 1] in str(raised.value)
     with pytest.raises(pc.InputError, match="case is missing, expected one of the scenario's cases, case1, case2"):
         paper.with_values({"target.target1.mass": 12.0})

@@ -1,8 +1,8 @@
 //! `set` of a `[[case]]`: other values at keys of scenario and layout.
 
-use crate::diagnostic::{Report, Table, Value, every};
+use crate::diagnostic::{Table, Value, every};
 use crate::format::Step;
-use crate::scenario::variation::{KeyPath, Unusable, Variation, VariedValue};
+use crate::scenario::variation::{KeyPath, Refused, Unusable, Variation, VariedValue};
 use crate::scenario::{KeyFile, LawFormats, Scenario, ScenarioSource, Variant};
 
 /// What a case sets, and where.
@@ -58,29 +58,18 @@ impl CaseSet<'_> {
     pub(super) fn variant(&self, scenario: &Scenario, source: &ScenarioSource, laws: &LawFormats) -> Option<Variant> {
         let case = &scenario.cases[self.index].name;
         let keys: Vec<_> = self.entries.iter().map(|entry| (entry.path.clone(), entry.varied.clone())).collect();
-        let read = |keys: &[(KeyPath, VariedValue)]| -> Result<_, Refused> {
-            let variation = Variation::new(scenario, source, case, keys)?.with_laws(laws);
-            let values: Vec<_> = keys.iter().map(|(_, value)| value.clone()).collect();
-            Ok((variation.scenario(&values)?, variation.texts(&values)))
-        };
-        let (mut scenario, texts) = match read(&keys) {
-            Ok(read) => read,
-            Err(Refused::Key(Unusable { key, why })) => {
-                self.entries[key].value.reject(&why);
-                return None;
-            }
-            // what is wrong without them, too, is said where it stands
-            Err(Refused::Values(_)) if matches!(read(&[]), Err(Refused::Values(_))) => return None,
-            Err(Refused::Values(report)) => {
-                let mut is_one = false;
-                for (entry, key) in self.entries.iter().zip(keys.chunks(1)) {
-                    if let Err(Refused::Values(report)) = read(key) {
-                        entry.value.reject(&sentence(&report));
-                        is_one = true;
+        let (mut scenario, texts) = match Variation::apply(scenario, source, case, laws, &keys) {
+            Ok(applied) => applied,
+            Err(refused) => {
+                match refused {
+                    Refused::Keys(keys) => {
+                        for Unusable { key, why } in keys {
+                            self.entries[key].value.reject(&why);
+                        }
                     }
-                }
-                if !is_one {
-                    self.value.reject(&format!("together, {}", sentence(&report)));
+                    Refused::Together(why) => self.value.reject(&format!("together, {why}")),
+                    // that is said where it stands
+                    Refused::Without(_) => {}
                 }
                 return None;
             }
@@ -89,26 +78,4 @@ impl CaseSet<'_> {
         let set = keys.into_iter().map(|(path, value)| (path.to_string(), value)).collect();
         Some(Variant { set, scenario, texts: [texts.scenario, texts.layout] })
     }
-}
-
-/// Why a case's values are not valid.
-enum Refused {
-    Key(Unusable),
-    Values(Report),
-}
-
-impl From<Unusable> for Refused {
-    fn from(unusable: Unusable) -> Self {
-        Self::Key(unusable)
-    }
-}
-
-impl From<Report> for Refused {
-    fn from(report: Report) -> Self {
-        Self::Values(report)
-    }
-}
-
-fn sentence(report: &Report) -> String {
-    report.sentences().collect::<Vec<_>>().join("; ")
 }

@@ -19,6 +19,7 @@
 
 mod key_path;
 mod key_place;
+mod refused;
 mod replaced;
 mod varied_value;
 
@@ -34,6 +35,7 @@ use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
 pub use key_path::KeyPath;
+pub use refused::Refused;
 pub use varied_value::VariedValue;
 
 /// The name of the file that a case's scenario names as its layout.

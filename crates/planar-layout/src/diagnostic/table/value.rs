@@ -154,9 +154,10 @@ impl<'a> Value<'a> {
             DeValue::Integer(integer) => u32::from_str_radix(integer.as_str(), integer.radix()).ok().map(f64::from),
             _ => None,
         };
+        let is_quoted = || self.as_str().is_some_and(|text| text.trim().parse::<f64>().is_ok());
         let outcome = match number {
             Some(number) => quantity.check(number).map(|()| number),
-            None => Err(Refusal::Hint(self.as_str().map(|_| "write the number without quotes".to_owned()))),
+            None => Err(Refusal::Hint(is_quoted().then(|| "write the number without quotes".to_owned()))),
         };
         let refuse = |refusal| match refusal {
             Refusal::Hint(help) => self.expected(&quantity.to_string(), help),
