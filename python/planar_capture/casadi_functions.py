@@ -7,7 +7,8 @@ import numpy as np
 from .batch import Argument, Array, Function
 from .errors import InputError
 
-HOW = "CasADi is not installed: pip install 'planar-capture[derive]'"
+#: What the derivation is locked to; the extra `derive` installs it.
+CASADI = "3.8.2"
 
 
 def casadi_function(graph: dict[str, Any], function: Function, values: Array, symbolic_parameters: bool) -> Any:
@@ -15,7 +16,7 @@ def casadi_function(graph: dict[str, Any], function: Function, values: Array, sy
     try:
         import casadi as ca
     except ImportError as error:
-        raise InputError(HOW) from error
+        raise InputError(f"CasADi is not installed: pip install casadi=={CASADI}") from error
     names = [parameter["name"] for parameter in graph["parameters"]]
     parameters = ca.SX.sym("parameters", len(names)) if symbolic_parameters else ca.SX(values)
     known = {name: parameters[place] for place, name in enumerate(names)}

@@ -6,12 +6,10 @@ import sys
 from collections.abc import Callable
 
 from . import _native
+from .casadi_functions import CASADI
 from .robot import Robot, layout_source
 
 __all__ = ["derive"]
-
-#: What the derivation is locked to; the extra `derive` installs it.
-CASADI = "3.8.2"
 
 
 def derive(layout: str | os.PathLike[str], *, progress: Callable[[str], object] | None = None) -> Robot:
@@ -20,7 +18,7 @@ def derive(layout: str | os.PathLike[str], *, progress: Callable[[str], object] 
     :func:`sweep` and the command find it for every layout of the same arms, links and exact zeros.
 
     The robot has the graph (:attr:`Robot.graph`) and its CasADi functions (:meth:`Robot.casadi_function`). CasADi is
-    that of this environment (``pip install 'planar-capture[derive]'``) where it has the right version; else an
+    that of this environment where it has the right version, as with the extra ``derive``; else an
     environment is made, once, in the cache folder. ``progress`` is called with messages.
     """
     text, file = layout_source(layout)

@@ -20,7 +20,11 @@ from .sweeps import SweepResult
 try:
     from distributed import Client, as_completed
 except ImportError as error:
-    raise ImportError("Dask is not installed: pip install 'planar-capture[distributed]'") from error
+    missing = "Dask is not installed: pip install 'distributed>=2026.1'"
+    if __name__ == "__main__":
+        print(f"error: {missing}", file=sys.stderr)
+        sys.exit(2)
+    raise ImportError(missing) from error
 
 if TYPE_CHECKING:
     import dask.dataframe

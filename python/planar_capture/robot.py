@@ -364,7 +364,7 @@ class Robot:
         (for matrices) the shapes of :attr:`functions`.
 
         With ``symbolic_parameters`` it has another input, ``parameters``, in the order of :attr:`parameters`; else the
-        layout's are in it. Needs CasADi (``pip install 'planar-capture[derive]'``).
+        layout's are in it. Needs CasADi, the extra ``derive``.
         """
         return casadi_function(self.graph, self._function(name), self._batches.values, symbolic_parameters)
 

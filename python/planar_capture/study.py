@@ -50,7 +50,7 @@ class Series(Mapping[str, np.ndarray]):
         return f"<Series of {len(self._columns['t'])} rows: {', '.join(self)}>"
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """As a data frame, with the units in ``attrs["units"]``. Needs pandas (``planar-capture[pandas]``)."""
+        """As a data frame, with the units in ``attrs["units"]``. Needs pandas (``pip install pandas``)."""
         import pandas
 
         frame = pandas.DataFrame(dict(self))
@@ -59,7 +59,7 @@ class Series(Mapping[str, np.ndarray]):
         return frame
 
     def to_arrow(self) -> "pyarrow.Table":
-        """As a table, with the unit in the metadata of each column. Needs pyarrow (``planar-capture[arrow]``)."""
+        """As a table, with the unit in the metadata of each column. Needs pyarrow (``pip install pyarrow``)."""
         import pyarrow
 
         arrays = [pyarrow.array(values) for values in self.values()]

@@ -44,7 +44,7 @@ class SweepResult:
         return f"<SweepResult {self.name}: {self.cases} cases, {', '.join(counts)}; {self.folder}>"
 
     def to_arrow(self) -> "pyarrow.Table":
-        """All cases in the folder, in order. Needs pyarrow (``planar-capture[arrow]``)."""
+        """All cases in the folder, in order. Needs pyarrow (``pip install pyarrow``)."""
         import pyarrow
         import pyarrow.parquet
 

@@ -1,6 +1,7 @@
 //! Errors as exceptions of `planar_capture.errors`.
 
 use planar_capture::diagnostic::Report;
+use planar_capture::graphs::NoGraph;
 use planar_capture::named_layout::NoLayout;
 use planar_capture::output::output_error::OutputError;
 use pyo3::prelude::{PyAnyMethods, PyErr, Python};
@@ -49,6 +50,16 @@ pub fn of_layout(error: NoLayout) -> PyErr {
         NoLayout::Unreadable(report) => of_report(report),
         NoLayout::Unknown(message) => Failure::Input.with(message),
     }
+}
+
+/// Of a structure that has no graph.
+pub fn of_graph(error: &NoGraph) -> PyErr {
+    Failure::MissingGraph.with(with_remedy(error))
+}
+
+/// The command's message with what derives a graph here.
+pub fn with_remedy(error: &NoGraph) -> String {
+    format!("{error}, and so does `planar_capture.derive` in Python")
 }
 
 /// Of a file that cannot be written.

@@ -2,7 +2,7 @@
 
 use crate::call::{Call, Robots};
 use crate::capture::{Captures, INPUTS};
-use crate::failure::{Failure, of_layout, of_report};
+use crate::failure::{Failure, of_graph, of_layout, of_report};
 use crate::instance::Instance;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use planar_capture::dynamics::Robot as _;
@@ -37,8 +37,7 @@ pub struct Robot {
 impl Robot {
     /// With the graph of the layout's structure.
     pub fn of(layout: Layout) -> PyResult<Self> {
-        let FoundGraph { evaluator, origin, text: graph } =
-            graphs::find(&layout).map_err(|error| Failure::MissingGraph.with(error))?;
+        let FoundGraph { evaluator, origin, text: graph } = graphs::find(&layout).map_err(|error| of_graph(&error))?;
         let unfit = |_| Failure::MissingGraph.with("the graph is of another structure");
         let values = parameters(evaluator.structure(), &layout).map_err(unfit)?;
         let model = evaluator.model(&layout).map_err(unfit)?;

@@ -1,7 +1,7 @@
 //! Scenarios, and their studies.
 
 use crate::control::Callable;
-use crate::failure::{Failure, of_report};
+use crate::failure::{Failure, of_graph, of_report, with_remedy};
 use crate::study::{Part, Study};
 use planar_capture::capture::{Silent, StudyError, study_with};
 use planar_capture::check::{law_report, study_report};
@@ -47,10 +47,10 @@ pub fn choose(dynamics: &str, layout: &Layout) -> PyResult<(Choice, Option<Strin
     let choice = match dynamics {
         "auto" => {
             let (choice, unusable) = Choice::fastest(layout, Robots::SHIPPED);
-            return Ok((choice, unusable.map(|why| why.to_string())));
+            return Ok((choice, unusable.as_ref().map(with_remedy)));
         }
         "generated" => Choice::generated(layout, Robots::SHIPPED).map_err(|error| Failure::Input.with(error)),
-        "graph" => Choice::graph(layout).map_err(|error| Failure::MissingGraph.with(error)),
+        "graph" => Choice::graph(layout).map_err(|error| of_graph(&error)),
         "generic" => Ok(Choice::generic()),
         other => {
             let known = "expected auto, generated, graph or generic";
@@ -228,6 +228,10 @@ impl Scenario {
             };
             chosen.push((Self::sampled(scenario, sample_time, of_python)?, variant, choice));
         }
+        let laws = || Laws {
+            tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
+            post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
+        };
         let mut parts = Vec::new();
         for (scenario, variant, choice) in chosen {
             let study = py.detach(|| {
@@ -240,10 +244,6 @@ impl Scenario {
             }
             let computed = study.map_err(|error| self.without_result(&error, &scenario, variant, laws()))?;
             parts.push(Part { scenario, computed, engine: choice.engine });
-        let laws = || Laws {
-            tracking: control.as_ref().map(|law| law as &dyn TrackingLaw),
-            post_capture: post_capture.as_ref().map(|law| law as &dyn PostCaptureLaw),
-        };
         }
         let scenario = self.scenario.clone();
         let manifest = RunManifest::new(&scenario, self.source.clone(), command);

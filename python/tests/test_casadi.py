@@ -1,5 +1,7 @@
 """Functions of graphs as CasADi's."""
 
+import sys
+
 import numpy as np
 import planar_capture as pc
 import pytest
@@ -30,6 +32,12 @@ def test_they_have_the_values_of_the_robot(name):
                 scale = max(1.0, np.abs(wanted).max())
                 part = np.array(found[output.name]).reshape(wanted.shape)
                 np.testing.assert_allclose(part, wanted, rtol=1e-11, atol=1e-11 * scale, err_msg=function.name)
+
+
+def test_without_casadi_the_remedy_is_what_an_index_has(robot, monkeypatch):
+    monkeypatch.setitem(sys.modules, "casadi", None)
+    with pytest.raises(pc.InputError, match=r"^CasADi is not installed: pip install casadi==[\d.]+$"):
+        robot.casadi_function("momentum")
 
 
 def test_they_have_derivatives(robot):

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import tomllib
 
 import planar_capture as pc
 import pytest
@@ -112,3 +113,15 @@ def test_the_command(client, file, tmp_path):
         [*words, ROOT / "missing.toml", "--scheduler", address], capture_output=True, text=True, check=False
     )
     assert wrong.returncode == 2 and "missing.toml" in wrong.stderr
+
+
+def test_without_dask_the_command_says_so_in_one_line():
+    script = (
+        "import runpy, sys; sys.modules['distributed'] = None; "
+        "runpy.run_module('planar_capture.distributed', run_name='__main__', alter_sys=True)"
+    )
+    done = subprocess.run([sys.executable, "-P", "-c", script], capture_output=True, text=True, check=False)
+    project = tomllib.loads((ROOT / "python" / "pyproject.toml").read_text())["project"]
+    (needed,) = project["optional-dependencies"]["distributed"]
+    assert done.returncode == 2
+    assert done.stderr == f"error: Dask is not installed: pip install '{needed}'\n"

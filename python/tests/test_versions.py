@@ -4,7 +4,7 @@ import re
 import tomllib
 
 from conftest import ROOT
-from planar_capture.derivation import CASADI
+from planar_capture.casadi_functions import CASADI
 
 
 def test_casadi_is_that_of_the_derivation():
