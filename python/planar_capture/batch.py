@@ -117,8 +117,8 @@ class Batches:
                 close = difflib.get_close_matches(name, self.parameters, 1)
                 hint = f"did you mean {close[0]!r}?" if close else f"it has {', '.join(self.parameters)}"
                 raise InputError(
-                    f"robot `{self.native.name}` has no parameter {name!r}; {hint} What is exactly zero in the layout "
-                    "is no parameter"
+                    f"robot `{self.native.name}` has no parameter {name!r}; {hint} A mount's y and angle, and the "
+                    "com_y and length of a link before the last, are no parameters where the graph has exact zeros"
                 )
             array = real(value, Argument(name, (), *self.parameters[name][1:3]))
             if name.endswith(("_mass", "_inertia")) and not (np.isnan(array) | (array > 0.0)).all():

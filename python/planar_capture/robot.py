@@ -93,7 +93,12 @@ class Robot:
 
     @property
     def parameters(self) -> dict[str, Parameter]:
-        """The robot's numbers: names, units, and the layout's values. What is exactly zero there is none of them."""
+        """The robot's numbers: names, units, and the layout's values.
+
+        No parameters are exact zeros of the structure that the graph (``repr`` names it) was derived for: the y of a
+        mount, its angle, and of a link before the last of its arm the y of the COM and the length. General graphs have
+        none of them. The COM of a last link, which a target moves, is always a parameter, also where it is zero.
+        """
         return dict(self._batches.parameters)
 
     @property
