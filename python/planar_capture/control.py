@@ -16,13 +16,14 @@ class Desired(NamedTuple):
     """The desired motion of the joints at a time, (joints,) each.
 
     In an approach it is that of the scenario's trajectory; after a capture the joint angles at the capture, at rest.
+
+    - ``joint_angles``: rad.
+    - ``joint_rates``: rad/s.
+    - ``joint_accelerations``: rad/s².
     """
 
-    #: rad.
     joint_angles: np.ndarray
-    #: rad/s.
     joint_rates: np.ndarray
-    #: rad/s².
     joint_accelerations: np.ndarray
 
 

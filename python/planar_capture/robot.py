@@ -1,5 +1,8 @@
 """Robots: closed-form dynamics on numpy arrays."""
 
+# annotations stay text: `help` would have numpy's ArrayLike in full, twenty lines a function
+from __future__ import annotations
+
 import json
 import os
 from collections.abc import Mapping
@@ -56,7 +59,7 @@ class Robot:
         self._batches = Batches(native)
 
     @classmethod
-    def from_toml(cls, source: str | os.PathLike[str]) -> "Robot":
+    def from_toml(cls, source: str | os.PathLike[str]) -> Robot:
         """A robot from a layout: a path, the name of a shipped one (:func:`planar_capture.layouts`), or TOML text.
 
         Raises :class:`InputError` with file, line, key and value of whatever is wrong, and :class:`MissingGraphError`
@@ -189,7 +192,11 @@ class Robot:
         **options: Unpack[Options],
     ) -> ReducedDynamics:
         """Generalized inertia I, bias c and Jacobian J: I θ̈ + c = τ, eq. (2), and end effector twists J θ̇ of a robot
-        of zero momentum."""
+        of zero momentum.
+
+        ``base_pose`` (…, 3), ``joint_angles`` (…, joints), ``base_twist`` (…, 3), ``joint_rates`` (…, joints) as in
+        :class:`State`; (…, joints, joints) in kg m², (…, joints) in N m and (…, 3 arms, joints) in 1, m, m.
+        """
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
         return ReducedDynamics(*self._values("reduced_dynamics", inputs, **options))
 
@@ -261,7 +268,8 @@ class Robot:
         joint_rates: ArrayLike,
         **options: Unpack[Options],
     ) -> Momentum:
-        """Linear momentum, angular momentum about the inertial origin, and kinetic energy."""
+        """Linear momentum (…, 2), inertial axes, N s; angular momentum (…) about the inertial origin, N m s; and
+        kinetic energy (…), J."""
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
         return Momentum(*self._values("momentum", inputs, **options))
 
@@ -276,7 +284,16 @@ class Robot:
         target_twists: ArrayLike,
         **options: Unpack[Options],
     ) -> ReducedImpact:
-        """The impact by the paper's reduced equations, (15) and (16), as printed; targets as in :class:`Targets`."""
+        """The impact by the paper's reduced equations, (15) and (16), as printed: G θ̇_f = H.
+
+        ``base_pose`` (…, 3) [yaw, x, y] in rad, m; ``joint_angles`` (…, joints) in rad; ``joint_rates`` (…, joints)
+        before the impact in rad/s. The targets, one for each arm, are those of :class:`Targets`: ``target_masses``
+        (…, arms) in kg, ``target_inertias`` (…, arms) in kg m², ``contacts`` (…, arms, 2) from COM to contact point in
+        m, and ``target_twists`` (…, arms, 3) [ω, vx, vy] of the COM in rad/s, m/s; inertial axes.
+
+        G (…, joints, joints) in kg m², H (…, joints) in N m s, and the joint rates after the impact (…, joints) in
+        rad/s.
+        """
         inputs = [base_pose, joint_angles, joint_rates, target_masses, target_inertias, contacts, target_twists]
         return ReducedImpact(*self._values("reduced_impact", inputs, **options))
 
@@ -292,7 +309,16 @@ class Robot:
         target_twists: ArrayLike,
         **options: Unpack[Options],
     ) -> FullImpact:
-        """The exact impact in full coordinates, (10) and (11); targets as in :class:`Targets`.
+        """The exact impact in full coordinates, (10) and (11): G v_f = H.
+
+        ``base_pose`` (…, 3) [yaw, x, y] in rad, m; ``joint_angles`` (…, joints) in rad; before the impact
+        ``base_twist`` (…, 3) [ω, vx, vy] in rad/s, m/s and ``joint_rates`` (…, joints) in rad/s. The targets, one for
+        each arm, are those of :class:`Targets`: ``target_masses`` (…, arms) in kg, ``target_inertias`` (…, arms) in
+        kg m², ``contacts`` (…, arms, 2) from COM to contact point in m, and ``target_twists`` (…, arms, 3) [ω, vx, vy]
+        of the COM in rad/s, m/s; inertial axes.
+
+        G (…, 3 + joints, 3 + joints), base then joints, in kg m², kg m, kg; H (…, 3 + joints) in N m s, N s, N s, then
+        N m s; after the impact the base twist (…, 3) in rad/s, m/s and the joint rates (…, joints) in rad/s.
 
         In the vectors of the processor; :meth:`capture` has twists of the targets and impulses too, and loses no digits
         where a target is much lighter or heavier than a link.
@@ -316,8 +342,18 @@ class Robot:
         on_singular: OnSingular = "raise",
         threads: int | None = None,
     ) -> Capture:
-        """The exact impact by the balance of momentum, as ``planar-capture eval`` and ``run`` compute it: velocities of
-        robot and targets, and impulses on the robot; targets as in :class:`Targets`. State by state."""
+        """The exact impact by the balance of momentum, as ``planar-capture eval`` and ``run`` compute it.
+
+        ``base_pose`` (…, 3) [yaw, x, y] in rad, m; ``joint_angles`` (…, joints) in rad; before the impact
+        ``base_twist`` (…, 3) [ω, vx, vy] in rad/s, m/s and ``joint_rates`` (…, joints) in rad/s. The targets, one for
+        each arm, are those of :class:`Targets`: ``target_masses`` (…, arms) in kg, 0 where the arm captures nothing,
+        ``target_inertias`` (…, arms) in kg m², ``contacts`` (…, arms, 2) from COM to contact point in m, and
+        ``target_twists`` (…, arms, 3) [ω, vx, vy] of the COM in rad/s, m/s; inertial axes.
+
+        After the impact the base twist (…, 3) in rad/s, m/s, the joint rates (…, joints) in rad/s and the twists of the
+        targets (…, arms, 3) in rad/s, m/s; and the impulses (…, arms, 3) [n, fx, fy] on the robot at the end effectors
+        in N m s, N s; inertial axes. State by state.
+        """
         inputs = [base_pose, joint_angles, base_twist, joint_rates]
         inputs += [target_masses, target_inertias, contacts, target_twists]
         known = self._function("full_impact")
@@ -339,11 +375,22 @@ class Robot:
         joint_torques: ArrayLike | None = None,
         base_wrench: ArrayLike | None = None,
         end_effector_wrenches: ArrayLike | None = None,
-        targets: "tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None" = None,
+        targets: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
         **options: Unpack[Options],
     ) -> dict[str, Any]:
-        """Everything under the keys of ``planar-capture eval``; with ``targets`` (:class:`Targets`) the blocks
-        ``impact`` (``G``, ``H``, ``joint_rates_after``) and ``capture``, too."""
+        """All of a state under the keys of ``planar-capture eval``, each as the function of its name gives it.
+
+        ``base_pose`` (…, 3) [yaw, x, y] in rad, m; ``joint_angles`` (…, joints) in rad; ``base_twist`` (…, 3)
+        [ω, vx, vy] in rad/s, m/s; ``joint_rates`` (…, joints) in rad/s; the forces of :meth:`forward_dynamics`:
+        ``joint_torques`` (…, joints) in N m, ``base_wrench`` (…, 3) and ``end_effector_wrenches`` (…, arms, 3)
+        [n, fx, fy] in N m, N; inertial axes. Shapes and units of the results are those of :meth:`mass_matrix`,
+        :meth:`bias`, :meth:`reduced_dynamics`, :meth:`end_effector_poses`, :meth:`end_effector_jacobian`,
+        :meth:`forward_dynamics` and :meth:`momentum`.
+
+        ``targets`` are those of :class:`Targets`: masses (…, arms) in kg, inertias (…, arms) in kg m², contacts
+        (…, arms, 2) in m, twists (…, arms, 3) in rad/s, m/s. With them there are the blocks ``impact`` (``G``, ``H``,
+        ``joint_rates_after`` of :meth:`reduced_impact`) and ``capture`` (:meth:`capture`), too.
+        """
         state = State(base_pose, joint_angles, base_twist, joint_rates)  # type: ignore[arg-type]
         forces = (joint_torques, base_wrench, end_effector_wrenches)
         reduced = self.reduced_dynamics(*state, **options)

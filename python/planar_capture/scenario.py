@@ -1,5 +1,8 @@
 """Scenarios: approach, impact and the motion after it."""
 
+# annotations stay text, as in `robot`
+from __future__ import annotations
+
 import os
 from collections.abc import Mapping
 
@@ -18,7 +21,7 @@ class Scenario:
         self._native = native
 
     @classmethod
-    def from_toml(cls, source: str | os.PathLike[str]) -> "Scenario":
+    def from_toml(cls, source: str | os.PathLike[str]) -> Scenario:
         """A scenario from a path, or from TOML text, in which paths are relative to the working folder.
 
         Raises :class:`InputError` with file, line, key and value of whatever is wrong.
@@ -55,7 +58,7 @@ class Scenario:
         """The robot without targets."""
         return Robot.from_toml(self._native.layout)
 
-    def with_values(self, values: Mapping[str, float | str | bool], *, case: str | None = None) -> "Scenario":
+    def with_values(self, values: Mapping[str, float | str | bool], *, case: str | None = None) -> Scenario:
         """The scenario of one case, by default the only one, with other values: ``{"target.target1.mass": 12.0,
         "layout.base.mass": 480.0, "approach.tracking": "computed_torque"}``.
 
@@ -77,9 +80,11 @@ class Scenario:
         """Computes the study, as ``planar-capture run`` does, without writing files.
 
         ``control`` takes the place of the approach's tracking, ``post_capture_control`` that of the law after a
-        capture: see :data:`Control`. Both are called every ``sample_time`` s (a multiple of the phase's step), by
-        default that of the scenario; the scenario's torque limits hold for them. Rows of the time series are ``sample``
-        s apart.
+        capture: a callable of the time since the start of its phase, s, of :class:`State`, and of :class:`Desired`
+        (rad, rad/s, rad/s², (joints,) each; ``None`` where the scenario has end effector paths), which returns the
+        joint torques, (joints,) in N m; positions are in the inertial frame. Both are called every ``sample_time`` s (a
+        multiple of the phase's step), by default that of the scenario; the scenario's torque limits hold for them. Rows
+        of the time series are ``sample`` s apart.
         ``dynamics`` is ``"auto"``, ``"generated"``, ``"graph"`` or ``"generic"``.
 
         Raises :class:`InputError` where the scenario has no result, :class:`ComputationError` where the simulation
@@ -93,7 +98,7 @@ class Scenario:
 
 
 def run(
-    scenario: "Scenario | str | os.PathLike[str]",
+    scenario: Scenario | str | os.PathLike[str],
     control: Control | None = None,
     *,
     post_capture_control: Control | None = None,
@@ -101,7 +106,13 @@ def run(
     sample_time: float | None = None,
     dynamics: str = "auto",
 ) -> Result:
-    """Computes a scenario, or that of a path or a TOML text: :meth:`Scenario.run`."""
+    """Computes a scenario, or that of a path or a TOML text, as :meth:`Scenario.run` does.
+
+    ``control`` and ``post_capture_control`` are callables of time (s), :class:`State` and :class:`Desired` that return
+    the joint torques, (joints,) in N m; both are called every ``sample_time`` s. Rows of the time series are ``sample``
+    s apart. Series have their units in ``units``: SI and radians, poses [yaw, x, y] and twists [ω, vx, vy] in the
+    inertial frame.
+    """
     read = scenario if isinstance(scenario, Scenario) else Scenario.from_toml(scenario)
     return read.run(
         control,

@@ -3,6 +3,8 @@
 import copy
 import json
 import pickle
+import pydoc
+import re
 
 import numpy as np
 import planar_capture as pc
@@ -264,6 +266,41 @@ def test_a_structure_without_a_graph_is_refused_with_the_remedy(tmp_path, monkey
     text = pc.Robot.from_toml("boom_7r").layout
     with pytest.raises(pc.MissingGraphError, match="derive"):
         pc.Robot.from_toml(text.replace("mount_angle", "#", 1) + LINK)
+
+
+def test_help_has_shapes_and_units_and_is_short():
+    """The README promises them; annotations in full would be twenty lines for each array."""
+    functions = [getattr(pc.Robot, name) for name in vars(pc.Robot) if not name.startswith("_")]
+    functions += [pc.run, pc.Scenario.run, pc.Scenario.with_values]
+    for function in filter(callable, functions):
+        text = pydoc.plain(pydoc.render_doc(function))
+        signature = text.split("\n")[2]
+        assert "SupportsArray" not in text and "Buffer" not in text and len(signature) < 600, text
+    for function in (pc.Robot.reduced_impact, pc.Robot.full_impact, pc.Robot.capture, pc.Robot.evaluate):
+        text = " ".join(pydoc.plain(pydoc.render_doc(function)).split())
+        for name in re.findall(r"(\w+): 'ArrayLike", text):
+            assert f"``{name}`` (" in text, f"{function.__name__}: {name}"
+        for part in ("(…, arms, 2)", "kg m²", "rad/s, m/s", "inertial axes"):
+            assert part in text, f"{function.__name__}: {part}"
+    for kind in (pc.State, pc.Targets, pc.Capture, pc.FullImpact, pc.ReducedImpact):
+        assert all(f"``{name}``: (" in kind.__doc__ for name in kind._fields)
+
+
+def test_a_general_graph_has_exact_zeros_as_parameters(tmp_path, monkeypatch):
+    # no graph that was derived here before
+    monkeypatch.setenv("PLANAR_CAPTURE_HOME", str(tmp_path))
+    exact = pc.Robot.from_toml("dual_arm_3r")
+    structural = {"arm1_mount_y", "arm2_mount_angle", "arm1_link2_com_y"}
+    assert not structural & set(exact.parameters)
+    # a target moves the COM of a last link off its axis
+    assert exact.parameters["arm2_link3_com_y"].value == 0.0
+    with pytest.raises(pc.InputError, match=r"no parameter 'arm1_mount_y'.*where the graph has exact zeros"):
+        exact.mass_matrix(np.zeros(3), np.zeros(6), parameters={"arm1_mount_y": 0.1})
+    # a number that is zero in the graph of the shipped layout: the general one fits
+    text = exact.layout.replace("mount = [0.5, 0.0]", "mount = [0.5, 0.1]", 1)
+    general = pc.Robot.from_toml(text)
+    assert text != exact.layout and "general_2x3" in repr(general)
+    assert structural <= set(general.parameters) and general.parameters["arm1_link2_com_y"].value == 0.0
 
 
 LINK = """
