@@ -300,6 +300,9 @@ def test_a_general_graph_has_exact_zeros_as_parameters(tmp_path, monkeypatch):
     text = exact.layout.replace("mount = [0.5, 0.0]", "mount = [0.5, 0.1]", 1)
     general = pc.Robot.from_toml(text)
     assert text != exact.layout and "general_2x3" in repr(general)
+    # but for a length of zero before the last link
+    with pytest.raises(pc.MissingGraphError, match="an inner link of length zero"):
+        pc.Robot.from_toml(text.replace("length = 1.0", "length = 0.0", 1))
     assert structural <= set(general.parameters) and general.parameters["arm1_link2_com_y"].value == 0.0
 
 
