@@ -136,6 +136,14 @@ impl Plan {
     }
 }
 
+/// Cases whose files are not in a folder, whichever shard has them.
+#[must_use]
+pub fn missing(campaign: &Campaign, folder: &Path) -> u64 {
+    let sweep = &campaign.sweep;
+    let absent = (0..sweep.blocks()).filter(|block| !block_file::path(folder, *block).exists());
+    absent.map(|block| sweep.cases_of(block)).map(|cases| cases.end - cases.start).sum()
+}
+
 /// The rows of files that are not complete.
 #[derive(Default)]
 struct Queue {

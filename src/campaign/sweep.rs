@@ -29,6 +29,7 @@ use super::copula::Copula;
 use super::distribution::Distribution;
 use super::outputs::OutputGroup;
 use super::sampling::{KeySampling, Sampling};
+use crate::scenario::find_key;
 use crate::scenario::variation::VariedValue;
 
 /// One case of a scenario, many times with other values.
@@ -70,6 +71,22 @@ pub struct Varied {
     pub key: String,
     /// Of its values.
     pub distribution: Distribution,
+}
+
+impl Varied {
+    /// The unit of its values; empty where another key decides on it, as it does for gains.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        let place = find_key(&self.key).ok().map(|(_, place)| place).filter(|place| place.keys.len() == 1);
+        place.and_then(|place| Some(place.number()?.unit().to_owned())).unwrap_or_default()
+    }
+
+    /// The key with its unit, as an axis has it: `target.debris.mass [kg]`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let unit = self.unit();
+        if unit.is_empty() { self.key.clone() } else { format!("{} [{unit}]", self.key) }
+    }
 }
 
 /// The `[collect]` table.
@@ -122,5 +139,25 @@ impl Sweep {
     #[must_use]
     pub fn cases_of(&self, block: u64) -> std::ops::Range<u64> {
         block * self.block..((block + 1) * self.block).min(self.cases)
+    }
+
+    /// What is to be said of statistics of so many of its cases; `None` of all of them.
+    #[must_use]
+    pub fn of_a_part(&self, cases: u64) -> Option<String> {
+        (cases < self.cases).then(|| {
+            let sampling = match self.sampling {
+                // any part of these is a sample as all of it is
+                Sampling::Random => String::new(),
+                Sampling::Grid => ", which lacks combinations of the grid".to_owned(),
+                Sampling::LatinHypercube | Sampling::Sobol => {
+                    let name = self.sampling.in_words();
+                    format!(", which covers the ranges of the keys less evenly than the whole {name}")
+                }
+            };
+            format!(
+                "{} of the sweep's cases are not here: statistics are of this part alone{sampling}",
+                self.cases - cases
+            )
+        })
     }
 }

@@ -22,7 +22,7 @@ fn write(out: &mut String, campaign: &Campaign) -> fmt::Result {
     let blocks = usize::try_from(sweep.blocks()).unwrap_or(usize::MAX);
     writeln!(out, "  cases               {}, {}, in {}", sweep.cases, sweep.sampling.name(), count(blocks, "file"))?;
     for varied in &sweep.varied {
-        writeln!(out, "  varies              {}: {}", varied.key, values(&varied.distribution))?;
+        writeln!(out, "  varies              {}: {}", varied.label(), values(&varied.distribution))?;
     }
     for ([one, other], rank) in sweep.correlations() {
         writeln!(out, "  correlated          {one} with {other}: rank correlation {}", short(rank))?;

@@ -837,6 +837,27 @@ fn designs_that_fail_are_rows_with_their_messages() {
     assert!(code != 0 && words(&said).contains(&words(message)), "{message}\n{said}");
 }
 
+/// A report on a part of a sweep, and the summary beside it, call it one until the rest is there.
+#[test]
+fn a_part_of_a_sweep_is_called_one() {
+    let place = Workplace::sampled("latin_hypercube");
+    let page = || fs::read_to_string(place.path("out/report.html")).expect("a report").replace("<wbr>", "");
+    let (code, out, err) = place.sweep("out", &["--shard", "1/3", "--report", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    let part = "8 of the sweep's cases are not here: statistics are of this part alone, which covers the ranges of the \
+                keys less evenly than the whole Latin hypercube";
+    assert!(out.contains("4 of 12 cases computed: 4 done, 8 are not there yet\n"), "{out}");
+    assert!(out.contains(&format!("Of the report: {part}\n")), "{out}");
+    let shown = page().replace("&apos;", "'").replace("&#39;", "'");
+    assert!(shown.contains("<p>4 of 12 cases: 4 done.") && shown.contains(part), "{shown}");
+    // keys have their units
+    assert!(shown.contains("<td>target.target1.mass [kg]</td><td>normal, mean 10,"), "{shown}");
+    assert!(shown.contains("<td>layout.arm.arm1.link[0].mass [kg]</td><td>one of 9.0, 10.0"), "{shown}");
+    let (code, out, err) = place.sweep("out", &["--report", "-q"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(!out.contains("not there") && !out.contains("part") && page().contains("<p>12 cases: 12 done."), "{out}");
+}
+
 /// A file of a shard has the cases of its block, by the numbers that they have in the whole sweep.
 #[test]
 fn cases_of_a_shard_have_the_numbers_of_the_whole_sweep() {

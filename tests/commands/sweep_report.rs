@@ -103,7 +103,7 @@ fn the_page_says_what_was_computed_and_what_failed() {
     let found = page(folder.path(), &rest);
     for expected in [
         "scenario <b>capture</b>, case <b>case2</b>, robot <b>dual_arm_3r</b>, sampling <b>grid</b>, seed <b>1</b>",
-        "<td>target.target1.mass</td><td>one of 10.0, -1.0, -2.0, 11.0, -3.0, 12.0, 13.0, 14.0, 15.0, 16.0</td>",
+        "<td>target.target1.mass [kg]</td><td>one of 10.0, -1.0, -2.0, 11.0, -3.0, 12.0, 13.0, 14.0, 15.0, 16.0</td>",
         "<td>3</td><td>1</td><td>refused</td><td>",
         "<h2>The same in all cases</h2>",
         "captured in <b>7</b> of 7 cases with a result, 100.0\u{a0}%",

@@ -31,7 +31,6 @@ use crate::campaign::row::Status;
 use crate::output::atomic_file::write_text;
 use crate::output::figure_kinds::begins_with;
 use crate::output::output_error::OutputError;
-use crate::scenario::find_key;
 pub use columns::UnreadableError;
 use columns::{Column, Columns};
 pub use failures::FailureKind;
@@ -62,7 +61,7 @@ pub struct SweepReport {
     pub name: String,
     /// What was computed: scenario, case, robot, sampling and seed, each with its name.
     pub about: Vec<(&'static str, String)>,
-    /// Every key that varies, with its distribution in words.
+    /// Every key that varies, with its unit, and its distribution in words.
     pub varied: Vec<(String, String)>,
     /// The pairs of keys that are correlated, and their rank correlations.
     pub correlated: Vec<([String; 2], f64)>,
@@ -70,6 +69,10 @@ pub struct SweepReport {
     pub captured: [usize; 2],
     /// Rows that were read.
     pub cases: usize,
+    /// The cases of the whole sweep.
+    pub all: u64,
+    /// What is to be said of statistics of these rows where they are a part of the sweep.
+    pub of_a_part: Option<String>,
     /// Rows by status, those that occur.
     pub statuses: Vec<(String, usize)>,
     /// The kinds of failures, the most frequent one first.
@@ -212,10 +215,13 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
         let message = messages.get(row).cloned().flatten().unwrap_or_default();
         FailureKind { count: 1, case: cases[row], status: status.clone().unwrap_or_default(), message }
     });
-    let mut keys = Vec::new();
+    let (mut keys, mut units) = (Vec::new(), Vec::new());
     for varied in &campaign.sweep.varied {
         let values: Option<Vec<f64>> = numbers(&varied.key)?.into_iter().collect();
-        keys.extend(values.filter(|values| !values.is_empty()).map(|values| (varied.key.clone(), values)));
+        if let Some(values) = values.filter(|values| !values.is_empty()) {
+            keys.push((varied.key.clone(), values));
+            units.push((varied.key.clone(), varied.unit()));
+        }
     }
     let is_independent = campaign.sweep.copula.is_none();
     let mut of_count = HashMap::new();
@@ -246,13 +252,15 @@ pub fn report(campaign: &Campaign, folder: &Path) -> Result<SweepReport, Unreada
             ("sampling", sweep.sampling.name().replace('_', " ")),
             ("seed", sweep.seed.to_string()),
         ],
-        varied: sweep.varied.iter().map(|varied| (varied.key.clone(), varied.distribution.to_string())).collect(),
+        varied: sweep.varied.iter().map(|varied| (varied.label(), varied.distribution.to_string())).collect(),
         correlated: sweep.correlations().into_iter().map(|(keys, rank)| (keys.map(str::to_owned), rank)).collect(),
         captured,
         cases: cases.len(),
+        all: sweep.cases,
+        of_a_part: sweep.of_a_part(cases.len() as u64),
         statuses: counts,
         failures: kinds_of(failures),
-        keys: keys.into_iter().map(|(key, _)| key).map(|key| (key.clone(), unit_of(&key))).collect(),
+        keys: units,
         outputs,
         same,
         is_independent,
@@ -267,12 +275,6 @@ fn same_in_all(values: &[f64]) -> Option<f64> {
     let (least, most) = values.iter().fold((first, first), bounds);
     let size = least.abs().max(most.abs());
     (most - least <= SAME * size.max(1.0)).then_some(size)
-}
-
-/// The unit of a key; empty where another key decides on it, as it does for gains.
-fn unit_of(key: &str) -> String {
-    let place = find_key(key).ok().map(|(_, place)| place).filter(|place| place.keys.len() == 1);
-    place.and_then(|place| Some(place.number()?.unit().to_owned())).unwrap_or_default()
 }
 
 /// Writes the report on all files of a sweep that are in a folder, whoever computed them; returns its path. `sweep` is

@@ -20,7 +20,10 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     add(&format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
          <title>{name}</title><style>\n{STYLE}</style>\n<h1>{name}</h1>\n<p>{}: ",
-        count(report.cases, "case")
+        match report.of_a_part {
+            Some(_) => format!("{} of {} cases", report.cases, report.all),
+            None => count(report.cases, "case"),
+        }
     ));
     let counts: Vec<_> =
         report.statuses.iter().map(|(status, count)| format!("{count} {}", status.replace('_', " "))).collect();
@@ -36,6 +39,9 @@ pub fn page(report: &SweepReport, command: &str) -> String {
     let about: Vec<_> =
         report.about.iter().map(|(what, value)| format!("{what} <b>{}</b>", markup::attribute(value))).collect();
     add(&format!(" Of {}</p>\n", about.join(", ")));
+    if let Some(part) = &report.of_a_part {
+        add(&format!("<p><b>{}.</b></p>\n", markup::attribute(part)));
+    }
     if !report.varied.is_empty() {
         let rows = report.varied.iter().map(|(key, values)| vec![breakable(key), markup::attribute(values)]);
         add(&in_words(&table(&["varies", "distribution"].map(str::to_owned), rows)));

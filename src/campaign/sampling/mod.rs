@@ -50,6 +50,17 @@ impl Sampling {
         Self::ALL.iter().find(|(_, sampling)| *sampling == self).map_or("", |(name, _)| name)
     }
 
+    /// As in a sentence.
+    #[must_use]
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Random => "random sample",
+            Self::LatinHypercube => "Latin hypercube",
+            Self::Sobol => "Sobol sequence",
+            Self::Grid => "grid",
+        }
+    }
+
     /// Whether more cases leave those before as they are.
     #[must_use]
     pub fn can_grow(self) -> bool {

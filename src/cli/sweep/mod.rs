@@ -12,7 +12,7 @@ use crate::campaign::Campaign;
 use crate::campaign::manifest::claim;
 use crate::campaign::outputs::outputs;
 use crate::campaign::report::write_report;
-use crate::campaign::run::{Plan, Shard, Tally, run as run_plan};
+use crate::campaign::run::{Plan, Shard, Tally, missing, run as run_plan};
 use crate::diagnostic::nearest;
 use crate::engine::Choice;
 use crate::output::atomic_file::create_folder;
@@ -113,9 +113,13 @@ pub fn run(arguments: &Arguments, program: Program<'_>) -> Result<ExitCode, Comm
     let result = run_plan(&campaign, &choice, &folder, &plan, threads, &tally);
     progress.finish();
     result?;
-    print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally), folder.display()));
+    let missing = missing(&campaign, &folder);
+    print(&format!("{}\nResults in {}\n", sentence(&campaign, &plan, &tally, missing), folder.display()));
     if arguments.report {
         write_report(&campaign, &arguments.sweep, &folder, &arguments.figures)?;
+        if let Some(part) = campaign.sweep.of_a_part(campaign.sweep.cases - missing) {
+            print(&format!("Of the report: {part}\n"));
+        }
     }
     if tally.is_interrupted.load(Ordering::Relaxed) {
         note(
@@ -157,13 +161,16 @@ fn choose(campaign: &Campaign, dynamics: Dynamics, robots: Robots<'_>, quiet: bo
     Ok(choice)
 }
 
-/// How many cases ended how.
-fn sentence(campaign: &Campaign, plan: &Plan, tally: &Tally) -> String {
+/// How many cases ended how, and how many there are not, those of other shards among them.
+fn sentence(campaign: &Campaign, plan: &Plan, tally: &Tally, missing: u64) -> String {
     let computed = tally.computed.load(Ordering::Relaxed);
     let counts = tally.counts().filter(|(_, count)| *count > 0);
     let mut parts: Vec<String> = counts.map(|(name, count)| format!("{count} {}", name.replace('_', " "))).collect();
     if plan.present > 0 {
         parts.push(format!("{} were there before", plan.present));
+    }
+    if missing > 0 {
+        parts.push(format!("{missing} are not there yet"));
     }
     format!("{}: {computed} of {} cases computed: {}", campaign.sweep.name, campaign.sweep.cases, parts.join(", "))
 }

@@ -158,8 +158,8 @@ fn description_of_a_sweep() {
         "scenario            capture, its case case2\n",
         "cases               1000, latin_hypercube, in 1 file\n",
         // 10 ± 1.645, and uniform
-        "varies              target.target1.mass: 10 (8.355 to 11.64 in 90 % of the cases)\n",
-        "varies              case.case2.target_twists.target1[0]: 0 (-0.18 to 0.18 in 90 % of the cases)\n",
+        "varies              target.target1.mass [kg]: 10 (8.355 to 11.64 in 90 % of the cases)\n",
+        "varies              case.case2.target_twists.target1[0] [rad/s]: 0 (-0.18 to 0.18 in 90 % of the cases)\n",
         "varies              approach.proportional_gain[2]: 40.0, 49.0, 60.0\n",
         "correlated          target.target1.mass with target.target1.inertia: rank correlation 0.6\n",
         "outputs             the default ones, path_errors\n",
